@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Where mass, momentum and energy of a member went; every pass books what it did.
+#pragma once
+
+namespace sturz {
+
+/// Energies in J, dissipation positive; impulses in N s; mass in kg.
+///
+/// Kinetic energy changes only through booked works:
+///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping - lost_energy.
+/// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
+/// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
+/// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping).
+struct Ledger {
+  double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
+
+  /// Now. Potential is the booked change since release: it counts what left as it was when it
+  /// left, and a periodic image's jump not at all.
+  double kinetic = 0, potential = 0, elastic = 0, spring = 0;
+  double kinetic_0 = 0, elastic_0 = 0, spring_0 = 0;  ///< at release
+
+  double gravity_work = 0;
+  double stress_work = 0;      ///< by pair forces and the wall's share of the pressure field
+  double stress_power = 0;     ///< integral of V sigma : D
+  double plastic = 0;          ///< dissipated by yielding
+  double diffusion = 0;        ///< elastic energy added by density diffusion and stress smoothing
+  double contact_work = 0;     ///< by contact springs, dampers and the ground guard
+  double friction = 0;         ///< dissipated by Coulomb friction and cohesion at the base
+  double rest_damping = 0;     ///< dissipated below the speed of rest (physics.md I4)
+  double lost_energy = 0;      ///< kinetic and elastic energy that left or was taken by the rim
+
+  double stress_impulse[3] = {0, 0, 0};  ///< sum of m a dt of pair forces alone: zero but for rounding
+  double stress_impulse_scale = 0;       ///< sum of |m a dt|
+
+  /// Potential energy set free so far, plus what the mass started with [J].
+  double released_energy() const {
+    return kinetic_0 + elastic_0 - potential;
+  }
+  /// Dissipated by artificial viscosity and discretisation.
+  double numerical() const { return -stress_work - stress_power; }
+  /// Dissipated in normal contact.
+  double damping() const { return -contact_work - (spring - spring_0); }
+  /// Energy that no booking explains [J]: time integration of gravity and of the stress law.
+  double residual() const {
+    return (kinetic - kinetic_0) + potential + (elastic - elastic_0) +
+           (spring - spring_0) + plastic + friction + rest_damping + damping() + numerical() - diffusion +
+           lost_energy;
+  }
+};
+
+}  // namespace sturz

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The pair loop of a step, chosen once by instruction set and active terms.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "engine/neighbors/packed.hpp"
+
+namespace sturz {
+
+enum class InstructionSet { plain, avx2, avx512 };
+
+std::string_view to_string(InstructionSet);
+/// What this processor can run; never more than what was built.
+bool supports(InstructionSet);
+InstructionSet best_instruction_set();
+
+/// The sweeps of one instruction set. All give the same bits on avx2 and avx512.
+struct Sweeps {
+  /// One fused pass over groups [first, last): dense stress force, velocity gradient, density
+  /// diffusion (terms/dense_sums.hpp).
+  void (*dense)(const PackedView&, const SweepConstants&, const BoundaryView&,
+                const SweepOutput&,
+                std::size_t first_group, std::size_t last_group);
+  /// Appends to `out` those of `candidates` that lie within `reach_units` of any particle of the
+  /// group that starts at record `first`, in the given order. Returns how many.
+  std::size_t (*tight_list)(const PackedRecord* records, std::size_t first, int n_in_group,
+                            const std::uint32_t* candidates, std::size_t n_candidates,
+                            float reach_units, std::uint32_t* out);
+};
+const Sweeps& sweeps(InstructionSet);
+
+}  // namespace sturz

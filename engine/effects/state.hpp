@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a pass may touch: the particles, the ground, the clock and the books.
+#pragma once
+
+#include <vector>
+
+#include "engine/core/ledger.hpp"
+#include "engine/particles/particle_set.hpp"
+#include "engine/core/domain.hpp"
+#include "engine/terrain/terrain.hpp"
+
+namespace sturz {
+
+/// Extremes of the motion, refreshed at the end of every step.
+struct MotionBounds {
+  double max_speed = 0;          ///< [m/s]
+  double max_acceleration = 0;   ///< change of velocity over the step, contact included [m/s^2]
+  double velocity_range[3] = {0, 0, 0};  ///< largest minus smallest component [m/s]
+  bool finite = true;            ///< false once any position or velocity is NaN or infinite
+};
+
+/// Ground and walls as seen by each particle at x_n; all arrays [n].
+///
+/// A wall cuts the support of the particles beside it. The missing half is taken as their mirror
+/// image: same stress, same tangential and opposite normal velocity. Momentum then gains
+/// 2 p_n W_plane(d)/rho along n, the velocity gradient 2 W_plane(d) v_n n (x) n, and the moment
+/// matrix 2 d W_plane(d) n (x) n, which keeps linear fields exact. Force and strain are adjoint,
+/// so a bouncing column neither gains nor loses energy at the wall.
+struct BoundarySupport {
+  std::vector<double> distance, nx, ny, nz;  ///< to the ground along its normal [m]
+  std::vector<double> plane;                 ///< W_plane at that distance [1/m]
+  std::vector<float> moment[6];              ///< xx yy zz xy yz zx [-]
+  std::vector<float> gradient[6];            ///< the same order [1/s]
+};
+
+struct State {
+  ParticleSet grains;
+  Terrain terrain;
+  Domain domain;
+  double gravity = 9.81;         ///< [m/s^2], along -z
+  double time = 0;               ///< [s]
+  double previous_dt = 0;        ///< of the last step [s]; 0 before the first
+  std::size_t n_steps = 0;
+  int threads = 1;
+
+  std::vector<double> ax, ay, az;        ///< acceleration of the force stage [m/s^2]
+  std::vector<std::uint8_t> outside;     ///< 1: off the known terrain, to be removed
+  bool any_outside = false;
+  bool order_changed = true;             ///< particles were added, removed or moved by force
+  BoundarySupport boundary;
+  MotionBounds motion;
+  Ledger ledger;
+
+  /// Factor that extrapolates the last change of velocity to v_{n+1/2}; see predicted_velocity.
+  double extrapolation(double dt) const { return previous_dt > 0 ? dt / previous_dt : 0; }
+
+  State(Terrain ground, Domain bounds) : terrain(std::move(ground)), domain(std::move(bounds)) {}
+};
+
+}  // namespace sturz

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/effects/step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace sturz {
+
+std::string_view to_string(Stage stage) {
+  constexpr std::string_view names[] = {"neighbors", "boundary", "pack",   "force",
+                                        "kick",      "contact",  "stress", "move"};
+  return names[static_cast<int>(stage)];
+}
+
+void Step::add(std::unique_ptr<Pass> pass) {
+  auto after = std::upper_bound(
+      passes_.begin(), passes_.end(), pass->stage(),
+      [](Stage s, const std::unique_ptr<Pass>& p) { return s < p->stage(); });
+  timings_.insert(timings_.begin() + (after - passes_.begin()), {std::string(pass->name()), 0.0});
+  passes_.insert(after, std::move(pass));
+}
+
+StepLimit Step::limit(const State& state) const {
+  limits_.clear();
+  for (const auto& pass : passes_) pass->limits(state, limits_);
+  StepLimit least{"none", std::numeric_limits<double>::infinity()};
+  for (const StepLimit& l : limits_)
+    if (l.dt < least.dt) least = l;
+  return least;
+}
+
+void Step::apply(State& state, double dt) {
+  using Clock = std::chrono::steady_clock;
+  auto before = Clock::now();
+  for (std::size_t k = 0; k < passes_.size(); ++k) {
+    passes_[k]->apply(state, dt);
+    const auto after = Clock::now();
+    timings_[k].seconds += std::chrono::duration<double>(after - before).count();
+    before = after;
+  }
+  state.time += dt;
+  state.previous_dt = dt;
+  ++state.n_steps;
+}
+
+std::vector<std::string> Step::pass_names() const {
+  std::vector<std::string> names;
+  for (const auto& pass : passes_)
+    names.push_back(std::string(to_string(pass->stage())) + ": " + std::string(pass->name()));
+  return names;
+}
+
+std::size_t Step::bytes() const {
+  std::size_t total = 0;
+  for (const auto& pass : passes_) total += pass->bytes();
+  return total;
+}
+
+}  // namespace sturz

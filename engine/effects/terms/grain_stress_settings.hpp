@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The numbers of the dense grain stress: law, resolution, stiffness, noise control.
+#pragma once
+
+#include <cmath>
+
+#include "engine/effects/fused_sweep.hpp"
+#include "engine/laws/mu_i_rheology.hpp"
+
+namespace sturz {
+
+struct GrainStressSettings {
+  MuIRheology law;
+  double spacing = 1;               ///< dx [m]
+  double smoothing_length = 1.3;    ///< h [m]
+  double reference_density = 1560;  ///< rho_ref = alpha_init rho_p [kg/m^3]
+  double sound_speed = 100;         ///< c0 of compressional waves, sqrt((K + 4G/3)/rho) [m/s]
+  double poisson_ratio = 0.3;       ///< nu, sets G/K [-]
+  double viscosity = 0.1;           ///< artificial viscosity alpha_v [-]
+  double density_diffusion = 0.1;   ///< delta [-]
+  double stress_smoothing = 0.01;      ///< zeta [-]
+  double courant = 0.25;            ///< dt <= courant h/(c0 + |v|)
+  double skin = 0.15;               ///< of the lists, in smoothing lengths
+  InstructionSet instruction_set = InstructionSet::plain;  ///< chosen by assemble
+
+  /// Smoothing runs in every so many-th step, as many times as strong: the same for a fraction of
+  /// the cost.
+  static constexpr int smoothing_interval = 16;
+  /// Below this speed grains count as resting: smoothing fades out (it would let a pile creep) and
+  /// a weak drag takes over (physics.md B.13, I4) [m/s].
+  double rest_speed() const { return 1e-3 * std::sqrt(9.81 * smoothing_length); }
+  /// Time of the drag at rest [s]: a net acceleration above rest_speed/rest_time still starts a
+  /// slide (about 0.001 g).
+  double rest_time() const { return 50 * smoothing_length / sound_speed; }
+  /// p_c of the smoothed ratio s/(p + p_c): cohesion, and a trace of the pressure of one layer so
+  /// that unloaded grains stay finite [Pa].
+  double ratio_floor() const {
+    return 0.02 * reference_density * 9.81 * spacing +
+           law.cohesion / std::fmax(0.1, law.static_friction);
+  }
+  double shear_to_bulk() const { return 3 * (1 - 2 * poisson_ratio) / (2 * (1 + poisson_ratio)); }
+  double bulk_modulus() const {
+    return reference_density * sound_speed * sound_speed / (1 + 4.0 / 3.0 * shear_to_bulk());
+  }
+  double shear_modulus() const { return shear_to_bulk() * bulk_modulus(); }
+};
+
+}  // namespace sturz

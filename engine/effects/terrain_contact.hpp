@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The ground and analytic walls: pressure support, contact, Coulomb friction with pore pressure.
+#pragma once
+
+#include "engine/effects/step.hpp"
+
+namespace sturz {
+
+struct ContactSettings {
+  double spacing = 1;               ///< dx [m]
+  double smoothing_length = 1.3;    ///< h [m]; the pressure field reaches 2h
+  double reference_density = 1500;  ///< rho_ref [kg/m^3]
+  double stiffness = 1;             ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
+  double restitution = 0.2;         ///< e_b [-]
+  double friction_coefficient = 0.4;///< mu_b of the ground [-]
+  double pore_pressure_ratio = 0;   ///< r_u of the ground [-]
+  double cohesion_pa = 0;           ///< c_b of the ground [Pa]
+};
+
+/// Adds the ground's contact pass and, if the domain has walls, theirs. Reads the stress fields
+/// "compression pressure" of grain_stress when they exist (a lone parcel has none).
+void add_terrain_contact(Step&, State&, const ContactSettings&);
+
+}  // namespace sturz

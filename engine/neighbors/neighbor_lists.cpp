@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/neighbors/neighbor_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "engine/core/parallel.hpp"
+
+namespace sturz {
+namespace {
+
+constexpr std::size_t groups_per_block = 32;
+
+std::int32_t to_units(double value, double origin, double unit) {
+  return static_cast<std::int32_t>(std::lrint((value - origin) / unit));
+}
+
+}  // namespace
+
+NeighborLists::NeighborLists(double support, double skin, TightList tight)
+    : support_(support), skin_(skin), tight_(tight) {}
+
+void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads) {
+  n_particles_ = set.size();
+  n_groups_ = (n_particles_ + group_size - 1) / group_size;
+  for (std::size_t i = 0; i < n_particles_; ++i) domain.wrap(set.x[i], set.y[i], set.z[i]);
+  choose_frame(set);
+  sort_particles(set);
+  make_images(set, domain);
+  // Padding records carry no volume, so a lane that shares their group sees nothing of them.
+  records_.assign(padded_size() + images_.size(), PackedRecord{});
+  pack_positions(set, 0, n_particles_);
+  for (std::size_t i = n_particles_; i < padded_size(); ++i)
+    records_[i] = records_[n_particles_ - 1];
+  copy_images();
+  sort_records();
+  build_lists(threads);
+  stale_ = false;
+  moved_ = 0;
+  ++n_rebuilds_;
+}
+
+void NeighborLists::choose_frame(const ParticleSet& set) {
+  double lo[3] = {1e300, 1e300, 1e300}, hi[3] = {-1e300, -1e300, -1e300};
+  for (std::size_t i = 0; i < n_particles_; ++i) {
+    const double p[3] = {set.x[i], set.y[i], set.z[i]};
+    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], p[k]), hi[k] = std::max(hi[k], p[k]);
+  }
+  double extent = 0;
+  for (int k = 0; k < 3; ++k) {
+    origin_[k] = 0.5 * (lo[k] + hi[k]);
+    extent = std::max(extent, hi[k] - lo[k]);
+  }
+  // The finest power of two of the support that keeps differences inside 31 bits, images included.
+  int bits = 21;
+  while (bits > 10 && (extent + 4 * support_) / support_ * std::ldexp(1.0, bits) > 1.0e9) --bits;
+  unit_ = std::ldexp(support_, -bits);
+
+  const double reach = support_ + skin_;
+  width_ = reach;
+  west_ = lo[0] - 2 * reach;
+  south_ = lo[1] - 2 * reach;
+  auto count = [&](int k) {
+    return static_cast<std::uint32_t>((hi[k] - lo[k] + 4 * reach) / width_) + 1;
+  };
+  // A few far particles must not cost a table of empty columns.
+  while (double(count(0)) * count(1) > 8.0 * n_particles_ + 4096) width_ *= 2;
+  n_cols_ = count(0);
+  n_rows_ = count(1);
+}
+
+/// Columns are numbered row by row, every second row backwards, so that a group that straddles two
+/// columns still holds neighbours.
+std::uint32_t NeighborLists::column_of(double x, double y) const {
+  const auto col = std::min<std::uint32_t>(
+      n_cols_ - 1, static_cast<std::uint32_t>(std::max(0.0, (x - west_) / width_)));
+  const auto row = std::min<std::uint32_t>(
+      n_rows_ - 1, static_cast<std::uint32_t>(std::max(0.0, (y - south_) / width_)));
+  return row * n_cols_ + (row % 2 ? n_cols_ - 1 - col : col);
+}
+
+void NeighborLists::sort_particles(ParticleSet& set) {
+  keys_.resize(n_particles_);
+  order_.resize(n_particles_);
+  for (std::size_t i = 0; i < n_particles_; ++i) {
+    const std::int64_t z = to_units(set.z[i], origin_[2], unit_) + (std::int64_t{1} << 31);
+    keys_[i] = (std::uint64_t{column_of(set.x[i], set.y[i])} << 32) | std::uint64_t(z);
+  }
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : set.id[a] < set.id[b];
+  });
+  set.permute(order_);
+}
+
+void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
+  images_.clear();
+  if (!domain.x.active && !domain.y.active) return;
+  const double reach = support_ + skin_;
+  auto shifts = [&](const Period& p, double position, double out[3]) {
+    int n = 0;
+    out[n++] = 0;
+    if (!p.active) return n;
+    if (position < p.min + reach) out[n++] = 1;
+    if (position >= p.max - reach) out[n++] = -1;
+    return n;
+  };
+  for (std::size_t i = 0; i < n_particles_; ++i) {
+    double sx[3], sy[3];
+    const int nx = shifts(domain.x, set.x[i], sx), ny = shifts(domain.y, set.y[i], sy);
+    for (int a = 0; a < nx; ++a)
+      for (int b = 0; b < ny; ++b) {
+        if (sx[a] == 0 && sy[b] == 0) continue;
+        images_.push_back({static_cast<std::uint32_t>(i), sx[a] * domain.x.length(),
+                           sy[b] * domain.y.length(),
+                           sx[a] * domain.x.rise + sy[b] * domain.y.rise});
+      }
+  }
+}
+
+void NeighborLists::pack_positions(const ParticleSet& set, std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    records_[i].x = to_units(set.x[i], origin_[0], unit_);
+    records_[i].y = to_units(set.y[i], origin_[1], unit_);
+    records_[i].z = to_units(set.z[i], origin_[2], unit_);
+  }
+}
+
+void NeighborLists::copy_images() {
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    const PeriodicImage& image = images_[k];
+    PackedRecord& r = records_[padded_size() + k];
+    r = records_[image.source];
+    r.x += to_units(image.dx, 0, unit_);
+    r.y += to_units(image.dy, 0, unit_);
+    r.z += to_units(image.dz, 0, unit_);
+  }
+}
+
+void NeighborLists::sort_records() {
+  const std::size_t n = n_particles_ + images_.size();
+  sorted_.resize(n);
+  keys_.resize(n);
+  column_begin_.assign(std::size_t{n_cols_} * n_rows_ + 1, 0);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t r = k < n_particles_ ? k : padded_size() + k - n_particles_;
+    const PackedRecord& p = records_[r];
+    const auto column = column_of(origin_[0] + p.x * unit_, origin_[1] + p.y * unit_);
+    keys_[k] = (std::uint64_t{column} << 32) |
+               std::uint64_t(std::int64_t{p.z} + (std::int64_t{1} << 31));
+    ++column_begin_[column + 1];
+    sorted_[k] = static_cast<std::uint32_t>(k);
+  }
+  std::partial_sum(column_begin_.begin(), column_begin_.end(), column_begin_.begin());
+  // Particles are in order already but for rounding at column borders; images are few.
+  std::sort(sorted_.begin(), sorted_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : a < b;
+  });
+  for (auto& s : sorted_)
+    if (s >= n_particles_) s += static_cast<std::uint32_t>(padded_size() - n_particles_);
+}
+
+std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>& candidates,
+                                   std::vector<std::uint32_t>& out) const {
+  const std::size_t first = group * group_size;
+  const int n = static_cast<int>(std::min<std::size_t>(group_size, n_particles_ - first));
+  std::int64_t lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
+  for (int k = 0; k < n; ++k) {
+    const PackedRecord& p = records_[first + k];
+    const std::int64_t c[3] = {p.x, p.y, p.z};
+    for (int d = 0; d < 3; ++d) {
+      lo[d] = k ? std::min(lo[d], c[d]) : c[d];
+      hi[d] = k ? std::max(hi[d], c[d]) : c[d];
+    }
+  }
+  const double reach = support_ + skin_;
+  const auto reach_units = static_cast<std::int64_t>(reach / unit_) + 1;
+  const double x0 = origin_[0] + lo[0] * unit_ - reach, x1 = origin_[0] + hi[0] * unit_ + reach;
+  const double y0 = origin_[1] + lo[1] * unit_ - reach, y1 = origin_[1] + hi[1] * unit_ + reach;
+  auto clamp_index = [&](double v, double edge, std::uint32_t count) {
+    return std::min<std::int64_t>(count - 1,
+                                  std::max<std::int64_t>(0, std::int64_t((v - edge) / width_)));
+  };
+  candidates.clear();
+  for (auto row = clamp_index(y0, south_, n_rows_); row <= clamp_index(y1, south_, n_rows_); ++row)
+    for (auto col = clamp_index(x0, west_, n_cols_); col <= clamp_index(x1, west_, n_cols_);
+         ++col) {
+      const std::size_t column = row * n_cols_ + (row % 2 ? n_cols_ - 1 - col : col);
+      auto it = sorted_.begin() + column_begin_[column];
+      const auto last = sorted_.begin() + column_begin_[column + 1];
+      it = std::lower_bound(it, last, lo[2] - reach_units, [&](std::uint32_t r, std::int64_t z) {
+        return records_[r].z < z;
+      });
+      for (; it != last && records_[*it].z <= hi[2] + reach_units; ++it) {
+        const PackedRecord& p = records_[*it];
+        if (p.x >= lo[0] - reach_units && p.x <= hi[0] + reach_units &&
+            p.y >= lo[1] - reach_units && p.y <= hi[1] + reach_units)
+          candidates.push_back(*it);
+      }
+    }
+  const std::size_t start = out.size();
+  out.resize(start + candidates.size());
+  const std::size_t found =
+      tight_(records_.data(), first, n, candidates.data(), candidates.size(),
+             static_cast<float>(reach / unit_), out.data() + start);
+  out.resize(start + found);
+  return found;
+}
+
+void NeighborLists::build_lists(int threads) {
+  const std::size_t n_blocks = (n_groups_ + groups_per_block - 1) / groups_per_block;
+  if (block_lists_.size() < n_blocks) block_lists_.resize(n_blocks);
+  list_begin_.assign(n_groups_ + 1, 0);
+  parallel_ranges(n_groups_, groups_per_block, threads, [&](std::size_t begin, std::size_t end) {
+    thread_local std::vector<std::uint32_t> candidates;
+    auto& out = block_lists_[begin / groups_per_block];
+    out.clear();
+    for (std::size_t g = begin; g < end; ++g)
+      list_begin_[g + 1] = static_cast<std::uint32_t>(collect(g, candidates, out));
+  });
+  std::partial_sum(list_begin_.begin(), list_begin_.end(), list_begin_.begin());
+  list_.resize(list_begin_.back());
+  for (std::size_t b = 0; b < n_blocks; ++b)
+    std::copy(block_lists_[b].begin(), block_lists_[b].end(),
+              list_.begin() + list_begin_[b * groups_per_block]);
+}
+
+PackedView NeighborLists::view() const {
+  return {records_.data(), n_particles_, list_begin_.data(), list_.data(), unit_};
+}
+
+std::size_t NeighborLists::bytes() const {
+  std::size_t blocks = 0;
+  for (const auto& b : block_lists_) blocks += b.capacity() * sizeof(std::uint32_t);
+  return blocks + records_.capacity() * sizeof(PackedRecord) +
+         keys_.capacity() * sizeof(std::uint64_t) +
+         (order_.capacity() + sorted_.capacity() + column_begin_.capacity() + list_.capacity() +
+          list_begin_.capacity()) *
+             sizeof(std::uint32_t);
+}
+
+}  // namespace sturz

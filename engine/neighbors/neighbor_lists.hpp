@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Sorting particles into columns and listing, per group of 16, the neighbours they share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/neighbors/packed.hpp"
+#include "engine/particles/particle_set.hpp"
+#include "engine/core/domain.hpp"
+
+namespace sturz {
+
+/// Finds those of the candidates that are near a group; see Sweeps::tight_list.
+using TightList = std::size_t (*)(const PackedRecord*, std::size_t first, int n_in_group,
+                                  const std::uint32_t* candidates, std::size_t n_candidates,
+                                  float reach_units, std::uint32_t* out);
+
+/// A periodic image: record `source` moved by a whole period.
+struct PeriodicImage {
+  std::uint32_t source = 0;
+  double dx = 0, dy = 0, dz = 0;  ///< [m]
+};
+
+/// Reusable neighbour lists with a skin: valid while no two particles moved more than `skin`
+/// relative to each other since the last build.
+class NeighborLists {
+ public:
+  /// \param support 2h [m]; \param skin extra reach [m]
+  NeighborLists(double support, double skin, TightList tight);
+
+  bool needs_rebuild() const { return stale_ || moved_ >= skin_; }
+  void invalidate() { stale_ = true; }
+  /// Tells that relative positions may have changed by up to `distance` [m].
+  void add_relative_motion(double distance) { moved_ += distance; }
+
+  /// Wraps periodic positions, sorts the set into column order (permuting it), makes images and
+  /// lists. `records()` then has the right size, with positions filled.
+  void rebuild(ParticleSet&, const Domain&, int threads);
+  /// Writes positions (fixed point) of all records; the caller fills the other values of records
+  /// 0..n-1 and then calls copy_images().
+  void pack_positions(const ParticleSet&, std::size_t begin, std::size_t end);
+  void copy_images();
+
+  PackedRecord* records() { return records_.data(); }
+  std::size_t n_groups() const { return n_groups_; }
+  std::size_t padded_size() const { return n_groups_ * group_size; }
+  PackedView view() const;
+  /// Entries of all lists: the work of one sweep is 16 times as many pairs.
+  std::size_t n_entries() const { return list_.size(); }
+  std::size_t n_rebuilds() const { return n_rebuilds_; }
+  std::size_t bytes() const;
+
+ private:
+  void choose_frame(const ParticleSet&);
+  void make_images(const ParticleSet&, const Domain&);
+  void sort_particles(ParticleSet&);
+  void sort_records();
+  void build_lists(int threads);
+  std::size_t collect(std::size_t group, std::vector<std::uint32_t>& candidates,
+                      std::vector<std::uint32_t>& out) const;
+  std::uint32_t column_of(double x, double y) const;
+
+  double support_, skin_;
+  TightList tight_;
+  bool stale_ = true;
+  double moved_ = 0;
+  std::size_t n_rebuilds_ = 0;
+
+  double origin_[3] = {0, 0, 0};   // of the fixed-point frame [m]
+  double unit_ = 1;                // metres per position unit
+  double west_ = 0, south_ = 0, width_ = 1;  // column grid
+  std::uint32_t n_cols_ = 1, n_rows_ = 1;
+
+  std::size_t n_particles_ = 0, n_groups_ = 0;
+  std::vector<PeriodicImage> images_;
+  std::vector<PackedRecord> records_;   // particles, padding to whole groups, images
+  std::vector<std::uint64_t> keys_;     // column and height of what is being sorted
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> sorted_;   // record numbers in column order
+  std::vector<std::uint32_t> column_begin_;
+  std::vector<std::uint32_t> list_, list_begin_;
+  std::vector<std::vector<std::uint32_t>> block_lists_;
+};
+
+}  // namespace sturz

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/particles/release.hpp"
+
+#include "engine/core/error.hpp"
+#include "engine/core/random.hpp"
+#include "engine/core/sum.hpp"
+#include "engine/particles/release_columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace sturz {
+namespace {
+
+/// Columns thinner than this many spacings carry no particle of their own.
+constexpr double thinnest = 0.2;
+constexpr std::size_t most_particles = std::size_t{1} << 31;
+
+double volume_median(std::vector<ReleaseColumn> columns) {
+  std::sort(columns.begin(), columns.end(),
+            [](const auto& a, const auto& b) { return a.thickness_m < b.thickness_m; });
+  double half = 0;
+  for (const auto& c : columns) half += 0.5 * c.thickness_m;
+  double below = 0;
+  for (const auto& c : columns)
+    if ((below += c.thickness_m) >= half) return c.thickness_m;
+  return 0;
+}
+
+std::size_t stack_size(double thickness, double spacing) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(thickness / spacing)));
+}
+
+/// Offsets of a stack's lowest and highest particle above the bed.
+///
+/// The even stack h/k (1/2, 3/2, ...) would put the lowest particle nearer to the bed than the
+/// contact distance dx/2 wherever the layers are thinner than dx or the bed is inclined (vertical
+/// dx/2 is dx/2 n_z along the normal): the contact spring would start compressed and throw the
+/// mass up. So the lowest starts at contact distance, the highest keeps its place, and the masses,
+/// which carry the volume, stay as they are.
+struct Stack {
+  double first, last;
+  Stack(double thickness, std::size_t k, double spacing, double normal_z)
+      : first(std::max(0.5 * thickness / k, 0.5 * spacing / normal_z)),
+        last(std::max(first, thickness - 0.5 * thickness / k)) {}
+  double offset(std::size_t layer, std::size_t k) const {
+    return k == 1 ? first : first + (last - first) * layer / (k - 1);
+  }
+};
+
+class Filler {
+ public:
+  Filler(const Terrain& bed, const ReleaseSettings& s, Release& out)
+      : bed_(bed), settings_(s), out_(out) {}
+
+  void fill(const ReleaseColumn& c) {
+    const double dx = settings_.spacing_m;
+    const double x = (c.lattice_x + 0.5) * dx, y = (c.lattice_y + 0.5) * dx;
+    require(bed_.inside(x, y),
+            "release: the column at x = " + std::to_string(x) + ", y = " + std::to_string(y) +
+                " lies outside the known terrain (nodata or beyond its edge, so there is no bed). "
+                "Move the release or use a larger terrain.");
+    const std::size_t k = stack_size(c.thickness_m, dx);
+    const Stack stack(c.thickness_m, k, dx, bed_.surface(x, y).normal.z());
+    const double mass = settings_.bulk_density_kg_m3 * c.thickness_m * dx * dx / k;
+    for (std::size_t layer = 0; layer < k; ++layer) {
+      const Vec3 p = place(c, layer, x, y, stack.offset(layer, k));
+      out_.x.push_back(p.x());
+      out_.y.push_back(p.y());
+      out_.z.push_back(p.z());
+      out_.mass.push_back(mass);
+      out_.depth.push_back(std::max(0.0, bed_.height(p.x(), p.y()) + c.thickness_m - p.z()));
+    }
+  }
+
+ private:
+  /// A jittered point above the bed, counted by its place on the lattice so that the same particle
+  /// gets the same jitter whatever the extent of the release.
+  Vec3 place(const ReleaseColumn& c, std::size_t layer, double x, double y, double offset) const {
+    const auto member = static_cast<std::uint64_t>(settings_.member);
+    const RandomWords w =
+        random_words(settings_.seed, {static_cast<std::uint32_t>(c.lattice_x),
+                                      static_cast<std::uint32_t>(c.lattice_y),
+                                      static_cast<std::uint32_t>(layer ^ (member >> 32 << 16)),
+                                      static_cast<std::uint32_t>(member)});
+    const double amplitude = settings_.jitter * settings_.spacing_m;
+    auto jitter = [&](std::uint32_t word) { return amplitude * (2 * unit_from(word) - 1); };
+    if (bed_.inside(x + jitter(w[0]), y + jitter(w[1]))) x += jitter(w[0]), y += jitter(w[1]);
+    Vec3 p(x, y, bed_.height(x, y) + offset + jitter(w[2]));
+    lift_off_bed(p);
+    return p;
+  }
+
+  /// Raises a point to the contact distance. On curved ground the distance grows by less than
+  /// n_z per metre raised, hence the repetition.
+  void lift_off_bed(Vec3& p) const {
+    const double contact = 0.5 * settings_.spacing_m;
+    for (int i = 0; i < 20; ++i) {
+      const SurfaceDistance d = bed_.distance(p, contact);
+      if (d.distance >= contact) return;
+      p.z() += (contact - d.distance) / std::max(0.1, d.normal.z()) + 1e-12 * contact;
+    }
+  }
+
+  const Terrain& bed_;
+  const ReleaseSettings& settings_;
+  Release& out_;
+};
+
+void scale_to(double total, std::vector<double>& mass) {
+  Sum sum;
+  for (double m : mass) sum.add(m);
+  const double factor = total / sum.value();
+  for (double& m : mass) m *= factor;
+}
+
+}  // namespace
+
+Release release_particles(const Terrain& bed, const Raster<double>& thickness,
+                          const ReleaseSettings& s) {
+  require(s.spacing_m > 0 && std::isfinite(s.spacing_m) && s.bulk_density_kg_m3 > 0,
+          "release: spacing and bulk density must be positive (they give a particle its volume). "
+          "Check numerics.spacing_m and the grains' density.");
+  require(s.jitter >= 0 && s.jitter < 0.5,
+          "release: the jitter must be in 0..0.5 spacings (more would swap lattice places). Check "
+          "numerics.jitter.");
+  const ReleaseColumns columns = release_columns(thickness, s.spacing_m);
+  Release out;
+  out.volume_m3 = columns.volume_m3;
+  out.area_m2 = columns.area_m2;
+  out.max_thickness_m = columns.max_thickness_m;
+  out.median_thickness_m = volume_median(columns.columns);
+  out.layers = out.median_thickness_m / s.spacing_m;
+
+  const auto kept = [&](const ReleaseColumn& c) { return c.thickness_m >= thinnest * s.spacing_m; };
+  std::size_t n = 0;
+  Sum dropped, all;
+  for (const auto& c : columns.columns) {
+    (kept(c) ? all : dropped).add(c.thickness_m);
+    if (kept(c)) n += stack_size(c.thickness_m, s.spacing_m);
+  }
+  require(n > 0, "release: no column is thicker than " + std::to_string(thinnest * s.spacing_m) +
+                     " m (0.2 spacings, so no particle would be made). Choose a smaller "
+                     "numerics.spacing_m or check the thickness.");
+  require(n < most_particles,
+          "release: more than 2e9 particles (particles are numbered with 32 "
+          "bits). Choose a larger numerics.spacing_m.");
+  out.dropped_fraction = dropped.value() / (dropped.value() + all.value());
+  for (auto* column : {&out.x, &out.y, &out.z, &out.mass, &out.depth}) column->reserve(n);
+  Filler filler(bed, s, out);
+  for (const auto& c : columns.columns)
+    if (kept(c)) filler.fill(c);
+  scale_to(s.bulk_density_kg_m3 * out.volume_m3, out.mass);
+  return out;
+}
+
+}  // namespace sturz

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From a release thickness to particles: a lattice in map x, y, stacked on the bed.
+#pragma once
+
+#include "engine/terrain/terrain.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace sturz {
+
+struct ReleaseSettings {
+  double spacing_m = 1;           ///< dx of the lattice
+  double bulk_density_kg_m3 = 1;  ///< alpha rho_p
+  double jitter = 0.05;           ///< amplitude in spacings, uniform in +-jitter, each direction
+  std::uint64_t seed = 1;         ///< Philox key
+  std::int64_t member = 0;        ///< Philox counter, with the particle's number
+};
+
+/// Particles of a release; all arrays [n].
+struct Release {
+  std::vector<double> x, y, z;    ///< [m]
+  std::vector<double> mass;       ///< [kg]
+  std::vector<double> depth;      ///< vertical distance below the free surface [m]
+  double volume_m3 = 0;           ///< bulk volume of the pattern on its raster
+  double area_m2 = 0;             ///< plan area with thickness > 0
+  double layers = 0;              ///< volume-weighted median of vertical thickness / spacing
+  double median_thickness_m = 0;  ///< volume-weighted
+  double max_thickness_m = 0;
+  double dropped_fraction = 0;  ///< of the volume, in columns under 0.2 dx; given to the others
+};
+
+/// Fills bed .. bed + thickness. Sum of masses = bulk density x raster volume to round-off.
+/// \param thickness vertical [m] on any grid; NaN and <= 0 count as nothing
+/// \throws SetupError when there is no mass or a column lies outside the terrain
+Release release_particles(const Terrain& bed, const Raster<double>& thickness,
+                          const ReleaseSettings&);
+
+}  // namespace sturz

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What one finished member leaves behind: scalars, peak maps over the window it touched.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/simulation/outcome.hpp"
+#include "engine/terrain/raster.hpp"
+
+namespace sturz {
+
+/// Per-cell results of a member. Peaks are maxima over time of each product at one instant
+/// (never max(h) max(v)^2).
+enum class PeakLayer { thickness, speed, energy, pressure, arrival, deposit };
+inline constexpr int n_peak_layers = 6;
+
+struct PeakLayerInfo {
+  const char* name;       ///< variable name, e.g. "peak_thickness"
+  const char* long_name;
+  const char* units;      ///< SI: m, m s-1, J m-2, Pa, s, m
+  float untouched;        ///< value of a cell that the flow never reached: 0, arrival NaN
+};
+const PeakLayerInfo& info(PeakLayer);
+
+/// One number per member. Units are in the names; see scalar_table() for descriptions.
+struct MemberScalars {
+  double runout_m = 0;               ///< horizontal distance, release's centre of mass to farthest reached cell
+  double front_travel_m = 0;         ///< farthest horizontal displacement of a particle from its start
+  double com_travel_m = 0;           ///< horizontal displacement of the centre of mass
+  double drop_m = 0;                 ///< highest release elevation minus lowest deposit elevation
+  double reached_area_m2 = 0;        ///< cells with smoothed thickness above the reach limit at any time
+  double deposit_area_m2 = 0;        ///< the same at the end
+  double max_speed_m_s = 0;          ///< fastest particle (99.9 % quantile of mass when > 1000 particles)
+  double max_mean_speed_m_s = 0;     ///< largest mass-averaged speed
+  double max_thickness_m = 0;        ///< largest cell value of peak thickness
+  double max_deposit_m = 0;
+  double max_energy_j_m2 = 0;
+  double max_pressure_pa = 0;
+  double release_volume_m3 = 0;      ///< bulk
+  double released_mass_kg = 0;
+  double lost_mass_kg = 0;           ///< left through the rim or removed, booked
+  double mass_error = 0;             ///< (kept + lost - released) / released; exactly 0 expected
+  double energy_residual = 0;        ///< unexplained energy / released energy (see Ledger)
+  double release_layers = 0;         ///< volume-weighted median vertical thickness / spacing at release
+  double thin_fraction = 0;          ///< mass fraction below 3 layers, time average while moving
+  double max_mach = 0;               ///< fastest particle / sound speed
+  double max_density_error = 0;      ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
+  double end_time_s = 0;             ///< simulated
+  double n_particles = 0;
+  double n_steps = 0;
+  double mean_dt_s = 0;
+  double wall_s = 0;                 ///< computing time; not part of any hash
+};
+
+struct ScalarInfo {
+  const char* name;
+  const char* units;
+  const char* long_name;
+  double MemberScalars::*field;
+};
+/// Every scalar in file order; the one table that CSV, netCDF and report share.
+std::span<const ScalarInfo> scalar_table();
+
+/// A rectangle of cells inside a grid.
+struct Window {
+  int row0 = 0, col0 = 0, n_rows = 0, n_cols = 0;
+  std::size_t n_cells() const { return static_cast<std::size_t>(n_rows) * n_cols; }
+};
+
+struct MemberResult {
+  std::int64_t member = 0;
+  Outcome outcome = Outcome::failed;
+  std::string reason;                 ///< one sentence for diverged, failed, cancelled, left_terrain
+  std::string formulation = "full_stress";
+  std::string binding_limit;          ///< the time-step limit that bound most steps
+  std::string warnings;               ///< '; '-separated, e.g. thin flow
+  std::uint64_t state_hash = 0;       ///< of the final particle state, bitwise
+  MemberScalars scalars;
+  Grid grid;                          ///< the whole hazard grid
+  Window window;                      ///< the part that was touched
+  std::array<std::vector<float>, n_peak_layers> layers;  ///< each [window.n_rows][window.n_cols]
+
+  std::vector<float>& layer(PeakLayer p) { return layers[static_cast<int>(p)]; }
+  const std::vector<float>& layer(PeakLayer p) const { return layers[static_cast<int>(p)]; }
+};
+
+/// A member without its maps.
+struct MemberSummary {
+  std::int64_t member = 0;
+  Outcome outcome = Outcome::failed;
+  std::string reason, formulation, binding_limit, warnings;
+  std::uint64_t state_hash = 0;
+  MemberScalars scalars;
+  Window window;
+};
+
+/// Finished members, wherever they are kept; implemented by io, handed out by the app.
+class MemberSource {
+ public:
+  virtual ~MemberSource() = default;
+  /// All finished members in ascending order of their number.
+  virtual const std::vector<MemberSummary>& members() const = 0;
+  virtual const Grid& grid() const = 0;
+  /// Rows row0..row0+n_rows-1 of one layer of member members()[index], whole grid width;
+  /// cells outside its window get info(layer).untouched.
+  /// \param out [n_rows][grid().n_cols]
+  virtual void read_rows(std::size_t index, PeakLayer layer, int row0, int n_rows,
+                         std::span<float> out) const = 0;
+};
+
+}  // namespace sturz

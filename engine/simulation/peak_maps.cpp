@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/simulation/peak_maps.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace sturz {
+namespace {
+
+/// Quadratic B-spline of unit width: support 1.5 each side, integral one.
+double b_spline(double t) {
+  const double outer = std::max(0.0, 1.5 - std::abs(t)), inner = std::max(0.0, 0.5 - std::abs(t));
+  return 0.5 * outer * outer - 1.5 * inner * inner;
+}
+
+/// Weights of one particle along one direction, summing to one over the cells on and off the grid.
+/// \tparam n_fixed number of cells known to the compiler, 0: `n_cells` says it
+/// \param place   in cells from the centre of cell 0
+/// \return the first cell
+template <int n_fixed>
+int spread(double place, double width_cells, int n_cells, double* weight) {
+  const int n = n_fixed > 0 ? n_fixed : n_cells;
+  const double first = std::floor(place - 1.5 * width_cells) + 1;
+  const double per_width = 1 / width_cells;
+  double sum = 0;
+  for (int k = 0; k < n; ++k) {
+    weight[k] = b_spline((place - first - k) * per_width);
+    sum += weight[k];
+  }
+  const double scale = 1 / sum;
+  for (int k = 0; k < n; ++k) weight[k] *= scale;
+  return static_cast<int>(first);
+}
+
+/// Room is added with this margin so that a spreading flow seldom moves the arrays [cells].
+int margin(int n) { return 8 + n / 8; }
+
+Window joined(const Window& a, const Window& b) {
+  if (a.n_cells() == 0) return b;
+  if (b.n_cells() == 0) return a;
+  const int row0 = std::min(a.row0, b.row0), col0 = std::min(a.col0, b.col0);
+  return {row0, col0, std::max(a.row0 + a.n_rows, b.row0 + b.n_rows) - row0,
+          std::max(a.col0 + a.n_cols, b.col0 + b.n_cols) - col0};
+}
+
+/// Rows row0..row1 and columns col0..col1 that lie on the grid.
+Window clipped(double row0, double row1, double col0, double col1, const Grid& g) {
+  if (!(row0 <= row1 && col0 <= col1)) return {};
+  row0 = std::max(row0, 0.0), row1 = std::min(row1, g.n_rows - 1.0);
+  col0 = std::max(col0, 0.0), col1 = std::min(col1, g.n_cols - 1.0);
+  if (row0 > row1 || col0 > col1) return {};
+  return {static_cast<int>(row0), static_cast<int>(col0), static_cast<int>(row1 - row0) + 1,
+          static_cast<int>(col1 - col0) + 1};
+}
+
+bool inside(const Window& outer, const Window& inner) {
+  return inner.row0 >= outer.row0 && inner.col0 >= outer.col0 &&
+         inner.row0 + inner.n_rows <= outer.row0 + outer.n_rows &&
+         inner.col0 + inner.n_cols <= outer.col0 + outer.n_cols;
+}
+
+}  // namespace
+
+PeakMaps::PeakMaps(PeakMapSettings settings) : settings_(std::move(settings)) {
+  expect(settings_.grid.n_cells() > 0 && settings_.grid.cell_m > 0, "the hazard grid has cells");
+  expect(settings_.spacing_m > 0 && settings_.bulk_density_kg_m3 > 0,
+         "spacing and bulk density are positive");
+  width_cells_ = std::max(1.0, settings_.spacing_m / settings_.grid.cell_m);
+  n_weights_ = static_cast<int>(std::ceil(3 * width_cells_));
+  weights_x_.resize(n_weights_);
+  weights_y_.resize(n_weights_);
+}
+
+/// The cells that the particles can touch.
+Window PeakMaps::cover(const ParticleSet& p) const {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  double west = inf, east = -inf, south = inf, north = -inf;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!std::isfinite(p.x[i]) || !std::isfinite(p.y[i])) continue;
+    west = std::min(west, p.x[i]), east = std::max(east, p.x[i]);
+    south = std::min(south, p.y[i]), north = std::max(north, p.y[i]);
+  }
+  const Grid& g = settings_.grid;
+  const double per_cell = 1 / g.cell_m, support = 1.5 * width_cells_ + 1;
+  return clipped(std::floor((g.north_m - north) * per_cell - support),
+                 std::ceil((g.north_m - south) * per_cell + support),
+                 std::floor((west - g.west_m) * per_cell - support),
+                 std::ceil((east - g.west_m) * per_cell + support), g);
+}
+
+void PeakMaps::make_room(const Window& w) {
+  if (w.n_cells() == 0 || inside(room_, w)) return;
+  const Window all = joined(room_, w);
+  const int dr = margin(all.n_rows), dc = margin(all.n_cols);
+  const Window next = clipped(all.row0 - dr, all.row0 + all.n_rows - 1 + dr, all.col0 - dc,
+                              all.col0 + all.n_cols - 1 + dc, settings_.grid);
+  std::vector<Peak> peak(next.n_cells());
+  for (int r = 0; r < room_.n_rows; ++r)
+    std::copy_n(peak_.begin() + static_cast<std::ptrdiff_t>(r) * room_.n_cols, room_.n_cols,
+                peak.begin() +
+                    static_cast<std::ptrdiff_t>(r + room_.row0 - next.row0) * next.n_cols +
+                    (room_.col0 - next.col0));
+  peak_.swap(peak);
+  room_ = next;
+  mass_.assign(next.n_cells(), 0.0);
+  motion_.assign(next.n_cells(), Motion::Zero());
+}
+
+/// Adds every particle to the cells of the room that it touches.
+template <bool with_motion, int n_fixed>
+void PeakMaps::scatter(const ParticleSet& p) {
+  const Grid& g = settings_.grid;
+  const double per_cell = 1 / g.cell_m, far = 1.5 * width_cells_ + 1;
+  const int n = n_fixed > 0 ? n_fixed : n_weights_;
+  // Copies, because the compiler must assume that writing a double may change any member.
+  const double width = width_cells_;
+  const Window room = room_;
+  double *const wx = weights_x_.data(), *const wy = weights_y_.data(), *const sums = mass_.data();
+  Motion* const motions = motion_.data();
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double x = (p.x[i] - g.west_m) * per_cell - 0.5 - room.col0;
+    const double y = (g.north_m - p.y[i]) * per_cell - 0.5 - room.row0;
+    const double vx = p.vx[i], vy = p.vy[i], vz = p.vz[i];
+    const double v2 = vx * vx + vy * vy + vz * vz;
+    if (!(x > -far && x < room.n_cols + far && y > -far && y < room.n_rows + far) ||
+        !std::isfinite(v2))
+      continue;
+    const Motion motion(vx, vy, vz, 0.5 * v2);
+    const int col = spread<n_fixed>(x, width, n, wx), row = spread<n_fixed>(y, width, n, wy);
+    const int j0 = std::max(0, -col), j1 = std::min(n, room.n_cols - col);
+    const int i0 = std::max(0, -row), i1 = std::min(n, room.n_rows - row);
+    for (int k = i0; k < i1; ++k) {
+      const double mass_in_row = p.mass[i] * wy[k];
+      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row + k) * room.n_cols + col;
+      for (int j = j0; j < j1; ++j) {
+        const double mass = mass_in_row * wx[j];
+        sums[at + j] += mass;
+        if constexpr (with_motion) motions[at + j] += mass * motion;
+      }
+    }
+  }
+}
+
+/// Narrow spreads, the usual ones, get loops of known length: twice as fast.
+template <bool with_motion>
+void PeakMaps::scatter_any(const ParticleSet& p) {
+  switch (n_weights_) {
+    case 3:
+      return scatter<with_motion, 3>(p);
+    case 4:
+      return scatter<with_motion, 4>(p);
+    case 5:
+      return scatter<with_motion, 5>(p);
+    case 6:
+      return scatter<with_motion, 6>(p);
+    default:
+      return scatter<with_motion, 0>(p);
+  }
+}
+
+/// Takes the instant's sums into the peaks and clears them.
+void PeakMaps::keep_peaks(const Window& w, float time_s) {
+  const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
+  const double density = settings_.bulk_density_kg_m3, to_thickness = per_area / density;
+  const double thin = 3 * settings_.spacing_m;
+  double total = 0, total_thin = 0;
+  for (int r = w.row0 - room_.row0; r < w.row0 - room_.row0 + w.n_rows; ++r)
+    for (int c = w.col0 - room_.col0; c < w.col0 - room_.col0 + w.n_cols; ++c) {
+      const std::size_t k = static_cast<std::size_t>(r) * room_.n_cols + c;
+      const double mass = mass_[k];
+      if (mass == 0) continue;
+      Peak& peak = peak_[k];
+      const double thickness = mass * to_thickness;
+      total += mass;
+      total_thin += thickness < thin ? mass : 0;
+      peak.thickness = std::max(peak.thickness, static_cast<float>(thickness));
+      if (thickness > settings_.reach_limit_m) {
+        const Motion& sums = motion_[k];
+        const double speed = sums.matrix().head<3>().norm() / mass;
+        peak.speed = std::max(peak.speed, static_cast<float>(speed));
+        peak.energy = std::max(peak.energy, static_cast<float>(sums[3] * per_area));
+        peak.pressure = std::max(peak.pressure, static_cast<float>(density * speed * speed));
+        if (std::isnan(peak.arrival)) peak.arrival = time_s;
+      }
+      mass_[k] = 0;
+      motion_[k].setZero();
+    }
+  thin_fraction_ = total > 0 ? total_thin / total : 0;
+}
+
+void PeakMaps::record(const ParticleSet& p, double time_s) {
+  const Window w = cover(p);
+  if (w.n_cells() == 0) return;
+  make_room(w);
+  scatter_any<true>(p);
+  keep_peaks(w, static_cast<float>(time_s));
+}
+
+void PeakMaps::keep_deposit(const Window& w) {
+  const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
+  const double to_thickness = 1 / (settings_.bulk_density_kg_m3 * cell_area);
+  for (int r = w.row0 - room_.row0; r < w.row0 - room_.row0 + w.n_rows; ++r)
+    for (int c = w.col0 - room_.col0; c < w.col0 - room_.col0 + w.n_cols; ++c) {
+      const std::size_t k = static_cast<std::size_t>(r) * room_.n_cols + c;
+      peak_[k].deposit = static_cast<float>(mass_[k] * to_thickness);
+      peak_[k].thickness = std::max(peak_[k].thickness, peak_[k].deposit);
+      mass_[k] = 0;
+    }
+}
+
+Window PeakMaps::tight_window() const {
+  int row0 = room_.n_rows, row1 = -1, col0 = room_.n_cols, col1 = -1;
+  for (int r = 0; r < room_.n_rows; ++r)
+    for (int c = 0; c < room_.n_cols; ++c)
+      if (peak_[static_cast<std::size_t>(r) * room_.n_cols + c].thickness > 0) {
+        row0 = std::min(row0, r), row1 = std::max(row1, r);
+        col0 = std::min(col0, c), col1 = std::max(col1, c);
+      }
+  if (row1 < 0) return {};
+  return {room_.row0 + row0, room_.col0 + col0, row1 - row0 + 1, col1 - col0 + 1};
+}
+
+void PeakMaps::finish(const ParticleSet& final_state, MemberResult& result) {
+  for (Peak& peak : peak_) peak.deposit = 0;
+  const Window w = cover(final_state);
+  if (w.n_cells() > 0) {
+    make_room(w);
+    scatter_any<false>(final_state);
+    keep_deposit(w);
+  }
+  result.grid = settings_.grid;
+  result.window = tight_window();
+  for (auto& layer : result.layers) layer.assign(result.window.n_cells(), 0.0f);
+  MemberScalars& s = result.scalars;
+  std::size_t reached = 0, covered = 0, k = 0;
+  Peak most;
+  for (int r = 0; r < result.window.n_rows; ++r)
+    for (int c = 0; c < result.window.n_cols; ++c, ++k) {
+      const Peak& p =
+          peak_[static_cast<std::size_t>(result.window.row0 - room_.row0 + r) * room_.n_cols +
+                (result.window.col0 - room_.col0 + c)];
+      result.layer(PeakLayer::thickness)[k] = p.thickness;
+      result.layer(PeakLayer::speed)[k] = p.speed;
+      result.layer(PeakLayer::energy)[k] = p.energy;
+      result.layer(PeakLayer::pressure)[k] = p.pressure;
+      result.layer(PeakLayer::arrival)[k] = p.arrival;
+      result.layer(PeakLayer::deposit)[k] = p.deposit;
+      reached += !std::isnan(p.arrival);
+      covered += p.deposit > settings_.reach_limit_m;
+      most.thickness = std::max(most.thickness, p.thickness);
+      most.deposit = std::max(most.deposit, p.deposit);
+      most.energy = std::max(most.energy, p.energy);
+      most.pressure = std::max(most.pressure, p.pressure);
+    }
+  const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
+  s.reached_area_m2 = static_cast<double>(reached) * cell_area;
+  s.deposit_area_m2 = static_cast<double>(covered) * cell_area;
+  s.max_thickness_m = most.thickness;
+  s.max_deposit_m = most.deposit;
+  s.max_energy_j_m2 = most.energy;
+  s.max_pressure_pa = most.pressure;
+}
+
+}  // namespace sturz

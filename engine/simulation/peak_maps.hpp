@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Peaks of thickness, speed, energy and pressure per cell over a member's life.
+#pragma once
+
+#include "engine/core/vec.hpp"
+#include "engine/particles/particle_set.hpp"
+#include "engine/simulation/member_result.hpp"
+
+#include <vector>
+
+namespace sturz {
+
+struct PeakMapSettings {
+  Grid grid;                      ///< the whole hazard grid
+  double spacing_m = 1;           ///< particle spacing
+  double bulk_density_kg_m3 = 1;  ///< reference: particle volume = mass / this, so volume is exact
+  double reach_limit_m = 0.05;    ///< smoothed thickness that counts as reached: max(0.05, dx/10)
+};
+
+/// Spreads particles over cells with a quadratic B-spline of width max(dx, cell), normalised to
+/// sum to one, with the same weights for volume, m v and 1/2 m v^2 (physics.md D.3), and keeps
+/// maxima over time of each product at one instant.
+///
+/// What falls on cells beyond the grid is dropped, not pushed in. Memory follows the part of the
+/// grid that the flow has touched.
+class PeakMaps {
+ public:
+  explicit PeakMaps(PeakMapSettings);
+
+  /// Takes in one instant. Serial, summed in double and in storage order: bitwise reproducible for
+  /// a given particle order. Particles without a finite place and speed are left out.
+  void record(const ParticleSet&, double time_s);
+  /// Writes window, layers (deposit from `final_state`) and the map scalars (reached and deposit
+  /// area, maxima) into `result`. Record the final state first, as any other instant.
+  void finish(const ParticleSet& final_state, MemberResult& result);
+  const PeakMapSettings& settings() const { return settings_; }
+  /// Share of the last instant's mass in cells thinner than three spacings [-].
+  double thin_fraction() const { return thin_fraction_; }
+
+ private:
+  struct Peak {
+    float thickness = 0, speed = 0, energy = 0, pressure = 0, arrival = nan_f, deposit = 0;
+  };
+  /// Momentum x, y, z [kg m/s] and kinetic energy [J] of one instant in a cell.
+  using Motion = Eigen::Array4d;
+  Window cover(const ParticleSet&) const;
+  void make_room(const Window&);
+  template <bool with_motion, int n_fixed>
+  void scatter(const ParticleSet&);
+  template <bool with_motion>
+  void scatter_any(const ParticleSet&);
+  void keep_peaks(const Window&, float time_s);
+  void keep_deposit(const Window&);
+  Window tight_window() const;
+
+  PeakMapSettings settings_;
+  double width_cells_ = 1;                     ///< of the B-spline
+  int n_weights_ = 3;                          ///< cells that one particle can touch per direction
+  Window room_;                                ///< the part of the grid that the arrays below hold
+  std::vector<Peak> peak_;                     ///< [room_]
+  std::vector<double> mass_;                   ///< [room_], zero between instants [kg]
+  std::vector<Motion> motion_;                 ///< [room_], zero between instants
+  std::vector<double> weights_x_, weights_y_;  ///< scratch of one particle
+  double thin_fraction_ = 0;
+};
+
+}  // namespace sturz

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "engine/core/hash.hpp"
+#include "engine/core/sum.hpp"
+#include "engine/simulation/parts.hpp"
+
+namespace sturz {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Where the mass is relative to where it started, and how fast.
+struct Displacement {
+  double front = 0;       // farthest particle, horizontal [m]
+  double com = 0;         // centre of mass, horizontal [m]
+  double mean_speed = 0;  // mass average [m/s]
+  double high_speed = 0;  // 99.9 % of the mass is slower [m/s]
+  double lowest = 0;      // elevation of the lowest particle [m]
+};
+
+Displacement measure(const SimulationParts& parts, std::vector<std::pair<double, double>>& speeds) {
+  const ParticleSet& p = parts.state.grains;
+  Displacement d;
+  if (p.size() == 0) return d;
+  double mass = 0, mx = 0, my = 0, momentum = 0, front2 = 0;
+  speeds.clear();
+  d.lowest = p.z[0];
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double dx = p.x[i] - parts.start_x[p.id[i]], dy = p.y[i] - parts.start_y[p.id[i]];
+    const double v =
+        std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
+    mass += p.mass[i];
+    mx += p.mass[i] * dx;
+    my += p.mass[i] * dy;
+    momentum += p.mass[i] * v;
+    front2 = std::max(front2, dx * dx + dy * dy);
+    d.lowest = std::min(d.lowest, p.z[i]);
+    speeds.emplace_back(v, p.mass[i]);
+  }
+  d.front = std::sqrt(front2);
+  d.com = std::hypot(mx, my) / mass;
+  d.mean_speed = momentum / mass;
+  const std::size_t tail = speeds.size() / 1000;
+  std::nth_element(speeds.begin(), speeds.end() - 1 - tail, speeds.end());
+  d.high_speed = (speeds.end() - 1 - tail)->first;
+  return d;
+}
+
+std::uint64_t hash_of(const ParticleSet& p) {
+  Hash64 hash;
+  for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
+    hash.add(std::span<const double>(*column));
+  hash.add(std::span<const std::uint32_t>(p.id));
+  return hash.value();
+}
+
+/// One member's run: the bookkeeping around the step.
+class Run {
+ public:
+  Run(SimulationParts& parts, const RunControl& control)
+      : parts_(parts), control_(control), start_(Clock::now()) {}
+
+  MemberResult operator()() {
+    State& s = parts_.state;
+    s.ledger.kinetic_0 = s.ledger.kinetic;
+    record();
+    look_at_motion();
+    frame(true);
+    while (!over()) {
+      const StepLimit limit = parts_.step.limit(s);
+      ++bound_[limit.name];
+      const double left = parts_.stop.end_time_s() - s.time;
+      // The step may grow by a twentieth at most: a sudden long step would break the staggering.
+      double dt = std::min(limit.dt, s.previous_dt > 0 ? 1.05 * s.previous_dt : limit.dt);
+      if (limit.dt < parts_.least_dt_s || !std::isfinite(dt)) {
+        end(Outcome::diverged, "time step collapsed (limit " + std::string(limit.name) + ")");
+        break;
+      }
+      parts_.step.apply(s, std::min(dt, left));
+      after_step();
+    }
+    return finish();
+  }
+
+ private:
+  bool over() {
+    State& s = parts_.state;
+    if (ended_) return true;
+    if (s.grains.size() == 0) return end(Outcome::left_terrain, "all mass left the terrain");
+    if (parts_.stop.out_of_time(s.time)) return end(Outcome::out_of_time, "");
+    return false;
+  }
+
+  bool end(Outcome outcome, std::string reason) {
+    ended_ = true;
+    result_.outcome = outcome;
+    result_.reason = std::move(reason);
+    return true;
+  }
+
+  void after_step() {
+    State& s = parts_.state;
+    if (!s.motion.finite) {
+      end(Outcome::diverged, "a particle's position or velocity is not finite");
+      return;
+    }
+    result_.scalars.max_mach =
+        std::max(result_.scalars.max_mach, s.motion.max_speed / parts_.sound_speed_m_s);
+    travelled_ += s.motion.max_speed * s.previous_dt;
+    const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
+    if (travelled_ >= half_cell) record();
+    if (s.time - looked_at_ > 0.1 * std::sqrt(parts_.spacing_m / 9.81)) look_at_motion();
+    frame(false);
+    if (s.n_steps % 16 == 0) watch();
+  }
+
+  /// Peak maps, whenever the fastest particle may have crossed half a cell.
+  void record() {
+    const double now = parts_.state.time;
+    parts_.peaks.record(parts_.state.grains, now);
+    thin_time_ += parts_.peaks.thin_fraction() * (now - recorded_at_);
+    recorded_at_ = now;
+    travelled_ = 0;
+  }
+
+  void look_at_motion() {
+    const State& s = parts_.state;
+    looked_at_ = s.time;
+    now_ = measure(parts_, speeds_);
+    MemberScalars& m = result_.scalars;
+    m.max_speed_m_s = std::max(
+        m.max_speed_m_s, s.grains.size() > 1000 ? now_.high_speed : s.motion.max_speed);
+    m.max_mean_speed_m_s = std::max(m.max_mean_speed_m_s, now_.mean_speed);
+    m.front_travel_m = std::max(m.front_travel_m, now_.front);
+    if (const Field* c = s.grains.find_field("compression"))
+      m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
+    if (parts_.stop.at_rest({s.time, s.ledger.kinetic, now_.front, now_.com}) && !ended_)
+      end(Outcome::settled, "");
+  }
+
+  /// |rho/rho_ref - 1| under load that 99 % of the particles stay below.
+  double density_error(const std::vector<double>& compression) {
+    loaded_.clear();
+    for (double c : compression)
+      if (c > 0) loaded_.push_back(c);
+    if (loaded_.empty()) return 0;
+    const auto at = loaded_.begin() + static_cast<std::ptrdiff_t>(0.99 * (loaded_.size() - 1));
+    std::nth_element(loaded_.begin(), at, loaded_.end());
+    return *at;
+  }
+
+  /// Wall time and progress.
+  void watch() {
+    const double wall = seconds_since(start_);
+    const std::string when = " at t = " + std::to_string(parts_.state.time) + " s";
+    if (control_.max_wall_s > 0 && wall > control_.max_wall_s && !ended_)
+      end(Outcome::failed,
+          "wall-time limit of " + std::to_string(control_.max_wall_s) + " s reached" + when);
+    if (control_.on_progress && wall - progress_at_ >= control_.progress_every_s) {
+      progress_at_ = wall;
+      if (!control_.on_progress(progress(wall)) && !ended_)
+        end(Outcome::cancelled, "cancelled" + when);
+    }
+  }
+
+  Progress progress(double wall) const {
+    const State& s = parts_.state;
+    return {s.time,        parts_.stop.end_time_s(), now_.front, s.ledger.kinetic,
+            s.motion.max_speed, s.previous_dt,       s.n_steps,  s.grains.size(), wall};
+  }
+
+  void frame(bool force) {
+    if (!control_.on_frame) return;
+    const State& s = parts_.state;
+    if (!force && s.time < next_frame_) return;
+    while (next_frame_ <= s.time) next_frame_ += control_.frame_every_s;
+    const ParticleSet& p = s.grains;
+    density_.assign(p.size(), parts_.reference_density);
+    pressure_.assign(p.size(), 0);
+    if (const Field* stress = p.find_field("stress")) {
+      const auto& compression = p.find_field("compression")->component[0];
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        density_[i] *= 1 + compression[i];
+        pressure_[i] = -(stress->component[0][i] + stress->component[1][i] +
+                         stress->component[2][i]) / 3;
+      }
+    }
+    control_.on_frame({s.time, p.x, p.y, p.z, p.vx, p.vy, p.vz, p.mass, density_, pressure_, p.id});
+  }
+
+  MemberResult finish() {
+    State& s = parts_.state;
+    const bool sound = result_.outcome != Outcome::diverged;
+    if (sound && s.grains.size() > 0) {
+      record();
+      look_at_motion();
+      frame(true);
+    }
+    MemberScalars& m = result_.scalars;
+    const Ledger& book = s.ledger;
+    const double kept = sum_of_mass(s.grains);
+    m.com_travel_m = now_.com;
+    m.drop_m = parts_.release_top_m - now_.lowest;
+    m.release_volume_m3 = parts_.release_volume_m3;
+    m.released_mass_kg = book.released_mass;
+    m.lost_mass_kg = book.lost_mass;
+    m.mass_error = (kept + book.lost_mass - book.released_mass) / book.released_mass;
+    const double released = book.released_energy();
+    m.energy_residual = released > 0 ? book.residual() / released : 0;
+    m.release_layers = parts_.release_layers;
+    m.thin_fraction = s.time > 0 ? thin_time_ / s.time : parts_.peaks.thin_fraction();
+    m.end_time_s = s.time;
+    m.n_particles = static_cast<double>(parts_.start_x.size());
+    m.n_steps = static_cast<double>(s.n_steps);
+    m.mean_dt_s = s.n_steps ? s.time / s.n_steps : 0;
+    result_.member = parts_.member;
+    result_.warnings = parts_.warnings;
+    if (sound) {
+      parts_.peaks.finish(s.grains, result_);
+      m.runout_m = runout();
+      result_.state_hash = hash_of(s.grains);
+      if (is_valid(result_.outcome) && book.lost_mass > 0.01 * book.released_mass) {
+        result_.outcome = Outcome::left_terrain;
+        result_.reason = std::to_string(100 * book.lost_mass / book.released_mass) +
+                         " % of the mass left the terrain";
+      }
+    }
+    for (const auto& [name, count] : bound_)
+      if (count > most_) most_ = count, result_.binding_limit = name;
+    m.wall_s = seconds_since(start_);
+    return std::move(result_);
+  }
+
+  /// From the release's centre of mass to the farthest reached cell [m].
+  double runout() const {
+    const Window& w = result_.window;
+    double far2 = 0;
+    for (int r = 0; r < w.n_rows; ++r)
+      for (int c = 0; c < w.n_cols; ++c) {
+        if (std::isnan(result_.layer(PeakLayer::arrival)[std::size_t(r) * w.n_cols + c])) continue;
+        const double dx = result_.grid.x_center(w.col0 + c) - parts_.release_x_m;
+        const double dy = result_.grid.y_center(w.row0 + r) - parts_.release_y_m;
+        far2 = std::max(far2, dx * dx + dy * dy);
+      }
+    return std::sqrt(far2);
+  }
+
+  static double sum_of_mass(const ParticleSet& p) {
+    Sum total;
+    for (double m : p.mass) total.add(m);
+    return total.value();
+  }
+
+  SimulationParts& parts_;
+  const RunControl& control_;
+  Clock::time_point start_;
+  MemberResult result_;
+  Displacement now_;
+  std::map<std::string, std::size_t> bound_;
+  std::size_t most_ = 0;
+  bool ended_ = false;
+  double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, progress_at_ = 0, next_frame_ = 0;
+  std::vector<std::pair<double, double>> speeds_;
+  std::vector<double> density_, pressure_, loaded_;
+};
+
+}  // namespace
+
+Simulation::Simulation(std::unique_ptr<SimulationParts> parts) : parts_(std::move(parts)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+MemberResult Simulation::run(const RunControl& control) { return Run(*parts_, control)(); }
+
+void Simulation::step() {
+  parts_->step.apply(parts_->state, parts_->step.limit(parts_->state).dt);
+}
+
+}  // namespace sturz

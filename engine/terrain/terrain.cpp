@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/terrain/terrain.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sturz {
+namespace {
+
+/// Nodes around a patch that are copied along, so that every block whose bounds the patch changes
+/// lies wholly inside it and one test tells which of the two holds a block.
+constexpr int patch_rim = 2;
+
+/// Nearest point of the unit square at (col, row) to (u, v), all in cells.
+Vec2 nearest_in_square(int col, int row, double u, double v) {
+  return {std::clamp(u, double(col), col + 1.0), std::clamp(v, double(row), row + 1.0)};
+}
+
+}  // namespace
+
+Terrain::Terrain(std::shared_ptr<const Raster<double>> elevation, NodataRule rule)
+    : base_(std::move(elevation)), rule_(rule) {
+  expect(base_ != nullptr, "a terrain has an elevation raster");
+  const Grid& g = base_->grid;
+  expect(base_->values.size() == g.n_cells(), "a raster has one value per cell");
+  require(g.n_cols >= 2 && g.n_rows >= 2,
+          "terrain: the elevation raster has " + std::to_string(g.n_cols) + " x " +
+              std::to_string(g.n_rows) +
+              " cells (a surface needs at least 2 x 2). Use a larger raster.");
+  require(g.cell_m > 0 && std::isfinite(g.cell_m),
+          "terrain: the cell size is not a positive length (surface slopes would be undefined). "
+          "Check the raster's geotransform.");
+  cell_m_ = g.cell_m;
+  per_cell_ = 1 / g.cell_m;
+  west_node_m_ = g.x_center(0);
+  north_node_m_ = g.y_center(0);
+  bool found = false;
+  for (int r = 0; r + 1 < g.n_rows && !found; ++r)
+    for (int c = 0; c + 1 < g.n_cols && !found; ++c) found = block_inside(r, c);
+  require(found,
+          "terrain: no 2 x 2 block of cells has known elevations (all or nearly all is nodata). "
+          "Check the raster's nodata value and the area cut out of it.");
+  lowest_m_ = std::numeric_limits<double>::infinity();
+  for (double z : base_->values)
+    if (std::isfinite(z)) lowest_m_ = std::min(lowest_m_, z);
+  bounds_ = std::make_shared<const std::vector<SurfaceBound>>(
+      surface_bounds(base_->values, g.n_rows, g.n_cols, cell_m_));
+  for (SurfaceBound b : *bounds_) roughest_ = rougher(roughest_, b);
+}
+
+Terrain Terrain::with_patch(int row0, int col0, int n_rows, int n_cols,
+                            std::vector<double> new_elevation) const {
+  const Grid& g = grid();
+  expect(n_rows >= 0 && n_cols >= 0 && row0 >= 0 && col0 >= 0 && row0 + n_rows <= g.n_rows &&
+             col0 + n_cols <= g.n_cols,
+         "a patch lies on the grid");
+  expect(new_elevation.size() == static_cast<std::size_t>(n_rows) * n_cols,
+         "a patch has one value per cell");
+  Terrain out = *this;
+  if (n_rows == 0 || n_cols == 0) return out;
+  int top = std::max(0, row0 - patch_rim), bottom = std::min(g.n_rows, row0 + n_rows + patch_rim);
+  int left = std::max(0, col0 - patch_rim), right = std::min(g.n_cols, col0 + n_cols + patch_rim);
+  if (patch_rows_ > 0) {
+    top = std::min(top, patch_row_), bottom = std::max(bottom, patch_row_ + patch_rows_);
+    left = std::min(left, patch_col_), right = std::max(right, patch_col_ + patch_cols_);
+  }
+  out.patch_row_ = top, out.patch_rows_ = bottom - top;
+  out.patch_col_ = left, out.patch_cols_ = right - left;
+  out.patch_.resize(static_cast<std::size_t>(out.patch_rows_) * out.patch_cols_);
+  auto at = [&](int row, int col) {
+    return static_cast<std::size_t>(row - top) * out.patch_cols_ + (col - left);
+  };
+  for (int r = top; r < bottom; ++r)
+    for (int c = left; c < right; ++c) out.patch_[at(r, c)] = node(r, c);
+  for (int r = 0; r < n_rows; ++r)
+    for (int c = 0; c < n_cols; ++c) {
+      const double z = new_elevation[static_cast<std::size_t>(r) * n_cols + c];
+      if (std::isnan(z)) continue;
+      out.patch_[at(row0 + r, col0 + c)] = z;
+      out.lowest_m_ = std::min(out.lowest_m_, z);
+    }
+  out.patch_bounds_ = surface_bounds(out.patch_, out.patch_rows_, out.patch_cols_, cell_m_);
+  // The window's outer blocks see nodes beyond it: the base's bounds cover those.
+  for (int r = top; r < bottom; ++r)
+    for (int c = left; c < right; ++c) {
+      SurfaceBound& b = out.patch_bounds_[at(r, c)];
+      b = rougher(b, (*bounds_)[g.index(r, c)]);
+      out.roughest_ = rougher(out.roughest_, b);
+    }
+  return out;
+}
+
+double Terrain::node(int row, int col) const {
+  const int r = row - patch_row_, c = col - patch_col_;
+  if (r >= 0 && r < patch_rows_ && c >= 0 && c < patch_cols_)
+    return patch_[static_cast<std::size_t>(r) * patch_cols_ + c];
+  return base_->at(row, col);
+}
+
+bool Terrain::block_inside(int row, int col) const {
+  return std::isfinite(node(row, col) + node(row, col + 1) + node(row + 1, col) +
+                       node(row + 1, col + 1));
+}
+
+bool Terrain::inside(double x, double y) const {
+  Block b;
+  return find(x, y, b) && std::isfinite(evaluate(b, per_cell_).z);
+}
+
+double Terrain::height(double x, double y) const {
+  Block b;
+  if (find(x, y, b)) {
+    const double z = evaluate(b, per_cell_).z;
+    if (std::isfinite(z)) return z;
+  }
+  return surface_outside(x, y).z;
+}
+
+SurfacePoint Terrain::surface(double x, double y) const {
+  Block b;
+  if (find(x, y, b)) {
+    const Slope s = evaluate(b, per_cell_);
+    if (std::isfinite(s.z)) return {s.z, upward_normal(s.east, s.north)};
+  }
+  return surface_outside(x, y);
+}
+
+SurfaceDistance Terrain::distance(const Vec3& p, double reach) const {
+  Block b;
+  if (find(p.x(), p.y(), b)) {
+    const Slope s = evaluate(b, per_cell_);
+    const double above = p.z() - s.z;
+    if (std::isfinite(s.z)) {
+      // The block's bounds hold within one cell; farther away only the whole ground's do.
+      const SurfaceBound& bound = reach <= cell_m_ ? *b.bound : roughest_;
+      if (bound.bend_per_m * reach <= 0.2 || above * bound.min_normal_z > reach) {
+        const Vec3 normal = upward_normal(s.east, s.north);
+        return {above * normal.z(), normal};
+      }
+      return closest(p, s, reach);
+    }
+  }
+  const SurfacePoint level = surface_outside(p.x(), p.y());
+  return {p.z() - level.z, level.normal};
+}
+
+SurfacePoint Terrain::surface_outside(double x, double y) const {
+  if (!std::isfinite(x) || !std::isfinite(y)) return {nan_d, {0, 0, 1}};
+  const std::optional<Vec2> edge = nearest_inside(x, y);
+  if (!edge) return {lowest_m_, {0, 0, 1}};
+  const int col = std::min(static_cast<int>(edge->x()), grid().n_cols - 2);
+  const int row = std::min(static_cast<int>(edge->y()), grid().n_rows - 2);
+  // The nearest point may lie on the seam to an unknown block: take it from a known one.
+  for (int r : {row, std::max(0, row - 1)})
+    for (int c : {col, std::max(0, col - 1)}) {
+      Block b = block_at(r, c);
+      b.east = edge->x() - c;
+      b.south = edge->y() - r;
+      const double z = evaluate(b, per_cell_).z;
+      if (b.east <= 1 && b.south <= 1 && std::isfinite(z)) return {z, {0, 0, 1}};
+    }
+  return {lowest_m_, {0, 0, 1}};
+}
+
+/// The nearest point of known ground in cells from the north-west node, by growing rings.
+std::optional<Vec2> Terrain::nearest_inside(double x, double y) const {
+  const int last_col = grid().n_cols - 2, last_row = grid().n_rows - 2;
+  const double u = std::clamp((x - west_node_m_) * per_cell_, 0.0, last_col + 1.0);
+  const double v = std::clamp((north_node_m_ - y) * per_cell_, 0.0, last_row + 1.0);
+  const int col = std::min(static_cast<int>(u), last_col);
+  const int row = std::min(static_cast<int>(v), last_row);
+  std::optional<Vec2> best;
+  double best2 = std::numeric_limits<double>::infinity();
+  auto look = [&](int r, int c) {
+    if (r < 0 || c < 0 || r > last_row || c > last_col || !block_inside(r, c)) return;
+    const Vec2 q = nearest_in_square(c, r, u, v);
+    const double d2 = (q - Vec2(u, v)).squaredNorm();
+    if (d2 < best2) best2 = d2, best = q;
+  };
+  for (int ring = 0; ring <= search_cells; ++ring) {
+    // Everything in this ring is at least ring - 1 cells away.
+    if (best && best2 <= (ring - 1.0) * (ring - 1.0)) break;
+    for (int c = col - ring; c <= col + ring; ++c) {
+      look(row - ring, c);
+      if (ring > 0) look(row + ring, c);
+    }
+    for (int r = row - ring + 1; r < row + ring; ++r) {
+      look(r, col - ring);
+      look(r, col + ring);
+    }
+  }
+  return best;
+}
+
+double Terrain::steepest_gradient() const {
+  double steepest = 0;
+  auto take = [&](double rise) {
+    if (std::abs(rise) > steepest) steepest = std::abs(rise);  // false for NaN
+  };
+  for (int r = 0; r < grid().n_rows; ++r)
+    for (int c = 0; c < grid().n_cols; ++c) {
+      if (c + 1 < grid().n_cols) take(node(r, c + 1) - node(r, c));
+      if (r + 1 < grid().n_rows) take(node(r + 1, c) - node(r, c));
+    }
+  return steepest * per_cell_;
+}
+
+}  // namespace sturz

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The ground: a C0 bilinear heightfield through the cell centres of an elevation raster.
+///
+/// The base raster is shared, read-only, by all members; a member may lay a small patch over it
+/// (the excavation of a pre-failure surface). Never a staircase: steps in the surface change the
+/// apparent friction (Iverson & George 2019).
+#pragma once
+
+#include "engine/core/vec.hpp"
+#include "engine/terrain/raster.hpp"
+#include "engine/terrain/surface_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace sturz {
+
+/// What the edge of the known ground does to a particle.
+enum class NodataRule { outflow, wall };
+
+/// Height and upward unit normal of the surface above a map point.
+struct SurfacePoint {
+  double z = 0;          ///< surface elevation [m]
+  Vec3 normal{0, 0, 1};  ///< outward (upward) unit normal [-]
+};
+
+/// Upward unit normal of a surface with these slopes.
+inline Vec3 upward_normal(double slope_east, double slope_north) {
+  const double n_z = 1 / std::sqrt(1 + slope_east * slope_east + slope_north * slope_north);
+  return {-slope_east * n_z, -slope_north * n_z, n_z};
+}
+
+/// Signed distance along the normal of the nearest surface point, positive above the ground.
+struct SurfaceDistance {
+  double distance = 0;   ///< [m]
+  Vec3 normal{0, 0, 1};  ///< at the nearest point [-]
+};
+
+class Terrain {
+ public:
+  /// \param elevation metres above datum, NaN = nodata. At least 2 x 2 cells.
+  /// \throws SetupError if the raster is too small or holds no valid 2 x 2 block
+  Terrain(std::shared_ptr<const Raster<double>> elevation, NodataRule rule);
+
+  /// The same ground with `new_elevation` laid over the window that starts at (row0, col0);
+  /// the patch holds n_rows x n_cols elevations [m], NaN keeps the value below it. Patches add up.
+  /// \pre the window lies on the grid
+  Terrain with_patch(int row0, int col0, int n_rows, int n_cols,
+                     std::vector<double> new_elevation) const;
+
+  const Grid& grid() const { return base_->grid; }
+  NodataRule nodata_rule() const { return rule_; }
+  /// Elevation of a cell centre with the patch applied [m]; NaN = nodata. In-range indices only.
+  double node(int row, int col) const;
+
+  /// True where the four cell centres around (x, y) are known: there the surface exists.
+  bool inside(double x, double y) const;
+  /// Surface height [m]. Outside, the nearest inside edge is continued level; it is looked for
+  /// within `search_cells` cells of the grid's nearest point, beyond that the ground lies at the
+  /// lowest known elevation. NaN only for a NaN point.
+  double height(double x, double y) const;
+  /// Height and normal of the bilinear patch; level outside, like height().
+  SurfacePoint surface(double x, double y) const;
+  /// Distance of `p` to the surface, negative below it: (z - z_s) n_z where the ground within
+  /// `reach` is smooth. Where its slope exceeds 45 degrees or its curvature times `reach` 0.2, a
+  /// point that may touch gets the distance to the closest point (two Newton steps on every patch
+  /// within reach), so that a cliff beside a particle is felt. The sign is always that of z - z_s.
+  /// \param reach  the contact distance [m]; farther up the tangent plane's distance is returned.
+  ///               Up to one cell costs 20-40 ns; more (or a whole smoothing support) makes nearly
+  ///               all of a mountain count as bent and costs several times as much
+  SurfaceDistance distance(const Vec3& p, double reach) const;
+  /// Steepest slope (rise over run) between neighbouring nodes along a row or a column [-], for
+  /// `describe`. Reads every node.
+  double steepest_gradient() const;
+
+  static constexpr int search_cells = 64;
+
+ private:
+  /// Four nodes around a point, its place between them (0..1 eastward, 0..1 southward).
+  struct Block {
+    const double* north_west;  ///< node; its eastern neighbour follows
+    std::ptrdiff_t stride;     ///< to the node south of it
+    const SurfaceBound* bound;
+    double east, south;
+  };
+  struct Slope {
+    double z;            ///< [m]; not finite where a node is missing
+    double east, north;  ///< rise per metre [-]
+  };
+  struct Closest;
+
+  bool find(double x, double y, Block& block) const;
+  Block block_at(int row, int col) const;
+  bool block_inside(int row, int col) const;
+  static Slope evaluate(const Block& block, double per_cell);
+  std::optional<Vec2> nearest_inside(double x, double y) const;
+  SurfacePoint surface_outside(double x, double y) const;
+  SurfaceDistance closest(const Vec3& p, const Slope& below, double reach) const;
+  void try_block(int row, int col, const Vec3& p, Closest& best) const;
+  void search_blocks(const Vec3& p, double radius, Closest& best) const;
+  void search_compass(const Vec3& p, double reach, Closest& best) const;
+
+  std::shared_ptr<const Raster<double>> base_;
+  std::shared_ptr<const std::vector<SurfaceBound>> bounds_;  ///< per block, at its NW node's index
+  SurfaceBound roughest_;                                    ///< over the whole ground
+  NodataRule rule_;
+  double west_node_m_ = 0, north_node_m_ = 0, cell_m_ = 1, per_cell_ = 1;
+  double lowest_m_ = 0;
+  int patch_row_ = 0, patch_col_ = 0, patch_rows_ = 0,
+      patch_cols_ = 0;  ///< with a rim of base nodes
+  std::vector<double> patch_;
+  std::vector<SurfaceBound> patch_bounds_;
+};
+
+inline Terrain::Block Terrain::block_at(int row, int col) const {
+  const int r = row - patch_row_, c = col - patch_col_;
+  if (r >= 0 && r < patch_rows_ - 1 && c >= 0 && c < patch_cols_ - 1) {
+    const std::size_t i = static_cast<std::size_t>(r) * patch_cols_ + c;
+    return {&patch_[i], patch_cols_, &patch_bounds_[i], 0, 0};
+  }
+  const std::size_t i = base_->grid.index(row, col);
+  return {&base_->values[i], base_->grid.n_cols, &(*bounds_)[i], 0, 0};
+}
+
+/// The block below a point; false beyond the outermost nodes and for a NaN point.
+inline bool Terrain::find(double x, double y, Block& block) const {
+  const double u = (x - west_node_m_) * per_cell_, v = (north_node_m_ - y) * per_cell_;
+  const Grid& g = base_->grid;
+  if (!(u >= 0 && v >= 0 && u <= g.n_cols - 1 && v <= g.n_rows - 1)) return false;
+  // A point on the last node row or column belongs to the block before it.
+  const int col = std::min(static_cast<int>(u), g.n_cols - 2);
+  const int row = std::min(static_cast<int>(v), g.n_rows - 2);
+  block = block_at(row, col);
+  block.east = u - col;
+  block.south = v - row;
+  return true;
+}
+
+/// Bilinear interpolation between the four nodes.
+inline Terrain::Slope Terrain::evaluate(const Block& b, double per_cell) {
+  const double* n = b.north_west;
+  const double* s = n + b.stride;
+  const double rise_n = n[1] - n[0], rise_s = s[1] - s[0];
+  const double z_n = n[0] + b.east * rise_n, z_s = s[0] + b.east * rise_s;
+  return {z_n + b.south * (z_s - z_n), (rise_n + b.south * (rise_s - rise_n)) * per_cell,
+          (z_n - z_s) * per_cell};
+}
+
+}  // namespace sturz

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/app/console.hpp"
+
+#include "engine/core/error.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/spdlog.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace sturz::app {
+
+std::string duration_text(double seconds) {
+  if (!(seconds >= 0) || !std::isfinite(seconds)) return "unknown";
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+  const auto s = static_cast<long long>(std::llround(seconds));
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02d} s", s / 60, s % 60);
+  return fmt::format("{} h {:02d} min", s / 3600, s % 3600 / 60);
+}
+
+std::string grouped(double value) {
+  std::string digits = fmt::format("{:.0f}", std::abs(value)), out;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) out += ' ';
+    out += digits[i];
+  }
+  return (value <= -0.5 ? "-" : "") + out;
+}
+
+struct Console::LogFile {
+  std::shared_ptr<spdlog::logger> logger;
+};
+
+Console::Console(bool json) : json_(json), tty_(isatty(STDERR_FILENO) != 0) {}
+Console::~Console() { clear_progress(); }
+
+void Console::log_to(const std::string& path) {
+  try {
+    auto sink = std::make_shared<spdlog::sinks::basic_file_sink_mt>(path, false);
+    auto logger = std::make_shared<spdlog::logger>("sturz", std::move(sink));
+    logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %v");
+    logger->flush_on(spdlog::level::info);
+    // A full disk must not end a run through its log; the results' writer reports it.
+    logger->set_error_handler([](const std::string&) {});
+    log_ = std::make_unique<LogFile>(LogFile{std::move(logger)});
+  } catch (const spdlog::spdlog_ex& problem) {
+    throw SetupError(fmt::format("{}: the log cannot be written ({}). Is the folder writable?",
+                                 path, problem.what()));
+  }
+}
+
+void Console::say(std::string_view line) {
+  note(line);
+  if (json_) return;
+  clear_progress();
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+void Console::note(std::string_view line) {
+  if (log_) log_->logger->info("{}", line);
+}
+
+void Console::warn(std::string_view line) {
+  if (log_) log_->logger->warn("{}", line);
+  clear_progress();
+  if (json_) return event(nlohmann::json{{"event", "warning"}, {"text", line}}.dump());
+  fmt::print(stderr, "warning: {}\n", line);
+}
+
+void Console::error(std::string_view line) {
+  if (log_) log_->logger->error("{}", line);
+  clear_progress();
+  if (json_) event(nlohmann::json{{"event", "error"}, {"text", line}}.dump());
+  fmt::print(stderr, "error: {}\n", line);
+}
+
+void Console::event(std::string_view json_object) {
+  if (!json_) return;
+  fmt::print("{}\n", json_object);
+  std::fflush(stdout);
+}
+
+void Console::progress(std::string_view line) {
+  if (!shows_progress()) return;
+  fmt::print(stderr, "\r\033[2K{}", line);
+  std::fflush(stderr);
+  bar_on_screen_ = true;
+}
+
+void Console::clear_progress() {
+  if (!bar_on_screen_) return;
+  fmt::print(stderr, "\r\033[2K");
+  std::fflush(stderr);
+  bar_on_screen_ = false;
+}
+
+int Console::columns() const {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  return 80;
+}
+
+}  // namespace sturz::app

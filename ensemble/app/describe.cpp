@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// sturz describe: what a scene is and what it will cost, before anything is computed.
+#include "ensemble/app/commands.hpp"
+#include "ensemble/app/cores.hpp"
+#include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/scene.hpp"
+#include "scenarios/schema.hpp"
+#include "scenarios/value_text.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace sturz::app {
+namespace {
+
+std::string as_json(const Scene& scene) {
+  const SceneDescription& d = scene.description;
+  nlohmann::ordered_json effects = nlohmann::ordered_json::array();
+  for (const EffectNote& e : d.effects)
+    effects.push_back({{"name", e.name}, {"active", e.active}, {"reason", e.reason}});
+  nlohmann::ordered_json uncertain = nlohmann::ordered_json::object();
+  for (const UncertainKey& key : uncertain_keys(scene.scenario))
+    uncertain[key.path] = distribution_text(key.distribution);
+  const nlohmann::ordered_json all = {{"title", scene.scenario.title},
+                                      {"formulation", d.formulation},
+                                      {"formulation_reason", d.formulation_reason},
+                                      {"effects", effects},
+                                      {"passes", d.passes},
+                                      {"n_particles", d.n_particles},
+                                      {"spacing_m", d.spacing_m},
+                                      {"layers", d.layers},
+                                      {"release_volume_m3", d.release_volume_m3},
+                                      {"release_area_m2", d.release_area_m2},
+                                      {"memory_bytes", d.memory_bytes},
+                                      {"reference_speed_m_s", d.reference_speed_m_s},
+                                      {"sound_speed_m_s", d.sound_speed_m_s},
+                                      {"dt_s", d.dt_s},
+                                      {"binding_limit", d.binding_limit},
+                                      {"n_steps", d.n_steps},
+                                      {"predicted_seconds", d.predicted_seconds},
+                                      {"members", scene.scenario.ensemble.members},
+                                      {"uncertain", uncertain},
+                                      {"notes", scene.inputs.notes},
+                                      {"warnings", d.warnings}};
+  return all.dump();
+}
+
+void print_uncertain(const Scene& scene, Console& console) {
+  const auto keys = uncertain_keys(scene.scenario);
+  if (keys.empty()) return console.say("uncertain: nothing; every value is a number");
+  console.say("uncertain:");
+  for (const UncertainKey& key : keys)
+    console.say(
+        fmt::format("  {} [{}]: {}", key.path, key.units, distribution_text(key.distribution)));
+}
+
+}  // namespace
+
+int describe_command(const DescribeOptions& options, Console& console) {
+  const Scene scene = load_scene(options.scenario, options.set, options.measure_again);
+  if (console.json()) {
+    console.event(as_json(scene));
+    return ok;
+  }
+  if (!scene.scenario.title.empty()) console.say(scene.scenario.title);
+  for (const std::string& line : description_lines(scene)) console.say(line);
+  print_uncertain(scene, console);
+  if (const int members = scene.scenario.ensemble.members; members > 0) {
+    const int cores = available_cores();
+    console.say(fmt::format("ensemble: {} members ({}) on {} cores: at most {}", members,
+                            scene.scenario.ensemble.design, cores,
+                            duration_text(scene.description.predicted_seconds * members / cores)));
+  }
+  for (const std::string& note : scene.inputs.notes) console.say("note: " + note);
+  for (const std::string& warning : scene.description.warnings) console.warn(warning);
+  return ok;
+}
+
+}  // namespace sturz::app

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/app/output_folder.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/app/version.hpp"
+#include "io/text_files.hpp"
+#include "scenarios/schema.hpp"
+#include "scenarios/value_text.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+namespace sturz::app {
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+void Manifest::write(const fs::path& file) {
+  version = app::version;
+  git_commit = app::git_commit;
+  compiler = app::compiler;
+  build_type = app::build_type;
+  json inputs_json = json::array();
+  for (const auto& [name, checksum] : inputs)
+    inputs_json.push_back({{"file", name}, {"checksum", checksum}});
+  const json all = {{"kind", kind},
+                    {"program",
+                     {{"name", "sturz"},
+                      {"version", version},
+                      {"git_commit", git_commit},
+                      {"compiler", compiler},
+                      {"build_type", build_type}}},
+                    {"started", started},
+                    {"updated", utc_now()},
+                    {"command", command},
+                    {"design", design},
+                    {"seed", seed},
+                    {"members", members},
+                    {"spacing_m", spacing_m},
+                    {"inputs", inputs_json},
+                    {"description", description},
+                    {"notes", notes},
+                    {"warnings", warnings},
+                    {"compute_s", compute_s},
+                    {"hazard_hash", hazard_hash}};
+  write_text_atomic(file, all.dump(2) + "\n");
+}
+
+Manifest Manifest::read(const fs::path& file) {
+  Manifest m;
+  try {
+    const json all = json::parse(read_text(file));
+    m.kind = all.at("kind").get<std::string>();
+    m.version = all.at("program").at("version").get<std::string>();
+    m.git_commit = all.at("program").at("git_commit").get<std::string>();
+    m.compiler = all.at("program").at("compiler").get<std::string>();
+    m.build_type = all.at("program").at("build_type").get<std::string>();
+    m.started = all.at("started").get<std::string>();
+    m.command = all.at("command").get<std::string>();
+    m.design = all.at("design").get<std::string>();
+    m.seed = all.at("seed").get<std::uint64_t>();
+    m.members = all.at("members").get<std::int64_t>();
+    m.spacing_m = all.at("spacing_m").get<double>();
+    for (const auto& input : all.at("inputs"))
+      m.inputs.emplace_back(input.at("file").get<std::string>(),
+                            input.at("checksum").get<std::string>());
+    m.description = all.at("description").get<std::vector<std::string>>();
+    m.notes = all.at("notes").get<std::vector<std::string>>();
+    m.warnings = all.at("warnings").get<std::vector<std::string>>();
+    m.compute_s = all.at("compute_s").get<double>();
+    m.hazard_hash = all.at("hazard_hash").get<std::string>();
+  } catch (const json::exception& problem) {
+    throw SetupError(
+        fmt::format("{}: not a manifest that sturz wrote ({}). Use another folder, or "
+                    "take the file from a backup.",
+                    file.string(), problem.what()));
+  }
+  return m;
+}
+
+std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
+  std::vector<std::pair<std::string, std::string>> out = {
+      {"program", fmt::format("sturz {} ({})", version, git_commit)},
+      {"compiler", fmt::format("{}, {}", compiler, build_type)},
+      {"started", started},
+      {"command", command},
+      {"spacing", fmt::format("{} m", spacing_m)}};
+  if (kind == "ensemble") {
+    out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
+    out.emplace_back("hash of the maps", hazard_hash);
+  }
+  for (const auto& [name, checksum] : inputs) out.emplace_back("input " + name, checksum);
+  return out;
+}
+
+namespace {
+
+/// Members without a scenario.yaml beside them: nobody can say whose they are.
+void require_no_orphans(const OutputFolder& folder) {
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(folder.members(), failed))
+    require(entry.path().extension() != ".nc",
+            fmt::format("{} holds members but no scenario.yaml (they may belong to another scene). "
+                        "Choose another folder with --out.",
+                        folder.root.string()));
+}
+
+void require_only_ours(const OutputFolder& folder) {
+  static constexpr std::array ours{"log.txt", "members", "design.csv"};
+  for (const auto& entry : fs::directory_iterator(folder.root)) {
+    const fs::path name = entry.path().filename();
+    const bool mine = name.extension() == ".part" ||
+                      std::find(ours.begin(), ours.end(), name.string()) != ours.end();
+    require(mine, fmt::format("{} holds files of something else, such as {} (results could "
+                              "overwrite them). Choose another folder with --out.",
+                              folder.root.string(), name.string()));
+  }
+}
+
+}  // namespace
+
+bool holds_results(const OutputFolder& folder, const std::string& kind) {
+  if (!fs::exists(folder.root)) return false;
+  require(fs::is_directory(folder.root),
+          fmt::format("{} is a file (results need a folder). Choose another name with --out.",
+                      folder.root.string()));
+  if (fs::exists(folder.manifest())) {
+    const std::string found = Manifest::read(folder.manifest()).kind;
+    require(found == kind,
+            fmt::format("{} holds the results of `sturz {}` (this is `sturz {}`). Choose another "
+                        "folder with --out.",
+                        folder.root.string(), found, kind));
+    if (fs::exists(folder.scenario())) return true;
+  } else {
+    require_only_ours(folder);
+  }
+  if (kind == "ensemble") require_no_orphans(folder);
+  return false;
+}
+
+std::vector<std::string> differences(const Scenario& before, const Scenario& now) {
+  std::vector<std::string> found;
+  for (const KeyInfo& key : schema()) {
+    const bool only_asked = key.path == "title" || key.path == "ensemble.members" ||
+                            key.path == "ensemble.max_failed_fraction" ||
+                            (key.path.starts_with("hazard.") && key.path != "hazard.cell_size_m");
+    if (only_asked || key.kind == ValueKind::path) continue;
+    const KeyValue was = key.get(before), is = key.get(now);
+    if (was == is) continue;
+    const auto text = [](const KeyValue& v) {
+      const std::string words = value_text(v);
+      return words.empty() ? std::string("absent") : words;
+    };
+    found.push_back(fmt::format("{}: {} -> {}", key.path, text(was), text(is)));
+  }
+  return found;
+}
+
+std::string utc_now() {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+}
+
+std::string default_folder(const std::string& scenario_file) {
+  const fs::path file = fs::absolute(scenario_file).lexically_normal();
+  const std::string name = file.stem().string() == "scenario"
+                               ? file.parent_path().filename().string()
+                               : file.stem().string();
+  return (fs::path("out") / (name.empty() ? "scene" : name)).string();
+}
+
+}  // namespace sturz::app

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// sturz run: one member, with the median of every distribution.
+#include "engine/core/error.hpp"
+#include "ensemble/app/commands.hpp"
+#include "ensemble/app/cores.hpp"
+#include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/interrupt.hpp"
+#include "ensemble/app/peak_layers.hpp"
+#include "ensemble/app/progress_bar.hpp"
+#include "ensemble/app/report_page.hpp"
+#include "ensemble/app/scene.hpp"
+#include "ensemble/app/version.hpp"
+#include "io/atomic_file.hpp"
+#include "io/member_file.hpp"
+#include "io/netcdf_layers.hpp"
+#include "io/particle_frames.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <optional>
+
+namespace sturz::app {
+namespace {
+
+std::string command_text(const RunOptions& o) {
+  std::string text = "run " + o.scenario;
+  for (const std::string& set : o.set) text += " --set " + set;
+  return text;
+}
+
+MemberResult compute(const RunOptions& options, const Scene& scene, const OutputFolder& folder,
+                     Console& console) {
+  const int threads = options.threads > 0 ? options.threads : available_cores();
+  Simulation simulation = assemble(scene.medians, scene.inputs, 0, threads);
+  RunControl control;
+  control.max_wall_s = scene.medians.numerics.max_wall_time_s;
+  control.on_progress = [&console](const Progress& p) {
+    console.progress(member_bar(p, console.columns()));
+    return !interrupt_flag().load();
+  };
+  std::filesystem::remove_all(folder.particles());  // of an earlier run
+  std::optional<ParticleFrameWriter> frames;
+  if (options.particles_every_s) {
+    frames.emplace(folder.particles());
+    control.frame_every_s = *options.particles_every_s;
+    control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
+  }
+  MemberResult result = simulation.run(control);
+  console.clear_progress();
+  return result;
+}
+
+MemberSummary summary_of(const MemberResult& r) {
+  return {r.member,   r.outcome,    r.reason,  r.formulation, r.binding_limit,
+          r.warnings, r.state_hash, r.scalars, r.window};
+}
+
+void write_results(const OutputFolder& folder, const Manifest& manifest, const Scene& scene,
+                   const MemberResult& result) {
+  write_member(folder.members(), result);
+  LayerStack peaks = peak_layers(result);
+  peaks.attributes = {
+      {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
+      {"source", fmt::format("sturz {} ({})", version, git_commit)},
+      {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+      {"outcome", std::string(to_string(result.outcome))}};
+  write_layers(folder.peaks_nc(), peaks);
+  const MemberSummary summary = summary_of(result);
+  PageContent page;
+  page.peaks = &peaks;
+  page.elevation = scene.inputs.elevation.get();
+  page.members = {&summary, 1};
+  write_page(folder, manifest, scene.medians, page);
+}
+
+void print_summary(const MemberResult& r, const OutputFolder& folder, Console& console) {
+  const MemberScalars& s = r.scalars;
+  nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
+  for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
+  console.event(nlohmann::ordered_json{{"event", "done"},
+                                       {"outcome", to_string(r.outcome)},
+                                       {"reason", r.reason},
+                                       {"state_hash", fmt::format("{:016x}", r.state_hash)},
+                                       {"scalars", scalars},
+                                       {"folder", folder.root.string()}}
+                    .dump());
+  const auto line = [&console](const char* name, const std::string& value) {
+    console.say(fmt::format("  {:<22}{}", name, value));
+  };
+  console.say(fmt::format("{}{}{} after {:.1f} s of flow", to_string(r.outcome),
+                          r.reason.empty() ? "" : ": ", r.reason, s.end_time_s));
+  line("runout", fmt::format("{:.1f} m (front {:.1f} m, centre of mass {:.1f} m, drop {:.1f} m)",
+                             s.runout_m, s.front_travel_m, s.com_travel_m, s.drop_m));
+  line("area", fmt::format("{} m2 reached, {} m2 deposit", grouped(s.reached_area_m2),
+                           grouped(s.deposit_area_m2)));
+  line("largest speed", fmt::format("{:.1f} m/s (mean of the mass {:.1f} m/s)", s.max_speed_m_s,
+                                    s.max_mean_speed_m_s));
+  line("largest thickness",
+       fmt::format("{:.2f} m (deposit {:.2f} m)", s.max_thickness_m, s.max_deposit_m));
+  line("largest energy", fmt::format("{:.1f} kJ/m2, pressure {:.1f} kPa", s.max_energy_j_m2 / 1e3,
+                                     s.max_pressure_pa / 1e3));
+  line("particles",
+       fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
+  line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,
+                                   s.energy_residual));
+  line("computing", fmt::format("{} steps in {} ({:.2g} M particle updates/s)", grouped(s.n_steps),
+                                duration_text(s.wall_s),
+                                s.n_steps * s.n_particles / (1e6 * std::max(s.wall_s, 1e-9))));
+  console.say(fmt::format("Results are in {}: report.html, peaks.nc", folder.root.string()));
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options, Console& console) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Scene scene = load_scene(options.scenario, options.set);
+  OutputFolder folder{options.out.empty() ? default_folder(options.scenario) + "_run"
+                                          : options.out};
+  holds_results(folder, "run");  // refuses a folder of anything else
+  Manifest manifest = manifest_of(scene, "run", command_text(options));
+  manifest.members = 1;
+  make_folder(folder.root);
+  manifest.write(folder.manifest());
+  save_scenario(folder, scene.medians);
+  console.log_to(folder.log().string());
+  for (const std::string& warning : scene.description.warnings) console.warn(warning);
+  for (const std::string& note : scene.inputs.notes) console.note(note);
+
+  watch_for_interrupts();
+  const MemberResult result = compute(options, scene, folder, console);
+  if (result.outcome == Outcome::cancelled) {
+    console.warn("interrupted; nothing is kept. Run the same command again.");
+    return interrupted;
+  }
+  manifest.compute_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  manifest.write(folder.manifest());
+  write_results(folder, manifest, scene, result);
+  print_summary(result, folder, console);
+  if (is_valid(result.outcome)) return ok;
+  console.error(fmt::format("the member is not valid: {}", result.reason));
+  return too_many_failed;
+}
+
+}  // namespace sturz::app

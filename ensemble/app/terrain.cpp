@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// sturz terrain: write a synthetic ground, or the ground and source of a scenario, as GeoTIFF.
+#include "engine/core/error.hpp"
+#include "ensemble/app/commands.hpp"
+#include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/output_folder.hpp"
+#include "ensemble/design.hpp"
+#include "io/atomic_file.hpp"
+#include "io/cog.hpp"
+#include "io/scenario_file.hpp"
+#include "io/scene_inputs.hpp"
+#include "scenarios/number_text.hpp"
+#include "scenarios/suggest.hpp"
+#include "scenarios/synthetic_terrain.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace sturz::app {
+namespace fs = std::filesystem;
+namespace {
+
+/// "slope_deg=20" into the shape's parameters; names are checked by make_synthetic.
+void set_parameter(SyntheticTerrain& shape, const std::string& word) {
+  const std::size_t equals = std::min(word.find('='), word.size());
+  const auto number =
+      parse_number(std::string_view(word).substr(std::min(equals + 1, word.size())));
+  require(number.has_value(), fmt::format("--set {} (must be parameter=number).", word));
+  const std::string name = word.substr(0, equals);
+  if (name == "cell_size_m")
+    shape.cell_size_m = *number;
+  else
+    shape.parameters[name] = *number;
+}
+
+void write_raster(const fs::path& file, const Raster<double>& raster, bool synthetic,
+                  const std::string& what, Console& console) {
+  TextPairs metadata = {{"DESCRIPTION", what}};
+  if (synthetic) metadata.emplace_back("SYNTHETIC", "YES");
+  write_geotiff(file, raster, metadata);
+  console.say(fmt::format("{}: {} x {} cells of {} m, {}", file.string(), raster.grid.n_cols,
+                          raster.grid.n_rows, raster.grid.cell_m, what));
+}
+
+void write_shape(const TerrainOptions& options, Console& console) {
+  SyntheticTerrain shape;
+  shape.shape = options.what;
+  for (const std::string& word : options.set) set_parameter(shape, word);
+  if (options.cell_size_m) shape.cell_size_m = *options.cell_size_m;
+  const SyntheticScene scene = make_synthetic(shape);
+  make_folder(options.out);
+  const fs::path folder = options.out;
+  write_raster(folder / "elevation.tif", scene.bed, true, "elevation of the bed [m]", console);
+  if (scene.thickness)
+    write_raster(folder / "release.tif", *scene.thickness, true, "thickness of the source [m]",
+                 console);
+}
+
+void write_scene(const TerrainOptions& options, Console& console) {
+  require(!options.cell_size_m,
+          "--cell is for shapes (a scenario says terrain.cell_size_m). Use --set instead.");
+  const Scenario scenario = read_scenario(options.what, options.set);
+  const SceneInputs inputs = load_scene_inputs(scenario);
+  const bool synthetic = scenario.terrain.synthetic.has_value();
+  make_folder(options.out);
+  const fs::path folder = options.out;
+  write_raster(folder / "elevation.tif", *inputs.elevation, synthetic,
+               "elevation on the working grid [m]", console);
+  const bool cover = inputs.pattern == ReleasePattern::cover;
+  write_raster(
+      folder / "release.tif", *inputs.release, synthetic,
+      cover ? "share of each cell that the source covers [-]" : "thickness of the source [m]",
+      console);
+  for (const std::string& note : inputs.notes) console.say("note: " + note);
+}
+
+}  // namespace
+
+int terrain_command(const TerrainOptions& options, Console& console) {
+  const std::vector<std::string> shapes = synthetic_shapes();
+  if (std::find(shapes.begin(), shapes.end(), options.what) != shapes.end()) {
+    write_shape(options, console);
+    return ok;
+  }
+  std::string names;
+  for (const std::string& shape : shapes) names += (names.empty() ? "" : ", ") + shape;
+  const std::string near = nearest_name(options.what, shapes);
+  require(fs::exists(options.what),
+          fmt::format("{} (neither a shape nor a scenario file). Shapes are: {}.{}", options.what,
+                      names, near.empty() ? "" : fmt::format(" Did you mean {}?", near)));
+  write_scene(options, console);
+  return ok;
+}
+
+}  // namespace sturz::app

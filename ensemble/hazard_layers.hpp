@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The layers of a hazard map before they are filled: names, units, axes, rules in words.
+#pragma once
+
+#include "engine/simulation/member_result.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace sturz {
+
+/// A probability and its Wilson bounds: places in LayerStack::layers.
+struct ProbabilityLayers {
+  std::size_t probability = 0, lower = 0, upper = 0;
+  std::vector<float> thresholds;  ///< [SI], one per plane; unused for a plain map
+};
+
+/// What is made of one member layer.
+struct QuantityLayers {
+  PeakLayer source = PeakLayer::thickness;
+  std::optional<ProbabilityLayers> exceedance;
+  std::optional<std::size_t> mean, quantile;
+};
+
+/// Everything that make_hazard_map fills; indices into `stack.layers`.
+struct HazardLayers {
+  LayerStack stack;
+  ProbabilityLayers reached;
+  std::vector<QuantityLayers> quantities;  ///< thickness, speed, energy, pressure, deposit
+  std::optional<std::size_t> arrival_quantile;
+  std::size_t high_intensity = 0, medium_intensity = 0;
+};
+
+/// Makes all layers, filled with what a cell has that no member touched: probability 0 (upper
+/// bound that of 0 out of n_members), peaks 0, arrival NaN; without members everything is NaN.
+HazardLayers empty_hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
+                                 std::int64_t n_members);
+
+}  // namespace sturz

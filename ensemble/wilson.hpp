@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How sure a probability is that was counted from a few members.
+#pragma once
+
+#include <cstdint>
+
+namespace sturz {
+
+struct ProbabilityBounds {
+  double lower = 0, upper = 1;
+};
+
+/// Two-sided 95 % score interval of a probability (Wilson 1927) after `hits` of `trials`:
+///   (k + z^2/2 +- z sqrt(k (n - k) / n + z^2/4)) / (n + z^2),  z = 1.959964
+/// It holds for independent members; Latin hypercube and Sobol' members scatter less, so there
+/// it errs on the wide side. NaN for no trials.
+ProbabilityBounds wilson_interval(std::int64_t hits, std::int64_t trials);
+
+}  // namespace sturz

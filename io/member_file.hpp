@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One finished member on disk: members/000017.nc, scalars, outcome and the maps it touched.
+///
+/// The maps are CF rasters over the touched window (float32, bit for bit), so a member opens in GIS
+/// like the hazard map does. A failed member is kept too, without maps.
+#pragma once
+
+#include "engine/simulation/member_result.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace sturz {
+
+/// "000017.nc"
+std::string member_file_name(std::int64_t member);
+
+/// Writes `folder`/000017.nc in one stroke; the folder is made if needed. \throws IoError
+void write_member(const std::filesystem::path& folder, const MemberResult& member);
+
+/// Reads everything back, bit for bit. \throws IoError naming the file when it is damaged
+MemberResult read_member(const std::filesystem::path& file);
+
+}  // namespace sturz

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+/// netCDF-4 files through netCDF-C, with every status checked and one lock for the process.
+///
+/// Neither netCDF-C nor HDF5 may run in two threads at once, not even on different files. Files are
+/// therefore built in memory under the lock and go to disk as plain bytes (atomic_file.hpp): a full
+/// disk is then an ordinary write error and cannot leave HDF5 with a file it fails to close.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// The process-wide lock. Whoever else calls netCDF, HDF5 or GDAL's drivers on them takes it too.
+std::recursive_mutex& netcdf_mutex();
+
+enum class NcType { int32, float32, float64 };
+
+/// Builds one file; nothing is on disk before commit(). Holds the lock while it lives.
+class NetcdfWriter {
+ public:
+  static constexpr int global = -1;  ///< in place of a variable: the file's own attributes
+
+  explicit NetcdfWriter(std::filesystem::path target);
+  ~NetcdfWriter();
+  NetcdfWriter(const NetcdfWriter&) = delete;
+  NetcdfWriter& operator=(const NetcdfWriter&) = delete;
+
+  int dimension(const std::string& name, std::size_t length);
+  /// \param dimensions slowest first; none: a scalar
+  int variable(const std::string& name, NcType type, const std::vector<int>& dimensions);
+  /// Stores the variable in compressed (shuffle, deflate 1), checksummed (fletcher32) chunks.
+  void compress(int variable, const std::vector<std::size_t>& chunk);
+
+  void text(int variable, const std::string& name, const std::string& value);
+  void number(int variable, const std::string& name, double value);
+  void numbers(int variable, const std::string& name, std::span<const double> values);
+  void integer(int variable, const std::string& name, std::int64_t value);
+  void hash(int variable, const std::string& name, std::uint64_t value);
+  void fill_value(int variable, float value);
+  void fill_value(int variable, std::int32_t value);
+
+  void put(int variable, std::span<const double> values);
+  void put(int variable, std::span<const float> values);
+  void put(int variable, std::span<const std::int32_t> values);
+
+  /// Closes the file in memory and writes it in one stroke. \throws IoError
+  void commit();
+
+ private:
+  void check(int status, const std::string& what) const;
+
+  std::unique_lock<std::recursive_mutex> lock_;
+  std::filesystem::path target_;
+  int id_ = -1;
+};
+
+/// Reads one file; the lock is taken per call.
+class NetcdfReader {
+ public:
+  /// \throws IoError when the file is missing, cut short or not netCDF
+  explicit NetcdfReader(std::filesystem::path file);
+  ~NetcdfReader();
+  NetcdfReader(const NetcdfReader&) = delete;
+  NetcdfReader& operator=(const NetcdfReader&) = delete;
+
+  const std::filesystem::path& file() const { return file_; }
+  /// By name where the file was built in memory, else in the order of their definition.
+  std::vector<std::string> variables() const;
+  bool has(const std::string& variable) const;
+  /// Names of a variable's dimensions, slowest first.
+  std::vector<std::string> dimensions(const std::string& variable) const;
+  /// 0 for a dimension that is not there.
+  std::size_t length(const std::string& dimension) const;
+  bool is_integer(const std::string& variable) const;
+
+  /// Names of the attributes; an empty `variable` means the file's own.
+  std::vector<std::string> attributes(const std::string& variable) const;
+  /// Empty when there is none of this name and kind.
+  std::optional<std::string> text(const std::string& variable, const std::string& name) const;
+  std::optional<double> number(const std::string& variable, const std::string& name) const;
+  std::optional<std::int64_t> integer(const std::string& variable, const std::string& name) const;
+  std::optional<std::uint64_t> hash(const std::string& variable, const std::string& name) const;
+
+  /// The whole variable. \throws IoError, also for damaged chunks
+  std::vector<double> doubles(const std::string& variable) const;
+  std::vector<std::int32_t> integers(const std::string& variable) const;
+  /// The block of `count` values per dimension that begins at `start`. \throws IoError
+  void floats(const std::string& variable, const std::vector<std::size_t>& start,
+              const std::vector<std::size_t>& count, std::span<float> out) const;
+
+ private:
+  int find(const std::string& variable) const;
+  std::size_t size_of(int variable) const;
+  void check(int status, const std::string& what) const;
+
+  std::filesystem::path file_;
+  int id_ = -1;
+};
+
+}  // namespace sturz

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Maps as CF-1.10 netCDF: opens with its coordinate system in QGIS, gdalinfo, xarray, cdo.
+///
+/// Float maps are [axis][y][x] float32 with _FillValue NaN, counts int32. A layer's extra axis is a
+/// coordinate variable; one whose name ends in "_threshold" carries spp__relative_to_threshold =
+/// "greater_than" (the shape in which the Met Office's IMPROVER stores exceedance probabilities).
+/// No unlimited dimensions, no time stamps: the same layers give the same bytes.
+#pragma once
+
+#include "engine/terrain/raster.hpp"
+
+#include <filesystem>
+
+namespace sturz {
+
+/// Writes the whole stack in one stroke. Global attributes Conventions, title, source and history
+/// are added where `stack.attributes` has none.
+/// \throws IoError when the disk refuses; SetupError for layers that contradict each other (two
+///   axes of one name with other values, axis not increasing, wrong number of values)
+void write_layers(const std::filesystem::path& file, const LayerStack& stack);
+
+/// Reads back what write_layers wrote. \throws IoError
+LayerStack read_layers(const std::filesystem::path& file);
+
+}  // namespace sturz

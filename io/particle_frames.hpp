@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Particles for ParaView: one .vtp (raw appended) per instant and a .pvd index over time.
+#pragma once
+
+#include "engine/simulation/simulation.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// Writes folder/name_000000.vtp, ..., and folder/name.pvd after each frame, so a run that is
+/// killed leaves a series that opens.
+class ParticleFrameWriter {
+ public:
+  /// \throws IoError if the folder cannot be made
+  explicit ParticleFrameWriter(std::filesystem::path folder, std::string name = "particles");
+
+  /// Positions are absolute map coordinates (float64); fields velocity, speed, mass, density,
+  /// pressure and id; arrays that the frame leaves empty are left out. \throws IoError
+  void write(const ParticleFrame& frame);
+
+  const std::filesystem::path& index() const { return index_; }
+  std::size_t n_frames() const { return times_.size(); }
+
+ private:
+  std::filesystem::path folder_, index_;
+  std::string name_;
+  std::vector<double> times_;
+};
+
+}  // namespace sturz

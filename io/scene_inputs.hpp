@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Loads every file that a scene names, once, and checks them against each other.
+#pragma once
+
+#include "scenarios/scenario.hpp"
+#include "scenarios/scene_inputs.hpp"
+
+namespace sturz {
+
+/// Terrain (raster or formula), release pattern on the terrain's grid, hazard grid, notes and
+/// checksums ("fnv1a64:..." per file, named as in the scenario's folder).
+/// \throws SetupError naming key and file, also for a release on nodata cells of the terrain
+SceneInputs load_scene_inputs(const Scenario& scenario);
+
+}  // namespace sturz

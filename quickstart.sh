@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# From a bare Debian 12 to a hazard map: packages, release build, the shipped Zhangjiawan ensemble.
+# Safe to run again: finished work is skipped.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+. scripts/packages.sh
+
+stage="start"
+trap 'code=$?; [ $code -eq 0 ] || echo "quickstart.sh stopped while: $stage (exit code $code)." >&2' EXIT
+
+seconds_since() { echo "$(( SECONDS - $1 )) s"; }
+
+stage="installing packages"
+begin=$SECONDS
+install_packages "${build_packages[@]}"
+install_node
+install_time=$(seconds_since "$begin")
+
+stage="building the release preset"
+begin=$SECONDS
+cmake --preset release -DSTURZ_TESTS=OFF >build.log 2>&1 ||
+  { tail -n 20 build.log >&2; echo "cmake could not configure; the whole text is in build.log." >&2; exit 1; }
+cmake --build build/release --target sturz
+rm -f build.log
+build_time=$(seconds_since "$begin")
+
+stage="running the shipped ensemble"
+begin=$SECONDS
+out=out/zhangjiawan
+build/release/ensemble/app/sturz ensemble scenarios/cases/zhangjiawan/scenario.yaml -o "$out"
+run_time=$(seconds_since "$begin")
+
+stage="looking for the results"
+for file in hazard.nc report.html members.csv; do
+  [ -s "$out/$file" ] || { echo "The run ended without $out/$file." >&2; exit 1; }
+done
+cat <<TEXT
+
+Done. Packages $install_time, build $build_time, ensemble $run_time.
+
+Results are in $PWD/$out
+  report.html   look here first: maps over hillshade, members, where the time went (any browser)
+  hazard.nc     every map with its CRS (QGIS, xarray, ncview)
+  hazard/*.tif  the same maps as cloud-optimised GeoTIFF
+  members.csv   one row per member: what was drawn, how it ended, how far it went
+
+Next: copy scenarios/cases/zhangjiawan/scenario.yaml, put your own terrain in, and run
+  build/release/ensemble/app/sturz describe my.yaml
+TEXT

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the members say at one cell: exceedance curve with its interval, quantiles, or peaks.
+import uPlot from 'uplot';
+
+import {colours, onColourChange} from './colours.js';
+import {numberText, percentText, valueText, wilson} from './data.js';
+
+const named = (tag, className, ...children) => {
+  const node = document.createElement(tag);
+  node.className = className;
+  node.append(...children);
+  return node;
+};
+
+/** P above each threshold; a quantile q of value v says the same thing: P(above v) = 1 - q. */
+function curveData(entries, quantiles, at, page) {
+  const points = entries.map(({plane, values}) => ({x: plane.axis, p: values[at], ring: false}));
+  for (const {layer, plane, values} of quantiles)
+    points.push({x: values[at] * layer.legend.unitFactor, p: 1 - plane.axis, ring: true});
+  const usable = points.filter(({x, p}) => x > 0 && p >= 0).sort((a, b) => a.x - b.x || b.p - a.p);
+  const curve = usable.filter(({x}, i) => i === 0 || x !== usable[i - 1].x);
+  const bounds = curve.map(({p}) => wilson(p, page.valid, page.z));
+  return [
+    curve.map(({x}) => x),
+    curve.map(({p}) => 100 * p),
+    bounds.map(([low]) => 100 * low),
+    bounds.map(([, high]) => 100 * high),
+    curve.map(({p, ring}) => ring ? null : 100 * p),
+    curve.map(({p, ring}) => ring ? 100 * p : null),
+  ];
+}
+
+function drawCurve(box, entries, quantiles, at, page) {
+  const data = curveData(entries, quantiles, at, page);
+  const c = colours();
+  const logarithmic = data[0].at(-1) / data[0][0] > 20;
+  const unit = entries[0].layer.axisUnit;
+  const axis = {stroke: c.muted, grid: {stroke: c.line, width: 1}, ticks: {show: false},
+                font: '11px system-ui, sans-serif', labelFont: '11px system-ui, sans-serif'};
+  new uPlot({
+    width: box.clientWidth, height: 220, legend: {show: false},
+    cursor: {drag: {x: false, y: false}, y: false},
+    scales: {
+      x: {time: false, distr: logarithmic ? 3 : 1},
+      y: {range: [0, 100]},
+    },
+    axes: [
+      {...axis, label: `${entries[0].layer.quantityTitle} [${unit}]`, labelSize: 18, size: 28,
+       values: (_, ticks) => ticks.map((t) => t === null ? null : numberText(t))},
+      {...axis, size: 40, values: (_, ticks) => ticks.map((t) => `${t} %`)},
+    ],
+    series: [
+      {},
+      {stroke: c.accent, width: 2, points: {show: false}},
+      {stroke: 'transparent', points: {show: false}},
+      {stroke: 'transparent', points: {show: false}},
+      {stroke: c.accent, paths: () => null, points: {show: true, size: 7, fill: c.accent}},
+      {stroke: c.accent, paths: () => null, points: {show: true, size: 7, width: 1.6, fill: c.sheet}},
+    ],
+    bands: [{series: [3, 2], fill: c.band}],
+  }, data, box);
+}
+
+function thresholdTable(entries, at, page) {
+  const table = named('table', 'plain cell-table');
+  const body = table.createTBody();
+  for (const {layer, plane, values} of entries) {
+    const p = values[at];
+    const [low, high] = wilson(p, page.valid, page.z);
+    const row = body.insertRow();
+    row.append(named('th', '', plane.label,
+                     plane.resolved === false ? named('small', 'flag', 'not resolved') : ''));
+    row.append(named('td', 'n', valueText(layer.legend, p)));
+    row.append(named('td', 'n soft', `${percentText(low)} – ${percentText(high)}`));
+  }
+  return table;
+}
+
+/** Rows: quantities; columns: quantile levels. */
+function quantileTable(planes, at) {
+  const layers = [...new Set(planes.map((p) => p.layer))];
+  if (layers.length === 0) return '';
+  const table = named('table', 'plain cell-table');
+  const head = table.createTHead().insertRow();
+  head.append(named('th', ''));
+  for (const plane of layers[0].planes)
+    head.append(named('th', 'n', plane.label.replace('\u00a0% quantile', ' %')));
+  const body = table.createTBody();
+  for (const layer of layers) {
+    const row = body.insertRow();
+    row.append(named('th', '', `${layer.quantityTitle}`,
+                     named('small', '', layer.legend.unit)));
+    for (const p of planes.filter((entry) => entry.layer === layer))
+      row.append(named('td', 'n', Number.isNaN(p.values[at])
+                                      ? '–' : numberText(p.values[at] * layer.legend.unitFactor)));
+  }
+  return table;
+}
+
+function peakTable(planes, at) {
+  const table = named('table', 'plain cell-table');
+  const body = table.createTBody();
+  for (const {layer, plane, values} of planes) {
+    const row = body.insertRow();
+    row.append(named('th', '', plane.title), named('td', 'n', valueText(layer.legend, values[at])));
+  }
+  return table;
+}
+
+export function createCellPanel(box, page, planes) {
+  const of = (statistic, quantity) => planes.filter(
+      (p) => p.layer.statistic === statistic && (!quantity || p.layer.quantity === quantity));
+  const curves = [...new Set(planes.filter((p) => p.layer.statistic === 'probability' &&
+                                                  p.layer.planes.length > 1)
+                                 .map((p) => p.layer.quantity))];
+  const reached = planes.find((p) => p.layer.quantity === 'reached');
+  let shown = null;
+  let quantity = curves[0];
+
+  const draw = () => {
+    if (!shown) {
+      box.replaceChildren(named('p', 'note', page.single
+          ? 'Click a cell to read all its peaks.'
+          : 'Click a cell to see its exceedance curve and quantiles.'));
+      return;
+    }
+    const {at, coordinate, height} = shown;
+    const place = `x ${Math.round(coordinate[0])}, y ${Math.round(coordinate[1])}` +
+        (Number.isFinite(height) ? `, ${Math.round(height)} m` : '');
+    box.replaceChildren(named('h4', '', 'At this cell ', named('small', '', place)));
+    const touched = at >= 0 &&
+        (reached ? reached.values[at] > 0 : planes.some((p) => p.values[at] > 0));
+    if (!touched) {
+      box.append(named('p', 'note', page.single ? 'The flow did not come here.'
+                                                : 'No valid member came here.'));
+      return;
+    }
+    if (reached) {
+      const p = reached.values[at];
+      const [low, high] = wilson(p, page.valid, page.z);
+      box.append(named('p', 'cell-line',
+                       `Reached by ${Math.round(p * page.valid)} of ${page.valid} members: `,
+                       named('b', '', percentText(p)),
+                       ` (${percentText(low)} – ${percentText(high)})`));
+    }
+    if (quantity) {
+      const entries = of('probability', quantity);
+      const chart = named('div', 'cell-chart');
+      box.append(named('p', 'chart-title', `Share of members above a threshold`), chart);
+      drawCurve(chart, entries, of('quantile', quantity), at, page);
+      box.append(named('p', 'note', 'Dots: thresholds. Rings: quantiles. Band: 95\u00a0% interval.'),
+                 thresholdTable(entries, at, page));
+    }
+    const quantiles = of('quantile');
+    if (quantiles.length > 0)
+      box.append(named('p', 'chart-title', 'Quantiles over the members'), quantileTable(quantiles, at));
+    if (!quantity && quantiles.length === 0) box.append(peakTable(planes, at));
+  };
+  onColourChange(draw);
+  addEventListener('resize', () => shown && draw());
+  draw();
+
+  return {
+    show(at, coordinate, height) {
+      shown = {at, coordinate, height};
+      draw();
+    },
+    /** The curve follows the map's quantity where that has thresholds. */
+    follow(next) {
+      if (!curves.includes(next) || next === quantity) return;
+      quantity = next;
+      draw();
+    },
+  };
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The map's panel: which quantity, which statistic, which threshold; legend, hover, opacity.
+import {createCellPanel} from './cell.js';
+import {cellIndex, classOf, numberText, percentText, unpack, valueText, wilson} from './data.js';
+import {createMap} from './map.js';
+
+const statisticNames = {
+  probability: 'Probability', quantile: 'Quantile', mean: 'Mean', peak: 'Peak', value: 'Value',
+};
+const capital = (text) => text[0].toUpperCase() + text.slice(1);
+
+export function element(tag, attributes = {}, ...children) {
+  const node = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+  node.append(...children);
+  return node;
+}
+
+/** A row of buttons of which one is pressed; `entries` are {key, label, title, flag}. */
+function chips(label, entries, active, pick) {
+  const row = element('div', {class: 'chips', role: 'group', 'aria-label': label});
+  for (const entry of entries) {
+    const chip = element('button', {
+      type: 'button', 'aria-pressed': String(entry.key === active), 'data-key': entry.key,
+    }, entry.label);
+    if (entry.title) chip.title = entry.title;
+    if (entry.flag) chip.append(element('span', {class: 'flag'}, entry.flag));
+    chip.addEventListener('click', () => pick(entry.key));
+    row.append(chip);
+  }
+  return row;
+}
+
+/** All planes of a page as {layer, plane, values}, unpacked. */
+async function loadPlanes(maps) {
+  const jobs = [];
+  for (const layer of maps.layers)
+    for (const plane of layer.planes)
+      jobs.push(unpack(plane, maps.cells.cols).then((values) => ({layer, plane, values})));
+  return Promise.all(jobs);
+}
+
+export async function startMaps(page) {
+  const maps = page.maps;
+  const planes = await loadPlanes(maps);
+  const heights = maps.ground ? await unpack(maps.ground, maps.ground.grid.cols) : null;
+  const app = document.getElementById('map-app');
+  app.hidden = false;
+
+  const pickers = element('div', {class: 'pickers'});
+  const title = element('h3', {class: 'map-title'});
+  const target = element('div', {id: 'map', class: 'map', tabindex: '0', 'aria-label': 'Map'});
+  const hover = element('div', {class: 'hover', 'aria-live': 'off'});
+  const legendBox = element('div', {class: 'legend-box'});
+  const comment = element('p', {class: 'note map-comment'});
+  const cellBox = element('div', {class: 'cell-box'});
+  const opacity = element('input', {
+    type: 'range', min: '0', max: '100', value: '78', id: 'pick-opacity',
+  });
+  const contours = element('input', {type: 'checkbox', id: 'pick-contours'});
+  contours.checked = true;
+  const switches = element(
+      'div', {class: 'switches'}, element('label', {for: 'pick-opacity'}, 'Opacity', opacity));
+  if (heights)
+    switches.append(element('label', {for: 'pick-contours'}, contours, 'Contours'));
+  app.append(
+      pickers,
+      element('div', {class: 'map-grid'},
+              element('div', {class: 'map-column'}, title,
+                      element('div', {class: 'map-box'}, target, hover), comment),
+              element('aside', {class: 'map-side'}, legendBox, switches, cellBox)));
+
+  const cellPanel = createCellPanel(cellBox, page, planes);
+  const reached = planes.find((p) => p.layer.quantity === 'reached');
+  let current = planes.find((p) => p.layer === maps.layers[maps.start]);
+
+  const groundHeight = ([x, y]) => {
+    const at = heights ? cellIndex(maps.ground.grid, x, y) : -1;
+    return at < 0 ? NaN : heights[at];
+  };
+  const showHover = (coordinate) => {
+    hover.replaceChildren();
+    hover.hidden = coordinate === null;
+    for (const item of legendBox.querySelectorAll('.on')) item.classList.remove('on');
+    if (coordinate === null) return;
+    const [x, y] = coordinate;
+    const at = cellIndex(maps.cells, x, y);
+    const value = at < 0 ? NaN : current.values[at];
+    const legend = current.layer.legend;
+    let text = at < 0 ? '–' : valueText(legend, value);
+    if (legend.probability && value >= 0 && page.valid > 0) {
+      const [low, high] = wilson(value, page.valid, page.z);
+      text += ` (${percentText(low)} – ${percentText(high)})`;
+    }
+    if (at < 0 || (reached && !(reached.values[at] > 0))) text = 'not reached';
+    hover.append(element('b', {}, text), ` x ${Math.round(x)} y ${Math.round(y)}`);
+    const z = groundHeight(coordinate);
+    if (Number.isFinite(z)) hover.append(` · ground ${numberText(Math.round(z))} m`);
+    const k = at < 0 ? -1 : classOf(legend, value);
+    if (k >= 0) legendBox.querySelector(`[data-class="${k}"]`)?.classList.add('on');
+  };
+  const view = createMap(target, maps, heights, {
+    hover: showHover,
+    click(coordinate) {
+      const at = cellIndex(maps.cells, ...coordinate);
+      view.mark(coordinate);
+      cellPanel.show(at, coordinate, groundHeight(coordinate));
+    },
+  });
+  hover.hidden = true;
+
+  const drawLegend = (legend) => {
+    const list = element('ul', {class: 'legend'});
+    if (legend.unit) list.append(element('li', {class: 'unit'}, legend.unit));
+    legend.classes.forEach((c, k) => {
+      const swatch = element('span', {class: 'swatch'});
+      swatch.style.background = c.colour;
+      list.append(element('li', {'data-class': k}, swatch, c.label));
+    });
+    legendBox.replaceChildren(list);
+  };
+
+  const show = (next) => {
+    current = next;
+    const {layer, plane, values} = current;
+    title.textContent = plane.title;
+    comment.textContent = layer.comment ? `${capital(layer.comment)}.` : '';
+    drawLegend(layer.legend);
+    view.show(layer.legend, values);
+    cellPanel.follow(layer.quantity);
+    drawPickers();
+  };
+
+  /** Goes to a quantity and statistic; keeps what was chosen where it exists there. */
+  const go = (quantity, statistic) => {
+    const same = planes.filter((p) => p.layer.quantity === quantity);
+    const wanted = same.filter((p) => p.layer.statistic === statistic);
+    const from = wanted.length > 0 ? wanted : same.filter((p) => p.layer === same[0].layer);
+    const kept = from.find((p) => p.plane.label === current.plane.label);
+    const middle = from.find((p) => p.plane.label === 'median');
+    show(kept ?? middle ?? from.find((p) => p.plane.resolved !== false) ?? from[0]);
+  };
+
+  const drawPickers = () => {
+    const {quantity, statistic} = current.layer;
+    const focused = document.activeElement?.dataset?.key;
+    const quantities = [...new Set(planes.map((p) => p.layer.quantity))];
+    const same = planes.filter((p) => p.layer.quantity === quantity);
+    const statistics = [...new Set(same.map((p) => p.layer.statistic))];
+    const choices = same.filter((p) => p.layer.statistic === statistic);
+    const rows = [chips(
+        'Quantity',
+        quantities.map((key) => ({
+                         key, label: capital(key),
+                         title: planes.find((p) => p.layer.quantity === key).layer.quantityTitle,
+                       })),
+        quantity, (key) => go(key, statistic))];
+    if (statistics.length > 1)
+      rows.push(chips(
+          'Statistic', statistics.map((key) => ({key, label: statisticNames[key] ?? key})),
+          statistic, (key) => go(quantity, key)));
+    if (choices.length > 1)
+      rows.push(chips(
+          'Level',
+          choices.map((p, k) => ({
+                        key: `level-${k}`, label: p.plane.label,
+                        flag: p.plane.resolved === false ? 'not resolved' : '',
+                      })),
+          `level-${choices.indexOf(current)}`, (key) => show(choices[Number(key.slice(6))])));
+    pickers.replaceChildren(...rows);
+    if (focused) pickers.querySelector(`[data-key="${focused}"]`)?.focus();
+  };
+
+  opacity.addEventListener('input', () => view.setOpacity(Number(opacity.value) / 100));
+  contours.addEventListener('change', () => view.setContours(contours.checked));
+  show(current);
+}

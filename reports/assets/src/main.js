@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Wakes the page up: sortable table, charts, and maps in place of the still pictures.
+import 'ol/ol.css';
+import 'uplot/dist/uPlot.min.css';
+import '../page.css';
+
+import {drawCharts} from './charts.js';
+import {startMaps} from './controls.js';
+import {makeSortable} from './table.js';
+
+const page = JSON.parse(document.getElementById('sturz-data').textContent);
+
+makeSortable(document.getElementById('member-table'));
+
+const spread = document.getElementById('spread');
+if (spread) {
+  spread.hidden = false;
+  drawCharts(page);
+}
+
+if (page.maps) {
+  startMaps(page).then(
+      () => document.documentElement.classList.add('live-maps'),
+      (error) => {
+        const note = document.getElementById('still-note');
+        note.textContent = `These are still pictures: the live maps could not start (${error.message}).`;
+      });
+}

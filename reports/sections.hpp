@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The page's parts as HTML text, one function each, in the order in which they are read.
+#pragma once
+
+#include "reports/headline.hpp"
+#include "reports/map_scene.hpp"
+#include "reports/report.hpp"
+
+#include <string>
+
+namespace sturz {
+
+/// Title, one line of origin, links to the parts below.
+std::string header_html(const ReportInput& input, const Headline& h);
+/// Warnings of the run and of its members; empty text when there are none.
+std::string warnings_html(const ReportInput& input, const Headline& h);
+std::string headline_html(const ReportInput& input, const Headline& h);
+/// Map panel, and still figures for readers without script. `scene`, `maps` may be null.
+std::string map_html(const ReportInput& input, const MapScene* scene, const LayerStack* maps);
+/// Places for histogram, scatter plots, convergence; the script fills them.
+std::string charts_html(const ReportInput& input, const Headline& h);
+std::string members_html(const ReportInput& input, const Headline& h);
+/// Description, timings, notes.
+std::string computation_html(const ReportInput& input, const Headline& h);
+/// Manifest and scenario text.
+std::string provenance_html(const ReportInput& input);
+/// How the numbers are meant.
+std::string reading_html(const ReportInput& input);
+
+/// Short name of a sampled key: its last part where that is unique, else the whole path.
+std::string key_label(const ReportTable& samples, std::size_t column);
+
+}  // namespace sturz

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/assemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/error.hpp"
+#include "engine/core/sum.hpp"
+#include "engine/effects/gravity.hpp"
+#include "engine/effects/motion.hpp"
+#include "engine/simulation/parts.hpp"
+#include "scenarios/scene_plan.hpp"
+#include "scenarios/schema.hpp"
+
+namespace sturz {
+namespace {
+
+State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
+  State state(plan.bed, plan.domain);
+  state.threads = std::max(1, threads);
+  const Release& r = plan.release;
+  ParticleSet& p = state.grains;
+  p.resize(r.x.size());
+  p.x = r.x;
+  p.y = r.y;
+  p.z = r.z;
+  p.mass = r.mass;
+  const auto& v = s.release.velocity_m_s;
+  std::fill(p.vx.begin(), p.vx.end(), v[0]);
+  std::fill(p.vy.begin(), p.vy.end(), v[1]);
+  std::fill(p.vz.begin(), p.vz.end(), v[2]);
+  Sum released;
+  for (double m : p.mass) released.add(m);
+  state.ledger.released_mass = released.value();
+  return state;
+}
+
+/// The effects that a scene calls for, in the order of the step.
+Step make_step(const ScenePlan& plan, State& state) {
+  Step step;
+  add_grain_stress(step, state, plan.stress, plan.release.depth);
+  add_gravity(step, state);
+  add_terrain_contact(step, state, plan.contact);
+  add_motion(step, state, {plan.stress.spacing, plan.stress.smoothing_length});
+  refresh_motion(state, 0);
+  state.ledger.kinetic_0 = state.ledger.kinetic;
+  return step;
+}
+
+void require_numbers(const Scenario& s) {
+  const auto uncertain = uncertain_keys(s);
+  require(uncertain.empty(), uncertain.empty()
+                                 ? ""
+                                 : uncertain.front().path +
+                                       ": is a distribution where a number is needed (one member "
+                                       "is one set of numbers). Sample it first.");
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string out;
+  for (const auto& p : parts) out += (out.empty() ? "" : "; ") + p;
+  return out;
+}
+
+PeakMaps make_peaks(const ScenePlan& plan, const Grid& grid) {
+  const double dx = plan.stress.spacing;
+  return PeakMaps({grid, dx, plan.stress.reference_density, std::max(0.05, dx / 10)});
+}
+
+StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
+  return StopRule({s.numerics.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
+                   plan.release.max_thickness_m, plan.available_energy_j});
+}
+
+}  // namespace
+
+Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member,
+                    int threads) {
+  require_numbers(numbers);
+  const ScenePlan plan = plan_scene(numbers, inputs, member);
+  State state = make_state(numbers, plan, threads);
+  Step step = make_step(plan, state);
+  auto parts = std::make_unique<SimulationParts>(
+      SimulationParts{std::move(state), std::move(step), make_peaks(plan, inputs.hazard_grid),
+                      make_stop(numbers, plan)});
+  parts->member = member;
+  parts->spacing_m = numbers.numerics.spacing_m;
+  parts->sound_speed_m_s = plan.stress.sound_speed;
+  parts->reference_density = plan.stress.reference_density;
+  // A hundredth of the acoustic limit at v_ref: below it something has run away.
+  parts->least_dt_s = 0.01 * plan.stress.courant * plan.stress.smoothing_length /
+                      (1.1 * plan.stress.sound_speed);
+  parts->release_layers = plan.release.layers;
+  parts->release_volume_m3 = plan.release.volume_m3;
+  for (std::size_t i = 0; i < plan.release.x.size(); ++i) {
+    const double share = plan.release.mass[i] / parts->state.ledger.released_mass;
+    parts->release_x_m += share * plan.release.x[i];
+    parts->release_y_m += share * plan.release.y[i];
+  }
+  parts->release_top_m = *std::max_element(plan.release.z.begin(), plan.release.z.end());
+  parts->warnings = joined(plan_warnings(numbers, plan));
+  parts->start_x = plan.release.x;
+  parts->start_y = plan.release.y;
+  return Simulation(std::move(parts));
+}
+
+SceneDescription describe(const Scenario& s, const SceneInputs& inputs,
+                          double updates_per_second) {
+  require_numbers(s);
+  const ScenePlan plan = plan_scene(s, inputs, 0);
+  State state = make_state(s, plan, 1);
+  const Step step = make_step(plan, state);
+
+  SceneDescription d;
+  const bool walls = !s.domain.walls.empty(), periodic = !s.domain.periodic.empty();
+  d.effects = {
+      {"gravity", true, "always"},
+      {"terrain contact", true, "always: friction_coefficient, pore_pressure_ratio of `basal`"},
+      {"grain stress", true, "`grains`: elastic + mu(I), 3-D, full stress"},
+      {"walls", walls, walls ? "`domain.walls`" : "no `domain.walls`"},
+      {"periodic images", periodic, periodic ? "`domain.periodic`" : "no `domain.periodic`"},
+      {"excavation", s.release.surface == "pre_failure",
+       "`release.surface: " + s.release.surface + "`"},
+  };
+  d.passes = step.pass_names();
+  d.formulation = "full_stress";
+  d.formulation_reason = "`formulation: full_stress`";
+  d.n_particles = state.grains.size();
+  // Lists and records exist from the first step on; their size follows from ~250 entries a group.
+  constexpr std::size_t lists_per_particle = 64 + 13 * 4 + 2 * (250 / 16) * 4 + 32;
+  d.memory_bytes = d.n_particles * (state.grains.bytes_per_particle() + 24 + lists_per_particle) +
+                   inputs.hazard_grid.n_cells() * 60;
+  d.spacing_m = s.numerics.spacing_m;
+  d.release_volume_m3 = plan.release.volume_m3;
+  d.release_area_m2 = plan.release.area_m2;
+  d.layers = plan.release.layers;
+  d.reference_speed_m_s = plan.reference_speed_m_s;
+  d.sound_speed_m_s = plan.stress.sound_speed;
+  state.motion.max_speed = 0.5 * plan.reference_speed_m_s;
+  const StepLimit limit = step.limit(state);
+  d.dt_s = limit.dt;
+  d.binding_limit = limit.name;
+  d.n_steps = std::ceil(s.numerics.end_time_s / limit.dt);
+  d.predicted_seconds =
+      updates_per_second > 0 ? d.n_steps * d.n_particles / updates_per_second : 0;
+  d.warnings = plan_warnings(s, plan);
+  return d;
+}
+
+}  // namespace sturz

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Named scenes built in code: tested, timed and shown from one definition.
+///
+/// All of them stand on synthetic ground and hold fixed numbers; change what a test varies with
+/// the arguments, or on the returned plain data.
+#pragma once
+
+#include "scenarios/scenario.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// A loose block on an even 30 degree slope that it slides down with constant acceleration.
+/// \param friction_coefficient of the base; \param pore_pressure_ratio r_u of the base
+Scenario block_on_plane(double friction_coefficient = 0.46630765815499858,  // tan 25 deg
+                        double pore_pressure_ratio = 0);
+
+/// A granular column of length 1 m and height `aspect` behind a smooth wall at x = 0, one slice of
+/// four particles thick with period in y, that collapses over level ground.
+/// \param particles_along particles over the column's length
+Scenario column_collapse(double aspect = 1, int particles_along = 16);
+
+/// A cap-shaped pile on level ground, flatter than its friction angle: it must stay where it is.
+Scenario pile(double spacing_m = 1);
+
+/// A box of grains that slides over the edge of a 20 m high, 60 degree cliff.
+Scenario cliff(double spacing_m = 1);
+
+/// A sheet of `layers` particles on a 30 degree slope, periodic in x and y, base tan 25 degrees.
+Scenario thin_sheet(int layers = 1);
+
+/// A round mass that falls 100 m on a 30 degree slope and runs out on level ground; base tan 20
+/// degrees. \param azimuth_deg downhill direction, to test that the grid's axes do not matter
+Scenario ramp_slide(double azimuth_deg = 90, double spacing_m = 3);
+
+/// The shipped Zhangjiawan case with its median numbers on a coarse ground, for quick runs.
+Scenario zhangjiawan_small(double spacing_m = 12);
+
+/// Names for catalogue_scene: the functions above with their default arguments.
+std::vector<std::string> catalogue_names();
+/// Throws SetupError on an unknown name.
+Scenario catalogue_scene(const std::string& name);
+
+}  // namespace sturz

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The numbers that follow from a scene before any engine object is made: shared by assemble and
+/// describe, so that what is described is what is run.
+#pragma once
+
+#include <cstdint>
+
+#include "engine/effects/grain_stress.hpp"
+#include "engine/effects/terrain_contact.hpp"
+#include "engine/particles/release.hpp"
+#include "engine/core/domain.hpp"
+#include "scenarios/scenario.hpp"
+#include "scenarios/scene_inputs.hpp"
+
+namespace sturz {
+
+struct ScenePlan {
+  Terrain bed;                    ///< of this member, excavation laid over the shared raster
+  Domain domain;
+  Release release;
+  GrainStressSettings stress;
+  ContactSettings contact;
+  double reference_speed_m_s = 0; ///< v_ref of the fastest expected mass point
+  double available_energy_j = 0;  ///< release mass falling to the lowest ground in reach
+
+  explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
+};
+
+/// Fewer layers than this are 'thin': the footprint of a 3-D flow is then wrong by 15-100 %.
+inline constexpr double thin_layers = 3;
+
+/// \throws SetupError naming the key
+ScenePlan plan_scene(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member);
+
+/// What a reader of the result has to know: thin release, coarse grains, coarse maps.
+std::vector<std::string> plan_warnings(const Scenario& numbers, const ScenePlan& plan);
+
+}  // namespace sturz

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys that say what moves and on what: grains, basal, formulation.
+#include "scenarios/schema_rows.hpp"
+
+namespace sturz::schema_rows {
+namespace {
+
+GrainsSpec& made_grains(Scenario& s) { return s.grains ? *s.grains : s.grains.emplace(); }
+
+constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
+                                [](Scenario& s) -> Scenario& { return s; }};
+constexpr Block<GrainsSpec> grains{
+    [](const Scenario& s) { return s.grains ? &*s.grains : nullptr; }, made_grains};
+constexpr Block<FrictionLaw> friction{[](const Scenario& s) {
+                                        return s.grains && s.grains->friction ? &*s.grains->friction
+                                                                              : nullptr;
+                                      },
+                                      [](Scenario& s) -> FrictionLaw& {
+                                        auto& law = made_grains(s).friction;
+                                        return law ? *law : law.emplace();
+                                      }};
+constexpr Block<BasalSpec> basal{[](const Scenario& s) { return &s.basal; },
+                                 [](Scenario& s) -> BasalSpec& { return s.basal; }};
+
+void add_grains(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(key(grains, &GrainsSpec::density_kg_m3,
+                     {"grains.density_kg_m3", uncertain, "kg m-3", 200, 10000,
+                      "Density of the grain material itself, without pores."}));
+  keys.push_back(above_min(key(
+      grains, &GrainsSpec::diameter_m,
+      {"grains.diameter_m", uncertain, "m", 0, 100, "Grain diameter in the inertial number."})));
+  keys.push_back(key(grains, &GrainsSpec::solid_fraction,
+                     {"grains.solid_fraction", uncertain, "1", 0.05, 0.85,
+                      "Share of the bulk volume that is grain at the start."}));
+  keys.push_back(key(friction, &FrictionLaw::static_coefficient,
+                     {"grains.friction.static", uncertain, "1", 0, 2,
+                      "Internal friction coefficient of slow flow in mu(I)."}));
+  keys.push_back(key(friction, &FrictionLaw::dynamic_coefficient,
+                     {"grains.friction.dynamic", uncertain, "1", 0, 3,
+                      "Internal friction coefficient of very fast flow in mu(I)."}));
+  keys.push_back(key(friction, &FrictionLaw::inertial_number_scale,
+                     {"grains.friction.inertial_number_scale", uncertain, "1", 1e-4, 10,
+                      "Inertial number at which mu(I) is half way from static to dynamic."}));
+  keys.push_back(key(grains, &GrainsSpec::friction_angle_deg,
+                     {"grains.friction_angle_deg", uncertain, "degree", 0, 60,
+                      "Internal friction angle without rate dependence, instead of "
+                      "grains.friction."}));
+  keys.push_back(
+      key(grains, &GrainsSpec::cohesion_pa,
+          {"grains.cohesion_pa", uncertain, "Pa", 0, no_limit, "Cohesion of the material."}));
+  keys.push_back(key(
+      grains, &GrainsSpec::poisson_ratio,
+      {"grains.poisson_ratio", uncertain, "1", 0, 0.49, "Poisson's ratio of the elastic part."}));
+}
+
+void add_basal(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(key(basal, &BasalSpec::friction_coefficient,
+                     {"basal.friction_coefficient", uncertain, "1", 0, 2,
+                      "Coulomb friction coefficient between mass and ground."}));
+  keys.push_back(key(basal, &BasalSpec::pore_pressure_ratio,
+                     {"basal.pore_pressure_ratio", uncertain, "1", 0, 0.99,
+                      "Pore pressure over normal stress at the base, r_u."}));
+  keys.push_back(key(
+      basal, &BasalSpec::cohesion_pa,
+      {"basal.cohesion_pa", uncertain, "Pa", 0, no_limit, "Cohesion between mass and ground."}));
+  keys.push_back(key(basal, &BasalSpec::restitution,
+                     {"basal.restitution", uncertain, "1", 0, 0.95,
+                      "Share of the normal speed that a rebound from the ground keeps."}));
+}
+
+}  // namespace
+
+void add_material_keys(std::vector<KeyInfo>& keys) {
+  add_grains(keys);
+  add_basal(keys);
+  keys.push_back(
+      with_choices(text_key(scene, &Scenario::formulation, "formulation", ValueKind::choice,
+                            "full_stress: three-dimensional particles with a full stress tensor."),
+                   {"full_stress"}, {"auto", "depth_averaged"}));
+}
+
+}  // namespace sturz::schema_rows

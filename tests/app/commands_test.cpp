@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// run, describe, terrain, schema, report.
+#include "tests/app/app_fixture.hpp"
+
+#include <fstream>
+#include <sstream>
+
+namespace sturz::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Commands : public App {};
+
+TEST_F(Commands, VersionNamesCommitAndCompiler) {
+  const Ended ended = sturz({"--version"});
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_THAT(ended.out, ::testing::MatchesRegex("sturz [0-9.]+ \\(.+, .+, .+\\)\n"));
+}
+
+TEST_F(Commands, RunTakesMediansAndLeavesPeaksAndAReport) {
+  const Ended ended = sturz({"run", path("scene.yaml"), "-o", path("one"), "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  for (const char* file : {"scenario.yaml", "manifest.json", "peaks.nc", "report.html", "log.txt"})
+    EXPECT_TRUE(exists(std::string("one/") + file)) << file;
+  EXPECT_THAT(read("one/scenario.yaml"), HasSubstr("friction_coefficient: 0.5"));
+  const auto done = event(ended, "done");
+  EXPECT_GT(done.at("scalars").value("front_travel_m", 0.0), 1.0);
+  EXPECT_EQ(done.at("scalars").value("n_particles", 0.0), 300.0);
+}
+
+TEST_F(Commands, RunGivesTheSameStateAtOneAndTwoThreads) {
+  const Ended one = sturz({"run", path("scene.yaml"), "-o", path("a"), "--json", "--threads", "1"});
+  const Ended two = sturz({"run", path("scene.yaml"), "-o", path("b"), "--json", "--threads", "2"});
+  EXPECT_EQ(event(one, "done").value("state_hash", "a"),
+            event(two, "done").value("state_hash", "b"));
+}
+
+TEST_F(Commands, RunHonoursOverrides) {
+  const Ended ended = sturz({"run", path("scene.yaml"), "-o", path("one"), "--set",
+                             "basal.friction_coefficient=0.31", "--set", "numerics.end_time_s=1"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(read("one/scenario.yaml"), HasSubstr("friction_coefficient: 0.31"));
+  EXPECT_THAT(read("one/scenario.yaml"), HasSubstr("end_time_s: 1"));
+}
+
+TEST_F(Commands, RunWritesParticleFrames) {
+  const Ended ended = sturz({"run", path("scene.yaml"), "-o", path("one"), "--particles", "1"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  std::size_t frames = 0, indices = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(path("one"))) {
+    frames += entry.path().extension() == ".vtp";
+    indices += entry.path().extension() == ".pvd";
+  }
+  EXPECT_GE(frames, 3u);
+  EXPECT_EQ(indices, 1u);
+}
+
+TEST_F(Commands, DescribeComputesNothingAndSaysWhatWillBe) {
+  const Ended words = sturz({"describe", path("scene.yaml")});
+  ASSERT_EQ(words.exit_code, 0) << words.err;
+  EXPECT_THAT(words.out, HasSubstr("particles"));
+  EXPECT_THAT(words.out, HasSubstr("layers"));
+  EXPECT_FALSE(exists("out"));
+  const Ended json = sturz({"describe", path("scene.yaml"), "--json"});
+  ASSERT_EQ(json.exit_code, 0) << json.err;
+  const auto said = nlohmann::json::parse(json.out);
+  EXPECT_EQ(said.value("n_particles", 0), 300);
+  EXPECT_NEAR(said.value("layers", 0.0), 3.0, 0.01);
+  EXPECT_GT(said.value("predicted_seconds", 0.0), 0.0);
+}
+
+TEST_F(Commands, DescribeWarnsWhereTheFlowIsThin) {
+  const Ended ended = sturz({"describe", path("scene.yaml"), "--set", "release.thickness_m=2"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("layers"));
+}
+
+TEST_F(Commands, TerrainWritesRasters) {
+  const Ended ended = sturz({"terrain", "plane", "-o", path("ground"), "--set", "slope_deg=20"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(exists("ground/elevation.tif"));
+  EXPECT_EQ(sturz({"terrain", "plane", "-o", path("g2"), "--set", "slope=20"}).exit_code, 1);
+  EXPECT_EQ(sturz({"terrain", "plain", "-o", path("g2")}).exit_code, 1);
+  const Ended scene = sturz({"terrain", path("scene.yaml"), "-o", path("ground2")});
+  ASSERT_EQ(scene.exit_code, 0) << scene.err;
+  EXPECT_TRUE(exists("ground2/elevation.tif"));
+  EXPECT_TRUE(exists("ground2/release.tif"));
+}
+
+TEST_F(Commands, SchemaIsJsonAndKnowsTheKeys) {
+  const Ended ended = sturz({"schema"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(nlohmann::json::parse(ended.out).at("properties").contains("basal"));
+}
+
+/// Dotted paths of all keys below a schema object; a shape's own numbers are not keys.
+void collect(const nlohmann::json& object, const std::string& path,
+             std::vector<std::string>& keys) {
+  for (const auto& [name, value] : object.at("properties").items()) {
+    const std::string here = path.empty() ? name : path + "." + name;
+    if (value.contains("properties") && here != "terrain.synthetic")
+      collect(value, here, keys);
+    else
+      keys.push_back(here);
+  }
+}
+
+TEST_F(Commands, TheUserGuideNamesEveryKeyOfTheSchema) {
+  std::ostringstream guide;
+  guide << std::ifstream(STURZ_SOURCE_DIR "/docs/user_guide.md").rdbuf();
+  std::vector<std::string> keys;
+  collect(nlohmann::json::parse(sturz({"schema"}).out), "", keys);
+  EXPECT_GT(keys.size(), 40u);
+  for (const std::string& key : keys) EXPECT_THAT(guide.str(), HasSubstr("`" + key + "`"));
+}
+
+TEST_F(Commands, ReportIsWrittenAgain) {
+  ASSERT_EQ(sturz({"ensemble", path("scene.yaml"), "-o", path("out"), "-n", "2"}).exit_code, 0);
+  std::filesystem::remove(path("out/report.html"));
+  const Ended ended = sturz({"report", path("out")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(exists("out/report.html"));
+  EXPECT_EQ(sturz({"report", path("nowhere")}).exit_code, 1);
+}
+
+}  // namespace
+}  // namespace sturz::test

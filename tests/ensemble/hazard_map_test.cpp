@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/hazard_map.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/wilson.hpp"
+#include "tests/support/memory_members.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+using test::MemoryMembers;
+using test::random_member;
+using test::small_grid;
+using testing::HasSubstr;
+
+/// An ensemble of random members with every kind of outcome among them.
+class HazardMapOfRandomMembers : public testing::Test {
+ protected:
+  HazardMapOfRandomMembers() : source_(small_grid(9, 13)) {
+    std::mt19937 random(31);
+    const Outcome outcomes[] = {Outcome::settled,  Outcome::out_of_time, Outcome::left_terrain,
+                                Outcome::diverged, Outcome::failed,      Outcome::settled};
+    for (int m = 0; m < 30; ++m) {
+      MemberResult r = random_member(m, source_.grid(), random);
+      r.outcome = outcomes[m % 6];
+      source_.add(r);
+      if (is_valid(r.outcome)) valid_.push_back(r);
+    }
+    map_ = make_hazard_map(source_, spec_, {.spacing_m = 3, .n_planned = 32, .attributes = {}});
+  }
+
+  /// The slow way: values of all valid members in one cell.
+  std::vector<double> values(PeakLayer layer, int row, int col) const {
+    std::vector<double> result;
+    for (const MemberResult& r : valid_) result.push_back(MemoryMembers::value(r, layer, row, col));
+    return result;
+  }
+
+  float at(const std::string& name, int row, int col, std::size_t plane = 0) const {
+    const Layer* layer = map_.find(name);
+    if (!layer) {
+      ADD_FAILURE() << "no layer " << name;
+      return nan_f;
+    }
+    return layer->values[plane * map_.grid.n_cells() + map_.grid.index(row, col)];
+  }
+
+  template <class Check>
+  void for_cells(Check check) const {
+    for (int row = 0; row < map_.grid.n_rows; ++row)
+      for (int col = 0; col < map_.grid.n_cols; ++col) check(row, col);
+  }
+
+  void expect_probability(const std::string& name, int row, int col, std::size_t plane, int hits) {
+    const int n = static_cast<int>(valid_.size());
+    const ProbabilityBounds bounds = wilson_interval(hits, n);
+    EXPECT_EQ(at(name, row, col, plane), static_cast<float>(static_cast<double>(hits) / n));
+    EXPECT_EQ(at(name + "_lower", row, col, plane), static_cast<float>(bounds.lower));
+    EXPECT_EQ(at(name + "_upper", row, col, plane), static_cast<float>(bounds.upper));
+  }
+
+  static double quantile(std::vector<double> x, double q) {
+    std::sort(x.begin(), x.end());
+    const double place = q * static_cast<double>(x.size() - 1);
+    const auto i = static_cast<std::size_t>(place);
+    return i + 1 < x.size() ? x[i] + (place - static_cast<double>(i)) * (x[i + 1] - x[i]) : x[i];
+  }
+
+  MemoryMembers source_;
+  HazardSpec spec_;
+  std::vector<MemberResult> valid_;
+  LayerStack map_;
+};
+
+const struct {
+  PeakLayer layer;
+  std::string word;
+  std::vector<double> HazardSpec::*thresholds;
+  double si;
+} peaks[] = {{PeakLayer::thickness, "thickness", &HazardSpec::thickness_m, 1},
+             {PeakLayer::speed, "speed", &HazardSpec::speed_m_s, 1},
+             {PeakLayer::energy, "energy", &HazardSpec::energy_kj_m2, 1000},
+             {PeakLayer::pressure, "pressure", &HazardSpec::pressure_kpa, 1000}};
+
+TEST_F(HazardMapOfRandomMembers, CountsExceedanceAsBruteForceDoes) {
+  for (const auto& peak : peaks)
+    for_cells([&](int row, int col) {
+      const std::vector<double> x = values(peak.layer, row, col);
+      const std::vector<double>& thresholds = spec_.*peak.thresholds;
+      for (std::size_t t = 0; t < thresholds.size(); ++t) {
+        const auto hits = std::count_if(x.begin(), x.end(),
+                                        [&](double v) { return v > thresholds[t] * peak.si; });
+        expect_probability("probability_of_peak_" + peak.word + "_above_threshold", row, col, t,
+                           static_cast<int>(hits));
+      }
+    });
+}
+
+TEST_F(HazardMapOfRandomMembers, CountsReachedCellsByTheirArrival) {
+  for_cells([&](int row, int col) {
+    const std::vector<double> t = values(PeakLayer::arrival, row, col);
+    const auto hits = std::count_if(t.begin(), t.end(), [](double v) { return !std::isnan(v); });
+    expect_probability("probability_reached", row, col, 0, static_cast<int>(hits));
+  });
+}
+
+TEST_F(HazardMapOfRandomMembers, TakesMeansAndQuantilesOverAllValidMembers) {
+  for (const auto& [layer, name] :
+       {std::pair<PeakLayer, std::string>{PeakLayer::deposit, "deposit_thickness"},
+        {PeakLayer::thickness, "peak_thickness"},
+        {PeakLayer::speed, "peak_speed"},
+        {PeakLayer::energy, "peak_energy"},
+        {PeakLayer::pressure, "peak_pressure"}})
+    for_cells([&, &which = layer, &word = name](int row, int col) {
+      const std::vector<double> x = values(which, row, col);
+      double sum = 0;
+      for (const double v : x) sum += v;
+      EXPECT_EQ(at(word + "_mean", row, col),
+                static_cast<float>(sum / static_cast<double>(x.size())));
+      for (std::size_t q = 0; q < spec_.quantiles.size(); ++q)
+        EXPECT_EQ(at(word + "_quantile", row, col, q),
+                  static_cast<float>(quantile(x, spec_.quantiles[q])));
+    });
+}
+
+TEST_F(HazardMapOfRandomMembers, TakesArrivalQuantilesOverMembersThatCame) {
+  for_cells([&](int row, int col) {
+    std::vector<double> t = values(PeakLayer::arrival, row, col);
+    std::erase_if(t, [](double v) { return std::isnan(v); });
+    for (std::size_t q = 0; q < spec_.quantiles.size(); ++q) {
+      const float seen = at("arrival_time_quantile", row, col, q);
+      if (t.empty())
+        EXPECT_TRUE(std::isnan(seen));
+      else
+        EXPECT_EQ(seen, static_cast<float>(quantile(t, spec_.quantiles[q])));
+    }
+  });
+}
+
+TEST_F(HazardMapOfRandomMembers, SharesReachedMembersBetweenTheIntensities) {
+  for_cells([&](int row, int col) {
+    const auto h = values(PeakLayer::thickness, row, col), v = values(PeakLayer::speed, row, col),
+               t = values(PeakLayer::arrival, row, col);
+    double high = 0, medium = 0;
+    for (std::size_t m = 0; m < h.size(); ++m) {
+      const bool is_high = h[m] > 1 && v[m] > 1;
+      high += is_high;
+      medium += !is_high && !std::isnan(t[m]);
+    }
+    const double n = static_cast<double>(h.size());
+    EXPECT_EQ(at("probability_of_high_debris_flow_intensity", row, col),
+              static_cast<float>(high / n));
+    EXPECT_EQ(at("probability_of_medium_debris_flow_intensity", row, col),
+              static_cast<float>(medium / n));
+    EXPECT_FLOAT_EQ(static_cast<float>((high + medium) / n), at("probability_reached", row, col));
+  });
+}
+
+TEST_F(HazardMapOfRandomMembers, CountsValidMembersAndNamesTheOthers) {
+  const auto attribute = [&](const std::string& name) -> std::string {
+    for (const auto& [key, text] : map_.attributes)
+      if (key == name) return text;
+    return "absent";
+  };
+  EXPECT_EQ(at("number_of_members", 0, 0), 20);
+  EXPECT_TRUE(map_.find("number_of_members")->is_count);
+  EXPECT_EQ(attribute("number_of_planned_members"), "32");
+  EXPECT_EQ(attribute("number_of_finished_members"), "30");
+  EXPECT_EQ(attribute("number_of_valid_members"), "20");
+  EXPECT_EQ(attribute("number_of_failed_members"), "10");
+  EXPECT_EQ(attribute("failed_members"), "3,4,9,10,15,16,21,22,27,28");
+  EXPECT_EQ(attribute("out_of_time_members"), "1,7,13,19,25");
+  EXPECT_EQ(attribute("left_terrain_members"), "2,8,14,20,26");
+}
+
+TEST_F(HazardMapOfRandomMembers, GivesEveryLayerItsShapeAndUnits) {
+  for (const Layer& layer : map_.layers) {
+    EXPECT_EQ(layer.values.size(), layer.n_planes() * map_.grid.n_cells()) << layer.name;
+    EXPECT_FALSE(layer.units.empty()) << layer.name;
+    EXPECT_FALSE(layer.long_name.empty()) << layer.name;
+  }
+  const Layer* energy = map_.find("probability_of_peak_energy_above_threshold");
+  EXPECT_EQ(energy->units, "1");
+  EXPECT_EQ(energy->axis.name, "energy_threshold");
+  EXPECT_EQ(energy->axis.units, "kJ m-2");
+  EXPECT_EQ(map_.find("peak_energy_quantile")->units, "J m-2");
+  EXPECT_EQ(map_.find("peak_pressure_mean")->cell_methods, "time: maximum realization: mean");
+}
+
+TEST_F(HazardMapOfRandomMembers, MarksThresholdsThatTheSpacingCannotResolve) {
+  // Spacing 3 m: thresholds of 0.1, 0.5 and 1 m lie below 1.5 m, 2 m does not.
+  const std::string comment = map_.find("probability_of_peak_thickness_above_threshold")->comment;
+  EXPECT_THAT(comment, HasSubstr("not resolved (below half the particle spacing of 3 m): 0.1 m, "
+                                 "0.5 m, 1 m"));
+  EXPECT_THAT(comment, testing::Not(HasSubstr("2 m")));
+  EXPECT_THAT(map_.find("probability_of_high_debris_flow_intensity")->comment,
+              HasSubstr("not resolved"));
+  EXPECT_THAT(map_.find("probability_of_peak_speed_above_threshold")->comment,
+              testing::Not(HasSubstr("not resolved")));
+}
+
+TEST(HazardMap, LeavesOutLayersWithoutThresholdsOrQuantiles) {
+  std::mt19937 random(1);
+  MemoryMembers source(small_grid(3, 3));
+  source.add(random_member(0, source.grid(), random));
+  HazardSpec spec;
+  spec.speed_m_s.clear();
+  spec.quantiles.clear();
+  const LayerStack map = make_hazard_map(source, spec, {});
+  EXPECT_EQ(map.find("probability_of_peak_speed_above_threshold"), nullptr);
+  EXPECT_EQ(map.find("peak_speed_quantile"), nullptr);
+  EXPECT_EQ(map.find("arrival_time_quantile"), nullptr);
+  EXPECT_NE(map.find("peak_speed_mean"), nullptr);
+}
+
+TEST(HazardMap, IsUndefinedWithoutValidMembers) {
+  MemoryMembers source(small_grid(2, 2));
+  MemberResult failed;
+  failed.member = 4;
+  failed.outcome = Outcome::failed;
+  source.add(failed);
+  for (const Layer& layer : make_hazard_map(source, {}, {}).layers)
+    for (const float v : layer.values)
+      EXPECT_TRUE(layer.is_count ? v == 0 : std::isnan(v)) << layer.name;
+}
+
+TEST(HazardMap, OfMembersThatNeverMovedIsDry) {
+  MemoryMembers source(small_grid(2, 2));
+  for (int m = 0; m < 20; ++m) {
+    MemberResult still;
+    still.member = m;
+    still.outcome = Outcome::settled;
+    source.add(still);
+  }
+  const LayerStack map = make_hazard_map(source, {}, {});
+  for (int cell = 0; cell < 4; ++cell) {
+    EXPECT_EQ(map.find("probability_reached")->values[cell], 0);
+    EXPECT_NEAR(map.find("probability_reached_upper")->values[cell], 0.1611, 1e-4);
+    EXPECT_EQ(map.find("peak_thickness_mean")->values[cell], 0);
+    EXPECT_TRUE(std::isnan(map.find("arrival_time_quantile")->values[cell]));
+  }
+}
+
+TEST(HazardMap, RefusesDataThatCannotBeRight) {
+  for (const float wrong : {-1.0F, nan_f}) {
+    std::mt19937 random(1);
+    MemoryMembers source(small_grid(4, 4));
+    MemberResult r = random_member(12, source.grid(), random);
+    r.window = {0, 0, 1, 1};
+    for (auto& layer : r.layers) layer = {1.0F};
+    r.layer(PeakLayer::energy)[0] = wrong;
+    source.add(r);
+    try {
+      make_hazard_map(source, {}, {});
+      ADD_FAILURE() << "no error";
+    } catch (const SetupError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("member 12: peak_energy"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sturz

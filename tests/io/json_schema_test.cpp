@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/json_schema.hpp"
+
+#include "io/scenario_file.hpp"
+#include "scenarios/schema.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
+namespace sturz {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The schema of a key or block, by its path.
+Json at_path(const Json& schema, const std::string& path) {
+  Json node = schema;
+  std::istringstream names(path);
+  for (std::string name; std::getline(names, name, '.');) node = node.at("properties").at(name);
+  return node;
+}
+
+TEST(JsonSchema, IsJsonAndHoldsEveryKey) {
+  const Json j = Json::parse(json_schema());
+  EXPECT_EQ(j.at("$schema"), "https://json-schema.org/draft/2020-12/schema");
+  for (const auto& key : schema()) {
+    const Json node = at_path(j, key.path);
+    EXPECT_TRUE(node.at("description").get<std::string>().starts_with(key.help)) << key.path;
+  }
+}
+
+TEST(JsonSchema, CarriesLimitsChoicesAndDistributions) {
+  const Json j = Json::parse(json_schema());
+  const Json friction = at_path(j, "basal.friction_coefficient");
+  EXPECT_EQ(friction.at("anyOf").at(0).at("maximum"), 2);
+  EXPECT_EQ(friction.at("anyOf").at(1).at("$ref"), "#/$defs/distribution");
+  EXPECT_EQ(at_path(j, "terrain.nodata").at("enum"), Json({"outflow", "wall"}));
+  EXPECT_EQ(at_path(j, "numerics.spacing_m").at("exclusiveMinimum"), 0);
+  EXPECT_EQ(at_path(j, "release.box.x_m").at("maxItems"), 2);
+  EXPECT_EQ(at_path(j, "numerics").at("required"), Json::array({"spacing_m"}));
+  EXPECT_EQ(j.at("$defs").at("distribution").at("properties").size(), 9u);
+  EXPECT_EQ(j.at("required"), Json({"terrain", "grains", "numerics"}));
+  EXPECT_FALSE(j.at("additionalProperties").get<bool>());
+  const Json plane = at_path(j, "terrain.synthetic").at("properties").at("plane");
+  EXPECT_EQ(plane.at("required"), Json::array({"cell_size_m"}));
+  EXPECT_EQ(plane.at("properties").at("slope_deg").at("default"), 30);
+}
+
+TEST(JsonSchema, KnowsTheKeysOfTheShippedCases) {
+  const Json j = Json::parse(json_schema());
+  for (const char* name : {"zhangjiawan", "shuicheng_dry"}) {
+    const std::string folder = std::string(STURZ_SOURCE_DIR "/scenarios/cases/") + name;
+    const auto file = read_scenario_file(folder + "/scenario.yaml");
+    EXPECT_GT(file.positions.size(), 20u);
+    for (const auto& [path, position] : file.positions) EXPECT_NO_THROW(at_path(j, path)) << path;
+    for (const auto& required : j.at("required"))
+      EXPECT_EQ(file.positions.count(required.get<std::string>()), 1u) << name;
+  }
+}
+
+}  // namespace
+}  // namespace sturz

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/member_file.hpp"
+
+#include "io/atomic_file.hpp"
+#include "io/io_error.hpp"
+#include "io/member_store.hpp"
+#include "io/text_files.hpp"
+#include "tests/io/io_fixture.hpp"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <thread>
+
+namespace sturz::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+}
+
+void expect_same(const MemberResult& a, const MemberResult& b) {
+  EXPECT_EQ(a.member, b.member);
+  EXPECT_EQ(a.outcome, b.outcome);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.formulation, b.formulation);
+  EXPECT_EQ(a.binding_limit, b.binding_limit);
+  EXPECT_EQ(a.warnings, b.warnings);
+  EXPECT_EQ(a.state_hash, b.state_hash);
+  EXPECT_TRUE(a.grid.same_place(b.grid));
+  EXPECT_EQ(a.grid.crs_wkt, b.grid.crs_wkt);
+  EXPECT_EQ(a.window.row0, b.window.row0);
+  EXPECT_EQ(a.window.col0, b.window.col0);
+  EXPECT_EQ(a.window.n_rows, b.window.n_rows);
+  EXPECT_EQ(a.window.n_cols, b.window.n_cols);
+  for (const ScalarInfo& scalar : scalar_table())
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.scalars.*scalar.field),
+              std::bit_cast<std::uint64_t>(b.scalars.*scalar.field))
+        << scalar.name;
+  for (int i = 0; i < n_peak_layers; ++i)
+    EXPECT_TRUE(
+        same_bits(a.layers[static_cast<std::size_t>(i)], b.layers[static_cast<std::size_t>(i)]))
+        << i;
+}
+
+class MemberFile : public IoTest {
+ protected:
+  std::filesystem::path members() const { return folder() / "members"; }
+};
+
+TEST_F(MemberFile, RoundTripsBitForBit) {
+  MemberResult m = made_up_member(17);
+  m.reason = "ended with µ and \"quotes\"";
+  m.scalars.energy_residual = nan_d;
+  write_member(members(), m);
+  expect_same(read_member(members() / "000017.nc"), m);
+}
+
+TEST_F(MemberFile, AFailedMemberIsKeptWithItsReason) {
+  MemberResult m;
+  m.member = 3;
+  m.outcome = Outcome::failed;
+  m.reason = "release.volume_m3 = nan";
+  write_member(members(), m);
+  expect_same(read_member(members() / "000003.nc"), m);
+}
+
+TEST_F(MemberFile, PassesTheCfLint) {
+  if (shell("/usr/bin/python3 -c 'import netCDF4'").exit_code != 0)
+    GTEST_SKIP() << "python3 with netCDF4 is not installed";
+  write_member(members(), made_up_member(1));
+  const ShellResult lint = shell("/usr/bin/python3 " STURZ_SOURCE_DIR "/tests/support/cf_lint.py " +
+                                 (members() / "000001.nc").string());
+  EXPECT_EQ(lint.exit_code, 0) << lint.output;
+}
+
+TEST_F(MemberFile, AFullDiskNeverHarmsAFinishedMember) {
+  write_member(members(), made_up_member(1));
+  std::string message;
+  {
+    const SmallDisk disk(4096);
+    message = message_of([&] { write_member(members(), made_up_member(1)); });
+    EXPECT_THROW(write_member(members(), made_up_member(2)), IoError);
+  }
+  EXPECT_THAT(message, HasSubstr("cannot write " + (members() / "000001.nc").string()));
+  EXPECT_THAT(names(), ElementsAre("members/000001.nc"));
+  expect_same(read_member(members() / "000001.nc"), made_up_member(1));
+}
+
+TEST_F(MemberFile, AProcessKilledInTheWriteLeavesOnlyAPartFile) {
+  write_member(members(), made_up_member(1));
+  const pid_t child = fork();
+  if (child == 0) {
+    AtomicFile file(members() / "000002.nc");
+    const std::vector<std::byte> half(5000);
+    file.write(half);
+    raise(SIGKILL);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  const auto files = names();
+  ASSERT_THAT(files, SizeIs(2));
+  EXPECT_EQ(files[0], "members/000001.nc");
+  EXPECT_THAT(files[1], ::testing::MatchesRegex("members/000002\\.nc\\.[0-9a-f]{16}\\.part"));
+  const MemberStore store(members());
+  EXPECT_THAT(store.members(), SizeIs(1));
+  EXPECT_THAT(store.problems(), IsEmpty());
+}
+
+class Store : public MemberFile {
+ protected:
+  /// Every row of every layer of every member against the results themselves.
+  static void expect_rows(const MemberStore& store, const std::vector<MemberResult>& all) {
+    const Grid& g = store.grid();
+    for (std::size_t k = 0; k < all.size(); ++k)
+      for (int i = 0; i < n_peak_layers; ++i)
+        for (int row0 = 0; row0 < g.n_rows; row0 += 3) {
+          const auto layer = static_cast<PeakLayer>(i);
+          const int n = std::min(3, g.n_rows - row0);
+          std::vector<float> rows(static_cast<std::size_t>(n) * g.n_cols, 77.0F);
+          store.read_rows(k, layer, row0, n, rows);
+          std::vector<float> expected;
+          const Window& w = all[k].window;
+          for (int row = row0; row < row0 + n; ++row)
+            for (int col = 0; col < g.n_cols; ++col) {
+              const bool inside = row >= w.row0 && row < w.row0 + w.n_rows && col >= w.col0 &&
+                                  col < w.col0 + w.n_cols;
+              expected.push_back(
+                  inside ? all[k].layer(layer)[static_cast<std::size_t>(row - w.row0) * w.n_cols +
+                                               (col - w.col0)]
+                         : info(layer).untouched);
+            }
+          EXPECT_TRUE(same_bits(rows, expected)) << k << " " << i << " " << row0;
+        }
+  }
+};
+
+TEST_F(Store, ListsFinishedMembersInOrderAndReadsTheirRows) {
+  std::vector<MemberResult> all;
+  for (const int number : {2, 11, 1000000}) all.push_back(made_up_member(number));
+  all[1].window = {0, 0, 10, 12};  // touched everything
+  for (auto& layer : all[1].layers) layer.assign(120, 3.5F);
+  for (const int i : {2, 0, 1}) write_member(members(), all[static_cast<std::size_t>(i)]);
+  write("members/000005.nc.0123456789abcdef.part", "half");
+  write("members/notes.txt", "mine");
+  const MemberStore store(members());
+  ASSERT_THAT(store.members(), SizeIs(3));
+  EXPECT_EQ(store.members()[0].member, 2);
+  EXPECT_EQ(store.members()[2].member, 1000000);
+  EXPECT_EQ(store.members()[1].state_hash, all[1].state_hash);
+  EXPECT_THAT(store.problems(), IsEmpty());
+  expect_rows(store, all);
+  EXPECT_EQ(store.memory_in_use(), (12U + 120U + 12U) * 6 * sizeof(float));
+  expect_rows(store, all);  // now from memory
+}
+
+TEST_F(Store, ReadsTheSameWhenMemoryIsShort) {
+  std::vector<MemberResult> all;
+  for (int number = 0; number < 4; ++number) all.push_back(made_up_member(number));
+  for (const auto& m : all) write_member(members(), m);
+  const MemberStore store(members(), MemberCheck::open, /*memory_bound=*/200);
+  expect_rows(store, all);
+  expect_rows(store, all);
+  EXPECT_LE(store.memory_in_use(), 200U);
+}
+
+TEST_F(Store, ReadsFromSeveralThreads) {
+  std::vector<MemberResult> all;
+  for (int number = 0; number < 4; ++number) all.push_back(made_up_member(number));
+  for (const auto& m : all) write_member(members(), m);
+  const MemberStore store(members(), MemberCheck::open, 500);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 3; ++t) threads.emplace_back([&] { expect_rows(store, all); });
+  for (auto& thread : threads) thread.join();
+}
+
+TEST_F(Store, DamagedFilesAreNamedAndCountAsAbsent) {
+  for (int number = 0; number < 4; ++number) write_member(members(), made_up_member(number));
+  std::filesystem::resize_file(members() / "000001.nc", 3000);
+  write("members/000002.nc", "");
+  std::filesystem::copy_file(members() / "000003.nc", members() / "000007.nc");  // misnamed
+  const MemberStore store(members());
+  ASSERT_THAT(store.members(), SizeIs(2));
+  EXPECT_EQ(store.members()[1].member, 3);
+  ASSERT_THAT(store.problems(), SizeIs(3));
+  EXPECT_THAT(store.problems()[0], HasSubstr("000001.nc: opening failed"));
+  EXPECT_THAT(store.problems()[1], HasSubstr("000002.nc"));
+  EXPECT_THAT(store.problems()[2], HasSubstr("000007.nc: holds member 3. Delete it"));
+}
+
+TEST_F(Store, AFlippedBitInAMapIsFoundWhenAllIsRead) {
+  MemberResult m = made_up_member(0);
+  m.window = {0, 0, 10, 12};
+  for (auto& layer : m.layers) layer.assign(120, 1.25F);
+  write_member(members(), m);
+  write_member(members(), made_up_member(1));
+  // Flip one bit at a time until one lies in a map, which open alone does not see.
+  const std::string file = (members() / "000000.nc").string(), whole = read_text(file);
+  int found = 0;
+  for (std::size_t at = whole.size() / 4; at < whole.size() && found == 0; at += 97) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    write_text_atomic(file, damaged);
+    if (!MemberStore(members()).problems().empty()) continue;
+    const MemberStore careful(members(), MemberCheck::read_all);
+    if (careful.problems().empty()) continue;
+    ++found;
+    EXPECT_THAT(careful.problems()[0], HasSubstr("000000.nc: reading"));
+    EXPECT_THAT(careful.members(), SizeIs(1));
+  }
+  EXPECT_EQ(found, 1);
+}
+
+TEST_F(Store, AMemberOnAnotherGridIsRefused) {
+  write_member(members(), made_up_member(0));
+  MemberResult other = made_up_member(1);
+  other.grid.cell_m = 5;
+  write_member(members(), other);
+  const MemberStore store(members());
+  EXPECT_THAT(store.members(), SizeIs(1));
+  EXPECT_THAT(store.problems()[0], HasSubstr("000001.nc: lies on another grid"));
+}
+
+TEST_F(Store, FailedMembersHaveNoMapsButCount) {
+  MemberResult failed;
+  failed.member = 0;
+  failed.reason = "boom";
+  write_member(members(), failed);
+  const MemberStore alone(members());
+  EXPECT_THAT(alone.members(), SizeIs(1));
+  EXPECT_THAT(message_of([&] { alone.grid(); }), HasSubstr("holds no finished member with maps"));
+  write_member(members(), made_up_member(1));
+  const MemberStore store(members());
+  std::vector<float> row(12);
+  store.read_rows(0, PeakLayer::thickness, 4, 1, row);
+  EXPECT_THAT(row, ::testing::Each(0.0F));
+  EXPECT_EQ(store.members()[0].reason, "boom");
+}
+
+TEST_F(Store, AFolderThatIsNotThereHoldsNoMembers) {
+  EXPECT_THAT(MemberStore(folder() / "nowhere").members(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace sturz::test

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/netcdf_layers.hpp"
+
+#include "io/io_error.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/text_files.hpp"
+#include "tests/io/io_fixture.hpp"
+
+#include <bit>
+#include <cmath>
+#include <thread>
+
+namespace sturz::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::vector<std::uint32_t> bits(const std::vector<float>& values) {
+  std::vector<std::uint32_t> all;
+  for (const float v : values) all.push_back(std::bit_cast<std::uint32_t>(v));
+  return all;
+}
+
+/// 5 x 6 cells with every kind of layer.
+LayerStack every_kind() {
+  LayerStack s;
+  s.grid = {6, 5, 403000.1, 4629500.3, 2.5, utm33_wkt()};
+  s.attributes = {{"title", "Test maps"}, {"scenario", "a: 1\nb: µ"}};
+  const auto values = [](std::size_t n, float scale) {
+    std::vector<float> v(n);
+    for (std::size_t i = 0; i < n; ++i)
+      v[i] = scale * static_cast<float>(i) / static_cast<float>(n);
+    v[n / 2] = nan_f;
+    return v;
+  };
+  Layer count{
+      "number_of_valid_members", "valid members", "", "1", "", "", {}, true, values(30, 300)};
+  for (float& v : count.values) v = std::floor(v);
+  Layer probability;
+  probability.name = "probability_of_peak_thickness_above_threshold";
+  probability.units = "1";
+  probability.comment = "thresholds below half a particle are not resolved";
+  probability.axis = {"thickness_threshold", "", "m", {0.1, 0.5, 2}};
+  probability.values = values(90, 1);
+  Layer quantile{"peak_speed_quantile",
+                 "peak speed",
+                 "",
+                 "m s-1",
+                 "area: mean",
+                 "",
+                 {"quantile", "", "1", {0.05, 0.5, 0.95}},
+                 false,
+                 values(90, 40)};
+  Layer energy{"peak_energy_quantile",
+               "peak energy",
+               "",
+               "J m-2",
+               "",
+               "",
+               {"quantile", "", "1", {0.05, 0.5, 0.95}},
+               false,
+               values(90, 1e5F)};
+  Layer mean{"deposit_mean", "mean deposit", "", "m", "", "", {}, false, values(30, 3)};
+  s.layers = {count, probability, quantile, energy, mean};
+  return s;
+}
+
+class NetcdfLayers : public IoTest {
+ protected:
+  std::string written(const LayerStack& stack, const std::string& name = "hazard.nc") const {
+    write_layers(path(name), stack);
+    return path(name);
+  }
+  static ShellResult cf_lint(const std::string& file) {
+    return shell("/usr/bin/python3 " STURZ_SOURCE_DIR "/tests/support/cf_lint.py " + file);
+  }
+  static bool has_python() {
+    return shell("/usr/bin/python3 -c 'import netCDF4, xarray'").exit_code == 0;
+  }
+};
+
+TEST_F(NetcdfLayers, RoundTripsEveryBit) {
+  const LayerStack out = every_kind();
+  const LayerStack in = read_layers(written(out));
+  EXPECT_TRUE(in.grid.same_place(out.grid));
+  EXPECT_EQ(in.grid.crs_wkt, out.grid.crs_wkt);
+  ASSERT_EQ(in.layers.size(), out.layers.size());
+  for (std::size_t i = 0; i < in.layers.size(); ++i) {
+    EXPECT_EQ(in.layers[i].name, out.layers[i].name);
+    EXPECT_EQ(in.layers[i].units, out.layers[i].units);
+    EXPECT_EQ(in.layers[i].comment, out.layers[i].comment);
+    EXPECT_EQ(in.layers[i].cell_methods, out.layers[i].cell_methods);
+    EXPECT_EQ(in.layers[i].is_count, out.layers[i].is_count);
+    EXPECT_EQ(in.layers[i].axis.name, out.layers[i].axis.name);
+    EXPECT_EQ(in.layers[i].axis.values, out.layers[i].axis.values);
+    EXPECT_EQ(bits(in.layers[i].values), bits(out.layers[i].values)) << in.layers[i].name;
+  }
+  EXPECT_THAT(in.attributes, ::testing::IsSupersetOf(out.attributes));
+}
+
+TEST_F(NetcdfLayers, TheSameLayersGiveTheSameBytes) {
+  const std::string a = read_text(written(every_kind(), "a.nc"));
+  const std::string b = read_text(written(every_kind(), "b.nc"));
+  EXPECT_EQ(a == b, true);
+}
+
+TEST_F(NetcdfLayers, PassTheProjectsCfLint) {
+  if (!has_python()) GTEST_SKIP() << "python3 with netCDF4 and xarray is not installed";
+  const ShellResult lint = cf_lint(written(every_kind()));
+  EXPECT_EQ(lint.exit_code, 0) << lint.output;
+  LayerStack bare = every_kind();
+  bare.grid.crs_wkt = "";
+  const ShellResult bare_lint = cf_lint(written(bare, "bare.nc"));
+  EXPECT_EQ(bare_lint.exit_code, 0) << bare_lint.output;
+}
+
+TEST_F(NetcdfLayers, CfLintFindsWhatIsWrong) {
+  if (!has_python()) GTEST_SKIP() << "python3 with netCDF4 and xarray is not installed";
+  LayerStack s = every_kind();
+  s.layers[2].units = "furlong per fortnight?";
+  s.layers[1].values[5] = 1.5F;
+  s.layers[4].cell_methods = "nonsense";
+  const ShellResult lint = cf_lint(written(s));
+  EXPECT_EQ(lint.exit_code, 1);
+  EXPECT_THAT(lint.output,
+              AllOf(HasSubstr("peak_speed_quantile: units 'furlong per fortnight?' are not known"),
+                    HasSubstr("probabilities reach from 0.0 to 1.5"),
+                    HasSubstr("deposit_mean: cell_methods 'nonsense'")));
+}
+
+TEST_F(NetcdfLayers, XarrayFindsTheCoordinateSystem) {
+  if (!has_python()) GTEST_SKIP() << "python3 with netCDF4 and xarray is not installed";
+  const ShellResult opened = shell(
+      "/usr/bin/python3 -c \"import xarray; d = xarray.open_dataset('" + written(every_kind()) +
+      "', decode_coords='all'); v = d['probability_of_peak_thickness_above_threshold']; "
+      "print(v.dims, sorted(v.coords), d.crs.grid_mapping_name, float(v.x[0]), float(v.y[0]), "
+      "float(v.isel(thickness_threshold=2).isnull().sum()))\"");
+  EXPECT_EQ(opened.exit_code, 0);
+  EXPECT_EQ(opened.output,
+            "('thickness_threshold', 'y', 'x') ['crs', 'thickness_threshold', 'x', 'y'] "
+            "transverse_mercator 403001.35 4629499.05 0.0\n");
+}
+
+TEST_F(NetcdfLayers, GdalinfoShowsThePlaceAndTheCode) {
+  const ShellResult info = shell("gdalinfo NETCDF:" + written(every_kind()) + ":deposit_mean");
+  if (info.exit_code == 127) GTEST_SKIP() << "gdalinfo is not installed";
+  EXPECT_THAT(info.output, AllOf(HasSubstr("ID[\"EPSG\",32633]"), HasSubstr("Size is 6, 5"),
+                                 HasSubstr("Origin = (403000.09999999997671"),
+                                 HasSubstr("Pixel Size = (2.5"), HasSubstr(",-2.5")));
+  EXPECT_EQ(info.output.find("Warning"), std::string::npos) << info.output;
+}
+
+TEST_F(NetcdfLayers, ProjectionsOfTheWorldPassTheLint) {
+  if (!has_python()) GTEST_SKIP() << "python3 with netCDF4 and xarray is not installed";
+  std::string files;
+  for (const char* code : {"32149", "2056", "3035", "31287", "3413", "3031", "5070", "28992",
+                           "2193", "3577", "32761"}) {
+    RasterFile raster = five_by_five();
+    raster.crs = std::string("EPSG:") + code;
+    write_raster(path("any.tif"), raster);
+    LayerStack s = every_kind();
+    s.grid.crs_wkt = shell("gdalsrsinfo --single-line -o wkt2_2019 " + path("any.tif")).output;
+    while (!s.grid.crs_wkt.empty() && s.grid.crs_wkt.front() != 'P') s.grid.crs_wkt.erase(0, 1);
+    ASSERT_THAT(s.grid.crs_wkt, HasSubstr(code));
+    files += " " + written(s, std::string(code) + ".nc");
+  }
+  const ShellResult lint = cf_lint(files);
+  EXPECT_EQ(lint.exit_code, 0) << lint.output;
+}
+
+TEST_F(NetcdfLayers, LayersThatContradictEachOtherAreRefused) {
+  LayerStack s = every_kind();
+  s.layers[3].axis.values = {0.1, 0.5, 0.9};
+  EXPECT_THAT(message_of([&] { write_layers(path("x.nc"), s); }),
+              HasSubstr("axis 'quantile' has different values in two layers"));
+  s = every_kind();
+  s.layers[1].axis.values = {0.5, 0.1, 2};
+  EXPECT_THAT(message_of([&] { write_layers(path("x.nc"), s); }),
+              HasSubstr("axis 'thickness_threshold' does not increase strictly"));
+  s = every_kind();
+  s.layers[4].values.pop_back();
+  EXPECT_THAT(message_of([&] { write_layers(path("x.nc"), s); }),
+              HasSubstr("layer 'deposit_mean' has 29 values"));
+  EXPECT_TRUE(names().empty());
+}
+
+TEST_F(NetcdfLayers, AFullDiskLeavesTheOldFileAndOneMessage) {
+  const std::string file = written(every_kind());
+  const std::string before = read_text(file);
+  std::string message;
+  {
+    const SmallDisk disk(2000);
+    message = message_of([&] { write_layers(file, every_kind()); });
+  }
+  EXPECT_THAT(message, AllOf(HasSubstr("cannot write " + file), HasSubstr("MB free in"),
+                             HasSubstr("files already there are unharmed")));
+  EXPECT_EQ(read_text(file) == before, true);
+  EXPECT_THAT(names(), ::testing::ElementsAre("hazard.nc"));
+  EXPECT_NO_THROW(written(every_kind(), "after.nc"));  // and the library still works
+}
+
+TEST_F(NetcdfLayers, DamagedFilesAreRefusedByName) {
+  const std::string file = written(every_kind());
+  write("text.nc", "not a netCDF file");
+  EXPECT_THAT(message_of([&] { read_layers(path("text.nc")); }),
+              AllOf(HasSubstr("text.nc: opening failed (netCDF: ")));
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+  EXPECT_THAT(message_of([&] { read_layers(file); }), HasSubstr("hazard.nc: opening failed"));
+}
+
+TEST_F(NetcdfLayers, ThreadsMayWriteAndReadSideBySide) {
+  std::vector<std::thread> threads;
+  std::vector<int> good(4, 0);
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 5; ++i) {
+        const std::string file = path(std::to_string(t) + ".nc");
+        write_layers(file, every_kind());
+        good[static_cast<std::size_t>(t)] += read_layers(file).layers.size() == 5;
+      }
+    });
+  for (auto& thread : threads) thread.join();
+  EXPECT_THAT(good, ::testing::Each(5));
+}
+
+TEST_F(NetcdfLayers, DamageFoundInAnotherThreadPrintsNothing) {
+  written(every_kind());
+  write("text.nc", "not a netCDF file");
+  write("cut.nc", read_text(path("hazard.nc")).substr(0, 3000));
+  ::testing::internal::CaptureStderr();
+  std::thread([&] {
+    for (const char* name : {"text.nc", "cut.nc"}) EXPECT_THROW(read_layers(path(name)), IoError);
+  }).join();
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+}  // namespace
+}  // namespace sturz::test

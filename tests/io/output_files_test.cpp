@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// Atomic files, text, checksums, GeoTIFF, particle frames.
+#include "io/atomic_file.hpp"
+#include "io/checksum.hpp"
+#include "io/cog.hpp"
+#include "io/gdal_raster.hpp"
+#include "io/io_error.hpp"
+#include "io/particle_frames.hpp"
+#include "io/text_files.hpp"
+#include "tests/io/io_fixture.hpp"
+
+#include <gdal_priv.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace sturz::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+class TextFiles : public IoTest {};
+
+TEST_F(TextFiles, ReplaceTheWholeFile) {
+  write_text_atomic(path("a.csv"), "long old text");
+  write_text_atomic(path("a.csv"), "new");
+  EXPECT_EQ(read_text(path("a.csv")), "new");
+  write_text_atomic(path("a.csv"), "");
+  EXPECT_EQ(read_text(path("a.csv")), "");
+  EXPECT_THAT(names(), ElementsAre("a.csv"));
+}
+
+TEST_F(TextFiles, AFullDiskLeavesTheOldText) {
+  write_text_atomic(path("a.csv"), "old");
+  std::string message;
+  {
+    const SmallDisk disk(1000);
+    message = message_of([&] { write_text_atomic(path("a.csv"), std::string(5000, 'x')); });
+  }
+  EXPECT_THAT(message, AllOf(HasSubstr("cannot write " + path("a.csv") + " (File too large; "),
+                             HasSubstr("MB free in " + folder().string())));
+  EXPECT_EQ(read_text(path("a.csv")), "old");
+  EXPECT_THAT(names(), ElementsAre("a.csv"));
+}
+
+TEST_F(TextFiles, PlacesThatCannotBeWrittenAreNamed) {
+  EXPECT_EQ(message_of([&] { write_text_atomic(path("no/a.csv"), "x"); }),
+            "cannot create " + path("no/a.csv") + " (there is no folder " + path("no") +
+                "). Make it first.");
+  EXPECT_EQ(message_of([&] { write_text_atomic(folder(), "x"); }),
+            "cannot write " + folder().string() +
+                " (a folder or device has this name). Choose another name.");
+  EXPECT_THAT(message_of([&] { write_text_atomic("/dev/full", "x"); }),
+              HasSubstr("cannot write /dev/full (a folder or device has this name)"));
+}
+
+TEST_F(TextFiles, ALinkStaysALink) {
+  write_text_atomic(path("real.txt"), "old");
+  std::filesystem::create_symlink("real.txt", path("link.txt"));
+  write_text_atomic(path("link.txt"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.txt")));
+  EXPECT_EQ(read_text(path("real.txt")), "new");
+}
+
+TEST_F(TextFiles, AMissingFileIsNamed) {
+  EXPECT_THAT(message_of([&] { read_text(path("none.txt")); }),
+              HasSubstr("cannot read " + path("none.txt") + " (No such file or directory)"));
+}
+
+class Checksum : public IoTest {};
+
+TEST_F(Checksum, IsFnv1a64) {
+  write("a", "foobar");
+  EXPECT_EQ(file_checksum(path("a")), "fnv1a64:85944171f73967e8");  // published test vector
+  write("empty", "");
+  EXPECT_EQ(file_checksum(path("empty")), "fnv1a64:cbf29ce484222325");
+  EXPECT_THROW(file_checksum(path("none")), IoError);
+}
+
+class GeoTiff : public IoTest {};
+
+TEST_F(GeoTiff, RoundTripsElevationsAndMetadata) {
+  Raster<double> bed = plane(7, 5, 2.5, 403000.1, 4629500.3);
+  bed.at(2, 3) = nan_d;
+  bed.at(0, 0) = 1234.56789012345;
+  write_geotiff(path("bed.tif"), bed, {{"SYNTHETIC", "YES"}});
+  RasterRequest r;
+  r.path = path("bed.tif");
+  const RasterRead read = read_elevation(r);
+  EXPECT_TRUE(read.raster.grid.same_place(bed.grid));
+  EXPECT_EQ(std::memcmp(&read.raster.values[0], &bed.values[0], 8), 0);
+  EXPECT_TRUE(std::isnan(read.raster.at(2, 3)));
+  GDALDataset* data = GDALDataset::Open(path("bed.tif").c_str());
+  EXPECT_STREQ(data->GetMetadataItem("SYNTHETIC"), "YES");
+  GDALClose(data);
+}
+
+TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
+  LayerStack s;
+  s.grid = {600, 520, 403000, 4629500, 10, utm33_wkt()};
+  s.attributes = {{"scenario_title", "test"}};
+  Layer p{"probability_of_peak_thickness_above_threshold",
+          "chance",
+          "",
+          "1",
+          "",
+          "not resolved",
+          {"thickness_threshold", "", "m", {0.1, 2}},
+          false,
+          std::vector<float>(624000, 0.25F)};
+  p.values[0] = nan_f;
+  p.values[312000] = 0.75F;
+  Layer n{"number_of_valid_members",     "members", "", "1", "", "", {}, true,
+          std::vector<float>(312000, 32)};
+  s.layers = {p, n};
+  const auto files = write_cogs(folder() / "hazard", s);
+  EXPECT_THAT(names(), ElementsAre("hazard/number_of_valid_members.tif",
+                                   "hazard/probability_of_peak_thickness_above_threshold_0.1.tif",
+                                   "hazard/probability_of_peak_thickness_above_threshold_2.tif"));
+  ASSERT_EQ(files.size(), 3U);
+  GDALDataset* data = GDALDataset::Open(files[1].c_str());
+  EXPECT_STREQ(data->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
+  EXPECT_STREQ(data->GetSpatialRef()->GetAuthorityCode(nullptr), "32633");
+  GDALRasterBand& band = *data->GetRasterBand(1);
+  EXPECT_TRUE(std::isnan(band.GetNoDataValue()));
+  EXPECT_EQ(band.GetOverviewCount(), 1);
+  EXPECT_STREQ(band.GetMetadataItem("long_name"), "chance");
+  EXPECT_STREQ(band.GetMetadataItem("thickness_threshold"), "2 m");
+  EXPECT_STREQ(band.GetMetadataItem("comment"), "not resolved");
+  EXPECT_STREQ(band.GetUnitType(), "1");
+  EXPECT_STREQ(band.GetDescription(), "probability_of_peak_thickness_above_threshold");
+  EXPECT_STREQ(data->GetMetadataItem("scenario_title"), "test");
+  float first = 0;
+  ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 1, 1, &first, 1, 1, GDT_Float32, 0, 0, nullptr), CE_None);
+  EXPECT_EQ(first, 0.75F);
+  GDALClose(data);
+  data = GDALDataset::Open(files[2].c_str());
+  EXPECT_EQ(data->GetRasterBand(1)->GetRasterDataType(), GDT_Int32);
+  GDALClose(data);
+}
+
+TEST_F(GeoTiff, ABareSceneHasNoSystem) {
+  LayerStack s;
+  s.grid = {3, 2, 0, 2, 1, ""};
+  s.layers = {{"deposit_mean", "", "", "m", "", "", {}, false, {1, 2, 3, 4, 5, 6}}};
+  const auto files = write_cogs(folder(), s);
+  GDALDataset* data = GDALDataset::Open(files[0].c_str());
+  EXPECT_EQ(data->GetSpatialRef(), nullptr);
+  GDALClose(data);
+}
+
+TEST_F(GeoTiff, AFullDiskLeavesNothing) {
+  const Raster<double> bed = plane(70, 50, 2.5, 403000.1, 4629500.3);
+  const SmallDisk disk(500);
+  EXPECT_THAT(message_of([&] { write_geotiff(path("bed.tif"), bed, {}); }),
+              HasSubstr("cannot write " + path("bed.tif")));
+  EXPECT_THAT(names(), IsEmpty());
+}
+
+class ParticleFrames : public IoTest {
+ protected:
+  static constexpr std::size_t n = 4;
+  std::vector<double> x{403000.123456789, 2, 3, 4}, y{4, 3, 2, 1}, z{9, 9, 9, 9};
+  std::vector<double> vx{3, 0, 0, 0}, vy{4, 0, 0, 0}, vz{0, 0, 0, 1}, mass{1, 2, 3, 4};
+  std::vector<double> density{2600, 2601, 2602, 2603}, pressure{0, 10, 20, 30};
+  std::vector<std::uint32_t> id{3, 1, 2, 0};
+  ParticleFrame frame(double time) const {
+    return {time, x, y, z, vx, vy, vz, mass, density, pressure, id};
+  }
+};
+
+TEST_F(ParticleFrames, HoldTheirValuesAsRawAppendedArrays) {
+  ParticleFrameWriter writer(folder() / "frames");
+  writer.write(frame(0));
+  writer.write(frame(1.5));
+  EXPECT_THAT(names(), ElementsAre("frames/particles.pvd", "frames/particles_000000.vtp",
+                                   "frames/particles_000001.vtp"));
+  const std::string index = read_text(writer.index());
+  EXPECT_THAT(index, AllOf(HasSubstr("timestep=\"0\" part=\"0\" file=\"particles_000000.vtp\""),
+                           HasSubstr("timestep=\"1.5\" part=\"0\" file=\"particles_000001.vtp\"")));
+  const std::string vtp = read_text(path("frames/particles_000001.vtp"));
+  EXPECT_THAT(vtp, AllOf(HasSubstr("header_type=\"UInt64\""), HasSubstr("NumberOfPoints=\"4\""),
+                         HasSubstr("encoding=\"raw\"")));
+  const std::size_t data = vtp.find("\n_") + 2;
+  const auto array = [&](const std::string& name, void* to, std::size_t bytes) {
+    const std::size_t tag = vtp.find("Name=\"" + name + "\"");
+    const std::size_t at = data + std::stoul(vtp.substr(vtp.find("offset=\"", tag) + 8));
+    std::uint64_t size = 0;
+    std::memcpy(&size, vtp.data() + at, 8);
+    ASSERT_EQ(size, bytes) << name;
+    std::memcpy(to, vtp.data() + at + 8, bytes);
+  };
+  double points[12], masses[4];
+  float velocity[12], speed[4], pressures[4];
+  std::uint32_t ids[4];
+  array("Points", points, sizeof points);
+  array("velocity", velocity, sizeof velocity);
+  array("speed", speed, sizeof speed);
+  array("mass", masses, sizeof masses);
+  array("pressure", pressures, sizeof pressures);
+  array("id", ids, sizeof ids);
+  EXPECT_EQ(points[0], 403000.123456789);
+  EXPECT_EQ(points[4], 3);
+  EXPECT_EQ(velocity[1], 4);
+  EXPECT_EQ(speed[0], 5);
+  EXPECT_EQ(masses[3], 4);
+  EXPECT_EQ(pressures[2], 20);
+  EXPECT_EQ(ids[0], 3U);
+}
+
+TEST_F(ParticleFrames, VtkReadsThem) {
+  if (shell("/usr/bin/python3 -c 'import vtk'").exit_code != 0)
+    GTEST_SKIP() << "python3 with vtk is not installed";
+  ParticleFrameWriter(folder()).write(frame(2));
+  const ShellResult read =
+      shell("/usr/bin/python3 -c \"import vtk; r = vtk.vtkXMLPolyDataReader(); r.SetFileName('" +
+            path("particles_000000.vtp") +
+            "'); r.Update(); d = r.GetOutput(); print(d.GetNumberOfPoints(), d.GetNumberOfVerts(), "
+            "d.GetPoint(0)[0], d.GetPointData().GetArray('speed').GetValue(0))\"");
+  EXPECT_EQ(read.output, "4 1 403000.123456789 5.0\n");
+}
+
+TEST_F(ParticleFrames, AnEmptyFrameIsStillAFile) {
+  ParticleFrameWriter writer(folder());
+  writer.write(ParticleFrame{});
+  EXPECT_THAT(read_text(path("particles_000000.vtp")), HasSubstr("NumberOfVerts=\"0\""));
+}
+
+}  // namespace
+}  // namespace sturz::test

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user reads when a scenario file is wrong, word for word.
+#include "io/scenario_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace sturz {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> problems(const std::string& text) {
+  try {
+    read_scenario_text(text, "scenario.yaml");
+  } catch (const ScenarioError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+/// A good scenario in nine lines; `grains` and `more` stand in for its last lines.
+std::string scene(const std::string& grains = "  friction_angle_deg: 24\n",
+                  const std::string& more = "") {
+  return "terrain: {raster: bed.tif}\n"
+         "release:\n"
+         "  thickness_raster: h.tif\n"
+         "numerics: {spacing_m: 5}\n"
+         "grains:\n" +
+         grains + more;
+}
+
+TEST(ScenarioMessages, TheBaseSceneIsGood) { EXPECT_THAT(problems(scene()), ElementsAre()); }
+
+TEST(ScenarioMessages, UnitMistake) {
+  EXPECT_THAT(problems(scene("  friction_angle_deg: 240\n")),
+              ElementsAre("scenario.yaml:6:23: grains.friction_angle_deg = 240 (must be in 0..60). "
+                          "Was it in another unit?"));
+  EXPECT_THAT(problems(scene() + "basal: {friction_coefficient: 24}\n"),
+              ElementsAre("scenario.yaml:7:31: basal.friction_coefficient = 24 (must be in 0..2). "
+                          "Was it an angle in degrees? tan 24 deg = 0.445."));
+}
+
+TEST(ScenarioMessages, UnknownKey) {
+  EXPECT_THAT(problems(scene() + "basal: {friction_coeficient: 0.3}\n"),
+              ElementsAre("scenario.yaml:7:9: basal.friction_coeficient (unknown key). Did you "
+                          "mean basal.friction_coefficient?"));
+  EXPECT_THAT(problems(scene() + "friction_coefficient: 0.3\n"),
+              ElementsAre("scenario.yaml:7:1: friction_coefficient (unknown key). Did you mean "
+                          "basal.friction_coefficient?"));
+  EXPECT_THAT(problems(scene() + "basal.restitution: 0.3\n"),
+              ElementsAre("scenario.yaml:7:1: basal.restitution (unknown key). Did you mean "
+                          "basal.restitution?"));
+  EXPECT_THAT(problems(scene() + "domain: {gravity: 3}\n"),
+              ElementsAre("scenario.yaml:7:10: domain.gravity (unknown key). Known in domain: "
+                          "periodic, walls."));
+}
+
+TEST(ScenarioMessages, KeysOfLaterVersionsAreNotUnknown) {
+  EXPECT_THAT(problems(scene() + "fluid: {density_kg_m3: 1200}\n"),
+              ElementsAre("scenario.yaml:7:1: fluid (not available in this version: a pore fluid "
+                          "with particles of its own). Remove it."));
+  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  states: {dilute: {}}\n")),
+              ElementsAre(HasSubstr("grains.states (not available in this version")));
+  EXPECT_THAT(problems(scene() + "basal: {zones: []}\ncoupling: 1\nobservation: {}\n").size(), 3u);
+  EXPECT_THAT(problems(scene() + "formulation: depth_averaged\n"),
+              ElementsAre("scenario.yaml:7:14: formulation = depth_averaged (not available in this "
+                          "version). Available: full_stress."));
+}
+
+TEST(ScenarioMessages, DuplicateKey) {
+  EXPECT_THAT(problems(scene() + "numerics: {spacing_m: 6}\n"),
+              ElementsAre("scenario.yaml:7:1: numerics (stands here twice, first in line 4). Keep "
+                          "one of them."));
+}
+
+TEST(ScenarioMessages, WrongType) {
+  EXPECT_THAT(problems(scene("  friction_angle_deg: steep\n")),
+              ElementsAre("scenario.yaml:6:23: grains.friction_angle_deg = steep (must be a number "
+                          "or a distribution)."));
+  EXPECT_THAT(problems(scene() + "numerics: [5]\n").size(), 1u);
+  EXPECT_THAT(problems(scene() + "title: [a]\n"),
+              ElementsAre("scenario.yaml:7:8: title = [a] (must be text)."));
+  EXPECT_THAT(problems(scene() + "domain: {periodic: y}\n"),
+              ElementsAre("scenario.yaml:7:20: domain.periodic = y (must be a list, [...])."));
+  EXPECT_THAT(problems(scene() + "basal: 0.3\n"),
+              ElementsAre("scenario.yaml:7:8: basal = 0.3 (must be a block of keys: "
+                          "friction_coefficient, pore_pressure_ratio, cohesion_pa, restitution)."));
+  EXPECT_THAT(problems(scene() + "ensemble: {members: 3.5}\n"),
+              ElementsAre("scenario.yaml:7:21: ensemble.members = 3.5 (must be a whole number)."));
+  EXPECT_THAT(problems(scene() + "hazard: {cell_size_m: {uniform: [1, 2]}}\n"),
+              ElementsAre("scenario.yaml:7:23: hazard.cell_size_m = {uniform: [1, 2]} (must be a "
+                          "plain number). Only keys of release, grains and basal can be "
+                          "uncertain."));
+}
+
+TEST(ScenarioMessages, NumbersAreStrict) {
+  const auto at_basal = [](const std::string& value) {
+    return problems(scene() + "basal:\n  restitution: " + value + "\n");
+  };
+  EXPECT_THAT(at_basal("0,2"), ElementsAre(HasSubstr("= 0,2 (must be a number or a distribution). "
+                                                     "Use a decimal point: 0.2.")));
+  EXPECT_THAT(at_basal(".nan"), ElementsAre(HasSubstr("It must be finite.")));
+  EXPECT_THAT(at_basal("NaN"), ElementsAre(HasSubstr("It must be finite.")));
+  EXPECT_THAT(at_basal("-inf"), ElementsAre(HasSubstr("It must be finite.")));
+  EXPECT_THAT(at_basal("0x1"), ElementsAre(HasSubstr("Write it in decimal.")));
+  EXPECT_THAT(at_basal("0.5m"), ElementsAre(HasSubstr("Write the number alone")));
+  EXPECT_THAT(at_basal("20 %"), ElementsAre(HasSubstr("fraction between 0 and 1")));
+  EXPECT_THAT(at_basal("\"0.5\""), ElementsAre(HasSubstr("Remove the quotes.")));
+  EXPECT_THAT(at_basal("1e999"), ElementsAre(HasSubstr("= 1e999 (must be a number")));
+  EXPECT_THAT(at_basal("NO"), ElementsAre(HasSubstr("= NO (must be a number")));
+  EXPECT_THAT(at_basal("1_0"), ElementsAre(HasSubstr("= 1_0 (must be a number")));
+}
+
+TEST(ScenarioMessages, WordsStayWords) {
+  EXPECT_EQ(read_scenario_text(scene() + "title: NO\n", "s").title, "NO");
+  EXPECT_EQ(read_scenario_text(scene() + "title: 0123\n", "s").title, "0123");
+  EXPECT_THAT(problems(scene() + "numerics2: 1\n").size(), 1u);
+}
+
+TEST(ScenarioMessages, BadDistribution) {
+  const auto at_basal = [](const std::string& value) {
+    return problems(scene() + "basal: {restitution: " + value + "}\n");
+  };
+  EXPECT_THAT(at_basal("{uniform: [0.5, 0.2]}"),
+              ElementsAre("scenario.yaml:7:22: basal.restitution = {uniform: [0.5, 0.2]} (max must "
+                          "be above min)."));
+  EXPECT_THAT(at_basal("{unifrom: [0.1, 0.2]}"),
+              ElementsAre("scenario.yaml:7:23: basal.restitution = {unifrom: ...} (unknown "
+                          "distribution). Did you mean uniform?"));
+  EXPECT_THAT(at_basal("{uniform: [0.1]}"),
+              ElementsAre("scenario.yaml:7:32: basal.restitution.uniform = [0.1] (must be [min, "
+                          "max] or {min, max})."));
+  EXPECT_THAT(at_basal("{normal: {mean: 0.3, min: 0, max: 0.9}}"),
+              ElementsAre("scenario.yaml:7:31: basal.restitution.normal (sd is missing). It takes "
+                          "{mean, sd}, optional min, max."));
+  EXPECT_THAT(at_basal("{beta: {alpa: 4, beta: 3, min: 0, max: 0.6}}"),
+              ElementsAre(HasSubstr("(alpha is missing)"), HasSubstr("Did you mean alpha?")));
+  EXPECT_THAT(at_basal("{truncated_normal: {mean: 0.3, sd: 0.1}}"),
+              ElementsAre(HasSubstr("(min is missing)"), HasSubstr("(max is missing)")));
+  EXPECT_THAT(at_basal("{triangular: [0, x, 0.9]}"), ElementsAre(HasSubstr("= x (must be a list")));
+  EXPECT_THAT(at_basal("{uniform: [0, 1], normal: 3}"), ElementsAre(HasSubstr("one distribution")));
+  EXPECT_THAT(at_basal("{table: 3}"), ElementsAre(HasSubstr("(must be [observation")));
+}
+
+TEST(ScenarioMessages, AbsentValuesStandAtTheirKey) {
+  EXPECT_THAT(problems(scene("  friction_angle_deg:\n  cohesion_pa: 0\n")),
+              ElementsAre("scenario.yaml:6:3: grains.friction_angle_deg (has no value; must be a "
+                          "number or a distribution). Give it one or remove the key."));
+  EXPECT_THAT(problems(scene() + "basal:\n\n\n"),
+              ElementsAre("scenario.yaml:7:1: basal (has no keys). Give it some of "
+                          "friction_coefficient, pore_pressure_ratio, cohesion_pa, restitution, or "
+                          "remove it."));
+}
+
+TEST(ScenarioMessages, AllProblemsComeTogetherInFileOrder) {
+  const auto found = problems(
+      "terrain: {raster: bed.tif, nodata: lava}\n"
+      "relase: {thickness_raster: h.tif}\n"
+      "grains: {friction_angle_deg: 240, diameter_m: big}\n"
+      "numerics: {spacing_m: -5, courant: 0.25}\n");
+  EXPECT_THAT(
+      found,
+      ElementsAre("scenario.yaml: release (no source given). Add one of polygon, "
+                  "thickness_raster, box, paraboloid, cylinder.",
+                  "scenario.yaml:1:36: terrain.nodata = lava (must be one of outflow, wall).",
+                  "scenario.yaml:2:1: relase (unknown key). Did you mean release?",
+                  "scenario.yaml:3:30: grains.friction_angle_deg = 240 (must be in 0..60). Was it "
+                  "in another unit?",
+                  "scenario.yaml:3:47: grains.diameter_m = big (must be a number or a "
+                  "distribution).",
+                  "scenario.yaml:4:23: numerics.spacing_m = -5 (must be > 0 and <= 1000)."));
+}
+
+TEST(ScenarioMessages, OneMistakeIsReportedOnce) {
+  // A wrong thickness must not also count as a missing one.
+  EXPECT_THAT(problems("terrain: {raster: b.tif}\n"
+                       "release: {box: {x_m: [0, 1], y_m: [0, 1]}, thickness_m: -3}\n"
+                       "grains: {friction_angle_deg: 24}\nnumerics: {spacing_m: 5}\n"),
+              ElementsAre(HasSubstr("release.thickness_m = -3 (must be > 0 and <= 2000).")));
+  // Nor a misread distribution as a missing partner of a correlation.
+  EXPECT_THAT(problems(scene() + "basal: {friction_coefficient: {uniform: 3}, "
+                                 "pore_pressure_ratio: {uniform: [0, 0.5]}}\n"
+                                 "ensemble: {correlation: "
+                                 "{basal.friction_coefficient/basal.pore_pressure_ratio: 0.2}}\n")
+                  .size(),
+              1u);
+  EXPECT_THAT(problems(scene() + "ensemble: {members: 99999999999}\n"),
+              ElementsAre("scenario.yaml:7:21: ensemble.members = 99999999999 (must be in "
+                          "1..10000000)."));
+}
+
+TEST(ScenarioMessages, SyntheticTerrain) {
+  const auto with = [](const std::string& terrain) {
+    return problems("terrain: {synthetic: " + terrain +
+                    "}\ngrains: {friction_angle_deg: 24}\nnumerics: {spacing_m: 5}\n"
+                    "release: {box: {x_m: [0, 1], y_m: [0, 1]}, thickness_m: 3}\n");
+  };
+  EXPECT_THAT(with("{plane: {cell_size_m: 5}}"), ElementsAre());
+  EXPECT_THAT(with("{plain: {cell_size_m: 5}}"), ElementsAre(HasSubstr("Did you mean plane?")));
+  EXPECT_THAT(with("{plane: {}}"), ElementsAre(HasSubstr("(cell_size_m is missing)")));
+  EXPECT_THAT(with("plane"), ElementsAre(HasSubstr("(must be one shape, {plane:")));
+  EXPECT_THAT(with("{plane: {cell_size_m: 5, slope_deg: 95}}"),
+              ElementsAre("scenario.yaml:1:22: terrain.synthetic.plane.slope_deg = 95 (must be in "
+                          "0..80). Was it in another unit?"));
+}
+
+}  // namespace
+}  // namespace sturz

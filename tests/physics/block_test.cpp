@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// V1, V1b and thin sheets: Coulomb friction with pore pressure is exact for one particle, an
+// elastic block and a sheet of one layer alike.
+#include "scenarios/catalogue.hpp"
+#include "tests/physics/verification.hpp"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace sturz::test {
+namespace {
+
+const double tan25 = std::tan(25 * degree);
+const double cos30 = std::cos(30 * degree);
+
+/// Acceleration of a mass on a slope that it slides down.
+double sliding(double slope_deg, double friction, double pore_pressure_ratio) {
+  const double a = slope_deg * degree;
+  return gravity_m_s2 * (std::sin(a) - (1 - pore_pressure_ratio) * friction * std::cos(a));
+}
+
+Scenario one_particle(Scenario s) {
+  const double dx = s.numerics.spacing_m, x = s.release.box->x_m[0];
+  s.release.box = ReleaseBox{{x, x + dx}, {0, dx}};
+  s.release.thickness_m = Uncertain(dx);
+  s.numerics.jitter = 0;
+  return s;
+}
+
+/// 10 x 10 x 4 particles that stay a block: cohesion beyond any stress of theirs, and a friction
+/// angle that leaves no lateral stress at the start (K_0 = 1 - sin 89 deg), which would make the
+/// block ring. Sliding friction excites it anyway; then parts of the base stick, or move across
+/// the slope, and the block as a whole feels less friction than a rigid one. Hence the viscosity.
+Scenario elastic(Scenario s, double artificial_viscosity = 0.5) {
+  s.grains->cohesion_pa = 1e7;
+  s.grains->friction.reset();
+  s.grains->friction_angle_deg = Uncertain(89);
+  s.numerics.artificial_viscosity = artificial_viscosity;
+  return s;
+}
+
+/// Distance and acceleration down the 30 degree slope, from rest.
+struct Slide {
+  Finished finished;
+  double path = 0, expected_path = 0;
+  double acceleration = 0, expected_acceleration = 0;
+  double path_error() const { return path / expected_path - 1; }
+  double acceleration_error() const { return acceleration / expected_acceleration - 1; }
+};
+
+Slide slide(const Scenario& s, double measure_from_s = 0) {
+  Simulation simulation = build(s);
+  const double from = mean_motion(simulation.parts().state.grains).x;
+  std::vector<double> t, v;
+  Slide out{run(std::move(simulation), {0.1,
+                                        [&](double time, const SimulationParts& p) {
+                                          if (time < measure_from_s) return;
+                                          t.push_back(time);
+                                          v.push_back(mean_motion(p.state.grains).vx / cos30);
+                                        }})};
+  const double end = out.finished.result.scalars.end_time_s;
+  out.path = (mean_motion(out.finished.simulation.parts().state.grains).x - from) / cos30;
+  out.acceleration = slope_of(t, v);
+  out.expected_acceleration = sliding(30, s.basal.friction_coefficient.value,
+                                      s.basal.pore_pressure_ratio.value);
+  out.expected_path = 0.5 * out.expected_acceleration * end * end;
+  return out;
+}
+
+void expect_slide(const std::string& name, const Slide& s, double tolerance) {
+  record({name + ", distance", "m in 5 s", s.path, s.expected_path, s.path_error(), tolerance},
+         s.finished);
+  record({name + ", acceleration", "m/s2", s.acceleration, s.expected_acceleration,
+          s.acceleration_error(), tolerance},
+         s.finished);
+  EXPECT_LT(std::abs(s.path_error()), tolerance);
+  EXPECT_LT(std::abs(s.acceleration_error()), tolerance);
+  expect_conserved(s.finished);
+}
+
+class BlockOnSlope : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(PorePressure, BlockOnSlope, testing::Values(0, 0.2, 0.4, 0.6),
+                         [](const auto& i) {
+                           return fmt::format("Ratio{:.0f}Percent", 100 * i.param);
+                         });
+
+TEST_P(BlockOnSlope, ParticleSlidesAsCoulombSays) {
+  expect_slide(fmt::format("V1 particle, r_u {}", GetParam()),
+               slide(one_particle(block_on_plane(tan25, GetParam()))), 1e-3);
+}
+
+TEST_P(BlockOnSlope, ElasticBlockSlidesAsCoulombSays) {
+  expect_slide(fmt::format("V1 elastic block, r_u {}", GetParam()),
+               slide(elastic(block_on_plane(tan25, GetParam()))), 0.01);
+}
+
+TEST(BlockOnSlope, VibrationThatShortensTheGripIsReported) {
+  const Slide s = slide(elastic(block_on_plane(tan25, 0), 0.1));
+  record({"V1 elastic block, r_u 0, viscosity 0.1", "m in 5 s", s.path, s.expected_path,
+          s.path_error(), std::numeric_limits<double>::quiet_NaN()},
+         s.finished);
+  expect_conserved(s.finished);
+}
+
+class StopOnLevelGround : public testing::TestWithParam<bool> {};
+
+INSTANTIATE_TEST_SUITE_P(Mass, StopOnLevelGround, testing::Bool(),
+                         [](const auto& i) { return i.param ? "ElasticBlock" : "Particle"; });
+
+/// 10 m/s on level ground, mu 0.4, r_u 0.5.
+TEST_P(StopOnLevelGround, EndsWhereTheEnergyIsSpent) {
+  Scenario s = block_on_plane(0.4, 0.5);
+  s.terrain.synthetic->parameters["slope_deg"] = 0;
+  s.release.velocity_m_s = {10, 0, 0};
+  s.numerics.end_time_s = 7;
+  s.numerics.stop_at_rest = false;
+  s = GetParam() ? elastic(s) : one_particle(s);
+  if (!GetParam()) s.numerics.spacing_m = 0.5, s = one_particle(s);
+
+  Simulation simulation = build(s);
+  const double from = mean_motion(simulation.parts().state.grains).x;
+  double stopped_at = 0;
+  const Finished f = run(std::move(simulation), {0.005, [&](double t, const SimulationParts& p) {
+                                                   if (mean_motion(p.state.grains).vx > 1e-3)
+                                                     stopped_at = t;
+                                                 }});
+  const double deceleration = 0.5 * 0.4 * gravity_m_s2;
+  const double time = 10 / deceleration, length = 50 / deceleration;
+  const double path = mean_motion(f.simulation.parts().state.grains).x - from;
+  const std::string name = GetParam() ? "V1b stop, elastic block" : "V1b stop, particle";
+  record({name + ", distance", "m", path, length, path / length - 1, 0.005}, f);
+  record({name + ", time", "s", stopped_at, time, stopped_at / time - 1, 0.005}, f);
+  EXPECT_NEAR(path / length, 1, 0.005);
+  EXPECT_NEAR(stopped_at / time, 1, 0.005);
+  expect_conserved(f);
+}
+
+/// 20 degrees, friction 25 degrees: one particle does not move at all.
+TEST(StickOnSlope, ParticleHasNoSpeedForAMinute) {
+  Scenario s = one_particle(block_on_plane(tan25, 0));
+  s.terrain.synthetic->parameters["slope_deg"] = 20;
+  s.numerics.end_time_s = 60;
+  s.numerics.stop_at_rest = false;
+  Simulation simulation = build(s);
+  const MeanMotion start = mean_motion(simulation.parts().state.grains);
+  double fastest = 0;
+  const Finished f = run(std::move(simulation), {0.05, [&](double t, const SimulationParts& p) {
+                                                   const MeanMotion m = mean_motion(p.state.grains);
+                                                   // The first second belongs to the spring, which
+                                                   // takes up the weight across the slope.
+                                                   const double along = std::hypot(m.vx, m.vy);
+                                                   fastest = std::max(fastest, t < 1 ? along : m.fastest);
+                                                 }});
+  const MeanMotion end = mean_motion(f.simulation.parts().state.grains);
+  record({"V1b stick, particle", "fastest m/s", fastest, 0, fastest, 1e-6}, f);
+  EXPECT_LT(fastest, 1e-6);
+  EXPECT_LT(std::hypot(end.x - start.x, end.y - start.y), 1e-3);
+}
+
+class ThinSheet : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Layers, ThinSheet, testing::Values(1, 2, 3, 5),
+                         [](const auto& i) { return fmt::format("Layers{}", i.param); });
+
+/// Periodic, 30 degrees, base tan 25: the acceleration does not know how many layers there are.
+TEST_P(ThinSheet, AcceleratesAsOneParticleDoes) {
+  const Slide s = slide(thin_sheet(GetParam()), 2);
+  record({fmt::format("sheet of {} layers, acceleration", GetParam()), "m/s2", s.acceleration,
+          s.expected_acceleration, s.acceleration_error(), 0.01},
+         s.finished);
+  EXPECT_LT(std::abs(s.acceleration_error()), 0.01);
+  expect_conserved(s.finished);
+}
+
+}  // namespace
+}  // namespace sturz::test

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What every verification case does: build a scene through the public door, run it, check what it
+/// must conserve, and write one line of the accuracy-versus-time table.
+#pragma once
+
+#include "engine/simulation/parts.hpp"
+#include "engine/simulation/simulation.hpp"
+#include "scenarios/scenario.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sturz::test {
+
+inline constexpr double gravity_m_s2 = 9.81;
+inline constexpr double degree = 0.017453292519943295;
+
+/// Loads the inputs of a scene and assembles its member 0.
+Simulation build(const Scenario&, int threads = 1);
+
+/// A finished member, its particles still at hand.
+struct Finished {
+  Simulation simulation;
+  MemberResult result;
+};
+
+/// Looked at every `every_s` of simulated time, at t = 0 and at the end.
+struct Watch {
+  double every_s = 1;
+  std::function<void(double time_s, const SimulationParts&)> look;
+};
+Finished run(const Scenario&, const Watch& = {}, int threads = 1);
+/// Runs a simulation that was built and changed by hand.
+Finished run(Simulation, const Watch& = {});
+
+/// Mass averages.
+struct MeanMotion {
+  double x = 0, y = 0, z = 0;           ///< centre of mass [m]
+  double vx = 0, vy = 0, vz = 0;        ///< [m/s]
+  double speed = 0;                     ///< mean |v| [m/s]
+  double energy_height = 0;             ///< kinetic energy / (m g) [m]
+  double fastest = 0;                   ///< largest |v| [m/s]
+};
+MeanMotion mean_motion(const ParticleSet&);
+
+/// V20: mass to the last bit, pair forces without net momentum, energy booked within 1 %.
+void expect_conserved(const Finished&);
+
+/// Least-squares slope of v over t.
+double slope_of(const std::vector<double>& t, const std::vector<double>& v);
+
+/// Order p and limit f of f(dx) = f0 + c dx^p through three resolutions, coarse to fine.
+struct Convergence {
+  bool monotonic = false;   ///< differences of one sign that get smaller; else order and limit are NaN
+  double order = 0;
+  double limit = 0;
+};
+Convergence observed_convergence(const std::vector<double>& dx, const std::vector<double>& value);
+
+/// One line of the table.
+struct Line {
+  std::string name;       ///< "V1 particle, r_u 0.2": unique, it is the key of the line
+  std::string quantity;   ///< what was measured, with its unit
+  double measured = 0, reference = 0;
+  double error = 0;       ///< in the sense and unit of the tolerance
+  double tolerance = 0;   ///< NaN: reported only
+};
+/// Prints the line, keeps it in tests/physics/results.csv of the build tree (the last run of a case
+/// replaces its line) and attaches measured value and error to the running test.
+void record(const Line&, const Finished&);
+
+}  // namespace sturz::test

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Results of an ensemble that nobody ran: a mountain, a gully, and members that follow it as far
+/// as their made-up friction lets them. Maps come from the real make_hazard_map.
+#pragma once
+
+#include "ensemble/design.hpp"
+#include "reports/report.hpp"
+
+#include <memory>
+
+namespace sturz::testing {
+
+struct MadeUpScene {
+  int n_cols = 120, n_rows = 80;
+  double cell_m = 20;
+  int n_members = 32;
+  int n_failed = 1;  ///< every so many-th member diverges
+};
+
+/// Owns everything that a ReportInput points to.
+struct MadeUpResults {
+  Raster<double> elevation;
+  std::unique_ptr<MemberSource> source;
+  LayerStack hazard;  ///< empty layers without members
+  LayerStack peaks;   ///< of the first member
+  DesignTable design;
+
+  /// Page of the whole ensemble, with every optional part filled.
+  ReportInput ensemble_input() const;
+  /// Page of the first member alone.
+  ReportInput single_input() const;
+};
+MadeUpResults make_up_results(const MadeUpScene& scene = {});
+
+}  // namespace sturz::testing

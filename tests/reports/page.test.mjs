@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pages in a real browser: no errors, no requests, maps and charts that react.
+//   STURZ_PAGES     folder with ensemble.html, single.html, empty.html
+//   STURZ_MODULES   folder whose node_modules holds playwright-core
+//   STURZ_CHROMIUM  the browser; the test is skipped with a message when it is missing
+import assert from 'node:assert/strict';
+import {existsSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {pathToFileURL} from 'node:url';
+
+const pages = process.env.STURZ_PAGES;
+const modules = process.env.STURZ_MODULES ?? '';
+const executablePath = process.env.STURZ_CHROMIUM ?? '/usr/bin/chromium';
+
+function missing() {
+  if (!existsSync(executablePath)) return `no browser at ${executablePath}`;
+  if (!existsSync(join(modules, 'node_modules/playwright-core')))
+    return 'playwright-core is not installed in the build folder';
+  return false;
+}
+const skip = missing();
+if (skip) console.log(`skipped: ${skip}`);
+
+let browser;
+before(async () => {
+  if (skip) return;
+  const {chromium} = createRequire(join(modules, 'package.json'))('playwright-core');
+  browser = await chromium.launch({
+    executablePath,
+    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
+           '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+  });
+});
+after(async () => browser?.close());
+
+/** Opens a page and collects everything that must not happen on it. */
+async function open(name, options = {}) {
+  const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
+  const page = await context.newPage();
+  const trouble = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) trouble.push(message.text());
+  });
+  page.on('pageerror', (error) => trouble.push(error.message));
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) trouble.push(`request: ${request.url()}`);
+  });
+  await page.goto(pathToFileURL(join(pages, `${name}.html`)).href);
+  return {page, trouble, close: () => context.close()};
+}
+
+/** What the map looks like right now, as one text. */
+async function picture(page) {
+  await page.mouse.move(2, 2);
+  await page.waitForTimeout(400);
+  return (await page.locator('#map').screenshot()).toString('base64');
+}
+
+async function liveMap(page) {
+  await page.waitForSelector('.live-maps #map canvas', {timeout: 60000});
+  await page.waitForTimeout(400);
+}
+
+/** Clicks the map at fractions of its width and height. */
+async function clickMap(page, fx, fy) {
+  await page.locator('#map').scrollIntoViewIfNeeded();
+  const box = await page.locator('#map').boundingBox();
+  await page.mouse.move(box.x + fx * box.width, box.y + fy * box.height);
+  await page.mouse.click(box.x + fx * box.width, box.y + fy * box.height);
+  await page.waitForTimeout(500);
+}
+
+test('every page opens without errors or requests', {skip}, async () => {
+  for (const name of ['ensemble', 'single', 'empty']) {
+    const {page, trouble, close} = await open(name);
+    if (name !== 'empty') await liveMap(page);
+    await page.waitForTimeout(300);
+    assert.deepEqual(trouble, [], name);
+    await close();
+  }
+});
+
+test('switching quantity and threshold redraws the map', {skip}, async () => {
+  const {page, trouble, close} = await open('ensemble');
+  await liveMap(page);
+  assert.equal(await page.textContent('.map-title'), 'Probability that the flow arrives');
+  const reached = await picture(page);
+  await page.click('[data-key="energy"]');
+  assert.match(await page.textContent('.map-title'), /kinetic energy per area exceeds 10/);
+  const low = await picture(page);
+  assert.notEqual(low, reached);
+  await page.click('[data-key="level-2"]');
+  assert.match(await page.textContent('.map-title'), /exceeds 1000/);
+  assert.notEqual(await picture(page), low);
+  await page.click('[data-key="quantile"]');
+  assert.equal(await page.textContent('.map-title'), 'Kinetic energy per area, median');
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
+test('thresholds below half a particle spacing are marked', {skip}, async () => {
+  const {page, close} = await open('ensemble');
+  await liveMap(page);
+  await page.click('[data-key="thickness"]');
+  assert.equal(await page.locator('.chips .flag', {hasText: 'not resolved'}).count(), 4);
+  await close();
+});
+
+test('hover tells the value, a click draws the exceedance curve', {skip}, async () => {
+  const {page, trouble, close} = await open('ensemble');
+  await liveMap(page);
+  await page.click('[data-key="energy"]');
+  await clickMap(page, 0.40, 0.46);
+  assert.match(await page.textContent('.hover'), /%.*x 41\d{4} y 465\d{4}/);
+  assert.match(await page.textContent('.cell-box'), /Reached by \d+ of 31 members/);
+  assert.ok(await page.locator('.cell-chart canvas').count() > 0);
+  assert.match(await page.textContent('.cell-box'), />\s100\skJ\/m²\d+\s%\d+\s% – \d+\s%/);
+  await clickMap(page, 0.04, 0.9);
+  assert.match(await page.textContent('.cell-box'), /No valid member came here/);
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
+test('opacity and contours change the picture', {skip}, async () => {
+  const {page, close} = await open('ensemble');
+  await liveMap(page);
+  const full = await picture(page);
+  assert.equal(await picture(page), full, 'nothing was changed yet');
+  await page.uncheck('#pick-contours');
+  const bare = await picture(page);
+  assert.notEqual(bare, full);
+  await page.fill('#pick-opacity', '20');
+  assert.notEqual(await picture(page), bare);
+  await close();
+});
+
+test('charts are drawn and the table sorts', {skip}, async () => {
+  const {page, trouble, close} = await open('ensemble');
+  await liveMap(page);
+  for (const id of ['chart-runout', 'chart-convergence', 'chart-scatter'])
+    assert.ok(await page.locator(`#${id} canvas`).count() > 0, id);
+  const column = () => page.$$eval('#member-table tbody tr', (rows) => rows.map(
+                                       (row) => Number(row.cells[2].dataset.v)));
+  await page.locator('#member-table th button').nth(2).click();
+  const ascending = await column();
+  assert.deepEqual(ascending, [...ascending].sort((a, b) => a - b));
+  await page.locator('#member-table th button').nth(2).click();
+  assert.deepEqual(await column(), ascending.reverse());
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
+test('a phone shows the page without sideways scrolling', {skip}, async () => {
+  for (const name of ['ensemble', 'single', 'empty']) {
+    const {page, close} = await open(
+        name, {viewport: {width: 360, height: 740}, isMobile: true, hasTouch: true});
+    if (name !== 'empty') await liveMap(page);
+    const [inner, outer] = await page.evaluate(
+        () => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+    assert.ok(inner <= outer, `${name}: ${inner} px of content on ${outer} px`);
+    await close();
+  }
+});
+
+test('without script and in print the still maps stand in', {skip}, async () => {
+  const {page, close} = await open('ensemble', {javaScriptEnabled: false});
+  assert.ok(await page.locator('#still-maps figure').first().isVisible());
+  await close();
+  const live = await open('ensemble');
+  await liveMap(live.page);
+  assert.ok(!await live.page.locator('#still-maps').isVisible());
+  await live.page.emulateMedia({media: 'print'});
+  assert.ok(await live.page.locator('#still-maps').isVisible());
+  assert.ok(!await live.page.locator('#map-app').isVisible());
+  await live.close();
+});

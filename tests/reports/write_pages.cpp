@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Writes the pages that the browser test opens: write_pages DIRECTORY [COLUMNS ROWS MEMBERS].
+#include "reports/figures.hpp"
+#include "tests/reports/made_up_results.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+
+namespace {
+
+void write(const std::filesystem::path& path, std::span<const char> bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file) throw std::runtime_error("cannot write " + path.string());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return 1;
+  using sturz::testing::make_up_results;
+  const std::filesystem::path directory = argv[1];
+  std::filesystem::create_directories(directory);
+  sturz::testing::MadeUpScene scene;
+  if (argc == 5) {
+    scene.n_cols = std::atoi(argv[2]), scene.n_rows = std::atoi(argv[3]);
+    scene.n_members = std::atoi(argv[4]);
+    scene.cell_m = 2400.0 / scene.n_cols;
+  }
+  const auto results = make_up_results(scene);
+  const auto input = results.ensemble_input();
+  write(directory / "ensemble.html", sturz::make_report(input));
+  write(directory / "single.html", sturz::make_report(results.single_input()));
+  const auto png = sturz::overview_png(results.hazard, &results.elevation);
+  write(directory / "hazard_map.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+  write(directory / "hazard_map.svg",
+        sturz::overview_svg(results.hazard, &results.elevation, input.title));
+
+  auto empty_scene = scene;
+  empty_scene.n_members = 0;
+  const auto empty = make_up_results(empty_scene);
+  write(directory / "empty.html", sturz::make_report(empty.ensemble_input()));
+}

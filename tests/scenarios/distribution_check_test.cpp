@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/distribution_check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sturz {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using Kind = Distribution::Kind;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+Distribution between(Kind kind, double min, double max) {
+  Distribution d;
+  d.kind = kind;
+  d.min = min;
+  d.max = max;
+  return d;
+}
+
+Distribution normal(double mean, double sd) {
+  Distribution d;
+  d.kind = Kind::normal;
+  d.mean = mean;
+  d.sd = sd;
+  return d;
+}
+
+TEST(DistributionCheck, SupportIsWhereValuesCanFall) {
+  EXPECT_EQ(support(between(Kind::uniform, 1, 2)), std::pair(1.0, 2.0));
+  EXPECT_EQ(support(normal(0, 1)), std::pair(-infinite, infinite));
+  Distribution lognormal;
+  lognormal.kind = Kind::lognormal;
+  lognormal.max = 3;
+  EXPECT_EQ(support(lognormal), std::pair(0.0, 3.0));
+  Distribution discrete;
+  discrete.kind = Kind::discrete;
+  discrete.values = {5, 2, 9};
+  EXPECT_EQ(support(discrete), std::pair(2.0, 9.0));
+  EXPECT_EQ(support(Uncertain(4)), std::pair(4.0, 4.0));
+}
+
+TEST(DistributionCheck, GoodParametersPass) {
+  EXPECT_THAT(parameter_problems(between(Kind::uniform, 1, 2)), IsEmpty());
+  EXPECT_THAT(parameter_problems(normal(0.3, 0.1)), IsEmpty());
+  Distribution triangular = between(Kind::triangular, 1, 2);
+  triangular.mode = 1;
+  EXPECT_THAT(parameter_problems(triangular), IsEmpty());
+}
+
+TEST(DistributionCheck, NamesEveryBadParameter) {
+  EXPECT_THAT(parameter_problems(between(Kind::uniform, 2, 2)),
+              ElementsAre("max must be above min"));
+  EXPECT_THAT(parameter_problems(between(Kind::log_uniform, 0, 2)), ElementsAre("min must be > 0"));
+  EXPECT_THAT(parameter_problems(normal(0, 0)), ElementsAre("sd must be > 0"));
+  Distribution beta = between(Kind::beta, 1, 0);
+  EXPECT_THAT(parameter_problems(beta),
+              ElementsAre("alpha and beta must be > 0", "max must be above min"));
+  Distribution triangular = between(Kind::triangular, 1, 2);
+  triangular.mode = 3;
+  EXPECT_THAT(parameter_problems(triangular), ElementsAre("the mode must lie between min and max"));
+  Distribution discrete;
+  discrete.kind = Kind::discrete;
+  discrete.values = {1, 2};
+  discrete.weights = {1};
+  EXPECT_THAT(parameter_problems(discrete), ElementsAre("weights must be as many as values"));
+  discrete.weights = {0, 0};
+  EXPECT_THAT(parameter_problems(discrete), ElementsAre("one weight at least must be > 0"));
+  Distribution table;
+  table.kind = Kind::table;
+  table.values = {2, 1};
+  EXPECT_THAT(parameter_problems(table), ElementsAre("the observations must rise"));
+  EXPECT_THAT(parameter_problems(normal(std::numeric_limits<double>::quiet_NaN(), 1)),
+              ElementsAre("every number must be finite"));
+}
+
+TEST(DistributionCheck, TruncationMustLeaveSomething) {
+  Distribution far = normal(0.3, 0.01);
+  far.min = 0.5;
+  far.max = 0.9;
+  EXPECT_THAT(parameter_problems(far),
+              ElementsAre("min and max cut away all but a millionth of it"));
+  Distribution tail = normal(0, 1);  // 4 sd out: 3e-5 is left
+  tail.min = 4;
+  EXPECT_THAT(parameter_problems(tail), IsEmpty());
+  tail.min.reset();
+  tail.max = -4;
+  EXPECT_THAT(parameter_problems(tail), IsEmpty());
+}
+
+}  // namespace
+}  // namespace sturz

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/schema.hpp"
+
+#include "engine/core/error.hpp"
+#include "scenarios/validate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace sturz {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// A value of the key's own kind that differs from every default and lies in its range.
+KeyValue unusual_value(const KeyInfo& key) {
+  const double middle = std::isfinite(key.max) && std::isfinite(key.min)
+                            ? key.min + 0.37 * (key.max - key.min)
+                            : 12.375;
+  switch (key.kind) {
+    case ValueKind::number:
+      return middle;
+    case ValueKind::integer:
+      return std::int64_t{77};
+    case ValueKind::text:
+    case ValueKind::path:
+      return std::string("unusual");
+    case ValueKind::choice:
+      return key.choices.back();
+    case ValueKind::flag:
+      return false;
+    case ValueKind::uncertain: {
+      Uncertain u;
+      u.distribution = Distribution{};
+      u.distribution->min = middle;
+      u.distribution->max = middle * 1.01;
+      return u;
+    }
+    case ValueKind::number_list:
+      return std::vector<double>(key.list_size == 0 ? 4 : key.list_size, middle);
+    case ValueKind::text_list:
+      return std::vector<std::string>{key.choices.back()};
+    case ValueKind::number_map:
+      return std::map<std::string, double>{{"a/b", 0.5}};
+    case ValueKind::synthetic:
+      return SyntheticTerrain{"ramp", 2, {{"slope_deg", 20}}};
+    case ValueKind::wall_list:
+      return std::vector<WallSpec>{{{1, 2, 3}, {0, 1, 0}, 0.3, 4.0}};
+  }
+  return {};
+}
+
+TEST(Schema, EveryKeyGivesBackWhatWasSet) {
+  for (const auto& key : schema()) {
+    Scenario s;
+    const KeyValue value = unusual_value(key);
+    key.set(s, value);
+    EXPECT_EQ(key.get(s), value) << key.path;
+    Scenario untouched;
+    if (key.choices.size() != 1) {
+      EXPECT_NE(s, untouched) << key.path << " does not reach the scenario";
+    }
+    EXPECT_TRUE(check_value(key, value).empty()) << key.path;
+  }
+}
+
+TEST(Schema, EveryKeyHasAHelpSentenceAndSaneLimits) {
+  std::set<std::string> paths;
+  for (const auto& key : schema()) {
+    EXPECT_TRUE(paths.insert(key.path).second) << key.path << " stands there twice";
+    EXPECT_GT(key.help.size(), 15u) << key.path;
+    EXPECT_EQ(key.help.back(), '.') << key.path;
+    EXPECT_LT(key.min, key.max) << key.path;
+    EXPECT_EQ(find_key(key.path), &key);
+    EXPECT_EQ(key.kind == ValueKind::choice || key.kind == ValueKind::text_list,
+              !key.choices.empty())
+        << key.path;
+  }
+}
+
+TEST(Schema, DefaultsLieInsideTheLimits) {
+  Scenario s;
+  s.grains.emplace().friction.emplace();
+  for (const auto& key : schema())
+    for (const auto& problem : check_value(key, key.get(s))) ADD_FAILURE() << problem.message;
+}
+
+TEST(Schema, UnitsStandInTheNames) {
+  const std::map<std::string, std::string> tails = {
+      {"m", "_m"},     {"m3", "_m3"},     {"s", "_s"},          {"degree", "_deg"},  {"Pa", "_pa"},
+      {"kPa", "_kpa"}, {"m s-1", "_m_s"}, {"kJ m-2", "_kj_m2"}, {"kg m-3", "_kg_m3"}};
+  for (const auto& key : schema()) {
+    if (key.units.empty() || key.units == "1") continue;
+    ASSERT_TRUE(tails.count(key.units)) << key.path << " [" << key.units << "]";
+    EXPECT_TRUE(key.path.ends_with(tails.at(key.units))) << key.path << " [" << key.units << "]";
+  }
+}
+
+TEST(Schema, OnlyPhysicalQuantitiesMayBeUncertain) {
+  for (const auto& key : schema())
+    if (key.kind == ValueKind::uncertain) {
+      EXPECT_TRUE(key.path.starts_with("release.") || key.path.starts_with("grains.") ||
+                  key.path.starts_with("basal."))
+          << key.path;
+    }
+}
+
+TEST(Schema, BlocksAreKnownByTheirKeys) {
+  EXPECT_TRUE(is_block("grains"));
+  EXPECT_TRUE(is_block("grains.friction"));
+  EXPECT_FALSE(is_block("grains.density_kg_m3"));
+  EXPECT_FALSE(is_block("grain"));
+  EXPECT_THAT(names_in_block("grains.friction"),
+              ElementsAre("static", "dynamic", "inertial_number_scale"));
+  EXPECT_THAT(names_in_block(""),
+              ElementsAre("title", "terrain", "release", "grains", "basal", "formulation",
+                          "numerics", "domain", "ensemble", "hazard"));
+  for (const auto& block : optional_blocks()) {
+    Scenario s;
+    EXPECT_FALSE(block.present(s)) << block.path;
+    block.make(s);
+    EXPECT_TRUE(block.present(s)) << block.path;
+  }
+}
+
+TEST(Schema, LaterKeysAreNoKeysYet) {
+  for (const auto& later : later_keys()) {
+    EXPECT_EQ(find_key(later.path), nullptr) << later.path;
+    EXPECT_FALSE(is_block(later.path)) << later.path;
+  }
+}
+
+TEST(Schema, UncertainKeysComeInTableOrder) {
+  Scenario s;
+  Uncertain u;
+  u.distribution = Distribution{};
+  u.distribution->min = 0.1;
+  u.distribution->max = 0.2;
+  s.basal.friction_coefficient = u;
+  s.grains.emplace().solid_fraction = u;
+  const auto keys = uncertain_keys(s);
+  ASSERT_EQ(keys.size(), 2u);
+  EXPECT_EQ(keys[0].path, "grains.solid_fraction");
+  EXPECT_EQ(keys[1].path, "basal.friction_coefficient");
+  EXPECT_EQ(keys[1].distribution, *u.distribution);
+  EXPECT_EQ(keys[1].units, "1");
+}
+
+TEST(Schema, WithValueReplacesADistribution) {
+  Scenario s;
+  s.basal.friction_coefficient.distribution = Distribution{};
+  const Scenario fixed = with_value(s, "basal.friction_coefficient", 0.3);
+  EXPECT_EQ(fixed.basal.friction_coefficient, Uncertain(0.3));
+  EXPECT_TRUE(uncertain_keys(fixed).empty());
+  EXPECT_EQ(with_value(s, "numerics.spacing_m", 4).numerics.spacing_m, 4);
+}
+
+TEST(Schema, WithValueRefusesWhatIsNoNumber) {
+  const auto message = [](const char* path) -> std::string {
+    try {
+      with_value(Scenario{}, path, 1);
+    } catch (const SetupError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("basal.friction_coeficient"),
+            "basal.friction_coeficient (unknown key). Did you mean basal.friction_coefficient?");
+  EXPECT_EQ(message("title"), "title = 1 (the key does not hold a single number).");
+}
+
+}  // namespace
+}  // namespace sturz

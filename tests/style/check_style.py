@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""House rules that a machine can check. Usage: check_style.py CHECK ROOT, CHECK one of the
+functions below or `all`. Prints file:line: what is wrong; exit code 1 when anything is."""
+import pathlib
+import re
+import sys
+
+LIBRARIES = ("engine", "scenarios", "ensemble", "io", "reports")
+CODE = (".hpp", ".cpp")
+MAX_LINES = 400
+
+
+def sources(root, folders, suffixes=CODE):
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in suffixes and "node_modules" not in path.parts:
+                yield path, path.relative_to(root).as_posix()
+
+
+def lines_of(path):
+    return path.read_text(errors="replace").splitlines()
+
+
+def without_strings(line):
+    """The line with the insides of its string literals blanked."""
+    return re.sub(r'"(\\.|[^"\\])*"', '""', line)
+
+
+def without_comment(line):
+    return without_strings(line).split("//")[0]
+
+
+def is_app(name):
+    return name.startswith("ensemble/app/")
+
+
+def length(root):
+    for path, name in sources(root, LIBRARIES + ("tests",), CODE + (".py",)):
+        n = len(lines_of(path))
+        if n > MAX_LINES:
+            yield f"{name}:{n}: {n} lines (at most {MAX_LINES}). One file, one idea: split it."
+
+
+def silence(root):
+    """Libraries do not print, exit or read the environment."""
+    forbidden = re.compile(
+        r"\b(?:std::)?(?:cout|cerr|clog|printf|fprintf|puts|putchar|perror|abort|quick_exit|_exit"
+        r"|getenv|secure_getenv|setenv|putenv)\b|(?<![\w:.>])(?:std::)?exit\s*\(|\bstd::exit\b"
+        r"|\bfmt::print\b|\bstd(?:out|err)\b")
+    for path, name in sources(root, LIBRARIES):
+        if is_app(name):
+            continue
+        for n, line in enumerate(lines_of(path), 1):
+            found = forbidden.search(without_comment(line))
+            if found:
+                yield f"{name}:{n}: a library must not use {found.group(0)}; only ensemble/app may."
+
+
+# The field uses each of these words for two things; GDAL's hillshade tool keeps its own name.
+FORBIDDEN_WORDS = {
+    "DEM": "elevation model or discrete element method: say terrain, elevation raster, grain contact",
+    "kernel": "SPH weight or hot loop: say SmoothingKernel or sweep",
+    "phase": "fluid or grain, or a grain's state: say ParticleSet or GrainState",
+}
+
+
+def words(root):
+    patterns = {w: re.compile(rf"(?<![A-Za-z]){w}s?(?![A-Za-z])" if w == "DEM"
+                              else rf"(?i:(?<![A-Za-z]){w}s?(?![A-Za-z]))") for w in FORBIDDEN_WORDS}
+    allowed = re.compile(r"gdaldem|GDALDEM|smoothing[ _-]kernel|two[- ]phase", re.IGNORECASE)
+    for path, name in sources(root, LIBRARIES):
+        for n, line in enumerate(lines_of(path), 1):
+            text = allowed.sub("", line)
+            for word, pattern in patterns.items():
+                if pattern.search(text):
+                    yield f"{name}:{n}: the bare word '{word}' ({FORBIDDEN_WORDS[word]})."
+
+
+def headers(root):
+    """Licence line first, `#pragma once` exactly once in every header."""
+    for path, name in sources(root, LIBRARIES + ("tests",), CODE + (".py",)):
+        text = lines_of(path)
+        first = text[1:2] if text and text[0].startswith("#!") else text[:1]
+        if not first or "SPDX-License-Identifier: Apache-2.0" not in first[0]:
+            yield f"{name}:1: the first line must be the SPDX line."
+        once = sum(line.strip() == "#pragma once" for line in text)
+        if path.suffix == ".hpp" and once != 1:
+            yield f"{name}:1: {once} lines '#pragma once' (exactly one)."
+        if path.suffix == ".hpp" and not any(line.startswith("///") for line in text[1:4]):
+            yield f"{name}:2: a header opens with one /// sentence that says the file's idea."
+
+
+def machine_paths(root):
+    """No path of one machine, and no unfinished mark, in anything that ships."""
+    pattern = re.compile(r"(?<![\w.])/(?:home|root|work|tmp|Users|mnt|scratch)/\w+")
+    marks = re.compile(r"\b(?:TODO|FIXME|XXX|HACK)\b")
+    folders = LIBRARIES + ("docs", "scripts", "tests", ".ci")
+    kinds = CODE + (".py", ".sh", ".md", ".yaml", ".yml", ".txt", ".json", ".js", ".css", ".html")
+    files = list(sources(root, folders, kinds))
+    files += [(p, p.name) for p in sorted(root.iterdir()) if p.is_file() and p.suffix in kinds]
+    for path, name in files:
+        if name == "tests/style/check_style.py":
+            continue
+        for n, line in enumerate(lines_of(path), 1):
+            if pattern.search(line):
+                yield f"{name}:{n}: a path of one machine: {pattern.search(line).group(0)}"
+            if path.suffix != ".md" and marks.search(line):
+                yield f"{name}:{n}: an unfinished mark; open an issue instead."
+
+
+def equations(root):
+    """Every row of engine/EQUATIONS.md names a source file and a test file that exist."""
+    table = root / "engine" / "EQUATIONS.md"
+    if not table.is_file():
+        yield "engine/EQUATIONS.md:1: the table is missing."
+        return
+    named = re.compile(r"`?((?:engine|scenarios|ensemble|io|tests)/[\w./-]+\.(?:cpp|hpp|py))")
+    rows = 0
+    for n, line in enumerate(lines_of(table), 1):
+        if not line.startswith("|") or re.match(r"^\|[\s:|-]+\|?$", line):
+            continue
+        paths = named.findall(line)
+        if not paths and rows == 0:
+            continue  # the head of the table
+        rows += 1
+        for path in paths:
+            if not (root / path).is_file():
+                yield f"engine/EQUATIONS.md:{n}: {path} does not exist."
+        if not any(p.startswith("tests/") for p in paths):
+            yield f"engine/EQUATIONS.md:{n}: the row names no test."
+        if not any(p.startswith(("engine/", "scenarios/")) for p in paths):
+            yield f"engine/EQUATIONS.md:{n}: the row names no source file."
+    if rows == 0:
+        yield "engine/EQUATIONS.md:1: the table has no rows."
+
+
+CHECKS = {f.__name__: f for f in (length, silence, words, headers, machine_paths, equations)}
+
+
+def main(which, root):
+    root = pathlib.Path(root).resolve()
+    chosen = CHECKS.values() if which == "all" else [CHECKS[which]]
+    bad = [line for check in chosen for line in check(root)]
+    print("\n".join(bad))
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3 or sys.argv[1] not in (*CHECKS, "all"):
+        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1], sys.argv[2]))

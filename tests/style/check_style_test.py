@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The style checks must find what they are there to find."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import check_style as style  # noqa: E402
+
+GOOD = "// SPDX-License-Identifier: Apache-2.0\n/// Idea.\n#pragma once\n"
+
+
+class CheckStyle(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = pathlib.Path(self.folder.name)
+        for name in style.LIBRARIES + ("tests", "ensemble/app"):
+            (self.root / name).mkdir(parents=True, exist_ok=True)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def findings(self, check, name, text):
+        path = self.root / name
+        path.write_text(text)
+        found = list(style.CHECKS[check](self.root))
+        path.unlink()
+        return found
+
+    def test_long_files_are_found(self):
+        self.assertTrue(self.findings("length", "io/a.cpp", "\n" * 401))
+        self.assertFalse(self.findings("length", "io/a.cpp", "\n" * 400))
+
+    def test_printing_libraries_are_found_and_the_app_may_print(self):
+        for line in ('std::cout << 1;', 'printf("x");', 'std::exit(1);', 'exit(1);',
+                     'auto p = std::getenv("HOME");', 'fmt::print("x");', 'fputs("x", stderr);'):
+            self.assertTrue(self.findings("silence", "engine/a.cpp", line), line)
+            self.assertFalse(self.findings("silence", "ensemble/app/a.cpp", line), line)
+        for line in ('// never printf here', 'text("std::cout");', 'on_exit(3);', 'x.exit();'):
+            self.assertFalse(self.findings("silence", "engine/a.cpp", line), line)
+
+    def test_ambiguous_words_are_found(self):
+        for line in ("// the DEM", "double kernel_sum;", "int phase = 0;", "// Kernel loops"):
+            self.assertTrue(self.findings("words", "io/a.cpp", line), line)
+        for line in ("// gdaldem", "SmoothingKernel w;", "// demand", "// emphases", "// ademic"):
+            self.assertFalse(self.findings("words", "io/a.cpp", line), line)
+
+    def test_headers_without_licence_pragma_or_idea_are_found(self):
+        self.assertFalse(self.findings("headers", "io/a.hpp", GOOD))
+        for line in GOOD.splitlines(keepends=True):
+            self.assertTrue(self.findings("headers", "io/a.hpp", GOOD.replace(line, "")), line)
+
+    def test_machine_paths_and_unfinished_marks_are_found(self):
+        self.assertTrue(self.findings("machine_paths", "io/a.cpp", 'open("/' + 'home/me/x");'))
+        self.assertTrue(self.findings("machine_paths", "io/a.cpp", "// TO" + "DO later"))
+        self.assertFalse(self.findings("machine_paths", "io/a.cpp", "a/tmp/b; /usr/bin/python3"))
+
+    def test_equation_rows_need_files_that_exist(self):
+        (self.root / "tests/a_test.cpp").write_text("")
+        (self.root / "engine/a.cpp").write_text("")
+        head = "| eq | where | test |\n|---|---|---|\n"
+        good = head + "| 1 | engine/a.cpp:f | tests/a_test.cpp |\n"
+        self.assertFalse(self.findings("equations", "engine/EQUATIONS.md", good))
+        for bad in (head, good.replace("engine/a.cpp", "engine/b.cpp"),
+                    good.replace("tests/a_test.cpp", "-")):
+            self.assertTrue(self.findings("equations", "engine/EQUATIONS.md", bad), bad)
+
+    def test_the_table_is_required(self):
+        self.assertTrue(list(style.CHECKS["equations"](self.root)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/slow_sweep.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace sturz::test {
+namespace {
+
+using Eigen::Matrix3d;
+
+/// dW/dr of Wendland C2, B.1: -105/(16 pi h^4) q (1 - q/2)^3, scaled to the factor in use.
+double derivative(double r, const SweepConstants& c) {
+  const double h = c.h, q = r / h;
+  if (q >= 2) return 0;
+  const double rest = 1 - 0.5 * q, h2 = h * h;
+  const double normal = c.gradient_factor * 16 * std::numbers::pi * h2 * h2 * h / 105;
+  return -normal * 105 / (16 * std::numbers::pi * h2 * h2) * q * rest * rest * rest;
+}
+
+/// B = M^-1, or the identity for det M < 0.15 or |B| > 5.
+Matrix3d correction(const Matrix3d& moment, bool& corrected) {
+  corrected = moment.determinant() >= 0.15;
+  if (!corrected) return Matrix3d::Identity();
+  const Matrix3d b = moment.inverse();
+  corrected = b.norm() <= 5;
+  return corrected ? b : Matrix3d::Identity();
+}
+
+}  // namespace
+
+std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
+                                  const std::vector<SlowParticle>& images,
+                                  const SweepConstants& c) {
+  std::vector<SlowRates> out(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const SlowParticle& a = particles[i];
+    const double density_a = c.reference_density * (1 + a.compression);
+    Matrix3d gradient = Matrix3d::Zero(), moment = Matrix3d::Zero();
+    Vec3 force(0, 0, 0), grad_sum(0, 0, 0), density_gradient(0, 0, 0);
+    double laplace = 0;
+    SlowRates& rates = out[i];
+    const auto add = [&](const SlowParticle& b) {
+      const Vec3 r = a.position - b.position;
+      const double distance = r.norm();
+      if (distance == 0 || distance >= 2 * c.h) return;
+      const Vec3 grad = derivative(distance, c) * r / distance;  // of W_ij at i
+      const Vec3 u = a.velocity - b.velocity;
+      const double density_b = c.reference_density * (1 + b.compression);
+      const double mass_b = b.volume * density_b;
+      gradient += b.volume * (b.velocity - a.velocity) * grad.transpose();
+      moment += b.volume * (b.position - a.position) * grad.transpose();
+      // Bilateral viscosity; the mean density of a pair is taken as rho_a rho_b / rho_ref.
+      const double phi = c.h * u.dot(r) / (r.squaredNorm() + 0.01 * c.h * c.h);
+      const double pi = -c.viscosity * c.sound_speed * phi * c.reference_density /
+                        (density_a * density_b);
+      force += mass_b *
+               ((a.stress + b.stress) / (density_a * density_b) - pi * Matrix3d::Identity()) * grad;
+      const double rise = b.compression - a.compression;
+      const double weight = -grad.dot(r) / r.squaredNorm();  // F_ij without the 0.01 h^2
+      laplace += b.volume * weight * rise;
+      grad_sum += b.volume * grad;
+      density_gradient += b.volume * rise * grad;
+      rates.smoothing += b.volume * weight *
+                         (b.stress * b.inverse_pressure - a.stress * a.inverse_pressure);
+    };
+    for (const SlowParticle& b : particles)
+      if (&b != &a) add(b);
+    for (const SlowParticle& b : images) add(b);
+    bool own_corrected = true;
+    rates.gradient = (gradient + a.wall_gradient) *
+                     correction(moment + a.wall_moment, rates.corrected);
+    const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // grad of compression
+    rates.acceleration = force;
+    // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.
+    rates.diffusion = 2 * c.density_diffusion * c.h * c.sound_speed * (laplace - rise.dot(grad_sum));
+    rates.smoothing *= 2 * c.stress_smoothing * c.h * c.sound_speed;
+    rates.smoothing -= rates.smoothing.trace() / 3 * Matrix3d::Identity();
+    rates.corrected = rates.corrected && own_corrected;
+  }
+  return out;
+}
+
+}  // namespace sturz::test

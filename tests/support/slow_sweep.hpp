@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The slow twin of the pair sweep: every pair, double precision, physics.md's formulas in full.
+#pragma once
+
+#include "engine/core/vec.hpp"
+#include "engine/neighbors/packed.hpp"
+
+#include <Eigen/Dense>
+
+#include <vector>
+
+namespace sturz::test {
+
+/// A particle as the sweep sees it, positions in metres.
+struct SlowParticle {
+  Vec3 position{0, 0, 0}, velocity{0, 0, 0};
+  double volume = 1;                                        ///< m/rho [m^3]
+  double compression = 0;                                   ///< rho/rho_ref - 1
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();         ///< [Pa], tension positive
+  double inverse_pressure = 0;                              ///< 1/(p + p_c) [1/Pa]
+  Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();    ///< what walls add [-]
+  Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
+};
+
+struct SlowRates {
+  Vec3 acceleration{0, 0, 0};
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< corrected dv_a/dx_b
+  double diffusion = 0;
+  Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
+  bool corrected = true;  ///< false where the moment matrix is too poor and B = I
+};
+
+/// B.2, B.3, B.4 over all pairs. \param images extra particles that are neighbours only
+std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
+                                  const std::vector<SlowParticle>& images,
+                                  const SweepConstants&);
+
+}  // namespace sturz::test

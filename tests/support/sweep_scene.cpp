@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/sweep_scene.hpp"
+
+#include "engine/neighbors/neighbor_lists.hpp"
+#include "engine/neighbors/smoothing_kernel.hpp"
+
+#include <cmath>
+
+namespace sturz::test {
+namespace {
+
+constexpr std::array<std::array<int, 2>, 6> entries{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+
+PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
+  r.volume = static_cast<float>(p.volume);
+  r.vx = static_cast<float>(p.velocity.x());
+  r.vy = static_cast<float>(p.velocity.y());
+  r.vz = static_cast<float>(p.velocity.z());
+  r.compression = static_cast<float>(p.compression);
+  float* stress[6] = {&r.sxx, &r.syy, &r.szz, &r.sxy, &r.syz, &r.szx};
+  for (int k = 0; k < 6; ++k)
+    *stress[k] = static_cast<float>(p.stress(entries[k][0], entries[k][1]));
+  r.inverse_pressure = static_cast<float>(p.inverse_pressure);
+  return r;
+}
+
+/// Room for the sweep's results and inputs of walls, [padded].
+struct Rooms {
+  std::array<std::vector<float>, 19> results;
+  std::array<std::vector<float>, 12> wall;
+
+  explicit Rooms(std::size_t n) {
+    for (auto& r : results) r.assign(n, 0);
+    for (auto& w : wall) w.assign(n, 0);
+  }
+  SweepOutput output() {
+    SweepOutput o{};
+    float** slots[] = {&o.ax,  &o.ay,  &o.az,  &o.lxx, &o.lxy, &o.lxz,      &o.lyx,
+                       &o.lyy, &o.lyz, &o.lzx, &o.lzy, &o.lzz, &o.diffusion};
+    for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
+    for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
+    return o;
+  }
+  BoundaryView boundary() const {
+    BoundaryView b{};
+    for (int k = 0; k < 6; ++k) b.moment[k] = wall[k].data(), b.gradient[k] = wall[6 + k].data();
+    return b;
+  }
+  SlowRates rates(std::size_t i) const {
+    SlowRates r;
+    for (int k = 0; k < 3; ++k) {
+      r.acceleration[k] = results[k][i];
+      for (int m = 0; m < 3; ++m) r.gradient(k, m) = results[3 + 3 * k + m][i];
+    }
+    r.diffusion = results[12][i];
+    for (int k = 0; k < 6; ++k) {
+      r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
+      r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
+    }
+    return r;
+  }
+};
+
+}  // namespace
+
+SweepConstants usual_constants(double spacing) {
+  const double h = 1.3 * spacing;
+  return {h, SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, 0.16};
+}
+
+SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
+                    InstructionSet isa, const Domain& domain) {
+  ParticleSet set;
+  set.resize(particles.size());
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    set.x[i] = particles[i].position.x();
+    set.y[i] = particles[i].position.y();
+    set.z[i] = particles[i].position.z();
+  }
+  NeighborLists lists(2 * constants.h, 0.15 * constants.h, sweeps(isa).tight_list);
+  lists.rebuild(set, domain, 1);
+  lists.pack_positions(set, 0, set.size());
+  Rooms rooms(lists.padded_size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const SlowParticle& p = particles[set.id[i]];
+    lists.records()[i] = record_of(p, lists.records()[i]);
+    for (int k = 0; k < 6; ++k) {
+      rooms.wall[k][i] = static_cast<float>(p.wall_moment(entries[k][0], entries[k][1]));
+      rooms.wall[6 + k][i] = static_cast<float>(p.wall_gradient(entries[k][0], entries[k][1]));
+    }
+  }
+  lists.copy_images();
+  sweeps(isa).dense(lists.view(), constants, rooms.boundary(), rooms.output(), 0,
+                    lists.n_groups());
+  SweepRun run;
+  run.rates.resize(particles.size());
+  for (std::size_t i = 0; i < set.size(); ++i) run.rates[set.id[i]] = rooms.rates(i);
+  for (const auto& r : rooms.results)
+    run.raw.insert(run.raw.end(), r.begin(), r.begin() + static_cast<std::ptrdiff_t>(set.size()));
+  return run;
+}
+
+std::vector<SlowParticle> lattice(std::array<int, 3> n, double dx, double jitter,
+                                  const Vec3& center, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> shift(-jitter * dx, jitter * dx);
+  std::vector<SlowParticle> out;
+  for (int i = 0; i < n[0]; ++i)
+    for (int j = 0; j < n[1]; ++j)
+      for (int k = 0; k < n[2]; ++k) {
+        SlowParticle p;
+        const Vec3 at(i - 0.5 * (n[0] - 1), j - 0.5 * (n[1] - 1), k - 0.5 * (n[2] - 1));
+        p.position = center + dx * at + Vec3(shift(random), shift(random), shift(random));
+        p.volume = dx * dx * dx;
+        out.push_back(p);
+      }
+  return out;
+}
+
+void roughen(std::vector<SlowParticle>& particles, double dx, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (SlowParticle& p : particles) {
+    p.velocity = 5 * Vec3(u(random), u(random), u(random));
+    p.compression = 0.01 * u(random);
+    p.volume = dx * dx * dx * (1 + 0.1 * u(random));
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b <= a; ++b) p.stress(a, b) = p.stress(b, a) = 3e4 * u(random);
+    p.stress -= 5e4 * Eigen::Matrix3d::Identity();
+    p.inverse_pressure = -3 / p.stress.trace();
+  }
+}
+
+double relative_error(const std::vector<SlowRates>& a, const std::vector<SlowRates>& b,
+                      const std::function<Eigen::MatrixXd(const SlowRates&)>& part) {
+  double error = 0, size = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    error += (part(a[i]) - part(b[i])).squaredNorm();
+    size += part(b[i]).squaredNorm();
+  }
+  return std::sqrt(error / size);
+}
+
+}  // namespace sturz::test
