@@ -19,10 +19,11 @@ install_time=$(seconds_since "$begin")
 
 stage="building the release preset"
 begin=$SECONDS
-cmake --preset release -DSTURZ_TESTS=OFF >build.log 2>&1 ||
-  { tail -n 20 build.log >&2; echo "cmake could not configure; the whole text is in build.log." >&2; exit 1; }
+mkdir -p build
+cmake --preset release -DSTURZ_TESTS=OFF >build/configure.log 2>&1 ||
+  { tail -n 20 build/configure.log >&2
+    echo "cmake could not configure; the whole text is in build/configure.log." >&2; exit 1; }
 cmake --build build/release --target sturz
-rm -f build.log
 build_time=$(seconds_since "$begin")
 
 stage="running the shipped ensemble"

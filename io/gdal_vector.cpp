@@ -107,6 +107,9 @@ void settle_transform(Reading& reading, const Grid& terrain) {
 
 PolygonsPtr polygons_of(Reading& reading, const OGRGeometry& geometry, const std::string& name) {
   GeometryPtr linear(geometry.hasCurveGeometry() ? geometry.getLinearGeometry() : geometry.clone());
+  if (geometry.hasCurveGeometry())
+    reading.result.notes.push_back(
+        fmt::format("{}: the curves of {} were replaced by short lines", reading.label, name));
   linear->flattenTo2D();
   std::string other;
   PolygonsPtr polygons = polygons_in(*linear, other);

@@ -67,9 +67,9 @@ std::vector<std::uint8_t> hillshade(const Raster<double>& ground) {
   std::vector<std::uint8_t> shade(slopes.size(), 255);
   for (std::size_t i = 0; i < slopes.size(); ++i) {
     if (!std::isfinite(slopes[i].east)) continue;
-    // Flat ground is 0.707; the range is lifted to 110..250 so that colours on it stay readable.
+    // Flat ground is 0.707; the range is lifted to 95..250 so that colours on it stay readable.
     const double light = std::clamp(brightness(slopes[i], exaggerate), 0.0, 1.0);
-    const double grey = 110 + 140 * std::pow(light, 0.9);
+    const double grey = 95 + 155 * std::pow(light, 0.9);
     shade[i] = static_cast<std::uint8_t>(std::lround(grey / 255 * 63) * 255 / 63);
   }
   return shade;

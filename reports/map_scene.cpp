@@ -16,13 +16,13 @@ struct Box {
   double west, south, east, north;
 };
 
-/// The touched box widened by a sixth of its longer side, and to no less than 3:5 in shape, so
-/// that a narrow track is still seen within its valley.
+/// The touched box widened by a sixth of its longer side, and to a shape between 1:1 and 5:3, so
+/// that a narrow track is seen within its valley and fills a landscape page.
 Box view_around(const Grid& g) {
   const double width = g.east_m() - g.west_m, height = g.north_m - g.south_m();
   const double margin = std::max(std::max(width, height) / 6, 6 * g.cell_m);
   double half_w = width / 2 + margin, half_h = height / 2 + margin;
-  half_w = std::max(half_w, 0.6 * half_h);
+  half_w = std::max(half_w, half_h);
   half_h = std::max(half_h, 0.6 * half_w);
   const double x = (g.west_m + g.east_m()) / 2, y = (g.north_m + g.south_m()) / 2;
   return {x - half_w, y - half_h, x + half_w, y + half_h};

@@ -48,7 +48,9 @@ std::string navigation_html(const std::string& body) {
   std::string html = "<nav aria-label=\"Parts of this page\">";
   for (const auto& [id, label] : parts)
     if (body.find(fmt::format("<section id=\"{}\"", id)) != std::string::npos)
-      html += fmt::format("<a href=\"#{}\">{}</a>", id, label);
+      html += fmt::format("<a href=\"#{0}\"{1}>{2}</a>", id,
+                          std::string_view(id) == "spread" ? " class=\"needs-script\" hidden" : "",
+                          label);
   return html + "</nav>";
 }
 

@@ -102,7 +102,7 @@ std::string map_html(const ReportInput& input, const MapScene* scene, const Laye
 }
 
 std::string charts_html(const ReportInput& input, const Headline& h) {
-  if (h.n_valid < 2) return {};
+  if (h.n_valid < 2 || !report_has_script()) return {};
   std::string html =
       "<section id=\"spread\" class=\"needs-script\" hidden><h2>Spread of the members</h2>"
       "<div class=\"charts\">"

@@ -156,7 +156,7 @@ std::string headline_html(const ReportInput& input, const Headline& h) {
   if (input.elapsed_s > 0)
     pace += (pace.empty() ? "" : "; ") + duration_text(input.elapsed_s) + " elapsed";
   html += card("Computing time", duration_text(h.member_seconds),
-               pace.empty() ? "summed over members" : pace);
+               pace.empty() ? (single ? "of this run" : "summed over members") : pace);
   return html + "</dl></section>";
 }
 

@@ -75,9 +75,10 @@ StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
 }  // namespace
 
 Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member,
-                    int threads) {
+                    int threads, InstructionSet instruction_set) {
   require_numbers(numbers);
-  const ScenePlan plan = plan_scene(numbers, inputs, member);
+  ScenePlan plan = plan_scene(numbers, inputs, member);
+  plan.stress.instruction_set = instruction_set;
   State state = make_state(numbers, plan, threads);
   Step step = make_step(plan, state);
   auto parts = std::make_unique<SimulationParts>(

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/effects/fused_sweep.hpp"
 #include "engine/simulation/simulation.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
@@ -15,9 +16,10 @@ namespace sturz {
 
 /// Builds member `member` of a scene. Every value must be fixed (no distribution left).
 /// \param threads OpenMP threads inside this member, >= 1
+/// \param instruction_set of the pair loop; avx2 and avx512 give the same bits
 /// \throws SetupError naming the key when the scene cannot be built
 Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member,
-                    int threads);
+                    int threads, InstructionSet instruction_set = best_instruction_set());
 
 /// An effect that the scene calls for, or not, and why.
 struct EffectNote {

@@ -96,6 +96,14 @@ std::shared_ptr<const Raster<double>> with_margin(const Raster<double>& z, const
   return out;
 }
 
+/// A particle may meet the images of the others once, never its own or the same one twice.
+void require_room(const Period& p, const char* direction, double spacing) {
+  require(!p.active || p.length() >= 3 * spacing,
+          std::string("domain.periodic = ") + direction + " (the terrain repeats after " +
+              short_number(p.length()) + " m, less than three spacings of " +
+              short_number(spacing) + " m). Use a longer terrain or a finer spacing_m.");
+}
+
 Domain make_domain(const DomainSpec& spec, const Raster<double>& elevation) {
   Domain d;
   for (const std::string& direction : spec.periodic)
@@ -133,6 +141,8 @@ MuIRheology make_law(const GrainsSpec& g) {
 ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
   require(s.grains.has_value(), "grains: the block is missing (nothing would move). Add `grains:`.");
   const Domain domain = make_domain(s.domain, *in.elevation);
+  require_room(domain.x, "x", s.numerics.spacing_m);
+  require_room(domain.y, "y", s.numerics.spacing_m);
   const bool periodic = domain.x.active || domain.y.active;
   const NodataRule rule = s.terrain.nodata == "wall" ? NodataRule::wall : NodataRule::outflow;
   const Terrain ground(periodic ? with_margin(*in.elevation, domain) : in.elevation, rule);

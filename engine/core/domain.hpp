@@ -2,6 +2,7 @@
 /// What bounds a scene besides the ground: analytic walls and periodic directions.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -37,11 +38,13 @@ struct Domain {
   }
 
  private:
+  /// By division, not by turns: a particle that ran away must not hang its member.
   template <class T>
   static void wrap_one(const Period& p, T& position, T& z) {
-    if (!p.active) return;
-    while (position >= p.max) position -= p.length(), z -= p.rise;
-    while (position < p.min) position += p.length(), z += p.rise;
+    if (!p.active || (position >= p.min && position < p.max)) return;
+    const T turns = std::floor((position - p.min) / p.length());
+    position -= turns * p.length();
+    z -= turns * p.rise;
   }
 };
 

@@ -36,6 +36,18 @@ struct GrainStress {
   }
 };
 
+/// Brings particles back into the periodic box and keeps what that takes off their travel.
+void wrap_grains(State& s) {
+  ParticleSet& p = s.grains;
+  if (s.wrapped_x.empty()) return;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double x = p.x[i], y = p.y[i];
+    s.domain.wrap(p.x[i], p.y[i], p.z[i]);
+    s.wrapped_x[p.id[i]] += x - p.x[i];
+    s.wrapped_y[p.id[i]] += y - p.y[i];
+  }
+}
+
 class NeighborPass final : public Pass {
  public:
   explicit NeighborPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
@@ -50,6 +62,7 @@ class NeighborPass final : public Pass {
     if (s.order_changed) lists.invalidate();
     s.order_changed = false;
     if (!lists.needs_rebuild()) return;
+    wrap_grains(s);
     lists.rebuild(s.grains, s.domain, s.threads);
     for (auto& r : shared_->results) r.resize(lists.padded_size());
     for (auto& r : shared_->smooth) r.resize(lists.padded_size());
@@ -85,11 +98,12 @@ class PackPass final : public Pass {
       PackedRecord* records = lists.records();
       for (std::size_t i = begin; i < end; ++i) {
         PackedRecord& r = records[i];
-        r.volume = static_cast<float>(p.mass[i] / (reference * (1 + compression[i])));
+        const double e = std::max(compression[i], GrainStressSettings::separation);
+        r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
         r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
         r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
         r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
-        r.compression = static_cast<float>(compression[i]);
+        r.compression = static_cast<float>(e);
         r.sxx = static_cast<float>(stress[0][i]);
         r.syy = static_cast<float>(stress[1][i]);
         r.szz = static_cast<float>(stress[2][i]);
@@ -187,9 +201,28 @@ class StressPass final : public Pass {
     s.ledger.plastic += sums.plastic;
     s.ledger.diffusion += sums.diffusion;
     s.ledger.rest_damping += sums.rest;
+    if (s.any_outside) release_elastic(s);
   }
 
  private:
+  /// What a particle that is about to leave has stored goes with it.
+  void release_elastic(State& s) const {
+    const GrainStressSettings& g = shared_->settings;
+    const auto& e = s.grains.find_field("compression")->component[0];
+    const auto& c = s.grains.find_field("stress")->component;
+    for (std::size_t i = 0; i < s.grains.size(); ++i) {
+      if (!s.leaves(i)) continue;
+      const double p = -(c[0][i] + c[1][i] + c[2][i]) / 3;
+      const double xx = c[0][i] + p, yy = c[1][i] + p, zz = c[2][i] + p;
+      const double tau = std::sqrt(0.5 * (xx * xx + yy * yy + zz * zz) + c[3][i] * c[3][i] +
+                                   c[4][i] * c[4][i] + c[5][i] * c[5][i]);
+      const double stored =
+          elastic_energy(g, s.grains.mass[i] / g.reference_density, e[i], tau);
+      s.ledger.elastic -= stored;
+      s.ledger.lost_energy += stored;
+    }
+  }
+
   std::shared_ptr<GrainStress> shared_;
 };
 
@@ -220,6 +253,10 @@ void add_grain_stress(Step& step, State& state, const GrainStressSettings& setti
   before.component[0] = state.grains.vx;
   before.component[1] = state.grains.vy;
   before.component[2] = state.grains.vz;
+  if (state.domain.x.active || state.domain.y.active) {
+    state.wrapped_x.assign(state.grains.size(), 0);
+    state.wrapped_y.assign(state.grains.size(), 0);
+  }
   start_geostatic(state, settings, depth);
   auto shared = std::make_shared<GrainStress>(settings);
   step.add(std::make_unique<NeighborPass>(shared));

@@ -37,6 +37,17 @@ struct DriftSums {
   double stopped_energy = 0;  // taken by a rim that is a wall
 };
 
+struct Velocity {
+  double x, y, z;
+};
+
+/// At the start of the step, as the pack pass left it.
+Velocity start_velocity(const ParticleSet& p, std::size_t i) {
+  const Field* before = p.find_field("velocity_before");
+  if (!before) return {p.vx[i], p.vy[i], p.vz[i]};
+  return {before->component[0][i], before->component[1][i], before->component[2][i]};
+}
+
 class Motion final : public Pass {
  public:
   explicit Motion(const MotionSettings& m) : settings_(m) {}
@@ -51,26 +62,32 @@ class Motion final : public Pass {
   }
 
   void apply(State& s, double dt) override {
-    if (s.any_outside) handle_outside(s);
+    if (s.any_outside) remove_outside(s);
     drift(s, dt);
     refresh_motion(s, dt);
   }
 
  private:
-  /// Particles found off the terrain at the start of the step: gone, or turned back by the rim.
-  void handle_outside(State& s) {
+  /// Particles found off the terrain at the start of the step are taken out, with the kinetic
+  /// energy they had then: the works of this step are booked for those that stay.
+  void remove_outside(State& s) {
     ParticleSet& p = s.grains;
-    if (s.terrain.nodata_rule() == NodataRule::wall) return;
     keep_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) {
-      keep_[i] = !s.outside[i];
+      keep_[i] = !s.leaves(i);
       if (keep_[i]) continue;
-      const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
+      const Velocity v = start_velocity(p, i);
       s.ledger.lost_mass += p.mass[i];
-      s.ledger.lost_energy += 0.5 * p.mass[i] * v2;
+      s.ledger.lost_energy += 0.5 * p.mass[i] * (v.x * v.x + v.y * v.y + v.z * v.z);
     }
+    for (auto* a : {&s.ax, &s.ay, &s.az}) {
+      std::size_t n = 0;
+      for (std::size_t i = 0; i < keep_.size(); ++i)
+        if (keep_[i]) (*a)[n++] = (*a)[i];
+      a->resize(n);
+    }
+    if (s.ax.size() == p.size()) return;
     p.compact(keep_);
-    for (auto* a : {&s.ax, &s.ay, &s.az}) a->resize(p.size());
     s.order_changed = true;
   }
 
@@ -97,12 +114,12 @@ class Motion final : public Pass {
   }
 
   /// A rim that is a wall takes the velocity component that would lead off the known ground.
-  /// \return kinetic energy per mass that the rim took [J/kg]
+  /// \return kinetic energy per mass that the rim took, with the mean velocity of the step [J/kg]
   static double stop_at_rim(State& s, std::size_t i, double dt) {
     ParticleSet& p = s.grains;
-    const double before = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i];
-    auto known = [&](double vx, double vy) {
-      double x = p.x[i] + dt * vx, y = p.y[i] + dt * vy, z = p.z[i];
+    const double vx = p.vx[i], vy = p.vy[i];
+    auto known = [&](double ux, double uy) {
+      double x = p.x[i] + dt * ux, y = p.y[i] + dt * uy, z = p.z[i];
       s.domain.wrap(x, y, z);
       return s.terrain.inside(x, y);
     };
@@ -114,7 +131,8 @@ class Motion final : public Pass {
     } else {
       p.vx[i] = p.vy[i] = 0;
     }
-    return 0.5 * (before - p.vx[i] * p.vx[i] - p.vy[i] * p.vy[i]);
+    const Velocity start = start_velocity(p, i);
+    return 0.5 * ((vx - p.vx[i]) * (start.x + p.vx[i]) + (vy - p.vy[i]) * (start.y + p.vy[i]));
   }
 
   MotionSettings settings_;

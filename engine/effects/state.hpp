@@ -44,13 +44,20 @@ struct State {
   int threads = 1;
 
   std::vector<double> ax, ay, az;        ///< acceleration of the force stage [m/s^2]
-  std::vector<std::uint8_t> outside;     ///< 1: off the known terrain, to be removed
+  std::vector<std::uint8_t> outside;     ///< 1: off the known terrain, 2: lost under the ground
   bool any_outside = false;
+  /// What wrapping into the periods took off each particle's map position, by id [m]; empty
+  /// where nothing is periodic.
+  std::vector<double> wrapped_x, wrapped_y;
   bool order_changed = true;             ///< particles were added, removed or moved by force
   BoundarySupport boundary;
   MotionBounds motion;
   Ledger ledger;
 
+  /// Whether the move stage removes particle i: off a rim that lets mass out, or underground.
+  bool leaves(std::size_t i) const {
+    return outside[i] == 2 || (outside[i] == 1 && terrain.nodata_rule() == NodataRule::outflow);
+  }
   /// Factor that extrapolates the last change of velocity to v_{n+1/2}; see predicted_velocity.
   double extrapolation(double dt) const { return previous_dt > 0 ? dt / previous_dt : 0; }
 

@@ -55,7 +55,7 @@ class WallPressure {
                        2 * (nx * ny * stress_[3][i] + ny * nz * stress_[4][i] +
                             nz * nx * stress_[5][i]);
     if (snn >= 0) return 0;
-    return -2 * snn * plane / (density_ * (1 + compression_[i]));
+    return -2 * snn * plane / (density_ * (1 + compression_[i]));  // loaded, so compression > 0
   }
 
  private:
@@ -173,7 +173,7 @@ class BoundaryPass final : public Pass {
       b.nx[i] = gap.normal.x(), b.ny[i] = gap.normal.y(), b.nz[i] = gap.normal.z();
       b.plane[i] = plane_integral(gap.distance, settings_.smoothing_length);
       if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
-        s.outside[i] = 1;
+        s.outside[i] = 2;
         out.leaked += s.grains.mass[i];
       }
     }

@@ -25,7 +25,7 @@ void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads)
   n_particles_ = set.size();
   n_groups_ = (n_particles_ + group_size - 1) / group_size;
   for (std::size_t i = 0; i < n_particles_; ++i) domain.wrap(set.x[i], set.y[i], set.z[i]);
-  choose_frame(set);
+  choose_frame(set, domain);
   sort_particles(set);
   make_images(set, domain);
   // Padding records carry no volume, so a lane that shares their group sees nothing of them.
@@ -41,7 +41,7 @@ void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads)
   ++n_rebuilds_;
 }
 
-void NeighborLists::choose_frame(const ParticleSet& set) {
+void NeighborLists::choose_frame(const ParticleSet& set, const Domain& domain) {
   double lo[3] = {1e300, 1e300, 1e300}, hi[3] = {-1e300, -1e300, -1e300};
   for (std::size_t i = 0; i < n_particles_; ++i) {
     const double p[3] = {set.x[i], set.y[i], set.z[i]};
@@ -52,7 +52,10 @@ void NeighborLists::choose_frame(const ParticleSet& set) {
     origin_[k] = 0.5 * (lo[k] + hi[k]);
     extent = std::max(extent, hi[k] - lo[k]);
   }
-  // The finest power of two of the support that keeps differences inside 31 bits, images included.
+  // The finest power of two of the support that keeps differences inside 31 bits, images included:
+  // an image lies a whole period away, however small the part that the particles fill.
+  for (const Period* p : {&domain.x, &domain.y})
+    if (p->active) extent += p->length() + std::abs(p->rise);
   int bits = 21;
   while (bits > 10 && (extent + 4 * support_) / support_ * std::ldexp(1.0, bits) > 1.0e9) --bits;
   unit_ = std::ldexp(support_, -bits);

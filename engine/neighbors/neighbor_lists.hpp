@@ -53,7 +53,7 @@ class NeighborLists {
   std::size_t bytes() const;
 
  private:
-  void choose_frame(const ParticleSet&);
+  void choose_frame(const ParticleSet&, const Domain&);
   void make_images(const ParticleSet&, const Domain&);
   void sort_particles(ParticleSet&);
   void sort_records();

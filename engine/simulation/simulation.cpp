@@ -36,7 +36,11 @@ Displacement measure(const SimulationParts& parts, std::vector<std::pair<double,
   speeds.clear();
   d.lowest = p.z[0];
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double dx = p.x[i] - parts.start_x[p.id[i]], dy = p.y[i] - parts.start_y[p.id[i]];
+    double dx = p.x[i] - parts.start_x[p.id[i]], dy = p.y[i] - parts.start_y[p.id[i]];
+    if (!parts.state.wrapped_x.empty()) {
+      dx += parts.state.wrapped_x[p.id[i]];
+      dy += parts.state.wrapped_y[p.id[i]];
+    }
     const double v =
         std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
     mass += p.mass[i];
@@ -183,7 +187,8 @@ class Run {
     if (!control_.on_frame) return;
     const State& s = parts_.state;
     if (!force && s.time < next_frame_) return;
-    while (next_frame_ <= s.time) next_frame_ += control_.frame_every_s;
+    if (control_.frame_every_s > 0)
+      next_frame_ = control_.frame_every_s * (std::floor(s.time / control_.frame_every_s) + 1);
     const ParticleSet& p = s.grains;
     density_.assign(p.size(), parts_.reference_density);
     pressure_.assign(p.size(), 0);

@@ -38,7 +38,7 @@ struct RunControl {
   double progress_every_s = 0.2;
   /// Called at t = 0, every `frame_every_s` of simulated time, and at the end.
   std::function<void(const ParticleFrame&)> on_frame;
-  double frame_every_s = 1;
+  double frame_every_s = 1;        ///< 0: every step
   double max_wall_s = 0;           ///< 0 = none; beyond it the member fails with a reason
 };
 

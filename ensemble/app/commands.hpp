@@ -22,9 +22,10 @@ struct EnsembleOptions {
   std::string scenario;
   std::string out;
   std::vector<std::string> set;
-  int members = 0;    ///< 0: as the scenario says
-  int workers = 0;    ///< 0: all cores available to the process
-  std::string shard;  ///< "k/n", 1 <= k <= n; empty: everything
+  int members = 0;            ///< 0: as the scenario says
+  int workers = 0;            ///< 0: all cores available to the process
+  std::string shard;          ///< "k/n", 1 <= k <= n; empty: everything
+  bool retry_failed = false;  ///< compute failed members again
 };
 
 struct MergeOptions {

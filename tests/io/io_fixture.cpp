@@ -129,9 +129,9 @@ MemberResult made_up_member(std::int64_t number) {
   return m;
 }
 
-std::string utm33_wkt() {
+std::string wkt2(int epsg) {
   OGRSpatialReference crs;
-  crs.importFromEPSG(32633);
+  crs.importFromEPSG(epsg);
   char* text = nullptr;
   const char* options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   crs.exportToWkt(&text, options);
@@ -139,5 +139,7 @@ std::string utm33_wkt() {
   CPLFree(text);
   return wkt;
 }
+
+std::string utm33_wkt() { return wkt2(32633); }
 
 }  // namespace sturz::test

@@ -84,6 +84,8 @@ ShellResult shell(const std::string& command);
 /// A member with maps over a 3 x 4 window of a 10 x 12 grid; values differ by member.
 MemberResult made_up_member(std::int64_t number);
 
+/// WKT2:2019 of an EPSG code.
+std::string wkt2(int epsg);
 std::string utm33_wkt();
 
 }  // namespace sturz::test

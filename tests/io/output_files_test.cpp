@@ -10,6 +10,10 @@
 #include "tests/io/io_fixture.hpp"
 
 #include <gdal_priv.h>
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
@@ -44,6 +48,33 @@ TEST_F(TextFiles, AFullDiskLeavesTheOldText) {
                              HasSubstr("MB free in " + folder().string())));
   EXPECT_EQ(read_text(path("a.csv")), "old");
   EXPECT_THAT(names(), ElementsAre("a.csv"));
+}
+
+TEST_F(TextFiles, ADiskThatIsReallyFullSaysSo) {
+  // A file system of 64 kB, mounted where only the child sees it.
+  write_text_atomic(path("text"), "");
+  const pid_t child = fork();
+  if (child == 0) {
+    if (unshare(CLONE_NEWNS) != 0 ||
+        mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0 ||
+        mount("tmpfs", folder().c_str(), "tmpfs", 0, "size=64k") != 0)
+      _exit(77);
+    write_text_atomic(path("a"), "old");
+    std::string message;
+    try {
+      write_text_atomic(path("a"), std::string(1 << 20, 'x'));
+    } catch (const IoError& error) {
+      message = error.what();
+    }
+    const bool good = message.find("(No space left on device; 0.") != std::string::npos &&
+                      read_text(path("a")) == "old" && names() == std::vector<std::string>{"a"};
+    _exit(good ? 0 : 1);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "no right to mount a small file system here";
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 TEST_F(TextFiles, PlacesThatCannotBeWrittenAreNamed) {

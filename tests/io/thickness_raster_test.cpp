@@ -136,6 +136,19 @@ TEST_F(ThicknessRaster, AnotherSystemKeepsTheVolumeOfItsOwnMetres) {
   EXPECT_THAT(read.notes, Contains(HasSubstr("reprojected from ETRS89-extended / LAEA Europe")));
 }
 
+TEST_F(ThicknessRaster, DegreesAreMeasuredInTheTerrainsMetres) {
+  RasterFile file = five_by_five();
+  file.crs = "EPSG:4326";
+  const double second = 1.0 / 3600;  // 23.17 x 30.86 m here
+  file.affine = {15, second, 0, 41.5525, 0, -second};
+  file.values.assign(25, 3);
+  const Grid grid{100, 100, 499900.5, 4600250.5, 4, utm33_wkt()};
+  const ThicknessRead read = this->read(file, grid);
+  EXPECT_NEAR(read.area_m2, 25 * 23.17 * 30.86, 30);
+  EXPECT_NEAR(read.volume_m3, 3 * read.area_m2, 1e-6);
+  EXPECT_NEAR(volume(read.thickness) / read.volume_m3, 1, 1e-9);
+}
+
 TEST_F(ThicknessRaster, NegativeThicknessIsRefusedWithItsCell) {
   RasterFile file = random_thickness();
   file.values[13] = -2.5;

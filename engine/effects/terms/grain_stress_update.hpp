@@ -166,8 +166,10 @@ class StressUpdate {
     out += StressEnergies{elastic, power, plastic, diffusion, resting};
   }
 
-  static constexpr double least_compression = -0.9;  // keeps the density positive
-  static constexpr double separation = -0.02;
+  /// How much dilation is remembered: the sums of few far neighbours drift, and a grain that
+  /// must first lose a drifted 90 % of its volume would carry nothing when it is buried again.
+  static constexpr double least_compression = -0.2;
+  static constexpr double separation = GrainStressSettings::separation;
 
   /// s <- Q s Q^T with Q = I + 2/(1+a.a) ([a]x + [a]x^2), the Cayley form of the spin: exactly
   /// orthogonal, so tau is untouched by rigid rotation. a = half the rotation vector of the step.

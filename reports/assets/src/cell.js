@@ -37,6 +37,7 @@ function drawCurve(box, entries, quantiles, at, page) {
   const unit = entries[0].layer.axisUnit;
   const axis = {stroke: c.muted, grid: {stroke: c.line, width: 1}, ticks: {show: false},
                 font: '11px system-ui, sans-serif', labelFont: '11px system-ui, sans-serif'};
+  const dots = {stroke: c.accent, paths: () => null};
   new uPlot({
     width: box.clientWidth, height: 220, legend: {show: false},
     cursor: {drag: {x: false, y: false}, y: false},
@@ -54,8 +55,8 @@ function drawCurve(box, entries, quantiles, at, page) {
       {stroke: c.accent, width: 2, points: {show: false}},
       {stroke: 'transparent', points: {show: false}},
       {stroke: 'transparent', points: {show: false}},
-      {stroke: c.accent, paths: () => null, points: {show: true, size: 7, fill: c.accent}},
-      {stroke: c.accent, paths: () => null, points: {show: true, size: 7, width: 1.6, fill: c.sheet}},
+      {...dots, points: {show: true, size: 7, fill: c.accent}},
+      {...dots, points: {show: true, size: 7, width: 1.6, fill: c.sheet}},
     ],
     bands: [{series: [3, 2], fill: c.band}],
   }, data, box);
@@ -91,8 +92,7 @@ function quantileTable(planes, at) {
     row.append(named('th', '', `${layer.quantityTitle}`,
                      named('small', '', layer.legend.unit)));
     for (const p of planes.filter((entry) => entry.layer === layer))
-      row.append(named('td', 'n', Number.isNaN(p.values[at])
-                                      ? '–' : numberText(p.values[at] * layer.legend.unitFactor)));
+      row.append(named('td', 'n', numberText(p.values[at] * layer.legend.unitFactor)));
   }
   return table;
 }
@@ -148,12 +148,13 @@ export function createCellPanel(box, page, planes) {
       const chart = named('div', 'cell-chart');
       box.append(named('p', 'chart-title', `Share of members above a threshold`), chart);
       drawCurve(chart, entries, of('quantile', quantity), at, page);
-      box.append(named('p', 'note', 'Dots: thresholds. Rings: quantiles. Band: 95\u00a0% interval.'),
-                 thresholdTable(entries, at, page));
+      const key = 'Dots: thresholds. Rings: quantiles. Band: 95\u00a0% interval.';
+      box.append(named('p', 'note', key), thresholdTable(entries, at, page));
     }
     const quantiles = of('quantile');
     if (quantiles.length > 0)
-      box.append(named('p', 'chart-title', 'Quantiles over the members'), quantileTable(quantiles, at));
+      box.append(named('p', 'chart-title', 'Quantiles over the members'),
+                 quantileTable(quantiles, at));
     if (!quantity && quantiles.length === 0) box.append(peakTable(planes, at));
   };
   onColourChange(draw);

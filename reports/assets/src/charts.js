@@ -188,9 +188,9 @@ function scatterPlot(figure, sample, page) {
       }],
       hooks: {
         setCursor: [(plot) => {
-          const k = plot.cursor.idx;
-          readout.textContent = k === null || k === undefined ? rhoText
-              : `member ${members.member[usable[k]]}: ${numberText(x[k])} → ${numberText(y[k])} m`;
+          const k = plot.cursor.idx ?? -1;
+          const pair = k >= 0 ? `${numberText(x[k])} → ${numberText(y[k])} m` : '';
+          readout.textContent = pair ? `member ${members.member[usable[k]]}: ${pair}` : rhoText;
         }],
         draw: [(plot) => {
           const {ctx, bbox} = plot;

@@ -12,17 +12,15 @@ const page = JSON.parse(document.getElementById('sturz-data').textContent);
 
 makeSortable(document.getElementById('member-table'));
 
-const spread = document.getElementById('spread');
-if (spread) {
-  spread.hidden = false;
-  drawCharts(page);
-}
+for (const part of document.querySelectorAll('.needs-script')) part.hidden = false;
+if (document.getElementById('spread')) drawCharts(page);
 
 if (page.maps) {
   startMaps(page).then(
       () => document.documentElement.classList.add('live-maps'),
       (error) => {
-        const note = document.getElementById('still-note');
-        note.textContent = `These are still pictures: the live maps could not start (${error.message}).`;
+        document.getElementById('map-app').hidden = true;
+        document.getElementById('still-note').textContent =
+            `These are still pictures: the live maps could not start (${error.message}).`;
       });
 }

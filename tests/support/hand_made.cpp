@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/hand_made.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace sturz::test {
+namespace {
+
+constexpr double density = 1560, h = 1.3;
+
+State state_of(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+               const Domain& domain) {
+  State s(std::move(ground), domain);
+  ParticleSet& p = s.grains;
+  p.resize(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    p.x[i] = places[i].x(), p.y[i] = places[i].y(), p.z[i] = places[i].z();
+    p.vx[i] = velocity.x(), p.vy[i] = velocity.y(), p.vz[i] = velocity.z();
+    p.mass[i] = density;
+    s.ledger.released_mass += density;
+  }
+  return s;
+}
+
+void finish(HandMade& made, double friction) {
+  add_gravity(made.step, made.state);
+  ContactSettings contact;
+  contact.reference_density = density;
+  contact.stiffness = 4000;
+  contact.friction_coefficient = friction;
+  add_terrain_contact(made.step, made.state, contact);
+  add_motion(made.step, made.state, {1, h});
+  refresh_motion(made.state, 0);
+  made.state.ledger.kinetic_0 = made.state.ledger.kinetic;
+}
+
+}  // namespace
+
+Terrain even_ground(int n, double slope, NodataRule rule) {
+  Raster<double> z(Grid{n, n, -0.5 * n, 0.5 * n, 1, ""});
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) z.at(r, c) = -slope * z.grid.x_center(c);
+  return Terrain(std::make_shared<Raster<double>>(std::move(z)), rule);
+}
+
+double HandMade::advance() {
+  const double dt = std::min(step.limit(state).dt, 1.05 * (state.previous_dt > 0
+                                                              ? state.previous_dt
+                                                              : 1e300));
+  step.apply(state, dt);
+  return dt;
+}
+
+std::vector<Vec3> block(std::array<int, 3> n, const Vec3& corner) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < n[0]; ++i)
+    for (int j = 0; j < n[1]; ++j)
+      for (int k = 0; k < n[2]; ++k) places.push_back(corner + Vec3(i + 0.5, j + 0.5, k + 0.5));
+  return places;
+}
+
+HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+                   const Domain& domain, double friction) {
+  HandMade made{state_of(std::move(ground), places, velocity, domain), {}};
+  GrainStressSettings settings;
+  settings.smoothing_length = h;
+  settings.reference_density = density;
+  settings.sound_speed = 60;
+  settings.instruction_set = best_instruction_set();
+  double top = 0;
+  for (const Vec3& p : places) top = std::max(top, p.z() + 0.5);
+  std::vector<double> depth;
+  for (const Vec3& p : places) depth.push_back(top - p.z());
+  add_grain_stress(made.step, made.state, settings, depth);
+  finish(made, friction);
+  return made;
+}
+
+HandMade parcels_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+                    const Domain& domain, double friction) {
+  HandMade made{state_of(std::move(ground), places, velocity, domain), {}};
+  finish(made, friction);
+  return made;
+}
+
+}  // namespace sturz::test

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// States and steps built by hand: the engine's own effects on a small even ground.
+#pragma once
+
+#include "engine/effects/grain_stress.hpp"
+#include "engine/effects/gravity.hpp"
+#include "engine/effects/motion.hpp"
+#include "engine/effects/state.hpp"
+#include "engine/effects/step.hpp"
+#include "engine/effects/terrain_contact.hpp"
+
+#include <array>
+#include <vector>
+
+namespace sturz::test {
+
+/// Even ground of n x n cells of 1 m around the origin that falls by `slope` per metre eastward.
+Terrain even_ground(int n, double slope = 0, NodataRule rule = NodataRule::outflow);
+
+struct HandMade {
+  State state;
+  Step step;
+
+  /// One step at the limit of the passes; \return its length [s]
+  double advance();
+};
+
+/// Particles of mass 1560 kg on a cubic lattice of 1 m, the lowest layer 0.5 m above z = 0.
+std::vector<Vec3> block(std::array<int, 3> n, const Vec3& south_west_corner = {0, 0, 0});
+
+/// Grains with stress, gravity, contact and motion on `ground`; dx = 1 m.
+HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+                   const Domain& domain = {}, double friction = 0.4);
+
+/// Particles without stress: gravity, contact and motion alone.
+HandMade parcels_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+                    const Domain& domain = {}, double friction = 0.4);
+
+}  // namespace sturz::test
