@@ -20,6 +20,9 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// More problems than this in one file are noise: it is no scenario.
+constexpr std::size_t most_problems = 100;
+
 /// Equal, or one lies inside the other: "grains" and "grains.friction".
 bool related(const std::string& a, const std::string& b) {
   const auto inside = [](const std::string& inner, const std::string& outer) {
@@ -37,6 +40,7 @@ class Reader {
 
   void read_block(const std::string& block, const YamlNode& node) {
     for (const auto& entry : node.entries) {
+      if (problems_.size() > most_problems) return;
       const std::string path = block.empty() ? entry.key : block + "." + entry.key;
       const bool dotted = entry.key.find('.') != std::string::npos;
       const KeyInfo* key = dotted ? nullptr : find_key(path);
@@ -92,6 +96,11 @@ class Reader {
 
   void report_unknown(const std::string& block, const std::string& path, const YamlEntry& entry) {
     failed_.push_back(path);
+    if (entry.key.find('.') != std::string::npos) {
+      problems_.push_back({entry.at, path + " (unknown key: a dot stands between blocks, not in a "
+                                            "name). Write the blocks one inside the other."});
+      return;
+    }
     for (const auto& later : later_keys())
       if (later.path == path) {
         problems_.push_back(
@@ -137,7 +146,13 @@ class Reader {
     return place(a) < place(b);
   });
   std::vector<std::string> lines;
-  for (const auto& problem : problems) lines.push_back(problem.at.text() + ": " + problem.message);
+  for (const auto& problem : problems) {
+    if (lines.size() == most_problems) {
+      lines.push_back(name + ": and more problems. Mend these first.");
+      break;
+    }
+    lines.push_back(problem.at.text() + ": " + problem.message);
+  }
   throw ScenarioError(std::move(lines));
 }
 

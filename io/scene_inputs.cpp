@@ -125,6 +125,7 @@ void load_thickness_raster(Loading& loading) {
   request.directory = loading.scenario.directory;
   request.crs = spec.crs;
   request.crs_key = "release.crs";
+  request.factor = spec.thickness_factor;
   // Where the terrain's file had no system, the thickness beside it mostly shares the lack, and
   // the user has named the system once.
   request.fallback_crs = loading.scenario.terrain.crs;

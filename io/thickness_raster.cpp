@@ -99,8 +99,7 @@ void refuse_negative(const RasterSource& s) {
       s.label, *negative, row, col, s.x_of(col + 0.5, row + 0.5), s.y_of(col + 0.5, row + 0.5),
       counts_down
           ? fmt::format(", like all its {} values. If these are depths counted downwards, "
-                        "turn the sign: `gdal_translate -of VRT -a_scale -1 FILE turned.vrt` "
-                        "and name turned.vrt.",
+                        "set `release.thickness_factor: -1`.",
                         std::count_if(s.values.begin(), s.values.end(), is_negative))
           : ". Set such cells to nodata or zero."));
 }
@@ -185,6 +184,8 @@ ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) 
   const GdalScope scope;
   RasterSource source =
       read_source(request, RasterQuantity::thickness, /*crs_optional=*/terrain.crs_wkt.empty());
+  if (request.factor != 1)
+    for (double& v : source.values) v *= request.factor;
   refuse_negative(source);
   ThicknessRead result;
   result.notes = std::move(source.notes);

@@ -52,6 +52,7 @@ struct ReleaseSpec {
   std::string layer;                          ///< layer name inside `polygon`; empty: the first
   std::string thickness_attribute;            ///< field of `polygon` with a thickness in metres
   std::string thickness_raster;               ///< metres, vertical; nodata means zero
+  double thickness_factor = 1;                ///< of `thickness_raster`: -1 where depths count downward
   std::string crs;                            ///< where the release file has none
   std::optional<ReleaseBox> box;
   std::optional<ReleaseParaboloid> paraboloid;

@@ -88,6 +88,10 @@ void add_release(std::vector<KeyInfo>& keys) {
   keys.push_back(text_key(release, &ReleaseSpec::thickness_raster, "release.thickness_raster", path,
                           "Raster of the vertical source thickness in metres; nodata means "
                           "zero."));
+  keys.push_back(key(release, &ReleaseSpec::thickness_factor,
+                     {"release.thickness_factor", number, "1", -1000, 1000,
+                      "Multiplies the values of thickness_raster: -1 where depths count "
+                      "downward."}));
   keys.push_back(text_key(release, &ReleaseSpec::crs, "release.crs", text,
                           "Coordinate system of the release file where it has none."));
   add_shapes(keys);

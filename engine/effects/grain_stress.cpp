@@ -70,6 +70,7 @@ class NeighborPass final : public Pass {
       s.boundary.moment[c].resize(lists.padded_size(), 0.0f);
       s.boundary.gradient[c].resize(lists.padded_size(), 0.0f);
     }
+    s.boundary.share.resize(lists.padded_size(), 0.0f);
   }
   std::size_t bytes() const override { return shared_->lists.bytes(); }
 
@@ -149,7 +150,8 @@ class SweepPass final : public Pass {
                                    g.density_diffusion,
                                    shared_->smoothing_now};
     const PackedView view = shared_->lists.view();
-    const SweepOutput out = shared_->output();
+    SweepOutput out = shared_->output();
+    out.wall_share = s.boundary.share.data();
     BoundaryView wall;
     for (int c = 0; c < 6; ++c) {
       wall.moment[c] = s.boundary.moment[c].data();

@@ -29,6 +29,7 @@ struct MotionBounds {
 struct BoundarySupport {
   std::vector<double> distance, nx, ny, nz;  ///< to the ground along its normal [m]
   std::vector<double> plane;                 ///< W_plane at that distance [1/m]
+  std::vector<float> share;                  ///< 0..1, from the sweep: how much of the image acts
   std::vector<float> moment[6];              ///< xx yy zz xy yz zx [-]
   std::vector<float> gradient[6];            ///< the same order [1/s]
 };

@@ -46,6 +46,7 @@ class WallPressure {
     for (int k = 0; k < 6; ++k) stress_[k] = stress->component[k].data();
     compression_ = s.grains.find_field("compression")->component[0].data();
     density_ = c.reference_density;
+    share_ = s.boundary.share.data();
   }
   /// \param plane  plane_integral at the particle's distance [1/m]
   double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
@@ -55,11 +56,12 @@ class WallPressure {
                        2 * (nx * ny * stress_[3][i] + ny * nz * stress_[4][i] +
                             nz * nx * stress_[5][i]);
     if (snn >= 0) return 0;
-    return -2 * snn * plane / (density_ * (1 + compression_[i]));  // loaded, so compression > 0
+    return -2 * snn * plane * share_[i] / (density_ * (1 + compression_[i]));
   }
 
  private:
   double density_ = 1;
+  const float* share_ = nullptr;
   const double* stress_[6] = {};
   const double* compression_ = nullptr;
 };

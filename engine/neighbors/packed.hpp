@@ -46,7 +46,9 @@ struct SweepConstants {
 };
 
 /// What walls add at each particle, [n_particles rounded up to whole groups] each; order
-/// xx yy zz xy yz zx.
+/// xx yy zz xy yz zx. The sweep takes it in the share n.M.n / 0.25 (at most 1) of the support that
+/// neighbours give along the wall's normal: a grain with nothing above it has no pressure field to
+/// be mirrored, and would bounce off its own image without loss.
 struct BoundaryView {
   const float* moment[6];      ///< to the moment matrix [-]
   const float* gradient[6];    ///< to the velocity gradient before correction [1/s]
@@ -59,6 +61,7 @@ struct SweepOutput {
   float* lyx; float* lyy; float* lyz;
   float* lzx; float* lzy; float* lzz;
   float* diffusion;                    ///< d(compression)/dt by delta-SPH [1/s]
+  float* wall_share;                   ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
   float* smooth[6];                    ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
 };
 

@@ -99,7 +99,8 @@ TEST(GrainStressUpdate, SteadyShearReachesTheFrictionOfItsRate) {
       grain.set_gradient(simple_shear(rate));
       for (int n = 0; n < 500 + 2.0 / (rate * dt); ++n) grain.update(g, dt);
       const double number = rate * g.law.grain_diameter / std::sqrt(p / g.law.grain_density);
-      EXPECT_NEAR(grain.tau(), friction_at(g.law, number) * p, 1e-6 * p) << rate << " " << dt;
+      // The law itself is exact; the stress turns by rate dt/2 within a step and is turned back.
+      EXPECT_NEAR(grain.tau(), friction_at(g.law, number) * p, 1e-5 * p) << rate << " " << dt;
       EXPECT_NEAR(grain.pressure(), p, 1e-6 * p);
       // Aligned with the strain rate, but for tau/G of elastic rotation.
       EXPECT_NEAR(grain.stress[5], grain.tau(), 0.01 * p);

@@ -87,6 +87,7 @@ TEST(HostileScenario, LargeLegalFilesTakeNoTime) {
   while (values.size() < 60000) values += ",1";
   const std::clock_t start = std::clock();
   EXPECT_THAT(message(keys), HasSubstr("k1 (unknown key)"));
+  EXPECT_THAT(message(keys), HasSubstr("s.yaml: and more problems. Mend these first."));
   EXPECT_THAT(message(values + "]}"), HasSubstr("every number must be above the one before"));
   EXPECT_THAT(message(std::string(60000, ' ') + "a"), HasSubstr("must be a list of keys"));
   EXPECT_LT(seconds_since(start), 10) << "0.4 s optimised; a sanitizer build takes longer";

@@ -50,8 +50,8 @@ TEST(ScenarioMessages, UnknownKey) {
               ElementsAre("scenario.yaml:7:1: friction_coefficient (unknown key). Did you mean "
                           "basal.friction_coefficient?"));
   EXPECT_THAT(problems(scene() + "basal.restitution: 0.3\n"),
-              ElementsAre("scenario.yaml:7:1: basal.restitution (unknown key). Did you mean "
-                          "basal.restitution?"));
+              ElementsAre("scenario.yaml:7:1: basal.restitution (unknown key: a dot stands between "
+                          "blocks, not in a name). Write the blocks one inside the other."));
   EXPECT_THAT(problems(scene() + "domain: {gravity: 3}\n"),
               ElementsAre("scenario.yaml:7:10: domain.gravity (unknown key). Known in domain: "
                           "periodic, walls."));

@@ -27,6 +27,16 @@ struct GroupRows {
   }
 };
 
+/// M : nn / 0.25, between 0 and 1, with nn from the walls' own moment.
+inline Lanes wall_share(const DenseSums& s, const Lanes w[6], Lanes scale) {
+  const Lanes trace = w[0] + w[1] + w[2];
+  const Lanes along = fma(s.mxx, w[0], fma(s.myy, w[1], s.mzz * w[2])) +
+                      Lanes::all(2) * fma(s.mxy, w[3], fma(s.myz, w[4], s.mzx * w[5]));
+  const Lanes share = Lanes::all(4) * scale * along / max(trace, Lanes::all(1e-6f));
+  const Lanes one = Lanes::all(1);
+  return select_less(share, one, max(share, Lanes::all(0)), one);
+}
+
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
 inline void finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
                          const DenseScale& k, const BoundaryView& wall, const SweepOutput& out,
@@ -43,8 +53,11 @@ inline void finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
 
   Lanes w[6];
   for (int c = 0; c < 6; ++c) w[c] = Lanes::load(wall.moment[c] + at);
+  const Lanes share = wall_share(s, w, Lanes::all(k.moment));
+  share.store(out.wall_share + at);
+  for (Lanes& c : w) c = share * c;
   const Correction b(s, Lanes::all(k.moment), w);
-  for (int c = 0; c < 6; ++c) w[c] = Lanes::load(wall.gradient[c] + at);
+  for (int c = 0; c < 6; ++c) w[c] = share * Lanes::load(wall.gradient[c] + at);
   const Lanes scale = Lanes::all(k.gradient);
   auto row = [&](Lanes x, Lanes y, Lanes z, float* ox, float* oy, float* oz) {
     fma(x, b.xx, fma(y, b.xy, z * b.zx)).store(ox + at);
