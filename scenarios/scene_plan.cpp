@@ -209,13 +209,13 @@ std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan)
   const double dx = s.numerics.spacing_m;
   if (plan.release.layers < thin_layers)
     out.push_back("thin flow: " + short_number(plan.release.layers) +
-                  " layers of particles resolve the release (fewer than 3); centre of mass and "
+                  " layers of particles resolve the release (fewer than 3). Centre of mass and "
                   "speed hold, the footprint may be wrong by 15-100 %. Use a spacing below " +
                   short_number(plan.release.median_thickness_m / thin_layers) + " m");
   if (2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
     out.push_back("coarse grains: the smoothing length of " +
                   short_number(plan.stress.smoothing_length) + " m is under two grain diameters of " +
-                  short_number(s.grains->diameter_m.value) + " m; the grains act as a parameter only");
+                  short_number(s.grains->diameter_m.value) + " m: the grains act as a parameter only");
   if (plan.release.dropped_fraction > 0.01)
     out.push_back("thin edge: " + short_number(100 * plan.release.dropped_fraction) +
                   " % of the release lies in columns under 0.2 spacings and was given to the others");

@@ -152,8 +152,7 @@ double rebound(double restitution, double speed) {
 /// Schwager and Poeschel (2007).
 double rebound_without_pull(double restitution) {
   const double zeta = damping_ratio(restitution), w = std::sqrt(1 - zeta * zeta);
-  return std::exp(-zeta / w *
-                  (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)));
+  return std::exp(-zeta / w * (std::numbers::pi - std::atan2(2 * zeta * w, 1 - 2 * zeta * zeta)));
 }
 
 TEST(ContactImpulse, DampingGivesTheRestitution) {

@@ -64,9 +64,8 @@ TEST(MuIRheology, SteadyShearStressDoesNotDependOnTheTimeStep) {
 TEST(MuIRheology, ElasticTrialsPassUntouched) {
   const MuIRheology law = beads();
   for (double share : {0.0, 0.3, 1.0})
-    EXPECT_EQ(yield_return(law, share * law.static_friction * 800, 800, 7), share *
-                                                                              law.static_friction *
-                                                                              800);
+    EXPECT_EQ(yield_return(law, share * law.static_friction * 800, 800, 7),
+              share * law.static_friction * 800);
 }
 
 TEST(MuIRheology, WithoutPressureOnlyCohesionHolds) {

@@ -44,8 +44,9 @@ std::vector<Copy> copies(const ParticleSet& set, const Domain& d) {
     for (int a = -mx; a <= mx; ++a)
       for (int b = -my; b <= my; ++b)
         if (a != 0 || b != 0)
-          out.push_back({i, {a * (mx ? d.x.length() : 0), b * (my ? d.y.length() : 0),
-                             a * d.x.rise + b * d.y.rise}});
+          out.push_back({i,
+                         {a * (mx ? d.x.length() : 0), b * (my ? d.y.length() : 0),
+                          a * d.x.rise + b * d.y.rise}});
   return out;
 }
 
@@ -72,7 +73,8 @@ void expect_complete(const NeighborLists& lists, const ParticleSet& set, const D
         << "an entry is listed twice";
     const auto gap = [&](const Vec3& p) {
       double least = 1e300;
-      for (std::size_t i = first; i < last; ++i) least = std::min(least, (place(set, i) - p).norm());
+      for (std::size_t i = first; i < last; ++i)
+        least = std::min(least, (place(set, i) - p).norm());
       return least;
     };
     std::vector<Vec3> images;
@@ -90,10 +92,9 @@ void expect_complete(const NeighborLists& lists, const ParticleSet& set, const D
       }
       const auto here = [&](const Vec3& p) { return (p - at).norm() < 1e-4; };
       const auto listed = std::count_if(images.begin(), images.end(), here);
-      const auto expected = std::count_if(everyone.begin() + set.size(), everyone.end(),
-                                          [&](const Copy& o) {
-                                            return here(place(set, o.source) + o.shift);
-                                          });
+      const auto expected =
+          std::count_if(everyone.begin() + set.size(), everyone.end(),
+                        [&](const Copy& o) { return here(place(set, o.source) + o.shift); });
       missing += listed != expected;
     }
   }
@@ -123,7 +124,7 @@ std::vector<Vec3> box(std::size_t n, const Vec3& from, const Vec3& to, unsigned 
 TEST(NeighborLists, HoldEveryPairOfRandomClouds) {
   build_and_check(box(300, {0, 0, 0}, {12, 9, 7}));
   build_and_check(box(333, {-5, -5, -5}, {5, 5, 5}));
-  build_and_check(box(200, {0, 0, 0}, {2, 2, 60}));   // a tower in one column
+  build_and_check(box(200, {0, 0, 0}, {2, 2, 60}));  // a tower in one column
   build_and_check(box(200, {0, 0, 0}, {90, 2, 2}));
 }
 

@@ -28,8 +28,7 @@ Scenario small_slide() {
   return s;
 }
 
-MemberResult run(const Scenario& s, int threads = 1,
-                 InstructionSet set = best_instruction_set()) {
+MemberResult run(const Scenario& s, int threads = 1, InstructionSet set = best_instruction_set()) {
   return assemble(s, load_scene_inputs(s), 3, threads, set).run();
 }
 
@@ -56,7 +55,8 @@ TEST(Simulation, GivesTheSameBitsOnBothVectorWidths) {
 }
 
 TEST(Simulation, ThePlainLoopTellsTheSameStory) {
-  const MemberResult fast = run(small_slide()), plain = run(small_slide(), 1, InstructionSet::plain);
+  const MemberResult fast = run(small_slide()),
+                     plain = run(small_slide(), 1, InstructionSet::plain);
   EXPECT_NEAR(plain.scalars.com_travel_m, fast.scalars.com_travel_m,
               1e-3 * fast.scalars.com_travel_m);
   EXPECT_NEAR(plain.scalars.max_mean_speed_m_s, fast.scalars.max_mean_speed_m_s,

@@ -23,8 +23,8 @@ double integral(double end, F f) {
 TEST(SmoothingKernel, IntegratesToOne) {
   for (double h : {0.0195, 1.3, 15.6}) {
     const SmoothingKernel w{h};
-    const double volume = integral(
-        2 * h, [&](double r) { return 4 * std::numbers::pi * r * r * w.value(r); });
+    const double volume =
+        integral(2 * h, [&](double r) { return 4 * std::numbers::pi * r * r * w.value(r); });
     EXPECT_NEAR(volume, 1, 1e-6);
   }
 }

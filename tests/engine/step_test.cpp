@@ -45,9 +45,9 @@ TEST(Step, AppliesPassesByStageAndThenInTheOrderInWhichTheyCame) {
   Step step;
   std::vector<std::string> heard;
   const std::pair<const char*, Stage> given[] = {
-      {"drift", Stage::move},     {"first force", Stage::force},  {"kick", Stage::kick},
+      {"drift", Stage::move},      {"first force", Stage::force},  {"kick", Stage::kick},
       {"lists", Stage::neighbors}, {"second force", Stage::force}, {"ground", Stage::boundary},
-      {"yield", Stage::stress},   {"friction", Stage::contact},   {"records", Stage::pack}};
+      {"yield", Stage::stress},    {"friction", Stage::contact},   {"records", Stage::pack}};
   for (const auto& [name, stage] : given) step.add(std::make_unique<Note>(name, stage, &heard));
   State state = empty_state();
   step.apply(state, 0.1);
@@ -83,8 +83,8 @@ TEST(Step, TheSmallestLimitBindsAndIsNamed) {
   step.add(std::make_unique<Note>("a", Stage::move, nullptr,
                                   std::vector<StepLimit>{{"slow", 3}, {"unbound", none}}));
   EXPECT_STREQ(step.limit(state).name, "slow");
-  step.add(std::make_unique<Note>("b", Stage::force, nullptr,
-                                  std::vector<StepLimit>{{"fast", 0.5}}));
+  step.add(
+      std::make_unique<Note>("b", Stage::force, nullptr, std::vector<StepLimit>{{"fast", 0.5}}));
   EXPECT_STREQ(step.limit(state).name, "fast");
   EXPECT_EQ(step.limit(state).dt, 0.5);
 }
@@ -114,11 +114,11 @@ TEST(Step, EveryLimitBindsInItsOwnSituation) {
 
 TEST(Step, GrainScenesHoldTheirPassesInOrder) {
   const auto made = test::grains_on(even_ground(16), test::block({2, 2, 2}), {0, 0, 0});
-  EXPECT_THAT(made.step.pass_names(),
-              testing::ElementsAre("neighbors: neighbor lists", "boundary: ground and wall support",
-                                   "pack: pack", "force: pair sweep", "kick: gravity and kick",
-                                   "contact: terrain contact", "stress: stress update",
-                                   "move: motion"));
+  EXPECT_THAT(
+      made.step.pass_names(),
+      testing::ElementsAre("neighbors: neighbor lists", "boundary: ground and wall support",
+                           "pack: pack", "force: pair sweep", "kick: gravity and kick",
+                           "contact: terrain contact", "stress: stress update", "move: motion"));
 }
 
 TEST(Step, WhatASceneDoesNotCallForIsNotThere) {

@@ -51,7 +51,10 @@ TEST(StopRule, NeverStopsBeforeItIsArmed) {
 }
 
 TEST(StopRule, AMassThatNeverMovesSettles) {
-  EXPECT_LT(stop_time(field_scale(), [](double) { return MotionSummary{0, 1e-3, 1e-4, 1e-5}; }),
+  EXPECT_LT(stop_time(field_scale(),
+                      [](double) {
+                        return MotionSummary{0, 1e-3, 1e-4, 1e-5};
+                      }),
             20);
 }
 
@@ -75,7 +78,8 @@ TEST(StopRule, AFastStartArmsItEarly) {
 TEST(StopRule, StopsAfterASlideHasComeToRest) {
   const double t = stop_time(field_scale(), slide);
   EXPECT_GT(t, 5 + 0.5 * std::log(1e3) + window(2) - 0.05);  // energy at 1e-3 of its peak
-  EXPECT_LT(t, 5 + std::log(40 / (0.1 * 2 / window(2))) + 2 * window(2) + 0.1);  // front slow enough
+  EXPECT_LT(t,
+            5 + std::log(40 / (0.1 * 2 / window(2))) + 2 * window(2) + 0.1);  // front slow enough
 }
 
 TEST(StopRule, KineticEnergyAboveAThousandthOfThePeakKeepsItOpen) {
@@ -110,9 +114,10 @@ TEST(StopRule, AStandstillInBetweenIsNotTheEnd) {
     const bool moving = t < 3 || (t > 3 + pause && t < 8);
     return MotionSummary{t, moving ? 1e8 : 10, t < 3 ? 20 * t : t < 3 + pause ? 60 : 60 + t, 30};
   };
-  EXPECT_GT(stop_time(field_scale(), [&](double t) {
-              return t < 8 ? surges(t) : MotionSummary{t, 10, 68, 30};
-            }),
+  EXPECT_GT(stop_time(field_scale(),
+                      [&](double t) {
+                        return t < 8 ? surges(t) : MotionSummary{t, 10, 68, 30};
+                      }),
             8);
 }
 

@@ -7,20 +7,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz::test {
 namespace {
 
 constexpr double height_m = 1;
+constexpr double friction_angle_deg = 30;
+constexpr int columns = 10;
 
+/// 1 m high, 10 x 10 particles wide, for five times the fall time.
 Scenario column(int layers) {
   Scenario s;
-  const double dx = height_m / layers;
+  const double dx = height_m / layers, half = 0.5 * columns * dx;
   s.terrain.synthetic = SyntheticTerrain{
-      "plane", dx, {{"slope_deg", 0}, {"length_m", 10 * dx}, {"width_m", 10 * dx}}};
-  s.release.box = ReleaseBox{{-5 * dx, 5 * dx}, {-5 * dx, 5 * dx}};
+      "plane", dx, {{"slope_deg", 0}, {"length_m", 2 * half}, {"width_m", 2 * half}}};
+  s.release.box = ReleaseBox{{-half, half}, {-half, half}};
   s.release.thickness_m = Uncertain(height_m);
-  s.grains.emplace().friction_angle_deg = Uncertain(30);
+  s.grains.emplace().friction_angle_deg = Uncertain(friction_angle_deg);
   s.grains->diameter_m = 0.002;
   s.domain.periodic = {"x", "y"};
   s.numerics.spacing_m = dx;
@@ -29,60 +33,119 @@ Scenario column(int layers) {
   return s;
 }
 
+/// The same between four smooth walls.
+Scenario box(int layers) {
+  Scenario s = column(layers);
+  const double half = 0.5 * columns * s.numerics.spacing_m;
+  s.domain.periodic.clear();
+  s.terrain.synthetic->parameters["length_m"] = 4 * half;
+  s.terrain.synthetic->parameters["width_m"] = 4 * half;
+  for (const double side : {-1.0, 1.0}) {
+    s.domain.walls.push_back({{side * half, 0, 0}, {-side, 0, 0}, 0, std::nullopt});
+    s.domain.walls.push_back({{0, side * half, 0}, {0, -side, 0}, 0, std::nullopt});
+  }
+  return s;
+}
+
+/// All stresses are compression; errors are relative to rho g depth.
 struct Rest {
-  double stress_error = 0;   ///< L2 of the vertical stress over that of rho g depth
-  double lateral_low = 1e9, lateral_high = 0;
-  double kinetic = 0;        ///< kinetic energy / (m g H)
-  double mean_shift = 0, largest_shift = 0;  ///< vertical displacement / H
+  double profile = 0;   ///< L2 over the layers' mean vertical stress
+  double particle = 0;  ///< L2 over all particles
+  double noise = 0;     ///< scatter within the layers / (rho g H)
+  double lateral_low = 1e9, lateral_high = 0;  ///< layers' mean lateral / vertical stress
+  double kinetic = 0;   ///< kinetic energy / (m g H)
+  double shift = 0;     ///< mean vertical displacement / H
 };
 
-Rest look(const Finished& f, const std::vector<double>& start_z) {
-  const SimulationParts& parts = f.simulation.parts();
+struct LayerSums {
+  double n = 0, vertical = 0, squared = 0, lateral = 0, depth = 0;
+};
+
+Rest examine(const SimulationParts& parts, const std::vector<double>& start_z) {
   const ParticleSet& p = parts.state.grains;
   const auto& stress = p.find_field("stress")->component;
+  const double weight = parts.reference_density * gravity_m_s2;
+  std::vector<LayerSums> layers(static_cast<std::size_t>(std::lround(height_m / parts.spacing_m)));
   Rest r;
   double off = 0, all = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double depth = height_m - p.z[i];
-    const double expected = parts.reference_density * gravity_m_s2 * depth;
-    off += (-stress[2][i] - expected) * (-stress[2][i] - expected);
-    all += expected * expected;
-    const double shift = std::abs(p.z[i] - start_z[p.id[i]]) / height_m;
-    r.mean_shift += shift / p.size();
-    r.largest_shift = std::max(r.largest_shift, shift);
-    if (depth < 1.5 * parts.spacing_m) continue;
-    for (int k : {0, 1}) {
-      const double ratio = stress[k][i] / stress[2][i];
-      r.lateral_low = std::min(r.lateral_low, ratio);
-      r.lateral_high = std::max(r.lateral_high, ratio);
-    }
+    const double z0 = start_z[p.id[i]], vertical = -stress[2][i] / weight, depth = height_m - p.z[i];
+    LayerSums& l = layers[std::min(layers.size() - 1, static_cast<std::size_t>(z0 / parts.spacing_m))];
+    l.n += 1;
+    l.vertical += vertical;
+    l.squared += vertical * vertical;
+    l.lateral -= 0.5 * (stress[0][i] + stress[1][i]) / weight;
+    l.depth += depth;
+    off += (vertical - depth) * (vertical - depth);
+    all += depth * depth;
+    r.shift += (p.z[i] - z0) / height_m / p.size();
   }
-  r.stress_error = std::sqrt(off / all);
+  r.particle = std::sqrt(off / all);
+  double mean_off = 0, mean_all = 0, scatter = 0;
+  for (const LayerSums& l : layers) {
+    const double mean = l.vertical / l.n, depth = l.depth / l.n;
+    mean_off += (mean - depth) * (mean - depth);
+    mean_all += depth * depth;
+    scatter += (l.squared / l.n - mean * mean) / layers.size();
+    r.lateral_low = std::min(r.lateral_low, l.lateral / l.vertical);
+    r.lateral_high = std::max(r.lateral_high, l.lateral / l.vertical);
+  }
+  r.profile = std::sqrt(mean_off / mean_all);
+  r.noise = std::sqrt(std::max(0.0, scatter)) / height_m;
   r.kinetic = mean_motion(p).energy_height / height_m;
   return r;
 }
 
-TEST(ColumnAtRest, Probe) {
-  for (int walls = 0; walls < 2; ++walls)
-    for (int n : {10, 14, 20}) {
-      Scenario s = column(n);
-      const double dx = s.numerics.spacing_m;
-      if (walls) {
-        s.domain.periodic.clear();
-        s.terrain.synthetic->parameters["length_m"] = 20 * dx;
-        s.terrain.synthetic->parameters["width_m"] = 20 * dx;
-        for (double sign : {-1.0, 1.0}) {
-          s.domain.walls.push_back({{sign * 5 * dx, 0, 0}, {-sign, 0, 0}, 0, std::nullopt});
-          s.domain.walls.push_back({{0, sign * 5 * dx, 0}, {0, -sign, 0}, 0, std::nullopt});
-        }
-      }
-      Simulation sim = build(s);
-      const std::vector<double> z = sim.parts().state.grains.z;
-      const Finished f = run(std::move(sim));
-      const Rest r = look(f, z);
-      fmt::print("walls {} n {} wall {:.2f} stress {:.4f} lat {:.3f} {:.3f} ke {:.2e} shift {:.5f} {:.5f} resid {:.4f} dt {:.2e}\n", walls, n, f.result.scalars.wall_s, r.stress_error, r.lateral_low, r.lateral_high, r.kinetic, r.mean_shift, r.largest_shift, f.result.scalars.energy_residual, f.result.scalars.mean_dt_s);
-      expect_conserved(f);
-    }
+std::pair<Finished, Rest> settle(const Scenario& s) {
+  Simulation simulation = build(s);
+  const ParticleSet& p = simulation.parts().state.grains;
+  std::vector<double> z(p.size());
+  for (std::size_t i = 0; i < p.size(); ++i) z[p.id[i]] = p.z[i];
+  Finished f = run(std::move(simulation));
+  const Rest r = examine(f.simulation.parts(), z);
+  return {std::move(f), r};
+}
+
+/// Active and passive earth pressure ratio.
+const double least_ratio =
+    (1 - std::sin(friction_angle_deg * degree)) / (1 + std::sin(friction_angle_deg * degree));
+const double largest_ratio = 1 / least_ratio;
+
+class ColumnAtRest : public testing::TestWithParam<int> {};
+
+INSTANTIATE_TEST_SUITE_P(Layers, ColumnAtRest, testing::Values(10, 14, 20),
+                         [](const auto& i) { return fmt::format("Layers{}", i.param); });
+
+TEST_P(ColumnAtRest, CarriesItsWeightBetweenPeriodicImages) {
+  const auto [f, r] = settle(column(GetParam()));
+  const std::string name = fmt::format("V3 column, layers {}", GetParam());
+  expect_within({name + ", vertical stress", "L2 of the profile", r.profile, 0, r.profile, 0.02}, f);
+  expect_within({name + ", noise", "sd / rho g H", r.noise, 0, r.noise, 0.03}, f);
+  expect_within({name + ", kinetic energy", "/ m g H", r.kinetic, 0, r.kinetic, 1e-5}, f);
+  expect_within({name + ", displacement", "mean / H", r.shift, 0, r.shift, 0.005}, f);
+  record({name + ", stress particle by particle", "L2", r.particle, 0, r.particle, 0.02}, f);
+  EXPECT_GE(r.lateral_low, least_ratio);
+  EXPECT_LE(r.lateral_high, largest_ratio);
+  expect_conserved(f);
+}
+
+/// Beside smooth walls the stress is wrong (see docs/studies/verification.md): the mirrored half of
+/// a wall carries no share of the weight along the wall, and ground and wall count the corner
+/// twice. What holds is asserted, what does not is reported.
+TEST_P(ColumnAtRest, ComesToRestBetweenWalls) {
+  const auto [f, r] = settle(box(GetParam()));
+  const std::string name = fmt::format("V3 box, layers {}", GetParam());
+  record({name + ", vertical stress", "L2 of the profile", r.profile, 0, r.profile, 0.02}, f);
+  record({name + ", noise", "sd / rho g H", r.noise, 0, r.noise, 0.03}, f);
+  record({name + ", displacement", "mean / H", r.shift, 0, r.shift, 0.005}, f);
+  expect_within({name + ", kinetic energy", "/ m g H", r.kinetic, 0, r.kinetic, 1e-5}, f);
+  EXPECT_GE(r.lateral_low, least_ratio);
+  EXPECT_LE(r.lateral_high, largest_ratio);
+  EXPECT_EQ(f.simulation.parts().state.ledger.leaked_mass, 0);
+  EXPECT_LE(std::abs(f.result.scalars.mass_error), 1e-13);
+  record({name + ", energy residual", "/ released", f.result.scalars.energy_residual, 0,
+          f.result.scalars.energy_residual, 0.01},
+         f);
 }
 
 }  // namespace

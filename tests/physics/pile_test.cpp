@@ -8,60 +8,168 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz::test {
 namespace {
 
-struct Track {
-  std::vector<double> t;
-  std::vector<std::vector<double>> x, y, z;
+/// Where a pile is: centre of mass, edge, and every particle by its id.
+struct Place {
+  MeanMotion centre;
+  double edge = 0, edge_99 = 0;  ///< radius of the farthest particle, and of 99 % of them
+  std::vector<double> x, y, z;
 };
 
-TEST(Pile, Probe) {
-  for (double dx : {1.0, 0.7}) {
-    Scenario s = pile(dx);
-    s.numerics.end_time_s = 20;
-    Simulation sim = build(s);
-    std::vector<double> x0, y0, z0; double t0 = -1; MeanMotion c0; double r0 = 0;
-    Finished f = run(std::move(sim), {2, [&](double t, const SimulationParts& p) {
-      const auto& g = p.state.grains; const auto m = mean_motion(g);
-      std::vector<double> x(g.size()), y(x), z(x); double rmax = 0;
-      for (size_t i = 0; i < g.size(); ++i) x[g.id[i]] = g.x[i], y[g.id[i]] = g.y[i], z[g.id[i]] = g.z[i], rmax = std::max(rmax, std::hypot(g.x[i], g.y[i]));
-      if (t0 < 0) x0 = x, y0 = y, z0 = z, t0 = t, c0 = m, r0 = rmax;
-      std::vector<double> d; for (size_t i = 0; i < x.size(); ++i) d.push_back(std::hypot(x[i] - x0[i], y[i] - y0[i], z[i] - z0[i]));
-      std::sort(d.begin(), d.end());
-      fmt::print("dx {} t {:.2f} com ({:.5f} {:.5f}) rmax {:.5f} med {:.5f} q99 {:.5f} max {:.5f} [dx since] fastest {:.2e} mean speed {:.2e}\n", dx, t, std::hypot(m.x - c0.x, m.y - c0.y) / dx, (m.z - c0.z) / dx, (rmax - r0) / dx, d[d.size() / 2] / dx, d[d.size() * 99 / 100] / dx, d.back() / dx, m.fastest, m.speed);
-      x0 = x, y0 = y, z0 = z, c0 = m, r0 = rmax;
-    }});
-    fmt::print("wall {} resid {}\n", f.result.scalars.wall_s, f.result.scalars.energy_residual);
+Place place_of(const ParticleSet& p) {
+  Place at{mean_motion(p), 0, 0, {}, {}, {}};
+  for (auto* column : {&at.x, &at.y, &at.z}) column->resize(p.size());
+  std::vector<double> radius;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    at.x[p.id[i]] = p.x[i], at.y[p.id[i]] = p.y[i], at.z[p.id[i]] = p.z[i];
+    radius.push_back(std::hypot(p.x[i], p.y[i]));
   }
+  std::sort(radius.begin(), radius.end());
+  at.edge = radius.back();
+  at.edge_99 = radius[radius.size() * 99 / 100];
+  return at;
 }
 
-TEST(Pile, Steep) {
-  for (double phi : {25., 35.})
-  for (double dx : {1.0, 0.7}) {
-    Scenario s = pile(dx);
-    s.release.paraboloid = ReleaseParaboloid{{0, 0}, {8, 8}};
-    s.release.thickness_m = Uncertain(8);
-    s.grains->friction_angle_deg = Uncertain(phi);
-    s.numerics.end_time_s = 20;
-    MeanMotion c0; std::vector<double> x0, y0, z0;
-    Finished f = run(build(s), {2, [&](double t, const SimulationParts& p) {
-      const auto& g = p.state.grains; const auto m = mean_motion(g);
-      std::vector<double> top(60, 0); double rmax = 0; std::vector<double> rr;
-      for (size_t i = 0; i < g.size(); ++i) { double r = std::hypot(g.x[i], g.y[i]); rmax = std::max(rmax, r); rr.push_back(r); size_t k = r / dx; if (k < 60) top[k] = std::max(top[k], g.z[i] + dx / 2); }
-      std::sort(rr.begin(), rr.end());
-      std::vector<double> x(g.size()), y(x), z(x);
-      for (size_t i = 0; i < g.size(); ++i) x[g.id[i]] = g.x[i], y[g.id[i]] = g.y[i], z[g.id[i]] = g.z[i];
-      if (x0.empty()) x0 = x, y0 = y, z0 = z, c0 = m;
-      std::vector<double> d; for (size_t i = 0; i < x.size(); ++i) d.push_back(std::hypot(x[i] - x0[i], y[i] - y0[i], z[i] - z0[i]));
-      std::sort(d.begin(), d.end());
-      fmt::print("phi {} dx {} t {:.1f} zmean {:.3f} dz/dt {:.5f} r99 {:.2f} q50 {:.5f} q99 {:.5f} max {:.5f} dx/s mean v {:.2e} top:", phi, dx, t, m.z, (m.z - c0.z) / dx / 2, rr[rr.size() * 99 / 100], d[d.size() / 2] / dx / 2, d[d.size() * 99 / 100] / dx / 2, d.back() / dx / 2, m.speed);
-      x0 = x, y0 = y, z0 = z, c0 = m;
-      for (int k = 0; k < 20; ++k) fmt::print(" {:.2f}", top[k]);
-      fmt::print("\n");
-    }});
-    fmt::print("wall {} resid {}\n", f.result.scalars.wall_s, f.result.scalars.energy_residual);
+double centre_moved(const Place& a, const Place& b) {
+  return std::hypot(a.centre.x - b.centre.x, a.centre.y - b.centre.y, a.centre.z - b.centre.z);
+}
+
+/// The displacement that 99 % of the particles stay below.
+double moved_99(const Place& a, const Place& b) {
+  std::vector<double> d;
+  for (std::size_t i = 0; i < a.x.size(); ++i)
+    d.push_back(std::hypot(a.x[i] - b.x[i], a.y[i] - b.y[i], a.z[i] - b.z[i]));
+  std::sort(d.begin(), d.end());
+  return d[d.size() * 99 / 100];
+}
+
+/// Over 10 s after the release has found its elastic balance, for which it has 5 sqrt(H/g).
+void rests(double spacing_m, bool edge_holds) {
+  Scenario s = pile(spacing_m);
+  const double settled_s = 5 * std::sqrt(4 / gravity_m_s2);
+  s.numerics.end_time_s = settled_s + 10;
+  Simulation simulation = build(s);
+  const Place release = place_of(simulation.parts().state.grains);
+  Place start;
+  const Finished f = run(std::move(simulation), {0.02, [&](double t, const SimulationParts& p) {
+                                                   if (start.x.empty() && t >= settled_s)
+                                                     start = place_of(p.state.grains);
+                                                 }});
+  const Place end = place_of(f.simulation.parts().state.grains);
+  const std::string name = fmt::format("I4 pile, dx {} m", spacing_m);
+  const double sunk = centre_moved(start, release) / spacing_m;
+  record({name + ", centre of mass while it settles", "dx", sunk, 0, sunk}, f);
+  const double centre = centre_moved(end, start) / spacing_m;
+  const double edge = (end.edge - start.edge) / spacing_m;
+  const double most = moved_99(end, start) / spacing_m;
+  expect_within({name + ", centre of mass", "dx in 10 s", centre, 0, centre, 0.01}, f);
+  const Line front{name + ", front", "dx in 10 s", edge, 0, edge, 0.01};
+  edge_holds ? expect_within(front, f) : record(front, f);
+  record({name + ", 99 % of the particles", "dx in 10 s", most, 0, most}, f);
+  expect_conserved(f);
+}
+
+TEST(PileAtRest, StaysWhereItIs) { rests(1, true); }
+
+TEST(PileAtRest, FinerPileStaysToo) { rests(0.8, false); }
+
+/// Mean slope of the surface: the highest particles of rings, between a quarter and three quarters
+/// of the height.
+double slope_deg(const ParticleSet& p, double spacing_m) {
+  std::vector<double> top(200, 0);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto ring = static_cast<std::size_t>(std::hypot(p.x[i], p.y[i]) / spacing_m);
+    if (ring < top.size()) top[ring] = std::max(top[ring], p.z[i] + 0.5 * spacing_m);
+  }
+  const double height = *std::max_element(top.begin(), top.end());
+  std::vector<double> r, z;
+  for (std::size_t k = 0; k < top.size(); ++k)
+    if (top[k] > 0.25 * height && top[k] < 0.75 * height) {
+      r.push_back((k + 0.5) * spacing_m);
+      z.push_back(top[k]);
+    }
+  return std::atan(-slope_of(r, z)) / degree;
+}
+
+class SteepPile : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(Angles, SteepPile, testing::Values(25, 35),
+                         [](const auto& i) { return fmt::format("Friction{:.0f}Deg", i.param); });
+
+/// 8 m high over a radius of 8 m, up to 63 degrees steep.
+TEST_P(SteepPile, ComesDownToASlopeBelowItsFrictionAngle) {
+  const double dx = 0.8;
+  Scenario s = pile(dx);
+  s.release.paraboloid = ReleaseParaboloid{{0, 0}, {8, 8}};
+  s.release.thickness_m = Uncertain(8);
+  s.grains->friction_angle_deg = Uncertain(GetParam());
+  s.numerics.end_time_s = 16;
+  Place before;
+  double from = 0;
+  const Finished f = run(s, {4, [&](double t, const SimulationParts& p) {
+                               if (t < 11 || from > 0) return;
+                               before = place_of(p.state.grains);
+                               from = t;
+                             }});
+  const ParticleSet& p = f.simulation.parts().state.grains;
+  const Place end = place_of(p);
+  const double seconds = f.result.scalars.end_time_s - from;
+  const double slope = slope_deg(p, dx);
+  const std::string name = fmt::format("V9 steep pile, friction {} deg", GetParam());
+  record({name + ", slope", "deg", slope, GetParam(), std::max(0.0, slope - GetParam()), 2}, f);
+  EXPECT_GT(slope, 0.5 * GetParam());
+  EXPECT_LE(slope, GetParam() + 2);
+  const double centre = centre_moved(end, before) / dx / seconds;
+  const double edge = (end.edge_99 - before.edge_99) / dx / seconds;
+  const double most = moved_99(end, before) / dx / seconds;
+  expect_within({name + ", creep of the centre", "dx/s", centre, 0, centre, 0.01}, f);
+  record({name + ", creep of the edge", "dx/s", edge, 0, edge, 0.01}, f);
+  record({name + ", creep of 99 % of the particles", "dx/s", most, 0, most, 0.01}, f);
+  expect_conserved(f);
+}
+
+/// Six layers without end on a rough base: the steepest slope that stands is the friction angle.
+Scenario endless_slope(double slope) {
+  Scenario s = thin_sheet(6);
+  s.terrain.synthetic->parameters["slope_deg"] = slope;
+  s.grains->friction.reset();
+  s.grains->friction_angle_deg = Uncertain(30);
+  s.basal.friction_coefficient = 1;
+  s.numerics.end_time_s = 15;
+  return s;
+}
+
+TEST(EndlessSlope, StandsTwoDegreesBelowTheFrictionAngle) {
+  double at_10 = 0;
+  const Finished f = run(endless_slope(28), {10, [&](double t, const SimulationParts& p) {
+                                               if (t > 9 && t < 14)
+                                                 at_10 = mean_motion(p.state.grains).speed;
+                                             }});
+  expect_within({"V9 endless slope 28 deg, friction 30", "mean speed dx/s at 10 s", at_10, 0, at_10,
+                 0.01},
+                f);
+}
+
+/// Slower than a mass that slides on one plane (g (sin - mu cos) t), for the artificial viscosity
+/// spreads the shear over the six layers, but it flows.
+TEST(EndlessSlope, FlowsTwoDegreesAboveTheFrictionAngle) {
+  const double sliding = 15 * gravity_m_s2 *
+                         (std::sin(32 * degree) - std::tan(30 * degree) * std::cos(32 * degree));
+  for (const double viscosity : {0.1, 0.05}) {
+    Scenario s = endless_slope(32);
+    s.numerics.artificial_viscosity = viscosity;
+    const Finished f = run(s);
+    const double speed = mean_motion(f.simulation.parts().state.grains).speed;
+    record(relative(fmt::format("V9 endless slope 32 deg, friction 30, viscosity {}", viscosity),
+                    "mean speed m/s at 15 s", speed, sliding),
+           f);
+    EXPECT_GT(speed, 0.1 * sliding);
+    EXPECT_LT(speed, 1.05 * sliding);
+    expect_conserved(f);
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* head =
     "case,dx_m,particles,dt_s,binding_limit,steps,wall_s,quantity,measured,reference,error,"
-    "tolerance";
+    "tolerance,verdict";
 
 /// Holds the file's lock for its lifetime.
 class Lock {

@@ -11,18 +11,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <memory>
+#include <utility>
 
 namespace sturz::test {
 
-Simulation build(const Scenario& scenario, int threads) {
-  return assemble(scenario, load_scene_inputs(scenario), 0, threads);
+Simulation build(const Scenario& scenario, int threads, InstructionSet instruction_set) {
+  return assemble(scenario, load_scene_inputs(scenario), 0, threads, instruction_set);
 }
 
-Finished run(const Scenario& scenario, const Watch& watch, int threads) {
-  return run(build(scenario, threads), watch);
-}
+Finished run(const Scenario& scenario, const Watch& watch) { return run(build(scenario), watch); }
 
 Finished run(Simulation simulation, const Watch& watch) {
   RunControl control;
@@ -64,7 +61,9 @@ void expect_conserved(const Finished& f) {
   EXPECT_EQ(book.leaked_mass, 0);
   double impulse2 = 0;
   for (double i : book.stress_impulse) impulse2 += i * i;
-  EXPECT_LE(std::sqrt(impulse2), 1e-7 * book.stress_impulse_scale) << "pair forces push the whole";
+  // Where mass leaves, the last force on it is not in the sum but its reaction is.
+  const double limit = book.lost_mass == 0 ? 1e-7 : 1e-5;
+  EXPECT_LE(std::sqrt(impulse2), limit * book.stress_impulse_scale) << "pair forces push the whole";
   EXPECT_LE(std::abs(f.result.scalars.energy_residual), 0.01);
 }
 
@@ -102,17 +101,33 @@ Convergence observed_convergence(const std::vector<double>& dx, const std::vecto
 void record(const Line& line, const Finished& f) {
   const MemberScalars& m = f.result.scalars;
   const double dx = f.simulation.parts().spacing_m;
-  fmt::print("{:<44} dx {:g} m | n {:g} | dt {:.3g} s ({}) | {:.2f} s | {} {:.6g}, reference {:.6g}, "
-             "error {:.3g} (tolerance {:.3g})\n",
+  const std::string verdict = std::isnan(line.tolerance)                  ? "reported"
+                              : std::abs(line.error) <= line.tolerance ? "met"
+                                                                          : "missed";
+  fmt::print("{:<46} | dx {:.4g} m, {:g} particles | dt {:.3g} s ({}) | {:.2f} s | {} {:.6g}, "
+             "reference {:.6g} | error {:.3g} of {:.3g}: {}\n",
              line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit, m.wall_s,
-             line.quantity, line.measured, line.reference, line.error, line.tolerance);
+             line.quantity, line.measured, line.reference, line.error, line.tolerance, verdict);
   testing::Test::RecordProperty("measured", fmt::format("{:.8g}", line.measured));
   testing::Test::RecordProperty("error", fmt::format("{:.4g}", line.error));
   keep_line(line.name,
-            fmt::format("\"{}\",{:g},{:g},{:.4g},{},{:g},{:.3f},\"{}\",{:.8g},{:.8g},{:.4g},{:.4g}",
+            fmt::format("\"{}\",{:g},{:g},{:.4g},{},{:g},{:.3f},\"{}\",{:.8g},{:.8g},{:.4g},{:.4g},{}",
                         line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit,
                         m.n_steps, m.wall_s, line.quantity, line.measured, line.reference,
-                        line.error, line.tolerance));
+                        line.error, line.tolerance, verdict));
+}
+
+void expect_within(const Line& line, const Finished& f) {
+  record(line, f);
+  EXPECT_LE(std::abs(line.error), line.tolerance)
+      << line.name << ": " << line.quantity << ' ' << line.measured << ", reference "
+      << line.reference;
+}
+
+Line relative(std::string name, std::string quantity, double measured, double reference,
+              double tolerance) {
+  return {std::move(name), std::move(quantity), measured, reference, measured / reference - 1,
+          tolerance};
 }
 
 }  // namespace sturz::test

@@ -3,11 +3,13 @@
 /// must conserve, and write one line of the accuracy-versus-time table.
 #pragma once
 
+#include "engine/effects/fused_sweep.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/simulation.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,8 @@ inline constexpr double gravity_m_s2 = 9.81;
 inline constexpr double degree = 0.017453292519943295;
 
 /// Loads the inputs of a scene and assembles its member 0.
-Simulation build(const Scenario&, int threads = 1);
+Simulation build(const Scenario&, int threads = 1,
+                 InstructionSet instruction_set = best_instruction_set());
 
 /// A finished member, its particles still at hand.
 struct Finished {
@@ -30,7 +33,7 @@ struct Watch {
   double every_s = 1;
   std::function<void(double time_s, const SimulationParts&)> look;
 };
-Finished run(const Scenario&, const Watch& = {}, int threads = 1);
+Finished run(const Scenario&, const Watch& = {});
 /// Runs a simulation that was built and changed by hand.
 Finished run(Simulation, const Watch& = {});
 
@@ -44,7 +47,8 @@ struct MeanMotion {
 };
 MeanMotion mean_motion(const ParticleSet&);
 
-/// V20: mass to the last bit, pair forces without net momentum, energy booked within 1 %.
+/// V20: mass to the last bit, pair forces without net momentum, energy booked within 1 % of the
+/// energy that was set free.
 void expect_conserved(const Finished&);
 
 /// Least-squares slope of v over t.
@@ -58,16 +62,23 @@ struct Convergence {
 };
 Convergence observed_convergence(const std::vector<double>& dx, const std::vector<double>& value);
 
+inline constexpr double reported_only = std::numeric_limits<double>::quiet_NaN();
+
 /// One line of the table.
 struct Line {
   std::string name;       ///< "V1 particle, r_u 0.2": unique, it is the key of the line
   std::string quantity;   ///< what was measured, with its unit
   double measured = 0, reference = 0;
   double error = 0;       ///< in the sense and unit of the tolerance
-  double tolerance = 0;   ///< NaN: reported only
+  double tolerance = reported_only;
 };
 /// Prints the line, keeps it in tests/physics/results.csv of the build tree (the last run of a case
 /// replaces its line) and attaches measured value and error to the running test.
 void record(const Line&, const Finished&);
+/// The same, and the test fails where the error is beyond the tolerance.
+void expect_within(const Line&, const Finished&);
+/// A line whose error is the relative deviation from the reference.
+Line relative(std::string name, std::string quantity, double measured, double reference,
+              double tolerance = reported_only);
 
 }  // namespace sturz::test

@@ -45,9 +45,8 @@ Terrain even_ground(int n, double slope, NodataRule rule) {
 }
 
 double HandMade::advance() {
-  const double dt = std::min(step.limit(state).dt, 1.05 * (state.previous_dt > 0
-                                                              ? state.previous_dt
-                                                              : 1e300));
+  const double dt =
+      std::min(step.limit(state).dt, 1.05 * (state.previous_dt > 0 ? state.previous_dt : 1e300));
   step.apply(state, dt);
   return dt;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/slow_sweep.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -52,8 +53,8 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       moment += b.volume * (b.position - a.position) * grad.transpose();
       // Bilateral viscosity; the mean density of a pair is taken as rho_a rho_b / rho_ref.
       const double phi = c.h * u.dot(r) / (r.squaredNorm() + 0.01 * c.h * c.h);
-      const double pi = -c.viscosity * c.sound_speed * phi * c.reference_density /
-                        (density_a * density_b);
+      const double pi =
+          -c.viscosity * c.sound_speed * phi * c.reference_density / (density_a * density_b);
       force += mass_b *
                ((a.stress + b.stress) / (density_a * density_b) - pi * Matrix3d::Identity()) * grad;
       const double rise = b.compression - a.compression;
@@ -61,19 +62,23 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       laplace += b.volume * weight * rise;
       grad_sum += b.volume * grad;
       density_gradient += b.volume * rise * grad;
-      rates.smoothing += b.volume * weight *
-                         (b.stress * b.inverse_pressure - a.stress * a.inverse_pressure);
+      rates.smoothing +=
+          b.volume * weight * (b.stress * b.inverse_pressure - a.stress * a.inverse_pressure);
     };
     for (const SlowParticle& b : particles)
       if (&b != &a) add(b);
     for (const SlowParticle& b : images) add(b);
     bool own_corrected = true;
-    rates.gradient = (gradient + a.wall_gradient) *
-                     correction(moment + a.wall_moment, rates.corrected);
+    // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no image.
+    const double along = moment.cwiseProduct(a.wall_moment).sum();
+    rates.wall_share = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
+    rates.gradient = (gradient + rates.wall_share * a.wall_gradient) *
+                     correction(moment + rates.wall_share * a.wall_moment, rates.corrected);
     const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // grad of compression
     rates.acceleration = force;
     // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.
-    rates.diffusion = 2 * c.density_diffusion * c.h * c.sound_speed * (laplace - rise.dot(grad_sum));
+    rates.diffusion =
+        2 * c.density_diffusion * c.h * c.sound_speed * (laplace - rise.dot(grad_sum));
     rates.smoothing *= 2 * c.stress_smoothing * c.h * c.sound_speed;
     rates.smoothing -= rates.smoothing.trace() / 3 * Matrix3d::Identity();
     rates.corrected = rates.corrected && own_corrected;

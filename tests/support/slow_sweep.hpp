@@ -26,13 +26,13 @@ struct SlowRates {
   Vec3 acceleration{0, 0, 0};
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< corrected dv_a/dx_b
   double diffusion = 0;
+  double wall_share = 0;  ///< of the mirror image
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I
 };
 
 /// B.2, B.3, B.4 over all pairs. \param images extra particles that are neighbours only
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
-                                  const std::vector<SlowParticle>& images,
-                                  const SweepConstants&);
+                                  const std::vector<SlowParticle>& images, const SweepConstants&);
 
 }  // namespace sturz::test

@@ -9,7 +9,8 @@
 namespace sturz::test {
 namespace {
 
-constexpr std::array<std::array<int, 2>, 6> entries{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
+constexpr std::array<std::array<int, 2>, 6> entries{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
 PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
   r.volume = static_cast<float>(p.volume);
@@ -26,7 +27,7 @@ PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
 
 /// Room for the sweep's results and inputs of walls, [padded].
 struct Rooms {
-  std::array<std::vector<float>, 19> results;
+  std::array<std::vector<float>, 20> results;
   std::array<std::vector<float>, 12> wall;
 
   explicit Rooms(std::size_t n) {
@@ -39,6 +40,7 @@ struct Rooms {
                        &o.lyy, &o.lyz, &o.lzx, &o.lzy, &o.lzz, &o.diffusion};
     for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
+    o.wall_share = results[19].data();
     return o;
   }
   BoundaryView boundary() const {
@@ -53,6 +55,7 @@ struct Rooms {
       for (int m = 0; m < 3; ++m) r.gradient(k, m) = results[3 + 3 * k + m][i];
     }
     r.diffusion = results[12][i];
+    r.wall_share = results[19][i];
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
       r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
@@ -90,8 +93,7 @@ SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConst
     }
   }
   lists.copy_images();
-  sweeps(isa).dense(lists.view(), constants, rooms.boundary(), rooms.output(), 0,
-                    lists.n_groups());
+  sweeps(isa).dense(lists.view(), constants, rooms.boundary(), rooms.output(), 0, lists.n_groups());
   SweepRun run;
   run.rates.resize(particles.size());
   for (std::size_t i = 0; i < set.size(); ++i) run.rates[set.id[i]] = rooms.rates(i);
