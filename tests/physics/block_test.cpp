@@ -56,8 +56,7 @@ Slide slide(const Scenario& s, double measure_from_s = 0) {
   Simulation simulation = build(s);
   const double from = mean_motion(simulation.parts().state.grains).x;
   std::vector<double> t, v;
-  Slide out{run(std::move(simulation), {0.1,
-                                        [&](double time, const SimulationParts& p) {
+  Slide out{run(std::move(simulation), {0.1, [&](double time, const SimulationParts& p) {
                                           if (time < measure_from_s) return;
                                           t.push_back(time);
                                           v.push_back(mean_motion(p.state.grains).vx / cos30);
@@ -72,11 +71,11 @@ Slide slide(const Scenario& s, double measure_from_s = 0) {
 }
 
 void expect_slide(const std::string& name, const Slide& s, double tolerance) {
-  expect_within(
-      relative(name + ", distance", "m in 5 s", s.path, s.expected_path, tolerance), s.finished);
-  expect_within(relative(name + ", acceleration", "m/s2", s.acceleration, s.expected_acceleration,
-                         tolerance),
+  expect_within(relative(name + ", distance", "m in 5 s", s.path, s.expected_path, tolerance),
                 s.finished);
+  expect_within(
+      relative(name + ", acceleration", "m/s2", s.acceleration, s.expected_acceleration, tolerance),
+      s.finished);
   expect_conserved(s.finished);
 }
 
@@ -130,11 +129,11 @@ TEST_P(StopOnLevelGround, EndsWhereTheEnergyIsSpent) {
   double stopped_at = 0;
   // The block still trembles when it has arrived: it has stopped once it is slower than 1 cm/s,
   // which deceleration takes from a sliding mass in 5 ms.
-  const Finished f = run(std::move(simulation), {0.002, [&](double t, const SimulationParts& p) {
-                                                   if (stopped_at == 0 &&
-                                                       mean_motion(p.state.grains).vx < 0.01)
-                                                     stopped_at = t;
-                                                 }});
+  const Finished f =
+      run(std::move(simulation), {0.002, [&](double t, const SimulationParts& p) {
+                                    if (stopped_at == 0 && mean_motion(p.state.grains).vx < 0.01)
+                                      stopped_at = t;
+                                  }});
   const double deceleration = 0.5 * 0.4 * gravity_m_s2;
   const double path = mean_motion(f.simulation.parts().state.grains).x - from;
   const std::string name = GetParam() ? "V1b stop, elastic block" : "V1b stop, particle";
@@ -152,11 +151,11 @@ TEST(StickOnSlope, ParticleHasNoSpeedForAMinute) {
   s.numerics.stop_at_rest = false;
   Simulation simulation = build(s);
   double fastest = 0;
-  const Finished f = run(std::move(simulation), {0.02, [&](double t, const SimulationParts& p) {
-                                                   if (t > 5 && t < 65)
-                                                     fastest = std::max(
-                                                         fastest, mean_motion(p.state.grains).fastest);
-                                                 }});
+  const Finished f = run(std::move(simulation),
+                         {0.02, [&](double t, const SimulationParts& p) {
+                            if (t > 5 && t < 65)
+                              fastest = std::max(fastest, mean_motion(p.state.grains).fastest);
+                          }});
   expect_within({"V1b stick, particle", "fastest m/s in 60 s", fastest, 0, fastest, 1e-6}, f);
 }
 

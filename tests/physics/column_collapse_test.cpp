@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <utility>
 
 namespace sturz::test {
@@ -21,8 +22,7 @@ double run_out_m(const SimulationParts& parts) {
   std::vector<double> thickness(static_cast<std::size_t>(8 / dx), 0);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const auto k = static_cast<std::size_t>(std::max(0.0, p.x[i] / dx));
-    if (k < thickness.size())
-      thickness[k] += p.mass[i] / parts.reference_density / (dx * 4 * dx);
+    if (k < thickness.size()) thickness[k] += p.mass[i] / parts.reference_density / (dx * 4 * dx);
   }
   std::size_t last = thickness.size() - 1;
   while (last > 0 && thickness[last] <= least) --last;
@@ -42,6 +42,7 @@ struct Case {
   double aspect;
   std::vector<int> particles_along;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << "aspect " << c.aspect; }
 
 class ColumnCollapse : public testing::TestWithParam<Case> {};
 

@@ -68,9 +68,7 @@ struct Descent {
   double s0 = 0, z0 = 0;
   std::vector<double> s, energy;
 
-  double angle_deg() const {
-    return std::atan((z0 - energy.back()) / (s.back() - s0)) / degree;
-  }
+  double angle_deg() const { return std::atan((z0 - energy.back()) / (s.back() - s0)) / degree; }
   /// Root mean square deviation, as a share of the drop.
   double rmse(const EnergyLine& line) const {
     double sum = 0;

@@ -19,8 +19,8 @@ constexpr double launch_height_m = 10;
 /// Four parcels at 20 m/s and 45 degrees, from far above the ground and far from each other.
 Simulation launched(double spacing_m) {
   Scenario s;
-  s.terrain.synthetic = SyntheticTerrain{
-      "plane", spacing_m, {{"slope_deg", 0}, {"length_m", 100}, {"width_m", 24}}};
+  s.terrain.synthetic =
+      SyntheticTerrain{"plane", spacing_m, {{"slope_deg", 0}, {"length_m", 100}, {"width_m", 24}}};
   s.release.box = ReleaseBox{{-40, -40 + spacing_m}, {-2 * spacing_m, 2 * spacing_m}};
   s.release.thickness_m = Uncertain(spacing_m);
   s.release.velocity_m_s = {20 * std::cos(45 * degree), 0, 20 * std::sin(45 * degree)};
@@ -108,8 +108,8 @@ TEST(FreeFlight, PairForcesDoNotMoveTheWhole) {
   const MeanMotion after = mean_motion(f.simulation.parts().state.grains);
   const double drift =
       std::hypot(after.vx - before.vx, after.vy - before.vy, after.vz - before.vz) / before.speed;
-  expect_within({"V20 momentum of a spinning block", "relative drift in 2 s", drift, 0, drift, 1e-7},
-                f);
+  expect_within(
+      {"V20 momentum of a spinning block", "relative drift in 2 s", drift, 0, drift, 1e-7}, f);
   expect_conserved(f);
 }
 

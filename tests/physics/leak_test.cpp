@@ -19,16 +19,15 @@ double lowest(const SimulationParts& parts) {
   double least = 1e300;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (ground.inside(p.x[i], p.y[i]))
-      least = std::min(least, ground.distance({p.x[i], p.y[i], p.z[i]}, 0.5 * parts.spacing_m)
-                                  .distance);
+      least = std::min(least,
+                       ground.distance({p.x[i], p.y[i], p.z[i]}, 0.5 * parts.spacing_m).distance);
   return least / parts.spacing_m;
 }
 
 void expect_tight(const std::string& name, const Scenario& s) {
   double least = 1e300;
-  const Finished f = run(s, {0.005, [&](double, const SimulationParts& p) {
-                               least = std::min(least, lowest(p));
-                             }});
+  const Finished f = run(
+      s, {0.005, [&](double, const SimulationParts& p) { least = std::min(least, lowest(p)); }});
   const double below = std::max(0.0, -least);
   expect_within({name, "lowest centre, dx above ground", least, 0, below, 0.1}, f);
   EXPECT_EQ(f.simulation.parts().state.ledger.leaked_mass, 0);

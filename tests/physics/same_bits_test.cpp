@@ -12,7 +12,7 @@ namespace {
 Scenario scene() {
   Scenario s = ramp_slide(60, 2);
   s.release.thickness_m = Uncertain(16);
-  s.numerics.end_time_s = 4;
+  s.numerics.end_time_s = 2;
   return s;
 }
 

@@ -93,7 +93,8 @@ Convergence observed_convergence(const std::vector<double>& dx, const std::vecto
     (expected(middle) < ratio ? low : high) = middle;
   }
   c.order = low;
-  const double share = std::pow(dx[2], c.order) / (std::pow(dx[1], c.order) - std::pow(dx[2], c.order));
+  const double share =
+      std::pow(dx[2], c.order) / (std::pow(dx[1], c.order) - std::pow(dx[2], c.order));
   c.limit = value[2] + (value[2] - value[1]) * share;
   return c;
 }
@@ -101,20 +102,22 @@ Convergence observed_convergence(const std::vector<double>& dx, const std::vecto
 void record(const Line& line, const Finished& f) {
   const MemberScalars& m = f.result.scalars;
   const double dx = f.simulation.parts().spacing_m;
-  const std::string verdict = std::isnan(line.tolerance)                  ? "reported"
+  const std::string verdict = std::isnan(line.tolerance)               ? "reported"
                               : std::abs(line.error) <= line.tolerance ? "met"
-                                                                          : "missed";
-  fmt::print("{:<46} | dx {:.4g} m, {:g} particles | dt {:.3g} s ({}) | {:.2f} s | {} {:.6g}, "
-             "reference {:.6g} | error {:.3g} of {:.3g}: {}\n",
-             line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit, m.wall_s,
-             line.quantity, line.measured, line.reference, line.error, line.tolerance, verdict);
+                                                                       : "missed";
+  fmt::print(
+      "{:<46} | dx {:.4g} m, {:g} particles | dt {:.3g} s ({}) | {:.2f} s | {} {:.6g}, "
+      "reference {:.6g} | error {:.3g} of {:.3g}: {}\n",
+      line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit, m.wall_s, line.quantity,
+      line.measured, line.reference, line.error, line.tolerance, verdict);
   testing::Test::RecordProperty("measured", fmt::format("{:.8g}", line.measured));
   testing::Test::RecordProperty("error", fmt::format("{:.4g}", line.error));
-  keep_line(line.name,
-            fmt::format("\"{}\",{:g},{:g},{:.4g},{},{:g},{:.3f},\"{}\",{:.8g},{:.8g},{:.4g},{:.4g},{}",
-                        line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit,
-                        m.n_steps, m.wall_s, line.quantity, line.measured, line.reference,
-                        line.error, line.tolerance, verdict));
+  keep_line(
+      line.name,
+      fmt::format("\"{}\",{:g},{:g},{:.4g},{},{:g},{:.3f},\"{}\",{:.8g},{:.8g},{:.4g},{:.4g},{}",
+                  line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit, m.n_steps,
+                  m.wall_s, line.quantity, line.measured, line.reference, line.error,
+                  line.tolerance, verdict));
 }
 
 void expect_within(const Line& line, const Finished& f) {
@@ -126,8 +129,8 @@ void expect_within(const Line& line, const Finished& f) {
 
 Line relative(std::string name, std::string quantity, double measured, double reference,
               double tolerance) {
-  return {std::move(name), std::move(quantity), measured, reference, measured / reference - 1,
-          tolerance};
+  return {std::move(name), std::move(quantity),      measured,
+          reference,       measured / reference - 1, tolerance};
 }
 
 }  // namespace sturz::test

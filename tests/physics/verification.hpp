@@ -39,11 +39,11 @@ Finished run(Simulation, const Watch& = {});
 
 /// Mass averages.
 struct MeanMotion {
-  double x = 0, y = 0, z = 0;           ///< centre of mass [m]
-  double vx = 0, vy = 0, vz = 0;        ///< [m/s]
-  double speed = 0;                     ///< mean |v| [m/s]
-  double energy_height = 0;             ///< kinetic energy / (m g) [m]
-  double fastest = 0;                   ///< largest |v| [m/s]
+  double x = 0, y = 0, z = 0;     ///< centre of mass [m]
+  double vx = 0, vy = 0, vz = 0;  ///< [m/s]
+  double speed = 0;               ///< mean |v| [m/s]
+  double energy_height = 0;       ///< kinetic energy / (m g) [m]
+  double fastest = 0;             ///< largest |v| [m/s]
 };
 MeanMotion mean_motion(const ParticleSet&);
 
@@ -56,7 +56,8 @@ double slope_of(const std::vector<double>& t, const std::vector<double>& v);
 
 /// Order p and limit f of f(dx) = f0 + c dx^p through three resolutions, coarse to fine.
 struct Convergence {
-  bool monotonic = false;   ///< differences of one sign that get smaller; else order and limit are NaN
+  bool monotonic =
+      false;  ///< differences of one sign that get smaller; else order and limit are NaN
   double order = 0;
   double limit = 0;
 };
@@ -66,10 +67,10 @@ inline constexpr double reported_only = std::numeric_limits<double>::quiet_NaN()
 
 /// One line of the table.
 struct Line {
-  std::string name;       ///< "V1 particle, r_u 0.2": unique, it is the key of the line
-  std::string quantity;   ///< what was measured, with its unit
+  std::string name;      ///< "V1 particle, r_u 0.2": unique, it is the key of the line
+  std::string quantity;  ///< what was measured, with its unit
   double measured = 0, reference = 0;
-  double error = 0;       ///< in the sense and unit of the tolerance
+  double error = 0;  ///< in the sense and unit of the tolerance
   double tolerance = reported_only;
 };
 /// Prints the line, keeps it in tests/physics/results.csv of the build tree (the last run of a case
