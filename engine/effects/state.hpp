@@ -24,7 +24,8 @@ struct MotionBounds {
 /// A wall cuts the support of the particles beside it. The missing half is taken as their mirror
 /// image: same stress, same tangential and opposite normal velocity. Momentum then gains
 /// 2 p_n W_plane(d)/rho along n, the velocity gradient 2 W_plane(d) v_n n (x) n, and the moment
-/// matrix 2 d W_plane(d) n (x) n, which keeps linear fields exact. Force and strain are adjoint,
+/// matrix 2 d W_plane(d) n (x) n, which keeps linear fields without flow through the wall exact (shear
+/// along the normal is felt too weakly in the last two layers). Force and strain are adjoint,
 /// so a bouncing column neither gains nor loses energy at the wall.
 struct BoundarySupport {
   std::vector<double> distance, nx, ny, nz;  ///< to the ground along its normal [m]
