@@ -12,8 +12,10 @@ class Kick final : public Pass {
   std::string_view name() const override { return "gravity and kick"; }
   Stage stage() const override { return Stage::kick; }
 
-  void apply(State& s, double dt) override {
+  void apply(State& s, double full) override {
     ParticleSet& p = s.grains;
+    // The first kick starts from v_0 and needs half a step to reach v_{1/2}.
+    const double dt = s.n_steps == 0 ? 0.5 * full : full;
     parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         p.vx[i] += dt * s.ax[i];
