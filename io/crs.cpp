@@ -27,24 +27,29 @@ std::string with_options(const OGRSpatialReference& crs, const char* format) {
   return wkt;
 }
 
+/// Where the user can name the system.
+std::string place_for(const CrsRequest& request) {
+  return request.override_key.empty() ? "EPSG:xxxxx to the file (ogr2ogr -a_srs)"
+                                      : "`" + request.override_key + ": EPSG:xxxxx`";
+}
+
 void refuse_unusable(const OGRSpatialReference& crs, const CrsRequest& request) {
   if (crs.IsProjected() || crs.IsGeographic()) return;
   throw SetupError(fmt::format(
-      "{}: its coordinate system '{}' is {} (no map can place it). Add `{}: EPSG:xxxxx`, the "
-      "projected system of the coordinates.",
+      "{}: its coordinate system '{}' is {} (no map can place it). Add {}, the projected "
+      "system of the coordinates.",
       request.label, crs_name(crs),
       crs.IsLocal() ? "a local one" : (crs.IsGeocentric() ? "geocentric" : "of no usable kind"),
-      request.override_key));
+      place_for(request)));
 }
 
 void refuse_metres_as_degrees(const OGRSpatialReference& crs, const CrsRequest& request,
                               const SourceExtent& e) {
   if (!crs.IsGeographic()) return;
   const char* source = request.override_text.empty() ? "tagged as" : "said to be in";
-  const std::string advice = fmt::format(
-      "These look like metres: give `{}: EPSG:xxxxx`, the projected system of the "
-      "coordinates.",
-      request.override_key);
+  const std::string advice =
+      fmt::format("These look like metres: give {}, the projected system of the coordinates.",
+                  place_for(request));
   if (e.min_x < -180 || e.max_x > 360 || e.min_y < -90 || e.max_y > 90)
     throw SetupError(fmt::format(
         "{}: {} {} (degrees), but its coordinates are x {:.10g} to {:.10g}, y {:.10g} to {:.10g}, "
@@ -118,8 +123,8 @@ OGRSpatialReference settle_crs(const OGRSpatialReference* own, const CrsRequest&
   } else {
     throw SetupError(
         fmt::format("{}: has no coordinate system (so the result could not be put on a map). Add "
-                    "`{}: EPSG:xxxxx`, the system of its coordinates.",
-                    request.label, request.override_key));
+                    "{}, the system of its coordinates.",
+                    request.label, place_for(request)));
   }
   crs.StripVertical();
   crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);

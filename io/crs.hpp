@@ -33,7 +33,7 @@ struct SourceExtent {
 /// What the scenario says about a file's system.
 struct CrsRequest {
   std::string label;          ///< of the file in messages
-  std::string override_key;   ///< e.g. "terrain.crs"
+  std::string override_key;   ///< e.g. "terrain.crs"; empty: only the file itself can say
   std::string override_text;  ///< its value; empty: not given
   std::string fallback_key;   ///< key that stands in when the file has no system; empty: none
   std::string fallback_text;

@@ -3,22 +3,12 @@
 #pragma once
 
 #include "engine/terrain/raster.hpp"
+#include "io/polygon_request.hpp"
 
 #include <string>
 #include <vector>
 
 namespace sturz {
-
-/// Which polygons to read, and what the scenario says about them.
-struct PolygonRequest {
-  std::string path;                     ///< as written; relative paths start at `directory`
-  std::string layer;                    ///< empty: the first
-  std::string thickness_attribute;      ///< numeric field [m]; empty: shares only
-  std::string key = "release.polygon";  ///< scenario key, for messages
-  std::string directory;
-  std::string crs;  ///< replaces the layer's own system; empty: not given
-  std::string crs_key = "release.crs";
-};
 
 struct PolygonRelease {
   Raster<double> pattern;     ///< on the terrain's grid: share 0..1, or thickness [m]

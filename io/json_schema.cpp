@@ -4,6 +4,7 @@
 #include "io/distribution_nodes.hpp"
 #include "scenarios/schema.hpp"
 #include "scenarios/synthetic_terrain.hpp"
+#include "scenarios/zone_fields.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -92,6 +93,22 @@ Json walls() {
   return {{"type", "array"}, {"items", wall}};
 }
 
+Json words() { return {{"type", "string"}, {"minLength", 1}}; }
+
+/// A file and at least one of the numbers.
+Json zones() {
+  Json properties = {{"polygon", words()}, {"layer", words()}};
+  Json any_number = Json::array();
+  for (const auto& field : zone_fields) {
+    const KeyInfo& key = basal_key(field);
+    properties[field.name] = number(key.min, key.max, key.above_min);
+    any_number.push_back({{"required", {field.name}}});
+  }
+  Json zone = object(properties, {"polygon"});
+  zone["anyOf"] = any_number;
+  return {{"type", "array"}, {"items", zone}, {"maxItems", most_basal_zones}};
+}
+
 Json value_of(const KeyInfo& key) {
   const Json plain = number(key.min, key.max, key.above_min);
   switch (key.kind) {
@@ -104,7 +121,7 @@ Json value_of(const KeyInfo& key) {
     }
     case ValueKind::text:
     case ValueKind::path:
-      return {{"type", "string"}, {"minLength", 1}};
+      return words();
     case ValueKind::choice:
       return {{"enum", key.choices}};
     case ValueKind::flag:
@@ -121,6 +138,8 @@ Json value_of(const KeyInfo& key) {
       return synthetic();
     case ValueKind::wall_list:
       return walls();
+    case ValueKind::zone_list:
+      return zones();
   }
   return {};
 }

@@ -33,14 +33,14 @@ double polygon_area(const GeometryPtr& geometry) {
   return geometry ? polygons_in(*geometry, ignored)->get_Area() : 0;
 }
 
+}  // namespace
+
 std::vector<Vec2> points_of(const OGRLinearRing& ring) {
   std::vector<Vec2> points;
   points.reserve(static_cast<std::size_t>(ring.getNumPoints()));
   for (int i = 0; i < ring.getNumPoints(); ++i) points.emplace_back(ring.getX(i), ring.getY(i));
   return points;
 }
-
-}  // namespace
 
 PolygonsPtr polygons_in(const OGRGeometry& geometry, std::string& other) {
   auto polygons = std::make_unique<OGRMultiPolygon>();

@@ -25,6 +25,9 @@ double shared_area(const OGRMultiPolygon& a, const OGRMultiPolygon& b);
 /// Area of `polygons` beyond `known` [m2].
 double area_outside(const OGRMultiPolygon& polygons, const OGRPolygon& known);
 
+/// The ring's corners; the last repeats the first.
+std::vector<Vec2> points_of(const OGRLinearRing& ring);
+
 /// The grid's extent, widened on all sides.
 OGRPolygon rectangle(const Grid& grid, double margin_m);
 

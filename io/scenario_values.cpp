@@ -4,6 +4,7 @@
 #include "io/distribution_nodes.hpp"
 #include "scenarios/suggest.hpp"
 #include "scenarios/value_text.hpp"
+#include "scenarios/zone_fields.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,15 +23,24 @@ std::string unknown_text(const std::string& path, const std::string& key,
          (near.empty() ? "Known here: " + list + "." : "Did you mean " + near + "?");
 }
 
-KeyValue read_text_value(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
+const char* const file_name = "a file name";
+
+/// \param expected "text" or file_name
+std::optional<std::string> read_text(const std::string& path, const char* expected,
+                                     const YamlNode& node, FileProblems& problems) {
   if (node.kind == Kind::scalar && !node.text.empty()) return node.text;
-  const char* expected = key.kind == ValueKind::path ? "a file name" : "text";
   if (node.kind == Kind::scalar)
     problems.push_back(
-        {node.at, key.path + " = \"\" (must be " + expected + "). Give it one or remove the key."});
+        {node.at, path + " = \"\" (must be " + expected + "). Give it one or remove the key."});
   else
-    add_mismatch(key.path, node, expected, "", problems);
-  return {};
+    add_mismatch(path, node, expected, "", problems);
+  return std::nullopt;
+}
+
+KeyValue read_text_value(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
+  const auto text =
+      read_text(key.path, key.kind == ValueKind::path ? file_name : "text", node, problems);
+  return text ? KeyValue{*text} : KeyValue{};
 }
 
 KeyValue read_flag(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
@@ -42,13 +52,17 @@ KeyValue read_flag(const KeyInfo& key, const YamlNode& node, FileProblems& probl
   return {};
 }
 
+/// A number in whose place no distribution may stand; `hint` says so.
+std::optional<double> read_fixed_number(const std::string& path, const YamlNode& node,
+                                        const char* hint, FileProblems& problems) {
+  if (node.kind != Kind::map) return read_number(path, node, "a number", problems);
+  add_mismatch(path, node, "a plain number", hint, problems);
+  return std::nullopt;
+}
+
 KeyValue read_plain_number(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
-  if (node.kind == Kind::map) {
-    add_mismatch(key.path, node, "a plain number",
-                 "Only keys of release, grains and basal can be uncertain.", problems);
-    return {};
-  }
-  const auto number = read_number(key.path, node, "a number", problems);
+  const auto number = read_fixed_number(
+      key.path, node, "Only keys of release, grains and basal can be uncertain.", problems);
   return number ? KeyValue{*number} : KeyValue{};
 }
 
@@ -165,19 +179,49 @@ bool read_wall(const std::string& path, const YamlNode& node, WallSpec& wall,
   return good;
 }
 
-KeyValue read_walls(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
+bool read_zone(const std::string& path, const YamlNode& node, BasalZone& zone,
+               FileProblems& problems) {
+  if (node.kind != Kind::map) {
+    add_mismatch(path, node, "a zone, {polygon: plate.gpkg, friction_coefficient: 0.3}", "",
+                 problems);
+    return false;
+  }
+  const std::size_t before = problems.size();
+  for (const auto& [name, at, value] : node.entries) {
+    const std::string inner = path + "." + name;
+    if (name == "polygon") {
+      zone.polygon = read_text(inner, file_name, value, problems).value_or("");
+    } else if (name == "layer") {
+      zone.layer = read_text(inner, "text", value, problems).value_or("");
+    } else if (const ZoneField* field = find_zone_field(name)) {
+      zone.*field->value = read_fixed_number(
+          inner, value, "Values of zones are fixed numbers in this version.", problems);
+    } else {
+      auto known = zone_field_names();
+      known.insert(known.begin(), {"polygon", "layer"});
+      problems.push_back({at, unknown_text(path, name, known)});
+    }
+  }
+  return problems.size() == before;
+}
+
+/// A list of maps, each read by `read_item`.
+template <class Item>
+KeyValue read_items(const KeyInfo& key, const YamlNode& node, const char* expected,
+                    bool (*read_item)(const std::string&, const YamlNode&, Item&, FileProblems&),
+                    FileProblems& problems) {
   if (node.kind != Kind::list) {
-    add_mismatch(key.path, node, "a list of walls, [{point_m: .., normal: ..}]", "", problems);
+    add_mismatch(key.path, node, expected, "", problems);
     return {};
   }
-  std::vector<WallSpec> walls;
+  std::vector<Item> items;
   bool good = true;
   for (std::size_t i = 0; i < node.items.size(); ++i) {
     std::string path = key.path;
     path.append("[").append(std::to_string(i)).append("]");
-    good = read_wall(path, node.items[i], walls.emplace_back(), problems) && good;
+    good = read_item(path, node.items[i], items.emplace_back(), problems) && good;
   }
-  return good ? KeyValue{walls} : KeyValue{};
+  return good ? KeyValue{items} : KeyValue{};
 }
 
 }  // namespace
@@ -209,7 +253,11 @@ KeyValue read_value(const KeyInfo& key, const YamlNode& node, FileProblems& prob
     case ValueKind::synthetic:
       return read_synthetic(key, node, problems);
     case ValueKind::wall_list:
-      return read_walls(key, node, problems);
+      return read_items(key, node, "a list of walls, [{point_m: .., normal: ..}]", read_wall,
+                        problems);
+    case ValueKind::zone_list:
+      return read_items(key, node, "a list of zones, [{polygon: .., friction_coefficient: ..}]",
+                        read_zone, problems);
   }
   return {};
 }

@@ -54,9 +54,9 @@ std::string write_scenario(const Scenario& scenario, const fs::path& for_directo
   BlockWriter writer;
   for (const auto& key : schema()) {
     KeyValue value = key.get(scenario);
-    if (key.kind == ValueKind::path)
-      if (auto* path = std::get_if<std::string>(&value))
-        *path = moved_path(*path, scenario.directory, for_directory);
+    for_each_path(key, value, [&](std::string& path) {
+      path = moved_path(path, scenario.directory, for_directory);
+    });
     const std::string text = value_text(value);
     if (!text.empty()) writer.add(key.path, text);
   }

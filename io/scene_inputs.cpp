@@ -9,7 +9,10 @@
 #include "io/raster_source.hpp"
 #include "io/release_shapes.hpp"
 #include "io/thickness_raster.hpp"
+#include "io/zone_cells.hpp"
+#include "scenarios/ground.hpp"
 #include "scenarios/synthetic_terrain.hpp"
+#include "scenarios/zone_fields.hpp"
 
 #include <fmt/core.h>
 
@@ -100,10 +103,13 @@ void note_rasterised(Loading& loading, double exact_m2) {
 void load_polygon(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   loading.release_label = "release.polygon = " + spec.polygon;
-  PolygonRelease read =
-      read_release_polygons({spec.polygon, spec.layer, spec.thickness_attribute, "release.polygon",
-                             loading.scenario.directory, spec.crs, "release.crs"},
-                            loading.grid());
+  PolygonRequest request;
+  request.path = spec.polygon;
+  request.layer = spec.layer;
+  request.thickness_attribute = spec.thickness_attribute;
+  request.directory = loading.scenario.directory;
+  request.crs = spec.crs;
+  PolygonRelease read = read_release_polygons(request, loading.grid());
   loading.take(read.notes, read.files);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
@@ -194,6 +200,39 @@ void require_known_ground(const Loading& loading) {
                   g.x_center(col), g.y_center(row)));
 }
 
+PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
+  const BasalZone& zone = scenario.basal.zones[i];
+  const std::string name = fmt::format("basal.zones[{}]", i);
+  PolygonRequest request;
+  request.path = zone.polygon;
+  request.layer = zone.layer;
+  request.key = name + ".polygon";
+  request.directory = scenario.directory;
+  request.crs_key.clear();  // the file itself has to say it
+  request.layer_key = name + ".layer";
+  request.what = "zone";
+  return request;
+}
+
+void load_zones(Loading& loading) {
+  const auto& zones = loading.scenario.basal.zones;
+  if (zones.empty()) return;
+  expect(zones.size() <= most_basal_zones, "a scenario is validated before its files are read");
+  const Grid& grid = loading.grid();
+  Raster<std::uint8_t> numbers(grid, 0);
+  for (std::size_t i = 0; i < zones.size(); ++i) {
+    ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid);
+    loading.take(read.notes, read.files);
+    for (const std::size_t cell : read.cells)
+      numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
+    const auto n = static_cast<double>(read.cells.size());
+    loading.inputs.notes.push_back(fmt::format("basal.zones[{}] {}: {} cells, {:.9g} m2", i,
+                                               zones[i].polygon, read.cells.size(),
+                                               n * grid.cell_m * grid.cell_m));
+  }
+  loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
+}
+
 Grid hazard_grid(const Scenario& scenario, const Grid& terrain) {
   if (!scenario.hazard.cell_size_m) return terrain;
   const double cell = *scenario.hazard.cell_size_m;
@@ -214,7 +253,9 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   load_terrain(loading);
   load_release(loading);
   require_known_ground(loading);
+  load_zones(loading);
   loading.inputs.hazard_grid = hazard_grid(scenario, loading.grid());
+  prepare_grounds(scenario, loading.inputs);
   return std::move(loading.inputs);
 }
 

@@ -38,10 +38,14 @@ State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
 /// The effects that a scene calls for, in the order of the step.
 Step make_step(const ScenePlan& plan, State& state) {
   Step step;
-  add_grain_stress(step, state, plan.stress, plan.release.depth);
-  add_gravity(step, state);
-  add_terrain_contact(step, state, plan.contact);
-  add_motion(step, state, {plan.stress.spacing, plan.stress.smoothing_length});
+  if (plan.formulation.depth_averaged) {
+    add_depth_averaged(step, state, plan.columns, plan.release.thickness);
+  } else {
+    add_grain_stress(step, state, plan.stress, plan.release.depth);
+    add_gravity(step, state);
+    add_terrain_contact(step, state, plan.contact);
+    add_motion(step, state, {plan.stress.spacing, plan.stress.smoothing_length});
+  }
   refresh_motion(state, 0);
   state.ledger.kinetic_0 = state.ledger.kinetic;
   return step;
@@ -56,15 +60,29 @@ void require_numbers(const Scenario& s) {
                                        "is one set of numbers). Sample it first.");
 }
 
+/// Thickness that counts as reached [m]: what a tenth of a particle spread over its place gives;
+/// columns thin out continuously, so for them a fixed one.
+double reach_limit(const ScenePlan& plan, double dx) {
+  return plan.formulation.depth_averaged ? 0.05 : std::max(0.05, dx / 10);
+}
+
+/// For estimates: v_ref, or the energy of the release spread over its mass.
+double typical_speed(const ScenePlan& plan) {
+  if (!plan.formulation.depth_averaged) return plan.reference_speed_m_s;
+  double mass = 0;
+  for (double m : plan.release.mass) mass += m;
+  return 0.5 * std::sqrt(2 * plan.available_energy_j / mass);
+}
+
 std::string joined(const std::vector<std::string>& parts) {
   std::string out;
   for (const auto& p : parts) out += (out.empty() ? "" : "; ") + p;
   return out;
 }
 
-PeakMaps make_peaks(const ScenePlan& plan, const Grid& grid) {
-  const double dx = plan.stress.spacing;
-  return PeakMaps({grid, dx, plan.stress.reference_density, std::max(0.05, dx / 10)});
+PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) {
+  const double dx = s.numerics.spacing_m;
+  return PeakMaps({grid, dx, plan.bulk_density_kg_m3, reach_limit(plan, dx)});
 }
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
@@ -78,19 +96,24 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
                     int threads, InstructionSet instruction_set) {
   require_numbers(numbers);
   ScenePlan plan = plan_scene(numbers, inputs, member);
-  plan.stress.instruction_set = instruction_set;
+  plan.stress.instruction_set = plan.columns.instruction_set = instruction_set;
   State state = make_state(numbers, plan, threads);
   Step step = make_step(plan, state);
   auto parts = std::make_unique<SimulationParts>(
-      SimulationParts{std::move(state), std::move(step), make_peaks(plan, inputs.hazard_grid),
+      SimulationParts{std::move(state), std::move(step), make_peaks(numbers, plan, inputs.hazard_grid),
                       make_stop(numbers, plan)});
   parts->member = member;
   parts->spacing_m = numbers.numerics.spacing_m;
-  parts->sound_speed_m_s = plan.stress.sound_speed;
-  parts->reference_density = plan.stress.reference_density;
-  // A hundredth of the acoustic limit at v_ref: below it something has run away.
-  parts->least_dt_s = 0.01 * plan.stress.courant * plan.stress.smoothing_length /
-                      (1.1 * plan.stress.sound_speed);
+  parts->formulation = plan.formulation.name();
+  parts->reference_density = plan.bulk_density_kg_m3;
+  if (plan.formulation.depth_averaged) {
+    parts->least_dt_s = 1e-6 * std::sqrt(numbers.numerics.spacing_m / parts->state.gravity);
+  } else {
+    parts->sound_speed_m_s = plan.stress.sound_speed;
+    // A hundredth of the acoustic limit at v_ref: below it something has run away.
+    parts->least_dt_s = 0.01 * plan.stress.courant * plan.stress.smoothing_length /
+                        (1.1 * plan.stress.sound_speed);
+  }
   parts->release_layers = plan.release.layers;
   parts->release_volume_m3 = plan.release.volume_m3;
   for (std::size_t i = 0; i < plan.release.x.size(); ++i) {
@@ -114,21 +137,38 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs,
 
   SceneDescription d;
   const bool walls = !s.domain.walls.empty(), periodic = !s.domain.periodic.empty();
+  const bool columns = plan.formulation.depth_averaged;
+  const auto& basal = s.basal;
+  const bool zones = !basal.zones.empty();
+  const bool varying_k = s.grains->earth_pressure != "isotropic";
+  auto optional_note = [&](const char* name, const char* key, bool given) -> EffectNote {
+    return {name, given, (given ? "`" : "no `") + std::string(key) + "`"};
+  };
   d.effects = {
       {"gravity", true, "always"},
-      {"terrain contact", true, "always: friction_coefficient, pore_pressure_ratio of `basal`"},
-      {"grain stress", true, "`grains`: elastic + mu(I), 3-D, full stress"},
+      {"base", true, "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"},
+      {"grain stress", !columns,
+       columns ? "not in depth_averaged" : "`grains`: elastic + mu(I), 3-D, full stress"},
+      {"lateral pressure of columns", columns,
+       !columns      ? "not in full_stress"
+       : !varying_k ? "`grains.earth_pressure: isotropic`, K = 1"
+                     : "`grains.earth_pressure: active_passive`"},
+      optional_note("turbulent base", "basal.turbulent_coefficient_m_s2",
+                    basal.turbulent_coefficient_m_s2.has_value()),
+      optional_note("viscous base", "basal.viscosity_pa_s", basal.viscosity_pa_s.has_value()),
+      optional_note("zones of the base", "basal.zones", zones),
       {"walls", walls, walls ? "`domain.walls`" : "no `domain.walls`"},
       {"periodic images", periodic, periodic ? "`domain.periodic`" : "no `domain.periodic`"},
       {"excavation", s.release.surface == "pre_failure",
        "`release.surface: " + s.release.surface + "`"},
   };
   d.passes = step.pass_names();
-  d.formulation = "full_stress";
-  d.formulation_reason = "`formulation: full_stress`";
+  d.formulation = plan.formulation.name();
+  d.formulation_reason = plan.formulation.reason;
   d.n_particles = state.grains.size();
-  // Lists and records exist from the first step on; their size follows from ~250 entries a group.
-  constexpr std::size_t lists_per_particle = 64 + 13 * 4 + 2 * (250 / 16) * 4 + 32;
+  // Lists and records exist from the first step on; those of a group of grains hold ~250 entries.
+  const std::size_t lists_per_particle =
+      columns ? 48 + 2 * 40 + 7 * 4 + 16 : 64 + 13 * 4 + 2 * (250 / 16) * 4 + 32;
   d.memory_bytes = d.n_particles * (state.grains.bytes_per_particle() + 24 + lists_per_particle) +
                    inputs.hazard_grid.n_cells() * 60;
   d.spacing_m = s.numerics.spacing_m;
@@ -137,7 +177,7 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs,
   d.layers = plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
   d.sound_speed_m_s = plan.stress.sound_speed;
-  state.motion.max_speed = 0.5 * plan.reference_speed_m_s;
+  state.motion.max_speed = 0.5 * typical_speed(plan);
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;

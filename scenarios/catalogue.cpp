@@ -21,6 +21,8 @@ Scenario on_ground(std::string title, std::string shape, double cell_m,
   s.title = std::move(title);
   s.terrain.synthetic = SyntheticTerrain{std::move(shape), cell_m, std::move(parameters)};
   s.grains.emplace().friction.emplace();
+  s.formulation = "full_stress";
+  s.numerics.accept_unresolved = true;  // single particles and sheets among them are on purpose
   return s;
 }
 
@@ -122,6 +124,20 @@ Scenario ramp_slide(double azimuth_deg, double spacing_m) {
   s.basal.friction_coefficient = std::tan(20 * degree);
   s.numerics.spacing_m = spacing_m;
   s.numerics.end_time_s = 60;
+  return s;
+}
+
+Scenario similarity_slide(double spacing_m) {
+  const double cos35 = std::cos(35 * degree);
+  Scenario s = on_ground("Savage and Hutter's parabolic cap on an even slope", "plane", 4,
+                         {{"slope_deg", 35}, {"length_m", 560}, {"width_m", 320}});
+  s.formulation = "depth_averaged";
+  s.release.paraboloid = ReleaseParaboloid{{-120, 0}, {80 * cos35, 80}};
+  s.release.thickness_m = Uncertain(4 / cos35);
+  s.basal.friction_coefficient = std::tan(25 * degree);
+  s.numerics.spacing_m = spacing_m;
+  s.numerics.end_time_s = 10;
+  s.numerics.stop_at_rest = false;
   return s;
 }
 

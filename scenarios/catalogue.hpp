@@ -35,6 +35,10 @@ Scenario thin_sheet(int layers = 1);
 /// degrees. \param azimuth_deg downhill direction, to test that the grid's axes do not matter
 Scenario ramp_slide(double azimuth_deg = 90, double spacing_m = 3);
 
+/// V18: a parabolic cap, 160 m long and 4 m thick, that spreads down a 35 degree slope over a base
+/// of tan 25 degrees; depth_averaged.
+Scenario similarity_slide(double spacing_m = 4);
+
 /// The shipped Zhangjiawan case with its median numbers on a coarse ground, for quick runs.
 Scenario zhangjiawan_small(double spacing_m = 12);
 

@@ -7,6 +7,7 @@
 #include "scenarios/unit_hint.hpp"
 #include "scenarios/validate.hpp"
 #include "scenarios/value_text.hpp"
+#include "scenarios/zone_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,7 @@ struct Checker {
   }
   void operator()(const SyntheticTerrain& v) const;
   void operator()(const std::vector<WallSpec>& v) const;
+  void operator()(const std::vector<BasalZone>& v) const;
 
   void check_support(const Distribution& d, const std::string& shown) const;
   void check_word(const std::string& word) const;
@@ -171,11 +173,15 @@ void Checker::operator()(const SyntheticTerrain& v) const {
   }
 }
 
+std::string item_path(const KeyInfo& list, std::size_t i) {
+  return list.path + "[" + std::to_string(i) + "]";
+}
+
 void Checker::operator()(const std::vector<WallSpec>& v) const {
   for (std::size_t i = 0; i < v.size(); ++i) {
     const auto& wall = v[i];
     KeyInfo whole = key;
-    whole.path.append("[").append(std::to_string(i)).append("]");
+    whole.path = item_path(key, i);
     const auto point = part(whole, "point_m", "m", -1e8, 1e8);
     for (const double x : wall.point_m) Checker{point, problems}(x);
     double length = 0;
@@ -188,6 +194,28 @@ void Checker::operator()(const std::vector<WallSpec>& v) const {
     Checker{friction, problems}(wall.friction_coefficient);
     const auto removal = part(whole, "remove_at_s", "s", 0, 1e5);
     if (wall.remove_at_s) Checker{removal, problems}(*wall.remove_at_s);
+  }
+}
+
+void Checker::operator()(const std::vector<BasalZone>& v) const {
+  if (v.size() > most_basal_zones)
+    add(key.path + " = " + std::to_string(v.size()) + " zones (must be at most " +
+        std::to_string(most_basal_zones) + "). Put polygons with equal values into one layer.");
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::string path = item_path(key, i);
+    bool gives_any = false;
+    for (const auto& field : zone_fields) {
+      const auto& number = v[i].*field.value;
+      if (!number) continue;
+      gives_any = true;
+      KeyInfo limits = basal_key(field);
+      limits.path = path + "." + field.name;
+      Checker{limits, problems}(*number);
+    }
+    if (v[i].polygon.empty())
+      add(path + " (polygon is missing). Name the file that outlines the zone.");
+    if (!gives_any)
+      add(path + " (gives no value). Give it some of " + joined(zone_field_names()) + ".");
   }
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which material blocks go together.
+// Which material keys go together, and which formulation knows them.
 #include "scenarios/combination_checks.hpp"
 #include "scenarios/distribution_check.hpp"
 #include "scenarios/number_text.hpp"
+#include "scenarios/value_text.hpp"
 
 namespace sturz {
+namespace {
 
-void check_material(const Scenario& s, std::vector<Problem>& problems) {
+using Problems = std::vector<Problem>;
+
+void check_grains(const Scenario& s, Problems& problems) {
   if (!s.grains) {
     problems.push_back({"grains", "grains (missing: nothing would move). Add a grains block."});
     return;
@@ -28,6 +32,43 @@ void check_material(const Scenario& s, std::vector<Problem>& problems) {
                         "grains.friction.dynamic = " + number_text(least_dynamic) +
                             " (must be >= grains.friction.static = " + number_text(most_static) +
                             "). Friction may not fall with the shear rate."});
+}
+
+/// "key = value", as the file would write it.
+std::string shown(const Scenario& s, const char* path) {
+  return std::string(path) + " = " + value_text(find_key(path)->get(s));
+}
+
+/// Columns have a drag and a lateral pressure of their own; particles get both from their stress.
+void check_formulation(const Scenario& s, Problems& problems) {
+  if (s.formulation != "full_stress") return;
+  const auto refuse = [&](bool given, const char* path) {
+    if (given)
+      problems.push_back({path, shown(s, path) +
+                                    " (formulation is full_stress; only depth_averaged knows it). "
+                                    "Remove it or set formulation: depth_averaged."});
+  };
+  const auto& b = s.basal;
+  refuse(s.grains && s.grains->earth_pressure == "active_passive", "grains.earth_pressure");
+  refuse(b.turbulent_coefficient_m_s2.has_value(), "basal.turbulent_coefficient_m_s2");
+  refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
+  refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");
+}
+
+void check_drag(const Scenario& s, Problems& problems) {
+  const char* const path = "basal.yield_stress_pa";
+  if (s.basal.yield_stress_pa && !s.basal.viscosity_pa_s)
+    problems.push_back({path, shown(s, path) +
+                                  " (basal.viscosity_pa_s is missing). Add it: a Bingham fluid has "
+                                  "both."});
+}
+
+}  // namespace
+
+void check_material(const Scenario& s, Problems& problems) {
+  check_grains(s, problems);
+  check_formulation(s, problems);
+  check_drag(s, problems);
 }
 
 }  // namespace sturz

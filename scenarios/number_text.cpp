@@ -45,4 +45,11 @@ std::optional<double> parse_number(std::string_view text) {
 
 std::optional<long long> parse_integer(std::string_view text) { return parse_all<long long>(text); }
 
+std::string short_number(double v) {
+  if (v == 0 || !std::isfinite(v)) return number_text(v);
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(v))) - 2);
+  return number_text(unit < 1 ? std::round(v / unit) / std::round(1 / unit)
+                              : std::round(v / unit) * unit);
+}
+
 }  // namespace sturz

@@ -80,14 +80,27 @@ struct GrainsSpec {
   std::optional<Uncertain> friction_angle_deg;///< ... or this: mu = tan(angle), no rate dependence
   Uncertain cohesion_pa{0};
   Uncertain poisson_ratio{0.3};
+  std::string earth_pressure = "isotropic";   ///< isotropic | active_passive; depth_averaged only
   bool operator==(const GrainsSpec&) const = default;
+};
+
+/// A part of the ground with values of its own; what it does not give is that of `basal`.
+struct BasalZone {
+  std::string polygon;                        ///< any OGR polygon layer
+  std::string layer;                          ///< layer name inside `polygon`; empty: the first
+  std::optional<double> friction_coefficient, pore_pressure_ratio, cohesion_pa;
+  bool operator==(const BasalZone&) const = default;
 };
 
 struct BasalSpec {
   Uncertain friction_coefficient{0.4};
   Uncertain pore_pressure_ratio{0};
   Uncertain cohesion_pa{0};
-  Uncertain restitution{0.2};
+  Uncertain restitution{0.2};                 ///< full_stress only
+  std::optional<Uncertain> turbulent_coefficient_m_s2;  ///< Voellmy's xi; depth_averaged only
+  std::optional<Uncertain> viscosity_pa_s;    ///< laminar drag at the base; depth_averaged only
+  std::optional<Uncertain> yield_stress_pa;   ///< Bingham, with viscosity_pa_s; depth_averaged only
+  std::vector<BasalZone> zones;               ///< where two overlap, the later one holds
   bool operator==(const BasalSpec&) const = default;
 };
 
@@ -101,6 +114,7 @@ struct NumericsSpec {
   double jitter = 0.05;                       ///< of the release lattice, in spacings
   bool stop_at_rest = true;
   double max_wall_time_s = 0;                 ///< per member; 0 = none
+  bool accept_unresolved = false;             ///< run full_stress although under two layers resolve it
   bool operator==(const NumericsSpec&) const = default;
 };
 
@@ -143,7 +157,7 @@ struct Scenario {
   ReleaseSpec release;
   std::optional<GrainsSpec> grains;
   BasalSpec basal;
-  std::string formulation = "full_stress";
+  std::string formulation = "auto";           ///< auto | full_stress | depth_averaged
   NumericsSpec numerics;
   DomainSpec domain;
   EnsembleSpec ensemble;

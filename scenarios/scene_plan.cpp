@@ -7,20 +7,13 @@
 
 #include "engine/core/error.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/ground.hpp"
 #include "scenarios/number_text.hpp"
 
 namespace sturz {
 namespace {
 
 constexpr double smoothing_ratio = 1.3;  // h/dx, physics.md B.1
-
-/// Three significant digits, enough for a warning.
-std::string short_number(double v) {
-  if (v == 0 || !std::isfinite(v)) return number_text(v);
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(v))) - 2);
-  return number_text(unit < 1 ? std::round(v / unit) / std::round(1 / unit)
-                              : std::round(v / unit) * unit);
-}
 
 /// The member's release thickness [m] on the working grid.
 Raster<double> release_thickness(const ReleaseSpec& spec, const SceneInputs& in) {
@@ -40,8 +33,11 @@ Raster<double> release_thickness(const ReleaseSpec& spec, const SceneInputs& in)
 }
 
 /// bed = pre-failure surface - thickness, as a patch over the shared raster.
-Terrain excavate(const Terrain& ground, const Raster<double>& thickness) {
-  const Grid& g = thickness.grid;
+Terrain excavate(const Terrain& ground, const Raster<double>& fine_thickness) {
+  const Grid& g = ground.grid();
+  const int factor = static_cast<int>(std::lround(g.cell_m / fine_thickness.grid.cell_m));
+  const Raster<double> thickness =
+      factor > 1 ? coarsened(fine_thickness, factor) : fine_thickness;
   int r0 = g.n_rows, r1 = -1, c0 = g.n_cols, c1 = -1;
   for (int r = 0; r < g.n_rows; ++r)
     for (int c = 0; c < g.n_cols; ++c)
@@ -71,29 +67,6 @@ Period period_of(const Raster<double>& z, bool along_x) {
   const double last = along_x ? z.at(0, g.n_cols - 1) : z.at(0, 0);
   p.rise = (last - first) * n / (n - 1);
   return p;
-}
-
-/// A margin of repeated ground, so that the surface exists up to the period's edge.
-std::shared_ptr<const Raster<double>> with_margin(const Raster<double>& z, const Domain& d) {
-  const int mx = d.x.active ? 2 : 0, my = d.y.active ? 2 : 0;
-  Grid g = z.grid;
-  g.west_m -= mx * g.cell_m;
-  g.north_m += my * g.cell_m;
-  g.n_cols += 2 * mx;
-  g.n_rows += 2 * my;
-  auto out = std::make_shared<Raster<double>>(g);
-  for (int r = 0; r < g.n_rows; ++r)
-    for (int c = 0; c < g.n_cols; ++c) {
-      const int rr = r - my, cc = c - mx;
-      const int row = (rr + z.grid.n_rows) % z.grid.n_rows, col = (cc + z.grid.n_cols) % z.grid.n_cols;
-      double shift = 0;
-      if (cc < 0) shift -= d.x.rise;
-      if (cc >= z.grid.n_cols) shift += d.x.rise;
-      if (rr >= z.grid.n_rows) shift -= d.y.rise;  // rows run southward
-      if (rr < 0) shift += d.y.rise;
-      out->at(r, c) = z.at(row, col) + shift;
-    }
-  return out;
 }
 
 /// A particle may meet the images of the others once, never its own or the same one twice.
@@ -136,41 +109,60 @@ MuIRheology make_law(const GrainsSpec& g) {
   return law;
 }
 
-}  // namespace
+/// The base of each zone; what a zone does not give is that of the whole base.
+std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
+  BasalResistance all;
+  all.friction_coefficient = spec.friction_coefficient.value;
+  all.pore_pressure_ratio = spec.pore_pressure_ratio.value;
+  all.cohesion_pa = spec.cohesion_pa.value;
+  if (spec.turbulent_coefficient_m_s2) all.turbulent_coefficient = spec.turbulent_coefficient_m_s2->value;
+  if (spec.viscosity_pa_s) all.viscosity_pa_s = spec.viscosity_pa_s->value;
+  if (spec.yield_stress_pa) all.yield_stress_pa = spec.yield_stress_pa->value;
+  std::vector<BasalResistance> base{all};
+  for (const BasalZone& zone : spec.zones) {
+    BasalResistance& b = base.emplace_back(all);
+    b.friction_coefficient = zone.friction_coefficient.value_or(b.friction_coefficient);
+    b.pore_pressure_ratio = zone.pore_pressure_ratio.value_or(b.pore_pressure_ratio);
+    b.cohesion_pa = zone.cohesion_pa.value_or(b.cohesion_pa);
+  }
+  return base;
+}
 
-ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
-  require(s.grains.has_value(), "grains: the block is missing (nothing would move). Add `grains:`.");
-  const Domain domain = make_domain(s.domain, *in.elevation);
-  require_room(domain.x, "x", s.numerics.spacing_m);
-  require_room(domain.y, "y", s.numerics.spacing_m);
-  const bool periodic = domain.x.active || domain.y.active;
-  const NodataRule rule = s.terrain.nodata == "wall" ? NodataRule::wall : NodataRule::outflow;
-  const Terrain ground(periodic ? with_margin(*in.elevation, domain) : in.elevation, rule);
-  const Raster<double> thickness = release_thickness(s.release, in);
+void plan_columns(const Scenario& s, std::vector<BasalResistance> base, ScenePlan& plan) {
+  DepthAveragedSettings& c = plan.columns;
+  c.spacing = s.numerics.spacing_m;
+  c.density = plan.bulk_density_kg_m3;
+  c.courant = s.numerics.courant;
+  c.zones = plan.zones;
+  c.instruction_set = best_instruction_set();
+  c.earth_pressure.assign(base.size(), EarthPressure{});
+  if (s.grains->earth_pressure == "active_passive") {
+    const double internal = make_law(*s.grains).static_friction;
+    for (std::size_t k = 0; k < base.size(); ++k)
+      // Only the grains' part of the stress is anisotropic (Iverson & Denlinger 2001).
+      c.earth_pressure[k] = EarthPressure(internal, base[k].effective_friction())
+                                .with_pore_pressure(base[k].pore_pressure_ratio);
+  }
+  c.base = std::move(base);
+}
 
-  require(!periodic || s.release.surface == "bed",
-          "release.surface = pre_failure cannot be used with domain.periodic (the excavation would "
-          "not repeat). Use `surface: bed`.");
-  ScenePlan plan(s.release.surface == "pre_failure" ? excavate(ground, thickness) : ground);
-  plan.domain = domain;
-
+void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& base,
+                      ScenePlan& plan) {
   const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
-  const double density = s.grains->density_kg_m3.value * s.grains->solid_fraction.value;
-  plan.release = release_particles(plan.bed, thickness,
-                                   {dx, density, s.numerics.jitter, s.ensemble.seed, member});
-
-  const double effective = s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  double least_friction = base[0].effective_friction();
+  for (const BasalResistance& b : base)
+    least_friction = std::min(least_friction, b.effective_friction());
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
   const double deepest = plan.release.max_thickness_m;
   plan.reference_speed_m_s =
-      reference_speed(plan.bed, plan.release, effective, start, s.numerics.end_time_s);
+      reference_speed(plan.bed, plan.release, least_friction, start, s.numerics.end_time_s);
 
   GrainStressSettings& stress = plan.stress;
   stress.law = make_law(*s.grains);
   stress.spacing = dx;
   stress.smoothing_length = h;
-  stress.reference_density = density;
+  stress.reference_density = plan.bulk_density_kg_m3;
   stress.poisson_ratio = s.grains->poisson_ratio.value;
   stress.viscosity = s.numerics.artificial_viscosity;
   stress.density_diffusion = s.numerics.density_diffusion;
@@ -185,14 +177,61 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   ContactSettings& contact = plan.contact;
   contact.spacing = dx;
   contact.smoothing_length = h;
-  contact.reference_density = density;
+  contact.reference_density = plan.bulk_density_kg_m3;
   const double impact = std::max(plan.reference_speed_m_s, start) / (0.5 * dx);
   contact.stiffness = std::max(10 * 9.81 * std::max(deepest, dx) / (dx * dx), impact * impact);
   contact.restitution = s.basal.restitution.value;
-  contact.friction_coefficient = s.basal.friction_coefficient.value;
-  contact.pore_pressure_ratio = s.basal.pore_pressure_ratio.value;
-  contact.cohesion_pa = s.basal.cohesion_pa.value;
+  contact.zones = plan.zones;
+  contact.base.clear();
+  for (const BasalResistance& b : base)
+    contact.base.push_back({b.friction_coefficient, b.pore_pressure_ratio, b.cohesion_pa});
+}
 
+/// Four layers or more on the whole, or a reader has to be told what is not resolved.
+void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, std::vector<std::string>& out) {
+  const FormulationChoice& f = plan.formulation;
+  if (f.depth_averaged || f.layers >= resolved_layers) return;
+  out.push_back("thin flow: " + short_number(f.layers) +
+                " layers of particles resolve the " +
+                (f.release_layers <= f.deposit_layers ? "release" : "expected deposit") +
+                " (fewer than 4). Centre of mass and speed hold, the footprint may be wrong by "
+                "15-100 %. Use formulation: auto or a spacing below " +
+                short_number(s.numerics.spacing_m * f.layers / resolved_layers) + " m");
+}
+
+}  // namespace
+
+ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
+  require(s.grains.has_value(), "grains: the block is missing (nothing would move). Add `grains:`.");
+  const Domain domain = make_domain(s.domain, *in.elevation);
+  require_room(domain.x, "x", s.numerics.spacing_m);
+  require_room(domain.y, "y", s.numerics.spacing_m);
+  const bool periodic = domain.x.active || domain.y.active;
+  const Raster<double> thickness = release_thickness(s.release, in);
+  const FormulationChoice formulation = choose_formulation(s, thickness);
+  const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
+
+  require(!periodic || s.release.surface == "bed",
+          "release.surface = pre_failure cannot be used with domain.periodic (the excavation would "
+          "not repeat). Use `surface: bed`.");
+  ScenePlan plan(s.release.surface == "pre_failure" ? excavate(ground, thickness) : ground);
+  plan.formulation = formulation;
+  plan.domain = domain;
+
+  plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * s.grains->solid_fraction.value;
+  plan.release = release_particles(plan.bed, thickness,
+                                   {s.numerics.spacing_m, plan.bulk_density_kg_m3,
+                                    s.numerics.jitter, s.ensemble.seed, member,
+                                    plan.formulation.depth_averaged});
+  plan.zones = {in.zones};
+  const std::vector<BasalResistance> base = basal_by_zone(s.basal);
+  if (plan.formulation.depth_averaged)
+    plan_columns(s, base, plan);
+  else
+    plan_full_stress(s, base, plan);
+
+  const auto& v0 = s.release.velocity_m_s;
+  const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
   double mass = 0, height = 0, lowest = 1e300;
   for (std::size_t i = 0; i < plan.release.x.size(); ++i) {
     mass += plan.release.mass[i];
@@ -207,20 +246,18 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
 std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan) {
   std::vector<std::string> out;
   const double dx = s.numerics.spacing_m;
-  if (plan.release.layers < thin_layers)
-    out.push_back("thin flow: " + short_number(plan.release.layers) +
-                  " layers of particles resolve the release (fewer than 3). Centre of mass and "
-                  "speed hold, the footprint may be wrong by 15-100 %. Use a spacing below " +
-                  short_number(plan.release.median_thickness_m / thin_layers) + " m");
-  if (2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
+  warn_of_thin_flow(s, plan, out);
+  if (!plan.formulation.depth_averaged &&
+      2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
     out.push_back("coarse grains: the smoothing length of " +
                   short_number(plan.stress.smoothing_length) + " m is under two grain diameters of " +
                   short_number(s.grains->diameter_m.value) + " m: the grains act as a parameter only");
   if (plan.release.dropped_fraction > 0.01)
     out.push_back("thin edge: " + short_number(100 * plan.release.dropped_fraction) +
-                  " % of the release lies in columns under 0.2 spacings and was given to the others");
+                  " % of the release lies where it is too thin for a particle and was given to the others");
+  // Columns thin out continuously; particles do not.
   for (double threshold : s.hazard.thickness_m)
-    if (threshold < 0.5 * dx) {
+    if (!plan.formulation.depth_averaged && threshold < 0.5 * dx) {
       out.push_back("thickness thresholds under " + short_number(0.5 * dx) +
                     " m (half a spacing) are not resolved");
       break;

@@ -5,10 +5,12 @@
 
 #include <cstdint>
 
+#include "engine/effects/depth_averaged.hpp"
 #include "engine/effects/grain_stress.hpp"
 #include "engine/effects/terrain_contact.hpp"
 #include "engine/particles/release.hpp"
 #include "engine/core/domain.hpp"
+#include "scenarios/formulation.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
 
@@ -17,17 +19,18 @@ namespace sturz {
 struct ScenePlan {
   Terrain bed;                    ///< of this member, excavation laid over the shared raster
   Domain domain;
+  FormulationChoice formulation;
   Release release;
-  GrainStressSettings stress;
-  ContactSettings contact;
-  double reference_speed_m_s = 0; ///< v_ref of the fastest expected mass point
+  double bulk_density_kg_m3 = 1;
+  ZoneMap zones;
+  GrainStressSettings stress;     ///< full_stress
+  ContactSettings contact;        ///< full_stress
+  DepthAveragedSettings columns;  ///< depth_averaged
+  double reference_speed_m_s = 0; ///< v_ref of the fastest expected mass point; full_stress
   double available_energy_j = 0;  ///< release mass falling to the lowest ground in reach
 
   explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
 };
-
-/// Fewer layers than this are 'thin': the footprint of a 3-D flow is then wrong by 15-100 %.
-inline constexpr double thin_layers = 3;
 
 /// \throws SetupError naming the key
 ScenePlan plan_scene(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member);

@@ -106,11 +106,18 @@ std::span<const LaterKey> later_keys() {
       {"fluid", "a pore fluid with particles of its own"},
       {"coupling", "drag between fluid and grains"},
       {"grains.states", "dilute and ultradilute grains"},
-      {"basal.zones", "a base whose friction changes from place to place"},
       {"observation", "comparison with a mapped deposit"},
       {"prior", "ready-made distributions by material"},
   };
   return keys;
+}
+
+void for_each_path(const KeyInfo& key, KeyValue& value,
+                   const std::function<void(std::string&)>& visit) {
+  if (auto* text = std::get_if<std::string>(&value); text && key.kind == ValueKind::path)
+    visit(*text);
+  if (auto* zones = std::get_if<std::vector<BasalZone>>(&value))
+    for (auto& zone : *zones) visit(zone.polygon);
 }
 
 std::string range_text(const KeyInfo& key) {

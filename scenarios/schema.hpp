@@ -28,13 +28,14 @@ enum class ValueKind {
   number_map,  ///< {text: number, ...}
   synthetic,   ///< {shape: {cell_size_m: .., own numbers ..}}
   wall_list,   ///< [{point_m: .., normal: .., ...}, ...]
+  zone_list,   ///< [{polygon: .., friction_coefficient: .., ...}, ...]
 };
 
 /// Typed value of a key; which alternative is used follows from the kind.
 using KeyValue =
     std::variant<std::monostate, double, std::int64_t, std::string, bool, Uncertain,
                  std::vector<double>, std::vector<std::string>, std::map<std::string, double>,
-                 SyntheticTerrain, std::vector<WallSpec>>;
+                 SyntheticTerrain, std::vector<WallSpec>, std::vector<BasalZone>>;
 
 struct KeyInfo {
   std::string path;  ///< dotted, e.g. "basal.friction_coefficient"
@@ -77,6 +78,9 @@ struct LaterKey {
   std::string what;  ///< "the pore fluid as a particle set of its own"
 };
 std::span<const LaterKey> later_keys();
+
+/// Calls `visit` with every file name that a value holds: that of a path, those of zones.
+void for_each_path(const KeyInfo&, KeyValue&, const std::function<void(std::string&)>& visit);
 
 /// "in 0..60", "> 0", ">= 0", or empty when any number will do.
 std::string range_text(const KeyInfo&);

@@ -52,6 +52,9 @@ void add_grains(std::vector<KeyInfo>& keys) {
   keys.push_back(key(
       grains, &GrainsSpec::poisson_ratio,
       {"grains.poisson_ratio", uncertain, "1", 0, 0.49, "Poisson's ratio of the elastic part."}));
+  keys.push_back(with_choices(text_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
+                                       choice, "Lateral earth pressure of depth_averaged flow."),
+                              {"isotropic", "active_passive"}));
 }
 
 void add_basal(std::vector<KeyInfo>& keys) {
@@ -68,6 +71,21 @@ void add_basal(std::vector<KeyInfo>& keys) {
   keys.push_back(key(basal, &BasalSpec::restitution,
                      {"basal.restitution", uncertain, "1", 0, 0.95,
                       "Share of the normal speed that a rebound from the ground keeps."}));
+  keys.push_back(above_min(key(basal, &BasalSpec::turbulent_coefficient_m_s2,
+                               {"basal.turbulent_coefficient_m_s2", uncertain, "m s-2", 0, no_limit,
+                                "Voellmy's xi: drag that grows with the square of the speed, in "
+                                "depth_averaged flow."})));
+  keys.push_back(above_min(key(basal, &BasalSpec::viscosity_pa_s,
+                               {"basal.viscosity_pa_s", uncertain, "Pa s", 0, no_limit,
+                                "Viscosity of the laminar drag at the base, in depth_averaged "
+                                "flow."})));
+  keys.push_back(key(basal, &BasalSpec::yield_stress_pa,
+                     {"basal.yield_stress_pa", uncertain, "Pa", 0, no_limit,
+                      "Yield stress of a Bingham fluid, with basal.viscosity_pa_s."}));
+  keys.push_back(key(basal, &BasalSpec::zones,
+                     {"basal.zones", zone_list, "", -no_limit, no_limit,
+                      "Parts of the ground with values of their own: a polygon layer and fixed "
+                      "numbers in the place of basal's."}));
 }
 
 }  // namespace
@@ -75,10 +93,12 @@ void add_basal(std::vector<KeyInfo>& keys) {
 void add_material_keys(std::vector<KeyInfo>& keys) {
   add_grains(keys);
   add_basal(keys);
-  keys.push_back(
-      with_choices(text_key(scene, &Scenario::formulation, "formulation", ValueKind::choice,
-                            "full_stress: three-dimensional particles with a full stress tensor."),
-                   {"full_stress"}, {"auto", "depth_averaged"}));
+  keys.push_back(with_choices(
+      text_key(scene, &Scenario::formulation, "formulation", ValueKind::choice,
+               "auto: full_stress where at least four layers of particles resolve the flow, else "
+               "depth_averaged; full_stress: three-dimensional particles with a full stress "
+               "tensor; depth_averaged: columns on the terrain."),
+      {"auto", "full_stress", "depth_averaged"}));
 }
 
 }  // namespace sturz::schema_rows

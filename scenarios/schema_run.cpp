@@ -45,6 +45,10 @@ void add_numerics(std::vector<KeyInfo>& keys) {
   keys.push_back(key(numerics, &NumericsSpec::max_wall_time_s,
                      {"numerics.max_wall_time_s", number, "s", 0, 1e7,
                       "Computing time after which a member counts as failed; 0 sets no limit."}));
+  keys.push_back(key(numerics, &NumericsSpec::accept_unresolved,
+                     {"numerics.accept_unresolved", flag, "", -no_limit, no_limit,
+                      "Compute with full_stress although fewer than two layers of particles "
+                      "resolve the flow."}));
 }
 
 void add_domain(std::vector<KeyInfo>& keys) {

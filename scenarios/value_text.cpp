@@ -2,6 +2,7 @@
 #include "scenarios/value_text.hpp"
 
 #include "scenarios/number_text.hpp"
+#include "scenarios/zone_fields.hpp"
 
 #include <algorithm>
 #include <array>
@@ -59,6 +60,14 @@ std::string wall_text(const WallSpec& wall) {
   return map.text();
 }
 
+std::string zone_text(const BasalZone& zone) {
+  MapText map;
+  map.add("polygon", quoted_text(zone.polygon));
+  if (!zone.layer.empty()) map.add("layer", quoted_text(zone.layer));
+  for (const auto& field : zone_fields) map.add(field.name, zone.*field.value);
+  return map.text();
+}
+
 std::string synthetic_text(const SyntheticTerrain& terrain) {
   MapText own;
   own.add("cell_size_m", terrain.cell_size_m);
@@ -86,6 +95,7 @@ struct ToText {
   }
   std::string operator()(const SyntheticTerrain& v) const { return synthetic_text(v); }
   std::string operator()(const std::vector<WallSpec>& v) const { return list_text(v, wall_text); }
+  std::string operator()(const std::vector<BasalZone>& v) const { return list_text(v, zone_text); }
 };
 
 /// Words that YAML readers take for something else than text.

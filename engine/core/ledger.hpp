@@ -29,6 +29,8 @@ struct Ledger {
   double rest_damping = 0;     ///< dissipated below the speed of rest (physics.md I4)
   double lost_energy = 0;      ///< kinetic and elastic energy that left or was taken by the rim
 
+  double take_off = 0;         ///< mass times time on ground that bends away faster than it falls [kg s]
+
   double stress_impulse[3] = {0, 0, 0};  ///< sum of m a dt of pair forces alone: zero but for rounding
   double stress_impulse_scale = 0;       ///< sum of |m a dt|
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "engine/neighbors/column_records.hpp"
 #include "engine/neighbors/packed.hpp"
 
 namespace sturz {
@@ -28,6 +29,9 @@ struct Sweeps {
   std::size_t (*tight_list)(const PackedRecord* records, std::size_t first, int n_in_group,
                             const std::uint32_t* candidates, std::size_t n_candidates,
                             float reach_units, std::uint32_t* out);
+  /// One pass over groups [first, last) of depth-averaged columns (terms/column_sums.hpp).
+  void (*columns)(const ColumnView&, const ColumnConstants&, const ColumnSweepOutput&,
+                  std::size_t first_group, std::size_t last_group);
 };
 const Sweeps& sweeps(InstructionSet);
 

@@ -2,11 +2,13 @@
 #define STURZ_PLAIN_LANES
 #define STURZ_ISA isa_plain
 #include "engine/effects/fused_sweep.hpp"
+#include "engine/effects/terms/column_sweep.hpp"
 #include "engine/effects/terms/sweep_body.hpp"
 
 namespace sturz {
 
 extern const Sweeps sweeps_plain;
-const Sweeps sweeps_plain{&STURZ_ISA::dense_sweep, &STURZ_ISA::tight_list};
+const Sweeps sweeps_plain{&STURZ_ISA::dense_sweep, &STURZ_ISA::tight_list,
+                          &STURZ_ISA::column_sweep};
 
 }  // namespace sturz

@@ -7,6 +7,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/grain_stress_update.hpp"
+#include "engine/effects/terms/wrapping.hpp"
 #include "engine/neighbors/neighbor_lists.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 
@@ -36,18 +37,6 @@ struct GrainStress {
   }
 };
 
-/// Brings particles back into the periodic box and keeps what that takes off their travel.
-void wrap_grains(State& s) {
-  ParticleSet& p = s.grains;
-  if (s.wrapped_x.empty()) return;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double x = p.x[i], y = p.y[i];
-    s.domain.wrap(p.x[i], p.y[i], p.z[i]);
-    s.wrapped_x[p.id[i]] += x - p.x[i];
-    s.wrapped_y[p.id[i]] += y - p.y[i];
-  }
-}
-
 class NeighborPass final : public Pass {
  public:
   explicit NeighborPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
@@ -62,7 +51,7 @@ class NeighborPass final : public Pass {
     if (s.order_changed) lists.invalidate();
     s.order_changed = false;
     if (!lists.needs_rebuild()) return;
-    wrap_grains(s);
+    wrap_particles(s);
     lists.rebuild(s.grains, s.domain, s.threads);
     for (auto& r : shared_->results) r.resize(lists.padded_size());
     for (auto& r : shared_->smooth) r.resize(lists.padded_size());
@@ -255,10 +244,7 @@ void add_grain_stress(Step& step, State& state, const GrainStressSettings& setti
   before.component[0] = state.grains.vx;
   before.component[1] = state.grains.vy;
   before.component[2] = state.grains.vz;
-  if (state.domain.x.active || state.domain.y.active) {
-    state.wrapped_x.assign(state.grains.size(), 0);
-    state.wrapped_y.assign(state.grains.size(), 0);
-  }
+  prepare_wrapping(state);
   start_geostatic(state, settings, depth);
   auto shared = std::make_shared<GrainStress>(settings);
   step.add(std::make_unique<NeighborPass>(shared));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/effects/step.hpp"
+#include "engine/effects/terms/step_books.hpp"
 
 namespace sturz {
 
@@ -14,8 +15,5 @@ struct MotionSettings {
 /// Adds x_{n+1} = x_n + v_{n+1/2} dt, the removal or return of particles off the known terrain,
 /// the advection limit 0.25 dx/|v| and the force limit 0.25 sqrt(h/|a|) (physics.md B.12).
 void add_motion(Step&, State&, const MotionSettings&);
-
-/// Fills the ledger's kinetic energy and works and the motion bounds; dt = 0 before the first step.
-void refresh_motion(State&, double dt);
 
 }  // namespace sturz

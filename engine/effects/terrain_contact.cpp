@@ -201,13 +201,16 @@ void book(State& s, const ContactSums& sums) {
 class GroundContact final : public Pass {
  public:
   explicit GroundContact(const ContactSettings& c) : settings_(c) {
-    law_.stiffness = c.stiffness;
-    law_.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
-    law_.reach = 0.5 * c.spacing;
-    law_.friction = c.friction_coefficient * (1 - c.pore_pressure_ratio);
-    // A particle in the first layer stands on an area of V/dx.
-    law_.cohesion_rate = c.cohesion_pa / (c.reference_density * c.spacing);
-    law_.cohesion_reach = c.cohesion_pa > 0 ? c.spacing : -1;
+    for (const GroundFriction& zone : c.base) {
+      ContactLaw& law = laws_.emplace_back();
+      law.stiffness = c.stiffness;
+      law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
+      law.reach = 0.5 * c.spacing;
+      law.friction = zone.friction_coefficient * (1 - zone.pore_pressure_ratio);
+      // A particle in the first layer stands on an area of V/dx.
+      law.cohesion_rate = zone.cohesion_pa / (c.reference_density * c.spacing);
+      law.cohesion_reach = zone.cohesion_pa > 0 ? c.spacing : -1;
+    }
   }
   std::string_view name() const override { return "terrain contact"; }
   Stage stage() const override { return Stage::contact; }
@@ -222,6 +225,7 @@ class GroundContact final : public Pass {
     const WallPressure pressure(s, settings_);
     const StartVelocity start(s);
     const double reach = 2 * settings_.smoothing_length;
+    const bool zoned = settings_.zones.any();
     const ContactSums sums = ordered_reduce(
         p.size(), s.threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
@@ -229,7 +233,8 @@ class GroundContact final : public Pass {
             if (s.outside[i] || b.distance[i] >= reach) continue;
             const double support =
                 pressure.acceleration(i, b.plane[i], b.nx[i], b.ny[i], b.nz[i]);
-            out.add(apply_contact(law_, b.distance[i], b.nx[i], b.ny[i], b.nz[i], support, dt,
+            const ContactLaw& law = laws_[zoned ? zone_of(s, i) : 0];
+            out.add(apply_contact(law, b.distance[i], b.nx[i], b.ny[i], b.nz[i], support, dt,
                                   start(i).data(), p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);
           }
@@ -240,8 +245,14 @@ class GroundContact final : public Pass {
   }
 
  private:
+  std::size_t zone_of(const State& s, std::size_t i) const {
+    double x = s.grains.x[i], y = s.grains.y[i], z = 0;
+    s.domain.wrap(x, y, z);
+    return static_cast<std::size_t>(settings_.zones.at(x, y));
+  }
+
   ContactSettings settings_;
-  ContactLaw law_;
+  std::vector<ContactLaw> laws_;  // by zone
 };
 
 /// The domain's analytic planes, each until it is removed.

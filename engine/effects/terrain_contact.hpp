@@ -2,9 +2,18 @@
 /// The ground and analytic walls: pressure support, contact, Coulomb friction with pore pressure.
 #pragma once
 
+#include <vector>
+
 #include "engine/effects/step.hpp"
+#include "engine/terrain/zone_map.hpp"
 
 namespace sturz {
+
+struct GroundFriction {
+  double friction_coefficient = 0.4;///< mu_b [-]
+  double pore_pressure_ratio = 0;   ///< r_u [-]
+  double cohesion_pa = 0;           ///< c_b [Pa]
+};
 
 struct ContactSettings {
   double spacing = 1;               ///< dx [m]
@@ -12,9 +21,8 @@ struct ContactSettings {
   double reference_density = 1500;  ///< rho_ref [kg/m^3]
   double stiffness = 1;             ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
   double restitution = 0.2;         ///< e_b [-]
-  double friction_coefficient = 0.4;///< mu_b of the ground [-]
-  double pore_pressure_ratio = 0;   ///< r_u of the ground [-]
-  double cohesion_pa = 0;           ///< c_b of the ground [Pa]
+  std::vector<GroundFriction> base{1};  ///< by zone, [0] where there is none
+  ZoneMap zones;
 };
 
 /// Adds the ground's contact pass and, if the domain has walls, theirs. Reads the stress fields

@@ -15,6 +15,8 @@ namespace {
 
 /// Columns thinner than this many spacings carry no particle of their own.
 constexpr double thinnest = 0.2;
+/// Or, as depth-averaged columns, than this part of the median thickness.
+constexpr double thinnest_column = 0.01;
 constexpr std::size_t most_particles = std::size_t{1} << 31;
 
 double volume_median(std::vector<ReleaseColumn> columns) {
@@ -61,6 +63,7 @@ class Filler {
             "release: the column at x = " + std::to_string(x) + ", y = " + std::to_string(y) +
                 " lies outside the known terrain (nodata or beyond its edge, so there is no bed). "
                 "Move the release or use a larger terrain.");
+    if (settings_.columns) return place_column(c, x, y);
     const std::size_t k = stack_size(c.thickness_m, dx);
     const Stack stack(c.thickness_m, k, dx, bed_.surface(x, y).normal.z());
     const double mass = settings_.bulk_density_kg_m3 * c.thickness_m * dx * dx / k;
@@ -71,13 +74,33 @@ class Filler {
       out_.z.push_back(p.z());
       out_.mass.push_back(mass);
       out_.depth.push_back(std::max(0.0, bed_.height(p.x(), p.y()) + c.thickness_m - p.z()));
+      out_.thickness.push_back(c.thickness_m);
     }
   }
 
  private:
+  void place_column(const ReleaseColumn& c, double x, double y) const {
+    const Vec3 p = jittered(c, 0, x, y, 0, 0);
+    out_.x.push_back(p.x());
+    out_.y.push_back(p.y());
+    out_.z.push_back(p.z());
+    out_.mass.push_back(settings_.bulk_density_kg_m3 * c.thickness_m * settings_.spacing_m *
+                        settings_.spacing_m);
+    out_.depth.push_back(0.5 * c.thickness_m);
+    out_.thickness.push_back(c.thickness_m);
+  }
+
   /// A jittered point above the bed, counted by its place on the lattice so that the same particle
   /// gets the same jitter whatever the extent of the release.
   Vec3 place(const ReleaseColumn& c, std::size_t layer, double x, double y, double offset) const {
+    Vec3 p = jittered(c, layer, x, y, offset, settings_.jitter * settings_.spacing_m);
+    lift_off_bed(p);
+    return p;
+  }
+
+  /// \param vertical  amplitude of the vertical jitter [m]
+  Vec3 jittered(const ReleaseColumn& c, std::size_t layer, double x, double y, double offset,
+                double vertical) const {
     const auto member = static_cast<std::uint64_t>(settings_.member);
     const RandomWords w =
         random_words(settings_.seed, {static_cast<std::uint32_t>(c.lattice_x),
@@ -85,11 +108,10 @@ class Filler {
                                       static_cast<std::uint32_t>(layer ^ (member >> 32 << 16)),
                                       static_cast<std::uint32_t>(member)});
     const double amplitude = settings_.jitter * settings_.spacing_m;
-    auto jitter = [&](std::uint32_t word) { return amplitude * (2 * unit_from(word) - 1); };
-    if (bed_.inside(x + jitter(w[0]), y + jitter(w[1]))) x += jitter(w[0]), y += jitter(w[1]);
-    Vec3 p(x, y, bed_.height(x, y) + offset + jitter(w[2]));
-    lift_off_bed(p);
-    return p;
+    auto jitter = [&](std::uint32_t word) { return 2 * unit_from(word) - 1; };
+    const double dx = amplitude * jitter(w[0]), dy = amplitude * jitter(w[1]);
+    if (bed_.inside(x + dx, y + dy)) x += dx, y += dy;
+    return {x, y, bed_.height(x, y) + offset + vertical * jitter(w[2])};
   }
 
   /// Raises a point to the contact distance. On curved ground the distance grows by less than
@@ -133,12 +155,14 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
   out.median_thickness_m = volume_median(columns.columns);
   out.layers = out.median_thickness_m / s.spacing_m;
 
-  const auto kept = [&](const ReleaseColumn& c) { return c.thickness_m >= thinnest * s.spacing_m; };
+  const double least =
+      s.columns ? thinnest_column * out.median_thickness_m : thinnest * s.spacing_m;
+  const auto kept = [&](const ReleaseColumn& c) { return c.thickness_m >= least; };
   std::size_t n = 0;
   Sum dropped, all;
   for (const auto& c : columns.columns) {
     (kept(c) ? all : dropped).add(c.thickness_m);
-    if (kept(c)) n += stack_size(c.thickness_m, s.spacing_m);
+    if (kept(c)) n += s.columns ? 1 : stack_size(c.thickness_m, s.spacing_m);
   }
   require(n > 0, "release: no column is thicker than " + std::to_string(thinnest * s.spacing_m) +
                      " m (0.2 spacings, so no particle would be made). Choose a smaller "
@@ -147,7 +171,8 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
           "release: more than 2e9 particles (particles are numbered with 32 "
           "bits). Choose a larger numerics.spacing_m.");
   out.dropped_fraction = dropped.value() / (dropped.value() + all.value());
-  for (auto* column : {&out.x, &out.y, &out.z, &out.mass, &out.depth}) column->reserve(n);
+  for (auto* column : {&out.x, &out.y, &out.z, &out.mass, &out.depth, &out.thickness})
+    column->reserve(n);
   Filler filler(bed, s, out);
   for (const auto& c : columns.columns)
     if (kept(c)) filler.fill(c);

@@ -15,6 +15,7 @@ struct ReleaseSettings {
   double jitter = 0.05;           ///< amplitude in spacings, uniform in +-jitter, each direction
   std::uint64_t seed = 1;         ///< Philox key
   std::int64_t member = 0;        ///< Philox counter, with the particle's number
+  bool columns = false;           ///< one column on the bed per lattice cell instead of a stack
 };
 
 /// Particles of a release; all arrays [n].
@@ -22,12 +23,15 @@ struct Release {
   std::vector<double> x, y, z;    ///< [m]
   std::vector<double> mass;       ///< [kg]
   std::vector<double> depth;      ///< vertical distance below the free surface [m]
+  std::vector<double> thickness;  ///< vertical, of the lattice cell that the particle belongs to [m]
   double volume_m3 = 0;           ///< bulk volume of the pattern on its raster
   double area_m2 = 0;             ///< plan area with thickness > 0
   double layers = 0;              ///< volume-weighted median of vertical thickness / spacing
   double median_thickness_m = 0;  ///< volume-weighted
   double max_thickness_m = 0;
-  double dropped_fraction = 0;  ///< of the volume, in columns under 0.2 dx; given to the others
+  /// Of the volume, in lattice cells too thin for a particle (0.2 dx; columns: 1 % of the median
+  /// thickness); given to the others.
+  double dropped_fraction = 0;
 };
 
 /// Fills bed .. bed + thickness. Sum of masses = bulk density x raster volume to round-off.

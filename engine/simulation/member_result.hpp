@@ -46,7 +46,10 @@ struct MemberScalars {
   double mass_error = 0;             ///< (kept + lost - released) / released; exactly 0 expected
   double energy_residual = 0;        ///< unexplained energy / released energy (see Ledger)
   double release_layers = 0;         ///< volume-weighted median vertical thickness / spacing at release
-  double thin_fraction = 0;          ///< mass fraction below 3 layers, time average while moving
+  double thin_fraction = 0;          ///< mass fraction below 4 layers, time average while moving
+  double layers_median = 0;          ///< cell thickness / spacing that half of the mass exceeds, time average
+  double layers_p10 = 0;             ///< the same for 90 % of the mass
+  double take_off_fraction = 0;      ///< mass and time on ground that bends away faster than it falls; depth_averaged
   double max_mach = 0;               ///< fastest particle / sound speed
   double max_density_error = 0;      ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
   double end_time_s = 0;             ///< simulated

@@ -36,6 +36,19 @@ int spread(double place, double width_cells, int n_cells, double* weight) {
   return static_cast<int>(first);
 }
 
+/// Bins of layers: 24 per factor of ten, one edge exactly at four layers.
+constexpr double bins_per_decade = 24;
+constexpr double first_exponent = -2.5;
+
+double layers_at(double bin) {
+  return 4 * std::pow(10, first_exponent + bin / bins_per_decade);
+}
+
+int layer_bin(double layers) {
+  const double bin = (std::log10(layers / 4) - first_exponent) * bins_per_decade;
+  return std::clamp(static_cast<int>(bin), 0, 127);
+}
+
 /// Room is added with this margin so that a spreading flow seldom moves the arrays [cells].
 int margin(int n) { return 8 + n / 8; }
 
@@ -69,10 +82,24 @@ PeakMaps::PeakMaps(PeakMapSettings settings) : settings_(std::move(settings)) {
   expect(settings_.grid.n_cells() > 0 && settings_.grid.cell_m > 0, "the hazard grid has cells");
   expect(settings_.spacing_m > 0 && settings_.bulk_density_kg_m3 > 0,
          "spacing and bulk density are positive");
-  width_cells_ = std::max(1.0, settings_.spacing_m / settings_.grid.cell_m);
+  set_width(settings_.spacing_m);
+}
+
+/// Makes room for the weights of particles that are up to `width_m` wide.
+void PeakMaps::set_width(double width_m) {
+  width_cells_ = std::max(1.0, width_m / settings_.grid.cell_m);
   n_weights_ = static_cast<int>(std::ceil(3 * width_cells_));
   weights_x_.resize(n_weights_);
   weights_y_.resize(n_weights_);
+}
+
+/// Columns bring their own widths.
+void PeakMaps::look_at_widths(const ParticleSet& p) {
+  const Field* reach = p.find_field("reach");
+  reach_ = reach ? reach->component[0].data() : nullptr;
+  if (!reach || p.size() == 0) return;
+  const auto& all = reach->component[0];
+  set_width(settings_.width_per_reach * *std::max_element(all.begin(), all.end()));
 }
 
 /// The cells that the particles can touch.
@@ -115,9 +142,11 @@ template <bool with_motion, int n_fixed>
 void PeakMaps::scatter(const ParticleSet& p) {
   const Grid& g = settings_.grid;
   const double per_cell = 1 / g.cell_m, far = 1.5 * width_cells_ + 1;
-  const int n = n_fixed > 0 ? n_fixed : n_weights_;
+  int n = n_fixed > 0 ? n_fixed : n_weights_;
   // Copies, because the compiler must assume that writing a double may change any member.
-  const double width = width_cells_;
+  double width = width_cells_;
+  const double cells_per_reach = settings_.width_per_reach * per_cell;
+  const double* const reach = reach_;
   const Window room = room_;
   double *const wx = weights_x_.data(), *const wy = weights_y_.data(), *const sums = mass_.data();
   Motion* const motions = motion_.data();
@@ -130,6 +159,10 @@ void PeakMaps::scatter(const ParticleSet& p) {
         !std::isfinite(v2))
       continue;
     const Motion motion(vx, vy, vz, 0.5 * v2);
+    if (n_fixed == 0 && reach) {
+      width = std::max(1.0, cells_per_reach * reach[i]);
+      n = static_cast<int>(std::ceil(3 * width));
+    }
     const int col = spread<n_fixed>(x, width, n, wx), row = spread<n_fixed>(y, width, n, wy);
     const int j0 = std::max(0, -col), j1 = std::min(n, room.n_cols - col);
     const int i0 = std::max(0, -row), i1 = std::min(n, room.n_rows - row);
@@ -148,6 +181,7 @@ void PeakMaps::scatter(const ParticleSet& p) {
 /// Narrow spreads, the usual ones, get loops of known length: twice as fast.
 template <bool with_motion>
 void PeakMaps::scatter_any(const ParticleSet& p) {
+  if (reach_) return scatter<with_motion, 0>(p);
   switch (n_weights_) {
     case 3:
       return scatter<with_motion, 3>(p);
@@ -166,8 +200,9 @@ void PeakMaps::scatter_any(const ParticleSet& p) {
 void PeakMaps::keep_peaks(const Window& w, float time_s) {
   const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
   const double density = settings_.bulk_density_kg_m3, to_thickness = per_area / density;
-  const double thin = 3 * settings_.spacing_m;
-  double total = 0, total_thin = 0;
+  const double to_layers = to_thickness / settings_.spacing_m;
+  double total = 0;
+  mass_by_layers_.fill(0);
   for (int r = w.row0 - room_.row0; r < w.row0 - room_.row0 + w.n_rows; ++r)
     for (int c = w.col0 - room_.col0; c < w.col0 - room_.col0 + w.n_cols; ++c) {
       const std::size_t k = static_cast<std::size_t>(r) * room_.n_cols + c;
@@ -176,7 +211,7 @@ void PeakMaps::keep_peaks(const Window& w, float time_s) {
       Peak& peak = peak_[k];
       const double thickness = mass * to_thickness;
       total += mass;
-      total_thin += thickness < thin ? mass : 0;
+      mass_by_layers_[layer_bin(mass * to_layers)] += mass;
       peak.thickness = std::max(peak.thickness, static_cast<float>(thickness));
       if (thickness > settings_.reach_limit_m) {
         const Motion& sums = motion_[k];
@@ -189,10 +224,25 @@ void PeakMaps::keep_peaks(const Window& w, float time_s) {
       mass_[k] = 0;
       motion_[k].setZero();
     }
-  thin_fraction_ = total > 0 ? total_thin / total : 0;
+  count_layers(total);
+}
+
+void PeakMaps::count_layers(double total_mass) {
+  layers_ = {};
+  if (!(total_mass > 0)) return;
+  double below = 0;
+  bool half = false, tenth = false;
+  for (int bin = 0; bin < n_bins; ++bin) {
+    if (layers_at(bin + 1) <= 4 * (1 + 1e-12)) layers_.thin_fraction += mass_by_layers_[bin] / total_mass;
+    below += mass_by_layers_[bin];
+    const double middle = layers_at(bin + 0.5);
+    if (!tenth && below >= 0.1 * total_mass) tenth = true, layers_.p10 = middle;
+    if (!half && below >= 0.5 * total_mass) half = true, layers_.median = middle;
+  }
 }
 
 void PeakMaps::record(const ParticleSet& p, double time_s) {
+  look_at_widths(p);
   const Window w = cover(p);
   if (w.n_cells() == 0) return;
   make_room(w);
@@ -226,6 +276,7 @@ Window PeakMaps::tight_window() const {
 
 void PeakMaps::finish(const ParticleSet& final_state, MemberResult& result) {
   for (Peak& peak : peak_) peak.deposit = 0;
+  look_at_widths(final_state);
   const Window w = cover(final_state);
   if (w.n_cells() > 0) {
     make_room(w);

@@ -6,6 +6,7 @@
 #include "engine/particles/particle_set.hpp"
 #include "engine/simulation/member_result.hpp"
 
+#include <array>
 #include <vector>
 
 namespace sturz {
@@ -15,10 +16,18 @@ struct PeakMapSettings {
   double spacing_m = 1;           ///< particle spacing
   double bulk_density_kg_m3 = 1;  ///< reference: particle volume = mass / this, so volume is exact
   double reach_limit_m = 0.05;    ///< smoothed thickness that counts as reached: max(0.05, dx/10)
+  /// Width of a particle with a field "reach" (a column) over that reach.
+  double width_per_reach = 0.25;
+};
+
+/// Thickness over spacing, weighted by mass, at one instant.
+struct LayerCount {
+  double median = 0, p10 = 0;  ///< exceeded by half and by 90 % of the mass; to about 5 %
+  double thin_fraction = 0;    ///< share of the mass in cells under four layers
 };
 
 /// Spreads particles over cells with a quadratic B-spline of width max(dx, cell), normalised to
-/// sum to one, with the same weights for volume, m v and 1/2 m v^2 (physics.md D.3), and keeps
+/// sum to one (dx: of a depth-averaged column the present mean distance of columns), with the same weights for volume, m v and 1/2 m v^2 (physics.md D.3), and keeps
 /// maxima over time of each product at one instant.
 ///
 /// What falls on cells beyond the grid is dropped, not pushed in. Memory follows the part of the
@@ -34,8 +43,8 @@ class PeakMaps {
   /// area, maxima) into `result`. Record the final state first, as any other instant.
   void finish(const ParticleSet& final_state, MemberResult& result);
   const PeakMapSettings& settings() const { return settings_; }
-  /// Share of the last instant's mass in cells thinner than three spacings [-].
-  double thin_fraction() const { return thin_fraction_; }
+  /// Layers across the thickness at the last instant.
+  const LayerCount& layers() const { return layers_; }
 
  private:
   struct Peak {
@@ -44,24 +53,30 @@ class PeakMaps {
   /// Momentum x, y, z [kg m/s] and kinetic energy [J] of one instant in a cell.
   using Motion = Eigen::Array4d;
   Window cover(const ParticleSet&) const;
+  void set_width(double width_m);
+  void look_at_widths(const ParticleSet&);
   void make_room(const Window&);
   template <bool with_motion, int n_fixed>
   void scatter(const ParticleSet&);
   template <bool with_motion>
   void scatter_any(const ParticleSet&);
   void keep_peaks(const Window&, float time_s);
+  void count_layers(double total_mass);
   void keep_deposit(const Window&);
   Window tight_window() const;
 
   PeakMapSettings settings_;
-  double width_cells_ = 1;                     ///< of the B-spline
+  double width_cells_ = 1;                     ///< of the B-spline; the largest where it varies
+  static constexpr int n_bins = 128;           ///< of thickness over spacing, 24 per decade
   int n_weights_ = 3;                          ///< cells that one particle can touch per direction
   Window room_;                                ///< the part of the grid that the arrays below hold
   std::vector<Peak> peak_;                     ///< [room_]
   std::vector<double> mass_;                   ///< [room_], zero between instants [kg]
   std::vector<Motion> motion_;                 ///< [room_], zero between instants
+  const double* reach_ = nullptr;              ///< of columns, while one instant is taken in
   std::vector<double> weights_x_, weights_y_;  ///< scratch of one particle
-  double thin_fraction_ = 0;
+  std::array<double, n_bins> mass_by_layers_{};
+  LayerCount layers_;
 };
 
 }  // namespace sturz

@@ -118,8 +118,9 @@ class Run {
       end(Outcome::diverged, "a particle's position or velocity is not finite");
       return;
     }
-    result_.scalars.max_mach =
-        std::max(result_.scalars.max_mach, s.motion.max_speed / parts_.sound_speed_m_s);
+    if (parts_.sound_speed_m_s > 0)
+      result_.scalars.max_mach =
+          std::max(result_.scalars.max_mach, s.motion.max_speed / parts_.sound_speed_m_s);
     travelled_ += s.motion.max_speed * s.previous_dt;
     const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
     if (travelled_ >= half_cell) record();
@@ -132,7 +133,11 @@ class Run {
   void record() {
     const double now = parts_.state.time;
     parts_.peaks.record(parts_.state.grains, now);
-    thin_time_ += parts_.peaks.thin_fraction() * (now - recorded_at_);
+    const LayerCount& layers = parts_.peaks.layers();
+    const double span = now - recorded_at_;
+    thin_time_ += layers.thin_fraction * span;
+    median_time_ += layers.median * span;
+    p10_time_ += layers.p10 * span;
     recorded_at_ = now;
     travelled_ = 0;
   }
@@ -192,6 +197,11 @@ class Run {
     const ParticleSet& p = s.grains;
     density_.assign(p.size(), parts_.reference_density);
     pressure_.assign(p.size(), 0);
+    if (const Field* thickness = p.find_field("thickness")) {
+      const auto& g_n = p.find_field("normal_gravity")->component[0];
+      for (std::size_t i = 0; i < p.size(); ++i)
+        pressure_[i] = density_[i] * g_n[i] * thickness->component[0][i];  // at the base
+    }
     if (const Field* stress = p.find_field("stress")) {
       const auto& compression = p.find_field("compression")->component[0];
       for (std::size_t i = 0; i < p.size(); ++i) {
@@ -223,12 +233,17 @@ class Run {
     const double released = book.released_energy();
     m.energy_residual = released > 0 ? book.residual() / released : 0;
     m.release_layers = parts_.release_layers;
-    m.thin_fraction = s.time > 0 ? thin_time_ / s.time : parts_.peaks.thin_fraction();
+    const LayerCount& layers = parts_.peaks.layers();
+    m.thin_fraction = s.time > 0 ? thin_time_ / s.time : layers.thin_fraction;
+    m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
+    m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
+    m.take_off_fraction = s.time > 0 ? book.take_off / (book.released_mass * s.time) : 0;
     m.end_time_s = s.time;
     m.n_particles = static_cast<double>(parts_.start_x.size());
     m.n_steps = static_cast<double>(s.n_steps);
     m.mean_dt_s = s.n_steps ? s.time / s.n_steps : 0;
     result_.member = parts_.member;
+    result_.formulation = parts_.formulation;
     result_.warnings = parts_.warnings;
     if (sound) {
       parts_.peaks.finish(s.grains, result_);
@@ -274,7 +289,7 @@ class Run {
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
   bool ended_ = false;
-  double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, progress_at_ = 0, next_frame_ = 0;
+  double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0, p10_time_ = 0, progress_at_ = 0, next_frame_ = 0;
   std::vector<std::pair<double, double>> speeds_;
   std::vector<double> density_, pressure_, loaded_;
 };

@@ -27,6 +27,20 @@ struct SurfacePoint {
   Vec3 normal{0, 0, 1};  ///< outward (upward) unit normal [-]
 };
 
+/// The ground rounded over about two cells: one smooth surface with its first and second
+/// derivatives, for what slides on it as a depth-averaged column.
+struct CurvedSurface {
+  double z = 0;                          ///< [m]
+  double east = 0, north = 0;            ///< slope [-]
+  double bend_ee = 0, bend_en = 0, bend_nn = 0;  ///< second derivatives [1/m]
+  bool known = true;                     ///< false off the known ground (level there)
+
+  /// d2z/ds2 times speed squared, for a horizontal velocity [m/s^2].
+  double bend(double vx, double vy) const {
+    return bend_ee * vx * vx + 2 * bend_en * vx * vy + bend_nn * vy * vy;
+  }
+};
+
 /// Upward unit normal of a surface with these slopes.
 inline Vec3 upward_normal(double slope_east, double slope_north) {
   const double n_z = 1 / std::sqrt(1 + slope_east * slope_east + slope_north * slope_north);
@@ -64,6 +78,10 @@ class Terrain {
   double height(double x, double y) const;
   /// Height and normal of the bilinear patch; level outside, like height().
   SurfacePoint surface(double x, double y) const;
+  /// The biquadratic B-spline with the nodes as control points: exact on planes, C1 everywhere, so
+  /// that energy is kept along it and curvature is bounded by that of neighbouring nodes. Beside
+  /// unknown cells the bilinear surface stands in, without curvature.
+  CurvedSurface curved(double x, double y) const;
   /// Distance of `p` to the surface, negative below it: (z - z_s) n_z where the ground within
   /// `reach` is smooth. Where its slope exceeds 45 degrees or its curvature times `reach` 0.2, a
   /// point that may touch gets the distance to the closest point (two Newton steps on every patch

@@ -23,6 +23,7 @@ basal:
 numerics: {spacing_m: 1, end_time_s: 3}
 ensemble: {design: sobol, members: 6, seed: 1}
 hazard: {cell_size_m: 2, thickness_m: [0.5, 1], speed_m_s: [1], energy_kj_m2: [1], pressure_kpa: [1]}
+formulation: full_stress
 )";
 }
 

@@ -106,6 +106,28 @@ TEST_F(Resume, AnotherSceneIsRefusedAndTheDifferenceNamed) {
   EXPECT_EQ(hazard_hash("out"), hash);
 }
 
+TEST_F(Resume, ZonesGoOnWithTheSameFilesAndValuesOnly) {
+  const std::string corners = "[[[-20,-10],[20,-10],[20,10],[-20,10],[-20,-10]]]";
+  write("plate.geojson", R"({"type":"Feature","properties":{},"geometry":{"type":"Polygon",)"
+                         R"("coordinates":)" +
+                             corners + "}}");
+  const auto begun = [&](const std::string& value) {
+    return sturz({"ensemble", path("scene.yaml"), "-o", path("out"), "-n", "2", "--set",
+                  "basal.zones=[{polygon: plate.geojson, friction_coefficient: " + value + "}]"});
+  };
+  ASSERT_EQ(begun("0.2").exit_code, 0);
+  EXPECT_THAT(read("out/scenario.yaml"), HasSubstr("polygon: \"../plate.geojson\""));
+  const Ended again = begun("0.2");
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const Ended other = begun("0.3");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.err, HasSubstr("basal.zones: [{polygon: "));
+  write("plate.geojson", read("plate.geojson") + "\n");
+  const Ended moved = begun("0.2");
+  EXPECT_EQ(moved.exit_code, 1);
+  EXPECT_THAT(moved.err, HasSubstr("input plate.geojson: other content than before"));
+}
+
 TEST_F(Resume, ThresholdsMayChangeWithoutComputingAgain) {
   ASSERT_EQ(sturz({"ensemble", path("scene.yaml"), "-o", path("out")}).exit_code, 0);
   const Ended again = sturz({"ensemble", path("scene.yaml"), "-o", path("out"), "--json", "--set",

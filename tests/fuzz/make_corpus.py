@@ -21,6 +21,9 @@ BASALS = [
     "friction_coefficient: {truncated_normal: {mean: 0.3, sd: 0.1, min: 0, max: 1}}, "
     "pore_pressure_ratio: {beta: {alpha: 4, beta: 3, min: 0.0, max: 0.6}}",
     "friction_coefficient: {lognormal: {median: 0.3, sigma_ln: 0.2, max: 2}}, restitution: 0.1",
+    "turbulent_coefficient_m_s2: 500, viscosity_pa_s: 50, yield_stress_pa: {uniform: [10, 90]}, "
+    "zones: [{polygon: a.gpkg, layer: l, friction_coefficient: 0.3}, {polygon: b.gpkg, "
+    "pore_pressure_ratio: 0.85, cohesion_pa: 0}]",
 ]
 TAIL = """numerics: {spacing_m: 5}
 domain:

@@ -21,29 +21,6 @@ double area(const Raster<double>& r) {
   return std::accumulate(r.values.begin(), r.values.end(), 0.0) * r.grid.cell_m * r.grid.cell_m;
 }
 
-/// A GeoJSON feature of rings relative to 500000, 4600000.
-std::string feature(const std::string& type, const std::string& coordinates,
-                    const std::string& properties = "{}") {
-  return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":{"type":")" + type +
-         R"(","coordinates":)" + coordinates + "}}";
-}
-
-std::string square(double x, double y, double edge) {
-  const auto point = [&](double dx, double dy) {
-    return "[" + std::to_string(500000 + x + dx) + "," + std::to_string(4600000 + y + dy) + "]";
-  };
-  return "[" + point(0, 0) + "," + point(edge, 0) + "," + point(edge, edge) + "," + point(0, edge) +
-         "," + point(0, 0) + "]";
-}
-
-std::string collection(const std::string& features, const std::string& crs = "EPSG::32633") {
-  const std::string system =
-      crs.empty()
-          ? ""
-          : R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:)" + crs + "\"}},";
-  return R"({"type":"FeatureCollection",)" + system + R"("features":[)" + features + "]}";
-}
-
 class GdalVector : public IoTest {
  protected:
   /// 40 x 40 cells of 7 m: no polygon edge below falls on a cell edge.

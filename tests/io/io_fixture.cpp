@@ -129,6 +129,31 @@ MemberResult made_up_member(std::int64_t number) {
   return m;
 }
 
+std::string feature(const std::string& type, const std::string& coordinates,
+                    const std::string& properties) {
+  return R"({"type":"Feature","properties":)" + properties + R"(,"geometry":{"type":")" + type +
+         R"(","coordinates":)" + coordinates + "}}";
+}
+
+std::string square(double x, double y, double edge) {
+  const std::array<std::array<double, 2>, 5> corners = {
+      {{0, 0}, {edge, 0}, {edge, edge}, {0, edge}, {0, 0}}};
+  std::string ring;
+  for (const auto& [dx, dy] : corners) {
+    ring += ring.empty() ? "[[" : ",[";
+    ring += std::to_string(500000 + x + dx) + "," + std::to_string(4600000 + y + dy) + "]";
+  }
+  return ring + "]";
+}
+
+std::string collection(const std::string& features, const std::string& crs) {
+  const std::string system =
+      crs.empty()
+          ? ""
+          : R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:)" + crs + "\"}},";
+  return R"({"type":"FeatureCollection",)" + system + R"("features":[)" + features + "]}";
+}
+
 std::string wkt2(int epsg) {
   OGRSpatialReference crs;
   crs.importFromEPSG(epsg);

@@ -64,6 +64,14 @@ std::string message_of(Call call) {
   return "";
 }
 
+/// A GeoJSON feature.
+std::string feature(const std::string& type, const std::string& coordinates,
+                    const std::string& properties = "{}");
+/// A ring: a square of `edge` metres whose south-west corner lies x, y from 500000, 4600000.
+std::string square(double x, double y, double edge);
+/// GeoJSON of features in a system; empty: none is named.
+std::string collection(const std::string& features, const std::string& crs = "EPSG::32633");
+
 /// Largest size of a file that this process may write, while this lives: a disk that fills up.
 class SmallDisk {
  public:

@@ -48,6 +48,21 @@ TEST(JsonSchema, CarriesLimitsChoicesAndDistributions) {
   EXPECT_EQ(plane.at("properties").at("slope_deg").at("default"), 30);
 }
 
+TEST(JsonSchema, KnowsTheShapeOfZones) {
+  const Json j = Json::parse(json_schema());
+  EXPECT_EQ(at_path(j, "formulation").at("enum"), Json({"auto", "full_stress", "depth_averaged"}));
+  const Json zones = at_path(j, "basal.zones");
+  EXPECT_EQ(zones.at("maxItems"), 255);
+  const Json zone = zones.at("items");
+  EXPECT_EQ(zone.at("required"), Json::array({"polygon"}));
+  EXPECT_FALSE(zone.at("additionalProperties").get<bool>());
+  EXPECT_EQ(zone.at("properties").size(), 5u);
+  EXPECT_EQ(zone.at("properties").at("layer").at("type"), "string");
+  EXPECT_EQ(zone.at("properties").at("pore_pressure_ratio").at("maximum"), 0.99);
+  ASSERT_EQ(zone.at("anyOf").size(), 3u);
+  EXPECT_EQ(zone.at("anyOf").at(0).at("required"), Json::array({"friction_coefficient"}));
+}
+
 TEST(JsonSchema, KnowsTheKeysOfTheShippedCases) {
   const Json j = Json::parse(json_schema());
   for (const char* name : {"zhangjiawan", "shuicheng_dry"}) {

@@ -63,10 +63,10 @@ TEST(ScenarioMessages, KeysOfLaterVersionsAreNotUnknown) {
                           "with particles of its own). Remove it."));
   EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  states: {dilute: {}}\n")),
               ElementsAre(HasSubstr("grains.states (not available in this version")));
-  EXPECT_THAT(problems(scene() + "basal: {zones: []}\ncoupling: 1\nobservation: {}\n").size(), 3u);
-  EXPECT_THAT(problems(scene() + "formulation: depth_averaged\n"),
-              ElementsAre("scenario.yaml:7:14: formulation = depth_averaged (not available in this "
-                          "version). Available: full_stress."));
+  EXPECT_THAT(problems(scene() + "prior: {}\ncoupling: 1\nobservation: {}\n").size(), 3u);
+  EXPECT_THAT(problems(scene() + "ensemble: {design: morris}\n"),
+              ElementsAre("scenario.yaml:7:20: ensemble.design = morris (not available in this "
+                          "version). Available: monte_carlo, latin_hypercube, sobol, table."));
 }
 
 TEST(ScenarioMessages, DuplicateKey) {
@@ -86,7 +86,8 @@ TEST(ScenarioMessages, WrongType) {
               ElementsAre("scenario.yaml:7:20: domain.periodic = y (must be a list, [...])."));
   EXPECT_THAT(problems(scene() + "basal: 0.3\n"),
               ElementsAre("scenario.yaml:7:8: basal = 0.3 (must be a block of keys: "
-                          "friction_coefficient, pore_pressure_ratio, cohesion_pa, restitution)."));
+                          "friction_coefficient, pore_pressure_ratio, cohesion_pa, restitution, "
+                          "turbulent_coefficient_m_s2, viscosity_pa_s, yield_stress_pa, zones)."));
   EXPECT_THAT(problems(scene() + "ensemble: {members: 3.5}\n"),
               ElementsAre("scenario.yaml:7:21: ensemble.members = 3.5 (must be a whole number)."));
   EXPECT_THAT(problems(scene() + "hazard: {cell_size_m: {uniform: [1, 2]}}\n"),
@@ -150,7 +151,8 @@ TEST(ScenarioMessages, AbsentValuesStandAtTheirKey) {
                           "number or a distribution). Give it one or remove the key."));
   EXPECT_THAT(problems(scene() + "basal:\n\n\n"),
               ElementsAre("scenario.yaml:7:1: basal (has no keys). Give it some of "
-                          "friction_coefficient, pore_pressure_ratio, cohesion_pa, restitution, or "
+                          "friction_coefficient, pore_pressure_ratio, cohesion_pa, restitution, "
+                          "turbulent_coefficient_m_s2, viscosity_pa_s, yield_stress_pa, zones, or "
                           "remove it."));
 }
 
@@ -189,6 +191,69 @@ TEST(ScenarioMessages, OneMistakeIsReportedOnce) {
   EXPECT_THAT(problems(scene() + "ensemble: {members: 99999999999}\n"),
               ElementsAre("scenario.yaml:7:21: ensemble.members = 99999999999 (must be in "
                           "1..10000000)."));
+}
+
+/// A scene whose basal.zones are `text`.
+std::vector<std::string> zone_problems(const std::string& text) {
+  return problems(scene() + "basal: {zones: " + text + "}\n");
+}
+
+TEST(ScenarioMessages, Zones) {
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg, layer: b, friction_coefficient: 0.3}]"),
+              ElementsAre());
+  EXPECT_THAT(zone_problems("[]"), ElementsAre());
+  EXPECT_THAT(zone_problems("{polygon: a.gpkg, cohesion_pa: 0}"),
+              ElementsAre("scenario.yaml:7:16: basal.zones = {polygon: a.gpkg, cohesion_pa: 0} "
+                          "(must be a list of zones, [{polygon: .., friction_coefficient: ..}])."));
+  EXPECT_THAT(zone_problems("[a.gpkg]"),
+              ElementsAre("scenario.yaml:7:17: basal.zones[0] = a.gpkg (must be a zone, {polygon: "
+                          "plate.gpkg, friction_coefficient: 0.3})."));
+  EXPECT_THAT(zone_problems("[{friction_coefficient: 0.3}]"),
+              ElementsAre("scenario.yaml:7:16: basal.zones[0] (polygon is missing). Name the file "
+                          "that outlines the zone."));
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg}]"),
+              ElementsAre("scenario.yaml:7:16: basal.zones[0] (gives no value). Give it some of "
+                          "friction_coefficient, pore_pressure_ratio, cohesion_pa."));
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg, pore_pressure_ratio: 1}]"),
+              ElementsAre("scenario.yaml:7:16: basal.zones[0].pore_pressure_ratio = 1 (must be in "
+                          "0..0.99)."));
+}
+
+TEST(ScenarioMessages, NamesAndTextsOfZones) {
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg, friction_coeficient: 0.3}]"),
+              ElementsAre("scenario.yaml:7:35: basal.zones[0].friction_coeficient (unknown key). "
+                          "Did you mean friction_coefficient?"));
+  EXPECT_THAT(
+      zone_problems("[{polygon: a.gpkg, cohesion_pa: 5}, {polygon: b.gpkg, restitution: 0}]"),
+      ElementsAre("scenario.yaml:7:70: basal.zones[1].restitution (unknown key). Known "
+                  "here: polygon, layer, friction_coefficient, pore_pressure_ratio, "
+                  "cohesion_pa."));
+  EXPECT_THAT(zone_problems("[{polygon: \"\", cohesion_pa: 5}]"),
+              ElementsAre("scenario.yaml:7:27: basal.zones[0].polygon = \"\" (must be a file "
+                          "name). Give it one or remove the key."));
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg, layer: [b], cohesion_pa: 5}]"),
+              ElementsAre("scenario.yaml:7:42: basal.zones[0].layer = [b] (must be text)."));
+}
+
+TEST(ScenarioMessages, ValuesOfZonesAreFixed) {
+  EXPECT_THAT(
+      zone_problems("[{polygon: a.gpkg, friction_coefficient: {uniform: [0.2, 0.4]}}]"),
+      ElementsAre("scenario.yaml:7:57: basal.zones[0].friction_coefficient = {uniform: [0.2, 0.4]} "
+                  "(must be a plain number). Values of zones are fixed numbers in this version."));
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg, cohesion_pa: soft}]"),
+              ElementsAre("scenario.yaml:7:48: basal.zones[0].cohesion_pa = soft (must be a "
+                          "number)."));
+}
+
+TEST(ScenarioMessages, KeysOfColumnsInFullStress) {
+  EXPECT_THAT(problems(scene() + "formulation: full_stress\nbasal: {viscosity_pa_s: 100}\n"),
+              ElementsAre("scenario.yaml:8:25: basal.viscosity_pa_s = 100 (formulation is "
+                          "full_stress; only depth_averaged knows it). Remove it or set "
+                          "formulation: depth_averaged."));
+  // A misread viscosity must not also count as a missing one.
+  EXPECT_THAT(problems(scene() + "basal: {viscosity_pa_s: thick, yield_stress_pa: 10}\n"),
+              ElementsAre("scenario.yaml:7:25: basal.viscosity_pa_s = thick (must be a number or a "
+                          "distribution)."));
 }
 
 TEST(ScenarioMessages, SyntheticTerrain) {

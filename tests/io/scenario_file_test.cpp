@@ -33,12 +33,20 @@ grains:
   friction: {static: 0.38, dynamic: {uniform: {min: 0.5, max: 0.7}}, inertial_number_scale: 0.3}
   cohesion_pa: {discrete: {values: [0, 1000], weights: [3, 1]}}
   poisson_ratio: {table: [0.3, 0.2, 0.25]}
+  earth_pressure: active_passive
 basal:
   friction_coefficient: {truncated_normal: {mean: 0.4, sd: 0.1, min: 0.2, max: 0.6}}
   pore_pressure_ratio: {beta: {alpha: 4, beta: 3, min: 0.0, max: 0.6}}
   restitution: 0.1
-formulation: full_stress
-numerics: {spacing_m: 5, end_time_s: 150, stop_at_rest: false, max_wall_time_s: 600}
+  turbulent_coefficient_m_s2: {uniform: [200, 1000]}
+  viscosity_pa_s: 50
+  yield_stress_pa: {log_uniform: [10, 1000]}
+  zones:
+    - {polygon: zones/plate.gpkg, layer: "wet part", friction_coefficient: 0.3, cohesion_pa: 0}
+    - {polygon: source.gpkg, pore_pressure_ratio: 0.85}
+formulation: depth_averaged
+numerics: {spacing_m: 5, end_time_s: 150, stop_at_rest: false, max_wall_time_s: 600,
+           accept_unresolved: true}
 domain:
   periodic: [y]
   walls:
@@ -67,13 +75,21 @@ TEST(ScenarioFile, ReadsEveryBlock) {
   EXPECT_THAT(s.grains->poisson_ratio.distribution->values, ElementsAre(0.2, 0.25, 0.3));
   EXPECT_THAT(s.grains->cohesion_pa.distribution->weights, ElementsAre(3, 1));
   EXPECT_EQ(s.basal.friction_coefficient.distribution->kind, Distribution::Kind::normal);
+  EXPECT_EQ(s.grains->earth_pressure, "active_passive");
+  EXPECT_EQ(s.basal.turbulent_coefficient_m_s2->distribution->max, 1000);
+  EXPECT_EQ(s.basal.viscosity_pa_s, Uncertain(50));
+  EXPECT_EQ(s.basal.yield_stress_pa->distribution->kind, Distribution::Kind::log_uniform);
+  EXPECT_THAT(s.basal.zones, ElementsAre(BasalZone{"zones/plate.gpkg", "wet part", 0.3, {}, 0.0},
+                                         BasalZone{"source.gpkg", "", {}, 0.85, {}}));
+  EXPECT_EQ(s.formulation, "depth_averaged");
   EXPECT_FALSE(s.numerics.stop_at_rest);
+  EXPECT_TRUE(s.numerics.accept_unresolved);
   ASSERT_EQ(s.domain.walls.size(), 2u);
   EXPECT_EQ(s.domain.walls[0].remove_at_s, 0.0);
   EXPECT_EQ(s.domain.walls[1].remove_at_s, std::nullopt);
   EXPECT_EQ(s.ensemble.correlation.at("basal.friction_coefficient/basal.pore_pressure_ratio"),
             -0.3);
-  EXPECT_EQ(uncertain_keys(s).size(), 9u);
+  EXPECT_EQ(uncertain_keys(s).size(), 11u);
 }
 
 TEST(ScenarioFile, WritesWhatReadsBackEqual) {
@@ -105,12 +121,17 @@ TEST(ScenarioFile, WrittenElsewhereItStillFindsItsFiles) {
       read_scenario_text(write_scenario(s, "/data/out/run"), "s", "/data/out/run");
   EXPECT_EQ(moved.terrain.raster, "../../scenes/data/bed.tif");
   EXPECT_EQ(moved.release.polygon, "../../scenes/source.gpkg");
+  EXPECT_EQ(moved.basal.zones[0].polygon, "../../scenes/zones/plate.gpkg");
+  EXPECT_EQ(moved.basal.zones[0].layer, "wet part");
+  EXPECT_EQ(moved.basal.zones[1].polygon, "../../scenes/source.gpkg");
   Scenario absolute = s;
   absolute.terrain.raster = "/vsicurl/https://example.org/bed.tif";
   absolute.release.polygon = "PG:dbname=a/b";
+  absolute.basal.zones[1].polygon = "/data/plate.gpkg";
   EXPECT_THAT(write_scenario(absolute, "/data/out"),
               ::testing::AllOf(HasSubstr("raster: \"/vsicurl/https://example.org/bed.tif\""),
-                               HasSubstr("polygon: \"PG:dbname=a/b\"")));
+                               HasSubstr("polygon: \"PG:dbname=a/b\""),
+                               HasSubstr("{polygon: \"/data/plate.gpkg\", pore")));
 }
 
 TEST(ScenarioFile, TellsWhereEachKeyStands) {
@@ -130,6 +151,14 @@ TEST(ScenarioFile, OverridesReplaceAddAndRemove) {
   EXPECT_EQ(s.basal.cohesion_pa, Uncertain(50));
   EXPECT_TRUE(s.ensemble.correlation.empty());
   EXPECT_EQ(s.title, "a = b");
+}
+
+TEST(ScenarioFile, OverridesCanReplaceTheZones) {
+  const Scenario s = read_scenario_text(
+      everything, "all.yaml", {}, {"basal.zones=[{polygon: a.gpkg, friction_coefficient: 0.2}]"});
+  EXPECT_THAT(s.basal.zones, ElementsAre(BasalZone{"a.gpkg", "", 0.2, {}, {}}));
+  EXPECT_TRUE(
+      read_scenario_text(everything, "all.yaml", {}, {"basal.zones=null"}).basal.zones.empty());
 }
 
 TEST(ScenarioFile, OverridesCanReplaceAWholeBlock) {

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "scenarios/validate.hpp"
+#include "scenarios/zone_fields.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ KeyValue unusual_value(const KeyInfo& key) {
     case ValueKind::choice:
       return key.choices.back();
     case ValueKind::flag:
-      return false;
+      return !std::get<bool>(key.get(Scenario{}));
     case ValueKind::uncertain: {
       Uncertain u;
       u.distribution = Distribution{};
@@ -49,6 +50,8 @@ KeyValue unusual_value(const KeyInfo& key) {
       return SyntheticTerrain{"ramp", 2, {{"slope_deg", 20}}};
     case ValueKind::wall_list:
       return std::vector<WallSpec>{{{1, 2, 3}, {0, 1, 0}, 0.3, 4.0}};
+    case ValueKind::zone_list:
+      return std::vector<BasalZone>{{"unusual.gpkg", "plate", 0.3, {}, 50.0}};
   }
   return {};
 }
@@ -90,8 +93,9 @@ TEST(Schema, DefaultsLieInsideTheLimits) {
 
 TEST(Schema, UnitsStandInTheNames) {
   const std::map<std::string, std::string> tails = {
-      {"m", "_m"},     {"m3", "_m3"},     {"s", "_s"},          {"degree", "_deg"},  {"Pa", "_pa"},
-      {"kPa", "_kpa"}, {"m s-1", "_m_s"}, {"kJ m-2", "_kj_m2"}, {"kg m-3", "_kg_m3"}};
+      {"m", "_m"},          {"m3", "_m3"},      {"s", "_s"},       {"degree", "_deg"},
+      {"Pa", "_pa"},        {"kPa", "_kpa"},    {"m s-1", "_m_s"}, {"kJ m-2", "_kj_m2"},
+      {"kg m-3", "_kg_m3"}, {"m s-2", "_m_s2"}, {"Pa s", "_pa_s"}};
   for (const auto& key : schema()) {
     if (key.units.empty() || key.units == "1") continue;
     ASSERT_TRUE(tails.count(key.units)) << key.path << " [" << key.units << "]";
@@ -131,6 +135,43 @@ TEST(Schema, LaterKeysAreNoKeysYet) {
     EXPECT_EQ(find_key(later.path), nullptr) << later.path;
     EXPECT_FALSE(is_block(later.path)) << later.path;
   }
+}
+
+TEST(Schema, EveryFileNameOfAValueIsFound) {
+  Scenario s;
+  s.terrain.raster = "bed.tif";
+  s.release.layer = "no file";
+  s.ensemble.table = "design.csv";
+  s.basal.zones = {{"plate.gpkg", "a", 0.3, {}, {}}, {"ice.gpkg", "", 0.1, {}, {}}};
+  std::vector<std::string> files;
+  for (const auto& key : schema()) {
+    KeyValue value = key.get(s);
+    for_each_path(key, value, [&](std::string& path) {
+      files.push_back(path);
+      path = "x";
+    });
+    if (!std::holds_alternative<std::monostate>(value)) key.set(s, value);
+  }
+  EXPECT_THAT(files, ElementsAre("bed.tif", "plate.gpkg", "ice.gpkg", "design.csv"));
+  EXPECT_EQ(s.terrain.raster, "x");
+  EXPECT_EQ(s.basal.zones[1].polygon, "x");
+  EXPECT_EQ(s.basal.zones[0].layer, "a");
+}
+
+TEST(Schema, AZonesNumbersShareTheRowsOfTheBase) {
+  for (const auto& field : zone_fields) {
+    EXPECT_EQ(find_zone_field(field.name), &field);
+    ASSERT_NE(find_key(std::string("basal.") + field.name), nullptr) << field.name;
+    EXPECT_EQ(basal_key(field).kind, ValueKind::uncertain) << field.name;
+  }
+  EXPECT_EQ(find_zone_field("restitution"), nullptr);
+}
+
+TEST(Schema, TheFormulationIsChosenByTheProgramUnlessSaid) {
+  const KeyInfo* key = find_key("formulation");
+  EXPECT_EQ(key->get(Scenario{}), KeyValue{std::string("auto")});
+  EXPECT_THAT(key->choices, ElementsAre("auto", "full_stress", "depth_averaged"));
+  EXPECT_TRUE(key->later_choices.empty());
 }
 
 TEST(Schema, UncertainKeysComeInTableOrder) {

@@ -227,6 +227,98 @@ TEST(Validate, WallsNeedADirection) {
                           HasSubstr("domain.walls[0].remove_at_s = -1")));
 }
 
+TEST(Validate, FullStressKnowsNoDragOfColumns) {
+  Scenario s = pile();
+  s.formulation = "auto";
+  s.grains->earth_pressure = "active_passive";
+  s.basal.turbulent_coefficient_m_s2 = Uncertain(500);
+  s.basal.viscosity_pa_s = uniform(10, 100);
+  s.basal.yield_stress_pa = Uncertain(200);
+  EXPECT_THAT(messages(s), IsEmpty());
+  s.formulation = "depth_averaged";
+  EXPECT_THAT(messages(s), IsEmpty());
+  s.formulation = "full_stress";
+  EXPECT_THAT(
+      messages(s),
+      ElementsAre("grains.earth_pressure = active_passive (formulation is full_stress; only "
+                  "depth_averaged knows it). Remove it or set formulation: depth_averaged.",
+                  "basal.turbulent_coefficient_m_s2 = 500 (formulation is full_stress; only "
+                  "depth_averaged knows it). Remove it or set formulation: depth_averaged.",
+                  "basal.viscosity_pa_s = {uniform: [10, 100]} (formulation is full_stress; only "
+                  "depth_averaged knows it). Remove it or set formulation: depth_averaged.",
+                  "basal.yield_stress_pa = 200 (formulation is full_stress; only depth_averaged "
+                  "knows it). Remove it or set formulation: depth_averaged."));
+}
+
+TEST(Validate, RestitutionAndIsotropicPressureStayInEveryFormulation) {
+  Scenario s = pile();
+  s.basal.restitution = 0.4;
+  for (const char* formulation : {"auto", "full_stress", "depth_averaged"}) {
+    s.formulation = formulation;
+    EXPECT_THAT(messages(s), IsEmpty()) << formulation;
+  }
+}
+
+TEST(Validate, AYieldStressNeedsAViscosity) {
+  Scenario s = pile();
+  s.formulation = "auto";
+  s.basal.yield_stress_pa = Uncertain(200);
+  EXPECT_THAT(messages(s), ElementsAre("basal.yield_stress_pa = 200 (basal.viscosity_pa_s is "
+                                       "missing). Add it: a Bingham fluid has both."));
+}
+
+TEST(Validate, TheDragOfColumnsHasRanges) {
+  Scenario s = pile();
+  s.formulation = "depth_averaged";
+  s.basal.turbulent_coefficient_m_s2 = Uncertain(0);
+  s.basal.viscosity_pa_s = Uncertain(0);
+  s.basal.yield_stress_pa = Uncertain(-1);
+  s.grains->earth_pressure = "passive";
+  EXPECT_THAT(
+      messages(s),
+      ElementsAre("grains.earth_pressure = passive (must be one of isotropic, active_passive).",
+                  "basal.turbulent_coefficient_m_s2 = 0 (must be > 0). Was it in another unit?",
+                  "basal.viscosity_pa_s = 0 (must be > 0). Was it in another unit?",
+                  "basal.yield_stress_pa = -1 (must be >= 0)."));
+  s.basal.yield_stress_pa = Uncertain(0);
+  EXPECT_THAT(messages(s).size(), 3u);
+}
+
+TEST(Validate, AFormulationIsOneOfThree) {
+  Scenario s = pile();
+  s.formulation = "depth_average";
+  EXPECT_THAT(messages(s), ElementsAre("formulation = depth_average (must be one of auto, "
+                                       "full_stress, depth_averaged). Did you mean "
+                                       "depth_averaged?"));
+}
+
+TEST(Validate, ZonesHaveAFileAndNumbersInTheBasesRanges) {
+  Scenario s = pile();
+  s.basal.zones = {{"plate.gpkg", "", 0.3, 0.85, 0.0}, {"ice.gpkg", "", {}, {}, 100.0}};
+  EXPECT_THAT(messages(s), IsEmpty());
+  s.basal.zones = {
+      {"plate.gpkg", "", 24.0, 50.0, -1.0}, {"", "a", 0.3, {}, {}}, {"ice.gpkg", "", {}, {}, {}}};
+  EXPECT_THAT(
+      messages(s),
+      ElementsAre("basal.zones[0].friction_coefficient = 24 (must be in 0..2). Was it an angle in "
+                  "degrees? tan 24 deg = 0.445.",
+                  "basal.zones[0].pore_pressure_ratio = 50 (must be in 0..0.99). Was it a "
+                  "percentage? 50 % = 0.5.",
+                  "basal.zones[0].cohesion_pa = -1 (must be >= 0).",
+                  "basal.zones[1] (polygon is missing). Name the file that outlines the zone.",
+                  "basal.zones[2] (gives no value). Give it some of friction_coefficient, "
+                  "pore_pressure_ratio, cohesion_pa."));
+}
+
+TEST(Validate, ZonesAreAtMost255) {
+  Scenario s = pile();
+  s.basal.zones.assign(255, {"plate.gpkg", "", 0.3, {}, {}});
+  EXPECT_THAT(messages(s), IsEmpty());
+  s.basal.zones.push_back(s.basal.zones.back());
+  EXPECT_THAT(messages(s), ElementsAre("basal.zones = 256 zones (must be at most 255). Put "
+                                       "polygons with equal values into one layer."));
+}
+
 TEST(Validate, SyntheticShapesAndTheirParametersAreKnown) {
   Scenario s = pile();
   s.terrain.synthetic->shape = "plan";

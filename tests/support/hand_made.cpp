@@ -28,7 +28,7 @@ void finish(HandMade& made, double friction) {
   ContactSettings contact;
   contact.reference_density = density;
   contact.stiffness = 4000;
-  contact.friction_coefficient = friction;
+  contact.base = {{friction}};
   add_terrain_contact(made.step, made.state, contact);
   add_motion(made.step, made.state, {1, h});
   refresh_motion(made.state, 0);

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the passes of depth-averaged flow share. For depth_averaged and column_*.cpp only.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/effects/step.hpp"
+#include "engine/effects/terms/column_walls.hpp"
+#include "engine/effects/terms/depth_averaged_settings.hpp"
+#include "engine/neighbors/column_cells.hpp"
+
+namespace sturz {
+
+struct ColumnFlow {
+  DepthAveragedSettings settings;
+  ColumnCells cells;
+  ColumnWalls walls;
+  std::vector<float> results[7];   ///< of the sweep, by record
+  double fastest_wave = 0;         ///< largest sqrt(K g_n h) / h_s [1/s]
+  double fastest_approach = 0;     ///< largest relative speed of neighbours / h_s [1/s]
+
+  /// Column i beside a wall.
+  ColumnAtWall at_wall(const ParticleSet&, std::size_t i) const;
+
+  explicit ColumnFlow(const DepthAveragedSettings& s) : settings(s) {}
+
+  ColumnSweepOutput output() {
+    return {results[0].data(), results[1].data(), results[2].data(), results[3].data(),
+            results[4].data(), results[5].data(), results[6].data()};
+  }
+  int zone_of(const State& s, std::size_t i) const {
+    if (!settings.zones.any()) return 0;
+    double x = s.grains.x[i], y = s.grains.y[i], z = 0;
+    s.domain.wrap(x, y, z);
+    return settings.zones.at(x, y);
+  }
+};
+
+/// The ground under a column, as its field "ground" keeps it.
+struct ColumnGround {
+  double east, north, bend_ee, bend_en, bend_nn;
+
+  static ColumnGround of(const Field& ground, std::size_t i) {
+    const auto& c = ground.component;
+    return {c[0][i], c[1][i], c[2][i], c[3][i], c[4][i]};
+  }
+  Vec3 normal() const { return upward_normal(east, north); }
+  /// The slopes a horizontal way (x, y) farther on.
+  ColumnGround ahead(double x, double y) const {
+    return {east + bend_ee * x + bend_en * y, north + bend_en * x + bend_nn * y, bend_ee, bend_en,
+            bend_nn};
+  }
+  double bend(double vx, double vy) const {
+    return bend_ee * vx * vx + 2 * bend_en * vx * vy + bend_nn * vy * vy;
+  }
+};
+
+/// v turned into the plane of `normal` with its length kept: the ground's reaction does no work.
+Vec3 turned_into_plane(const Vec3& v, const Vec3& normal);
+
+/// Puts column i on the ground and keeps what lies below it.
+/// \return false off the known ground
+bool look_up_ground(State&, Field& ground, std::size_t i);
+
+/// A kick at t_n leads from the middle of the last step to the middle of this one.
+inline double kick_length(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }
+
+void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, pack, sweep
+void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< base, drift
+
+}  // namespace sturz

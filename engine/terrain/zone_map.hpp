@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which zone of the base a map point lies in.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "engine/terrain/raster.hpp"
+
+namespace sturz {
+
+/// Shared, read-only; without a raster the whole ground is zone 0.
+struct ZoneMap {
+  std::shared_ptr<const Raster<std::uint8_t>> zones;
+
+  bool any() const { return zones != nullptr; }
+  /// Zone of the cell that holds (x, y); 0 outside the raster.
+  int at(double x, double y) const {
+    if (!zones) return 0;
+    const Grid& g = zones->grid;
+    const int row = g.row_of(y), col = g.col_of(x);
+    return g.contains(row, col) ? zones->at(row, col) : 0;
+  }
+};
+
+}  // namespace sturz

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which polygons to read, and what the scenario says about them.
+#pragma once
+
+#include <string>
+
+namespace sturz {
+
+struct PolygonRequest {
+  std::string path;                     ///< as written; relative paths start at `directory`
+  std::string layer;                    ///< empty: the first
+  std::string thickness_attribute;      ///< numeric field [m]; empty: shares only
+  std::string key = "release.polygon";  ///< scenario key, for messages
+  std::string directory;
+  std::string crs;                      ///< replaces the layer's own system; empty: not given
+  std::string crs_key = "release.crs";  ///< empty: no key could give it
+  std::string layer_key = "release.layer";
+  std::string what = "release";  ///< what the polygons outline, for messages
+};
+
+}  // namespace sturz

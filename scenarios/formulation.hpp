@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which of the two formulations computes a member, and why.
+#pragma once
+
+#include <string>
+
+#include "engine/terrain/raster.hpp"
+#include "scenarios/scenario.hpp"
+
+namespace sturz {
+
+struct FormulationChoice {
+  bool depth_averaged = false;
+  std::string reason;
+  double layers = 0;          ///< least number of layers that resolve the flow: of the two below
+  double release_layers = 0;  ///< volume-weighted median release thickness / spacing
+  double deposit_layers = 0;  ///< expected deposit thickness / spacing; infinite in a confined scene
+
+  const char* name() const { return depth_averaged ? "depth_averaged" : "full_stress"; }
+};
+
+/// From this many layers on three-dimensional particles resolve a flow's footprint to about 10 %.
+inline constexpr double resolved_layers = 4;
+/// A release under this many is refused in full_stress unless the scenario accepts it.
+inline constexpr double unresolved_layers = 2;
+/// Deposit area over V^(2/3) of high-speed landslides (Griswold & Iverson 2008; physics.md D.1).
+inline constexpr double area_over_volume23 = 20;
+
+/// The scenario's `formulation`; `auto` takes full_stress where at least four layers resolve both
+/// the release and the expected deposit, and the scene asks for nothing that only depth_averaged
+/// has.
+/// \param thickness of the release, vertical [m]
+/// \throws SetupError for full_stress under two layers without numerics.accept_unresolved
+FormulationChoice choose_formulation(const Scenario&, const Raster<double>& thickness);
+
+}  // namespace sturz
