@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What gravity, lateral pressure and the base do to a column, and where it goes.
 #include <cmath>
-#include <limits>
 
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/column_flow.hpp"
@@ -20,15 +19,15 @@ class BasePass final : public Pass {
 
   void apply(State& s, double dt) override {
     const double kick = kick_length(s, dt);
-    const ParticleSet& p = s.grains;
-    const Field& ground = *p.find_field("ground");
+    ParticleSet& p = s.grains;
+    const GroundColumns ground(p);
     const auto& g_n = p.find_field("normal_gravity")->component[0];
     const auto& thickness = p.find_field("thickness")->component[0];
     const Works sums = ordered_reduce(
         p.size(), s.threads, Works{},
         [&](std::size_t begin, std::size_t end, Works& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            const Works w = push(s, i, ColumnGround::of(ground, i).normal(), g_n[i], thickness[i],
+            const Works w = push(s, i, ground[i].normal(), g_n[i], thickness[i],
                                  kick, dt);
             out.friction += p.mass[i] * w.friction;
             out.contact += p.mass[i] * w.contact;
@@ -96,6 +95,8 @@ class BasePass final : public Pass {
 
 struct DriftSums {
   double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a rim that is a wall
+  double settled = 0;                    // what the kicks had left out of gravity's work
+  double later = 0;                      // sum of m dz of the second half of the step
   bool any_outside = false;
 };
 
@@ -106,9 +107,12 @@ class ColumnMotion final : public Pass {
   Stage stage() const override { return Stage::move; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
-    const double v = s.motion.max_speed;
-    out.push_back({"terrain cell", v > 0 ? 0.5 * s.terrain.grid().cell_m / v
-                                         : std::numeric_limits<double>::infinity()});
+    // Half a cell at this speed, also where gravity adds to it all the way.
+    const double v = s.motion.max_speed, g = s.gravity, cell = s.terrain.grid().cell_m;
+    out.push_back({"terrain cell", cell / (v + std::sqrt(v * v + g * cell))});
+    // From rest with short steps that may grow: where the step changes fast, kicks and ways do not
+    // fit together, and energy is lost or found.
+    if (s.n_steps == 0) out.push_back({"start", flow_->start_dt});
   }
 
   void apply(State& s, double dt) override {
@@ -120,47 +124,75 @@ class ColumnMotion final : public Pass {
  private:
   void drift(State& s, double dt) {
     ParticleSet& p = s.grains;
-    Field& ground = *p.find_field("ground");
+    const GroundColumns ground(p);
     s.outside.resize(p.size());
     const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
     const DriftSums sums = ordered_reduce(
         p.size(), s.threads, DriftSums{},
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            turn_to_mid_step(p, ground, i, dt);
-            if (rim) out.stopped_energy += p.mass[i] * stop_at_rim(s, i, dt);
-            const double z = p.z[i];
+            const double z = p.z[i], climb = p.vz[i];
+            const ColumnGround mid = ground[i].ahead(0.5 * dt * p.vx[i], 0.5 * dt * p.vy[i]);
+            turn_to(p, i, mid.normal());
+            if (rim) out.stopped_energy += p.mass[i] * hold_at_rim(s, i, mid, dt);
             p.x[i] += dt * p.vx[i];
             p.y[i] += dt * p.vy[i];
             s.outside[i] = !look_up_ground(s, ground, i);
+            turn_to(p, i, ground[i].normal());
             out.any_outside |= s.outside[i] != 0;
-            out.risen += p.mass[i] * (p.z[i] - z);
+            const double counted = 0.5 * dt * (climb + p.vz[i]), rise = p.z[i] - z;
+            out.settled += p.mass[i] * settle(p, i, s.gravity * (rise - counted));
+            out.later += p.mass[i] * 0.5 * dt * p.vz[i];
+            out.risen += p.mass[i] * rise;
           }
         },
         [](DriftSums& total, const DriftSums& block) {
           total.risen += block.risen;
           total.stopped_energy += block.stopped_energy;
+          total.settled += block.settled;
+          total.later += block.later;
           total.any_outside |= block.any_outside;
         });
     s.any_outside = sums.any_outside;
-    // Velocities, and so all works, stand at the middle of the step: the books do too.
-    const double risen = s.gravity * sums.risen;
-    s.ledger.potential += later_potential_ + 0.5 * risen;
-    later_potential_ = 0.5 * risen;
+    // The next kick counts the second half of the way: until then the books leave it out too.
+    s.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
+    later_rise_ = sums.later;
     s.ledger.lost_energy += sums.stopped_energy;
+    s.ledger.gravity_work -= sums.settled;
   }
 
-  /// The way is that of the middle of the step: second order, and energy is kept over bends.
-  static void turn_to_mid_step(ParticleSet& p, const Field& ground, std::size_t i, double dt) {
-    const ColumnGround here = ColumnGround::of(ground, i);
-    const Vec3 mid = here.ahead(0.5 * dt * p.vx[i], 0.5 * dt * p.vy[i]).normal();
-    const Vec3 v = turned_into_plane({p.vx[i], p.vy[i], p.vz[i]}, mid);
+  /// \return kinetic energy that the rim took [J/kg]
+  static double hold_at_rim(State& s, std::size_t i, const ColumnGround& ground, double dt) {
+    ParticleSet& p = s.grains;
+    const Vec3 v(p.vx[i], p.vy[i], p.vz[i]);
+    stop_at_rim(s, i, dt);
+    if (p.vx[i] == v.x() && p.vy[i] == v.y()) return 0;
+    p.vz[i] = ground.east * p.vx[i] + ground.north * p.vy[i];
+    return 0.5 * (v.squaredNorm() - Vec3(p.vx[i], p.vy[i], p.vz[i]).squaredNorm());
+  }
+
+  /// First to the slope at the middle of the step, which makes the way second order, then to that
+  /// at its end.
+  static void turn_to(ParticleSet& p, std::size_t i, const Vec3& normal) {
+    const Vec3 v = turned_into_plane({p.vx[i], p.vy[i], p.vz[i]}, normal);
     p.vx[i] = v.x(), p.vy[i] = v.y(), p.vz[i] = v.z();
+  }
+
+  /// Kicks count gravity's work by the slopes at both ends of a step; over a kink or a cliff the
+  /// ground fell or rose by something else. The speed pays the difference, so a column never has
+  /// more energy than its fall gave it.
+  /// \param missed  [J/kg]; \return what the speed could pay [J/kg]
+  static double settle(ParticleSet& p, std::size_t i, double missed) {
+    const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
+    if (!(v2 > 0)) return 0;
+    const double left = std::max(0.0, v2 - 2 * missed), factor = std::sqrt(left / v2);
+    p.vx[i] *= factor, p.vy[i] *= factor, p.vz[i] *= factor;
+    return 0.5 * (v2 - left);
   }
 
   std::shared_ptr<ColumnFlow> flow_;
   std::vector<std::uint8_t> keep_;
-  double later_potential_ = 0;  // of the step's second half [J]
+  double later_rise_ = 0;  // sum of m dz that the next kick counts [kg m]
 };
 
 }  // namespace

@@ -29,7 +29,10 @@ class CellPass final : public Pass {
   std::shared_ptr<ColumnFlow> flow_;
 };
 
-/// Fills the records, and turns velocities into the plane below the columns.
+/// Fills the records and finds how hard the ground presses.
+///
+/// The reaction of the ground is g cos + v.kappa.v. A column feels no bend sharper than its own
+/// thickness or than the smoothing length: a flow thicker than a corner's radius goes round it.
 class PackPass final : public Pass {
  public:
   explicit PackPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
@@ -38,21 +41,23 @@ class PackPass final : public Pass {
 
   void apply(State& s, double dt) override {
     ParticleSet& p = s.grains;
-    const Field& ground = *p.find_field("ground");
+    const GroundColumns ground(p);
     auto& before = p.find_field("velocity_before")->component;
     auto& normal_gravity = p.find_field("normal_gravity")->component[0];
+    const auto& reach = p.find_field("reach")->component[0];
+    const auto& thickness = p.find_field("thickness")->component[0];
     const double kick = kick_length(s, dt);
     s.ledger.take_off += ordered_reduce(
         p.size(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& off) {
           for (std::size_t i = begin; i < end; ++i) {
-            const ColumnGround g = ColumnGround::of(ground, i);
+            const ColumnGround g = ground[i];
             const Vec3 n = g.normal();
-            const Vec3 v = turned_into_plane({p.vx[i], p.vy[i], p.vz[i]}, n);
-            before[0][i] = p.vx[i] = v.x();
-            before[1][i] = p.vy[i] = v.y();
-            before[2][i] = p.vz[i] = v.z();
-            const double reaction = n.z() * (s.gravity + g.bend(v.x(), v.y()));
+            const Vec3 v(p.vx[i], p.vy[i], p.vz[i]);
+            before[0][i] = v.x(), before[1][i] = v.y(), before[2][i] = v.z();
+            const double felt = v.squaredNorm() / std::max(thickness[i], 0.5 * reach[i]);
+            const double turning = std::clamp(n.z() * g.bend(v.x(), v.y()), -felt, felt);
+            const double reaction = n.z() * s.gravity + turning;
             if (reaction < 0) off += p.mass[i] * kick;
             normal_gravity[i] = std::max(0.0, reaction);
           }
@@ -165,7 +170,7 @@ class SweepPass final : public Pass {
   }
 
   void mirror_at_walls(State& s) const {
-    const ParticleSet& p = s.grains;
+    ParticleSet& p = s.grains;
     parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const ColumnAtWall column = flow_->at_wall(p, i);

@@ -16,57 +16,55 @@ double lone_thickness(double volume, double reach) { return 2.2281692 * volume /
 
 void start_columns(State& s, ColumnFlow& flow, std::span<const double> vertical_thickness) {
   ParticleSet& p = s.grains;
-  Field& ground = *p.find_field("ground");
+  const GroundColumns ground(p);
   auto& thickness = p.find_field("thickness")->component[0];
   auto& reach = p.find_field("reach")->component[0];
   auto& g_n = p.find_field("normal_gravity")->component[0];
   const DepthAveragedSettings& set = flow.settings;
-  double wave2 = 0;
+  double wave2 = 0, rate = std::sqrt(s.gravity / s.terrain.grid().cell_m);
   s.outside.assign(p.size(), 0);
   for (std::size_t i = 0; i < p.size(); ++i) {
     s.outside[i] = !look_up_ground(s, ground, i);
     s.any_outside |= s.outside[i] != 0;
-    const Vec3 n = ColumnGround::of(ground, i).normal();
+    const Vec3 n = ground[i].normal();
     // A map lattice on a slope stands 1/n_z farther apart along it.
     reach[i] = set.reach_per_spacing * set.spacing * std::min(set.most_reach, std::sqrt(1 / n.z()));
     thickness[i] = std::max(vertical_thickness[i] * n.z(),
                             lone_thickness(p.mass[i] / set.density, reach[i]));
     g_n[i] = s.gravity * n.z();
+    const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
+    rate = std::max(rate, set.base[flow.zone_of(s, i)].rate(v0.norm(), thickness[i], set.density,
+                                                            s.gravity));
     wave2 = std::max(wave2, g_n[i] * thickness[i] * 4 / (reach[i] * reach[i]));
-    const Vec3 v = turned_into_plane({p.vx[i], p.vy[i], p.vz[i]}, n);
+    const Vec3 v = turned_into_plane(v0, n);
     p.vx[i] = v.x(), p.vy[i] = v.y(), p.vz[i] = v.z();
   }
   flow.fastest_wave = std::sqrt(wave2);
+  // A small part of the time to cross a cell in free fall, or to be braked by a viscous base; the
+  // least keeps a film that stands from taking for ever.
+  flow.start_dt = std::max(0.05 / rate, 1e-5);
 }
 
 }  // namespace
 
-ColumnAtWall ColumnFlow::at_wall(const ParticleSet& p, std::size_t i) const {
+ColumnAtWall ColumnFlow::at_wall(ParticleSet& p, std::size_t i) const {
   const Field* k = p.find_field("earth_pressure");
   const double g_n = p.find_field("normal_gravity")->component[0][i];
   return {{p.x[i], p.y[i], p.z[i]},
-          ColumnGround::of(*p.find_field("ground"), i).normal(),
+          GroundColumns(p)[i].normal(),
           p.find_field("reach")->component[0][i],
           p.find_field("thickness")->component[0][i],
           k ? k->component[0][i] * g_n : g_n};
 }
 
-Vec3 turned_into_plane(const Vec3& v, const Vec3& normal) {
-  const Vec3 in_plane = v - v.dot(normal) * normal;
-  const double length2 = in_plane.squaredNorm();
-  return length2 > 0 ? Vec3(in_plane * std::sqrt(v.squaredNorm() / length2)) : Vec3(0, 0, 0);
-}
-
-bool look_up_ground(State& s, Field& ground, std::size_t i) {
+bool look_up_ground(State& s, const GroundColumns& ground, std::size_t i) {
   ParticleSet& p = s.grains;
   double x = p.x[i], y = p.y[i], z = 0;
   s.domain.wrap(x, y, z);
   const CurvedSurface g = s.terrain.curved(x, y);
   // Seen from its image a column stands as much higher as wrapping lowers it.
   p.z[i] = g.z - z;
-  ground.component[0][i] = g.east, ground.component[1][i] = g.north;
-  ground.component[2][i] = g.bend_ee, ground.component[3][i] = g.bend_en;
-  ground.component[4][i] = g.bend_nn;
+  ground.set(i, g);
   return g.known;
 }
 

@@ -8,12 +8,13 @@
 namespace sturz {
 namespace {
 
-/// Edge of a cell over the mean reach: sixteen columns then fill a strip that wastes few pairs.
-constexpr double cell_per_reach = 0.6;
+/// Cells are flat rows cut finely: sixteen columns in a row of half a reach fill a patch about
+/// twice as long as high, and a run of neighbours ends near the circle around it.
+constexpr double height_per_reach = 0.5, width_per_reach = 0.125;
 
-/// Groups are cut where the run of columns leaves its cell row, and where a gap as long as this
-/// many cells would make one group search a wide, mostly foreign strip.
-constexpr std::int32_t widest_gap = 2;
+/// A group ends at the end of its row, and at a gap of this many cells, beyond which it would
+/// search a long strip between strangers.
+constexpr std::int32_t widest_gap = 8;
 
 struct Extent {
   double min = 1e300, max = -1e300;
@@ -27,36 +28,39 @@ void ColumnCells::build(const ParticleSet& set, const Domain& domain,
   const double longest = reach.empty() ? 0 : *std::max_element(reach.begin(), reach.end());
   const double mean = std::accumulate(reach.begin(), reach.end(), 0.0) /
                       static_cast<double>(std::max<std::size_t>(1, reach.size()));
-  choose_frame(set, longest, cell_per_reach * mean);
+  choose_frame(set, longest, mean);
   collect(set, domain, longest);
   sort_items();
   place(set);
   make_groups(set, reach);
 }
 
-void ColumnCells::choose_frame(const ParticleSet& set, double reach, double cell) {
+void ColumnCells::choose_frame(const ParticleSet& set, double longest, double mean) {
   Extent x, y, z;
   for (std::size_t i = 0; i < set.size(); ++i) x.add(set.x[i]), y.add(set.y[i]), z.add(set.z[i]);
   if (set.size() == 0) x = y = z = {0, 0};
-  cell_ = cell > 0 ? cell : 1;
-  west_ = x.min - reach, south_ = y.min - reach;
+  width_ = mean > 0 ? width_per_reach * mean : 1;
+  height_ = mean > 0 ? height_per_reach * mean : 1;
+  // Room for periodic images around the columns.
+  west_ = x.min - longest, south_ = y.min - longest;
   origin_z_ = 0.5 * (z.min + z.max);
-  auto count = [&](const Extent& e) { return (e.max - e.min + 2 * reach) / cell_ + 1; };
+  auto count = [&](const Extent& e, double edge) { return (e.max - e.min + 2 * longest) / edge + 1; };
   // A few stray columns must not cost a table of empty cells.
-  while (count(x) * count(y) > 16.0 * set.size() + 4096) cell_ *= 2;
-  n_cols_ = static_cast<std::int32_t>(count(x)), n_rows_ = static_cast<std::int32_t>(count(y));
+  while (count(x, width_) * count(y, height_) > 16.0 * set.size() + 4096) width_ *= 2, height_ *= 2;
+  n_cols_ = static_cast<std::int32_t>(count(x, width_));
+  n_rows_ = static_cast<std::int32_t>(count(y, height_));
   // The finest power of two that keeps differences inside 31 bits.
   const double extent =
-      std::max({x.max - x.min, y.max - y.min, z.max - z.min, cell_}) + 4 * reach + 4 * cell_;
+      std::max({x.max - x.min, y.max - y.min, z.max - z.min, height_}) + 4 * longest + 4 * height_;
   unit_ = std::exp2(std::ceil(std::log2(extent / 1.0e9)));
 }
 
 std::int32_t ColumnCells::col_of(double x) const {
-  return std::clamp(static_cast<std::int32_t>((x - west_) / cell_), 0, n_cols_ - 1);
+  return std::clamp(static_cast<std::int32_t>((x - west_) / width_), 0, n_cols_ - 1);
 }
 
 std::int32_t ColumnCells::row_of(double y) const {
-  return std::clamp(static_cast<std::int32_t>((y - south_) / cell_), 0, n_rows_ - 1);
+  return std::clamp(static_cast<std::int32_t>((y - south_) / height_), 0, n_rows_ - 1);
 }
 
 void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double reach) {
@@ -114,39 +118,59 @@ void ColumnCells::place(const ParticleSet& set) {
   }
 }
 
+struct ColumnCells::Box {
+  Extent x, y;
+};
+
 void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>& reach) {
   groups_.clear();
+  runs_.clear();
   std::uint32_t begin = 0;
   const auto n = static_cast<std::uint32_t>(sorted_.size());
   while (begin < n) {
-    const std::int32_t row = static_cast<std::int32_t>(sorted_[begin].cell) / n_cols_;
-    Extent x, y;
+    const std::uint32_t row = sorted_[begin].cell / static_cast<std::uint32_t>(n_cols_);
+    const std::uint32_t row_end = cell_begin_[(row + 1) * static_cast<std::uint32_t>(n_cols_)];
+    Box box;
     double longest = 0;
     std::uint32_t end = begin;
-    for (; end < n && end - begin < group_size; ++end) {
+    for (; end < row_end && end - begin < group_size; ++end) {
       const Item& item = sorted_[end];
-      if (static_cast<std::int32_t>(item.cell) / n_cols_ != row) break;
       if (end > begin &&
           static_cast<std::int32_t>(item.cell - sorted_[end - 1].cell) > widest_gap)
         break;
-      x.add(set.x[item.source] + item.dx), y.add(set.y[item.source] + item.dy);
+      box.x.add(set.x[item.source] + item.dx), box.y.add(set.y[item.source] + item.dy);
       longest = std::max(longest, reach[item.source]);
     }
-    groups_.push_back({begin, end, row_of(y.min - longest), row_of(y.max + longest),
-                       col_of(x.min - longest), col_of(x.max + longest)});
+    const auto first_run = static_cast<std::uint32_t>(runs_.size());
+    add_runs(box, longest);
+    groups_.push_back({begin, end, first_run, static_cast<std::uint32_t>(runs_.size())});
     begin = end;
   }
 }
 
+/// In each row what lies within `reach` of the box, no farther along than the row's distance leaves.
+void ColumnCells::add_runs(const Box& box, double reach) {
+  for (std::int32_t row = row_of(box.y.min - reach); row <= row_of(box.y.max + reach); ++row) {
+    const double south = south_ + row * height_, north = south + height_;
+    // A hair wider than the circle: cells are found with rounding.
+    const double off = std::max({0.0, box.y.min - north, south - box.y.max}) - 1e-9 * reach;
+    const double along = off > 0 ? std::sqrt(std::max(0.0, reach * reach - off * off)) : reach;
+    const std::uint32_t* cells = cell_begin_.data() + std::ptrdiff_t{row} * n_cols_;
+    const std::uint32_t begin = cells[col_of(box.x.min - along)];
+    const std::uint32_t end = cells[col_of(box.x.max + along) + 1];
+    if (begin < end) runs_.push_back({begin, end});
+  }
+}
+
 ColumnView ColumnCells::view() const {
-  return {records_.data(), groups_.data(), cell_begin_.data(), n_cols_, unit_};
+  return {records_.data(), groups_.data(), runs_.data(), unit_};
 }
 
 std::size_t ColumnCells::bytes() const {
   return (items_.capacity() + sorted_.capacity()) * sizeof(Item) +
          (source_.capacity() + cell_begin_.capacity() + next_.capacity()) * sizeof(std::uint32_t) +
          is_image_.capacity() + records_.capacity() * sizeof(ColumnRecord) +
-         groups_.capacity() * sizeof(ColumnGroup);
+         groups_.capacity() * sizeof(ColumnGroup) + runs_.capacity() * sizeof(ColumnRun);
 }
 
 }  // namespace sturz

@@ -37,21 +37,24 @@ class ColumnCells {
     std::uint32_t source, cell;
     double dx, dy, dz;  ///< of a periodic image [m]
   };
-  void choose_frame(const ParticleSet&, double reach, double cell);
+  void choose_frame(const ParticleSet&, double longest, double mean);
   void collect(const ParticleSet&, const Domain&, double reach);
   void sort_items();
   void place(const ParticleSet&);
   void make_groups(const ParticleSet&, const std::vector<double>& reach);
+  struct Box;
+  void add_runs(const Box&, double reach);
   std::int32_t col_of(double x) const;
   std::int32_t row_of(double y) const;
 
-  double cell_ = 1, west_ = 0, south_ = 0, origin_z_ = 0, unit_ = 1;
+  double width_ = 1, height_ = 1, west_ = 0, south_ = 0, origin_z_ = 0, unit_ = 1;
   std::int32_t n_cols_ = 1, n_rows_ = 1;
   std::vector<Item> items_, sorted_;
   std::vector<std::uint32_t> source_, cell_begin_, next_;
   std::vector<std::uint8_t> is_image_;
   std::vector<ColumnRecord> records_;
   std::vector<ColumnGroup> groups_;
+  std::vector<ColumnRun> runs_;
 };
 
 }  // namespace sturz

@@ -23,20 +23,23 @@ struct alignas(16) ColumnRecord {
 };
 static_assert(sizeof(ColumnRecord) == 48);
 
-/// At most group_size records that follow each other, and where their neighbours lie: in cell row
-/// r of [first_row, last_row], the records of cells first_cell..last_cell.
+/// Records [begin, end).
+struct ColumnRun {
+  std::uint32_t begin, end;
+};
+
+/// At most group_size records that follow each other, and the runs that hold all their neighbours,
+/// one run per row of cells.
 struct ColumnGroup {
-  std::uint32_t begin, end;            ///< records
-  std::int32_t first_row, last_row;
-  std::int32_t first_cell, last_cell;
+  std::uint32_t begin, end;          ///< records
+  std::uint32_t first_run, last_run; ///< [first_run, last_run) into ColumnView::runs
 };
 
 /// Everything that a sweep over columns needs to read.
 struct ColumnView {
   const ColumnRecord* records = nullptr;     ///< in order of their cells, periodic images included
   const ColumnGroup* groups = nullptr;
-  const std::uint32_t* cell_begin = nullptr; ///< [n_rows * n_cols + 1] into records
-  std::int32_t n_cols = 1;
+  const ColumnRun* runs = nullptr;
   double unit_m = 1;                         ///< metres per position unit
 };
 

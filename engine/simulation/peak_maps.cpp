@@ -137,62 +137,59 @@ void PeakMaps::make_room(const Window& w) {
   motion_.assign(next.n_cells(), Motion::Zero());
 }
 
-/// Adds every particle to the cells of the room that it touches.
+/// Adds one particle to the cells of the room that it touches.
+/// \tparam n_fixed number of cells per direction, known to the compiler; 0: `n_cells` says it
 template <bool with_motion, int n_fixed>
+inline void PeakMaps::add_one(const Room& room, double x, double y, double width, int n_cells,
+                              double particle_mass, const Motion& motion) {
+  const int n = n_fixed > 0 ? n_fixed : n_cells;
+  const int col = spread<n_fixed>(x, width, n, room.wx), row = spread<n_fixed>(y, width, n, room.wy);
+  const int j0 = std::max(0, -col), j1 = std::min(n, room.n_cols - col);
+  const int i0 = std::max(0, -row), i1 = std::min(n, room.n_rows - row);
+  for (int k = i0; k < i1; ++k) {
+    const double mass_in_row = particle_mass * room.wy[k];
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row + k) * room.n_cols + col;
+    for (int j = j0; j < j1; ++j) {
+      const double mass = mass_in_row * room.wx[j];
+      room.mass[at + j] += mass;
+      if constexpr (with_motion) room.motion[at + j] += mass * motion;
+    }
+  }
+}
+
+/// Adds every particle. Narrow spreads, the usual ones, get loops of known length: twice as fast.
+template <bool with_motion>
 void PeakMaps::scatter(const ParticleSet& p) {
   const Grid& g = settings_.grid;
   const double per_cell = 1 / g.cell_m, far = 1.5 * width_cells_ + 1;
-  int n = n_fixed > 0 ? n_fixed : n_weights_;
-  // Copies, because the compiler must assume that writing a double may change any member.
-  double width = width_cells_;
   const double cells_per_reach = settings_.width_per_reach * per_cell;
   const double* const reach = reach_;
-  const Window room = room_;
-  double *const wx = weights_x_.data(), *const wy = weights_y_.data(), *const sums = mass_.data();
-  Motion* const motions = motion_.data();
+  // Copies, because the compiler must assume that writing a double may change any member.
+  const Room room{weights_x_.data(), weights_y_.data(), mass_.data(), motion_.data(),
+                  room_.n_rows, room_.n_cols};
+  const double col0 = room_.col0, row0 = room_.row0;
+  double width = width_cells_;
+  int n = n_weights_;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double x = (p.x[i] - g.west_m) * per_cell - 0.5 - room.col0;
-    const double y = (g.north_m - p.y[i]) * per_cell - 0.5 - room.row0;
+    const double x = (p.x[i] - g.west_m) * per_cell - 0.5 - col0;
+    const double y = (g.north_m - p.y[i]) * per_cell - 0.5 - row0;
     const double vx = p.vx[i], vy = p.vy[i], vz = p.vz[i];
     const double v2 = vx * vx + vy * vy + vz * vz;
     if (!(x > -far && x < room.n_cols + far && y > -far && y < room.n_rows + far) ||
         !std::isfinite(v2))
       continue;
     const Motion motion(vx, vy, vz, 0.5 * v2);
-    if (n_fixed == 0 && reach) {
+    if (reach) {
       width = std::max(1.0, cells_per_reach * reach[i]);
       n = static_cast<int>(std::ceil(3 * width));
     }
-    const int col = spread<n_fixed>(x, width, n, wx), row = spread<n_fixed>(y, width, n, wy);
-    const int j0 = std::max(0, -col), j1 = std::min(n, room.n_cols - col);
-    const int i0 = std::max(0, -row), i1 = std::min(n, room.n_rows - row);
-    for (int k = i0; k < i1; ++k) {
-      const double mass_in_row = p.mass[i] * wy[k];
-      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row + k) * room.n_cols + col;
-      for (int j = j0; j < j1; ++j) {
-        const double mass = mass_in_row * wx[j];
-        sums[at + j] += mass;
-        if constexpr (with_motion) motions[at + j] += mass * motion;
-      }
+    switch (n) {
+      case 3: add_one<with_motion, 3>(room, x, y, width, n, p.mass[i], motion); break;
+      case 4: add_one<with_motion, 4>(room, x, y, width, n, p.mass[i], motion); break;
+      case 5: add_one<with_motion, 5>(room, x, y, width, n, p.mass[i], motion); break;
+      case 6: add_one<with_motion, 6>(room, x, y, width, n, p.mass[i], motion); break;
+      default: add_one<with_motion, 0>(room, x, y, width, n, p.mass[i], motion);
     }
-  }
-}
-
-/// Narrow spreads, the usual ones, get loops of known length: twice as fast.
-template <bool with_motion>
-void PeakMaps::scatter_any(const ParticleSet& p) {
-  if (reach_) return scatter<with_motion, 0>(p);
-  switch (n_weights_) {
-    case 3:
-      return scatter<with_motion, 3>(p);
-    case 4:
-      return scatter<with_motion, 4>(p);
-    case 5:
-      return scatter<with_motion, 5>(p);
-    case 6:
-      return scatter<with_motion, 6>(p);
-    default:
-      return scatter<with_motion, 0>(p);
   }
 }
 
@@ -246,7 +243,7 @@ void PeakMaps::record(const ParticleSet& p, double time_s) {
   const Window w = cover(p);
   if (w.n_cells() == 0) return;
   make_room(w);
-  scatter_any<true>(p);
+  scatter<true>(p);
   keep_peaks(w, static_cast<float>(time_s));
 }
 
@@ -280,7 +277,7 @@ void PeakMaps::finish(const ParticleSet& final_state, MemberResult& result) {
   const Window w = cover(final_state);
   if (w.n_cells() > 0) {
     make_room(w);
-    scatter_any<false>(final_state);
+    scatter<false>(final_state);
     keep_deposit(w);
   }
   result.grid = settings_.grid;

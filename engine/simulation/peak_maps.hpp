@@ -56,10 +56,17 @@ class PeakMaps {
   void set_width(double width_m);
   void look_at_widths(const ParticleSet&);
   void make_room(const Window&);
+  /// What adding a particle needs, at hand.
+  struct Room {
+    double *wx, *wy, *mass;
+    Motion* motion;
+    int n_rows, n_cols;
+  };
   template <bool with_motion, int n_fixed>
-  void scatter(const ParticleSet&);
+  static void add_one(const Room&, double x, double y, double width, int n_cells,
+                      double particle_mass, const Motion&);
   template <bool with_motion>
-  void scatter_any(const ParticleSet&);
+  void scatter(const ParticleSet&);
   void keep_peaks(const Window&, float time_s);
   void count_layers(double total_mass);
   void keep_deposit(const Window&);

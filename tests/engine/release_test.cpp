@@ -5,31 +5,23 @@
 #include "engine/core/hash.hpp"
 #include "engine/core/random.hpp"
 #include "engine/core/sum.hpp"
+#include "tests/support/formula_ground.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <map>
-#include <memory>
 #include <string_view>
 
 namespace sturz {
 namespace {
 
-using Height = std::function<double(double, double)>;
-
-Raster<double> raster_of(const Height& f, Grid g) {
-  Raster<double> r(std::move(g));
-  for (int i = 0; i < r.grid.n_rows; ++i)
-    for (int j = 0; j < r.grid.n_cols; ++j) r.at(i, j) = f(r.grid.x_center(j), r.grid.y_center(i));
-  return r;
-}
+using test::Height;
+using test::raster_of;
 
 Terrain bed_of(const Height& f) {
-  const Grid g{100, 100, 0, 500, 5, ""};
-  return {std::make_shared<Raster<double>>(raster_of(f, g)), NodataRule::outflow};
+  return test::ground_of(f, Grid{100, 100, 0, 500, 5, ""});
 }
 
 double total(const std::vector<double>& v) {

@@ -2,26 +2,24 @@
 #include "engine/terrain/terrain.hpp"
 
 #include "engine/core/error.hpp"
+#include "tests/support/formula_ground.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <random>
 
 namespace sturz {
 namespace {
 
-using Height = std::function<double(double, double)>;
+using test::Height;
 
 std::shared_ptr<Raster<double>> raster_of(const Height& f, int n_cols, int n_rows, double cell,
                                           double west = 0, double north = 0) {
-  auto r = std::make_shared<Raster<double>>(Grid{n_cols, n_rows, west, north, cell, ""});
-  for (int i = 0; i < n_rows; ++i)
-    for (int j = 0; j < n_cols; ++j) r->at(i, j) = f(r->grid.x_center(j), r->grid.y_center(i));
-  return r;
+  return std::make_shared<Raster<double>>(
+      test::raster_of(f, Grid{n_cols, n_rows, west, north, cell, ""}));
 }
 
 Terrain terrain_of(const Height& f, int n_cols = 20, int n_rows = 16, double cell = 5) {

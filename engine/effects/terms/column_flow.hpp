@@ -2,6 +2,7 @@
 /// What the passes of depth-averaged flow share. For depth_averaged and column_*.cpp only.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -17,11 +18,12 @@ struct ColumnFlow {
   ColumnCells cells;
   ColumnWalls walls;
   std::vector<float> results[7];   ///< of the sweep, by record
+  double start_dt = 1e-3;          ///< of the first step [s]
   double fastest_wave = 0;         ///< largest sqrt(K g_n h) / h_s [1/s]
   double fastest_approach = 0;     ///< largest relative speed of neighbours / h_s [1/s]
 
   /// Column i beside a wall.
-  ColumnAtWall at_wall(const ParticleSet&, std::size_t i) const;
+  ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;
 
   explicit ColumnFlow(const DepthAveragedSettings& s) : settings(s) {}
 
@@ -41,10 +43,6 @@ struct ColumnFlow {
 struct ColumnGround {
   double east, north, bend_ee, bend_en, bend_nn;
 
-  static ColumnGround of(const Field& ground, std::size_t i) {
-    const auto& c = ground.component;
-    return {c[0][i], c[1][i], c[2][i], c[3][i], c[4][i]};
-  }
   Vec3 normal() const { return upward_normal(east, north); }
   /// The slopes a horizontal way (x, y) farther on.
   ColumnGround ahead(double x, double y) const {
@@ -56,12 +54,33 @@ struct ColumnGround {
   }
 };
 
+/// The arrays of field "ground", looked up once per pass.
+struct GroundColumns {
+  double* component[5];
+
+  explicit GroundColumns(ParticleSet& p) {
+    Field& ground = *p.find_field("ground");
+    for (int k = 0; k < 5; ++k) component[k] = ground.component[k].data();
+  }
+  ColumnGround operator[](std::size_t i) const {
+    return {component[0][i], component[1][i], component[2][i], component[3][i], component[4][i]};
+  }
+  void set(std::size_t i, const CurvedSurface& g) const {
+    component[0][i] = g.east, component[1][i] = g.north;
+    component[2][i] = g.bend_ee, component[3][i] = g.bend_en, component[4][i] = g.bend_nn;
+  }
+};
+
 /// v turned into the plane of `normal` with its length kept: the ground's reaction does no work.
-Vec3 turned_into_plane(const Vec3& v, const Vec3& normal);
+inline Vec3 turned_into_plane(const Vec3& v, const Vec3& normal) {
+  const Vec3 in_plane = v - v.dot(normal) * normal;
+  const double length2 = in_plane.squaredNorm();
+  return length2 > 0 ? Vec3(in_plane * std::sqrt(v.squaredNorm() / length2)) : Vec3(0, 0, 0);
+}
 
 /// Puts column i on the ground and keeps what lies below it.
 /// \return false off the known ground
-bool look_up_ground(State&, Field& ground, std::size_t i);
+bool look_up_ground(State&, const GroundColumns&, std::size_t i);
 
 /// A kick at t_n leads from the middle of the last step to the middle of this one.
 inline double kick_length(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }

@@ -25,10 +25,9 @@ inline void column_sweep(const ColumnView& view, const ColumnConstants& constant
       const ColumnSelf self(rows, lane);
       ColumnSums sums;
       sums.clear();
-      for (std::int32_t row = group.first_row; row <= group.last_row; ++row) {
-        const std::uint32_t* cells = view.cell_begin + std::ptrdiff_t{row} * view.n_cols;
-        const ColumnRecord* end = view.records + cells[group.last_cell + 1];
-        for (const ColumnRecord* j = view.records + cells[group.first_cell]; j != end; ++j)
+      for (std::uint32_t r = group.first_run; r < group.last_run; ++r) {
+        const ColumnRecord* end = view.records + view.runs[r].end;
+        for (const ColumnRecord* j = view.records + view.runs[r].begin; j != end; ++j)
           sums.add(self, *j, scale);
       }
       const std::size_t at = group.begin + lane;

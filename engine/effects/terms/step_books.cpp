@@ -33,10 +33,9 @@ void combine(MotionSums& total, const MotionSums& block) {
 
 /// Works are taken with the mean velocity of the step: then a particle that is held at rest works
 /// on nothing, and the sum of all works is the change of kinetic energy.
-void book_step(const State& s, const Field& before, std::size_t i, double dt, MotionSums& out) {
+void book_step(const State& s, const double* const before[3], std::size_t i, double dt, MotionSums& out) {
   const ParticleSet& p = s.grains;
-  const double bx = before.component[0][i], by = before.component[1][i],
-               bz = before.component[2][i];
+  const double bx = before[0][i], by = before[1][i], bz = before[2][i];
   const double dx = p.vx[i] - bx, dy = p.vy[i] - by, dz = p.vz[i] - bz;
   const double mx = bx + 0.5 * dx, my = by + 0.5 * dy, mz = bz + 0.5 * dz;
   const double m = p.mass[i] * dt, ax = s.ax[i], ay = s.ay[i], az = s.az[i];
@@ -53,7 +52,9 @@ void book_step(const State& s, const Field& before, std::size_t i, double dt, Mo
 
 void refresh_motion(State& s, double dt) {
   const ParticleSet& p = s.grains;
-  const Field* before = p.find_field("velocity_before");
+  const Field* field = p.find_field("velocity_before");
+  const double* before[3] = {};
+  for (int k = 0; field && k < 3; ++k) before[k] = field->component[k].data();
   const MotionSums sums = ordered_reduce(
       p.size(), s.threads, MotionSums{},
       [&](std::size_t begin, std::size_t end, MotionSums& out) {
@@ -67,7 +68,7 @@ void refresh_motion(State& s, double dt) {
             out.lo[k] = std::min(out.lo[k], v[k]);
             out.hi[k] = std::max(out.hi[k], v[k]);
           }
-          if (before && dt > 0) book_step(s, *before, i, dt, out);
+          if (field && dt > 0) book_step(s, before, i, dt, out);
         }
       },
       combine);
