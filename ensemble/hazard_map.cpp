@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -154,6 +155,18 @@ std::int64_t count_of(const std::vector<MemberSummary>& members, auto chosen) {
                        [&](const MemberSummary& m) { return chosen(m.outcome); });
 }
 
+/// "depth_averaged" or, where members differ, "depth_averaged (30), full_stress (2)".
+std::string formulations_text(const std::vector<MemberSummary>& members) {
+  std::map<std::string, std::size_t> counts;
+  for (const MemberSummary& m : members)
+    if (is_valid(m.outcome)) ++counts[m.formulation];
+  std::string text;
+  for (const auto& [name, count] : counts)
+    text += (text.empty() ? "" : ", ") + name +
+            (counts.size() > 1 ? " (" + std::to_string(count) + ")" : "");
+  return text;
+}
+
 void add_attributes(LayerStack& stack, const std::vector<MemberSummary>& members,
                     const HazardContext& context) {
   const auto add = [&](const char* name, const std::string& text) {
@@ -171,10 +184,20 @@ void add_attributes(LayerStack& stack, const std::vector<MemberSummary>& members
   add("failed_members", list_of(members, invalid));
   add("out_of_time_members", list_of(members, late));
   add("left_terrain_members", list_of(members, gone));
+  add("formulations", formulations_text(members));
   add("member_rule",
       "members that settled, ran out of time or left the terrain count; diverged, failed and "
       "cancelled ones are excluded");
   for (const auto& attribute : context.attributes) stack.attributes.push_back(attribute);
+}
+
+/// The spacing below half of which thickness means nothing; columns thin out continuously, so 0
+/// where all valid members are such.
+double unresolved_spacing(const std::vector<MemberSummary>& members, const HazardContext& context) {
+  const bool particles = std::any_of(members.begin(), members.end(), [](const MemberSummary& m) {
+    return is_valid(m.outcome) && m.formulation != "depth_averaged";
+  });
+  return particles ? context.spacing_m : 0;
 }
 
 }  // namespace
@@ -182,7 +205,8 @@ void add_attributes(LayerStack& stack, const std::vector<MemberSummary>& members
 LayerStack make_hazard_map(const MemberSource& members, const HazardSpec& spec,
                            const HazardContext& context) {
   const MemberTiles tiles(members, context.memory_limit_bytes, blocks_at_once);
-  HazardLayers layers = empty_hazard_layers(members.grid(), spec, context.spacing_m,
+  HazardLayers layers = empty_hazard_layers(members.grid(), spec,
+                                            unresolved_spacing(members.members(), context),
                                             static_cast<std::int64_t>(tiles.n_members()));
   Filler fill(layers, tiles.n_members());
   std::array<CellBlock, blocks_at_once> blocks;

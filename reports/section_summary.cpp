@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -68,6 +69,16 @@ std::vector<MemberWarning> member_warnings(const std::vector<MemberSummary>& mem
   return found;
 }
 
+/// "depth averaged", or both where members differ.
+std::string formulations(const std::vector<MemberSummary>& members) {
+  std::set<std::string> names;
+  for (const MemberSummary& m : members)
+    if (is_valid(m.outcome) && !m.formulation.empty()) names.insert(words(m.formulation));
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " and ") + name;
+  return text;
+}
+
 }  // namespace
 
 std::string header_html(const ReportInput& input, const Headline& h) {
@@ -80,6 +91,7 @@ std::string header_html(const ReportInput& input, const Headline& h) {
     add(fmt::format("Ensemble of {} member{}", h.n_members, h.n_members == 1 ? "" : "s"));
   else
     add("Single run");
+  add(formulations(input.members));
   add(words(manifest_value(input, "design")));
   add(manifest_value(input, "date"));
   const std::string version = manifest_value(input, "version");

@@ -128,8 +128,7 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
   return Simulation(std::move(parts));
 }
 
-SceneDescription describe(const Scenario& s, const SceneInputs& inputs,
-                          double updates_per_second) {
+SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   require_numbers(s);
   const ScenePlan plan = plan_scene(s, inputs, 0);
   State state = make_state(s, plan, 1);
@@ -176,14 +175,13 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs,
   d.release_area_m2 = plan.release.area_m2;
   d.layers = plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
-  d.sound_speed_m_s = plan.stress.sound_speed;
+  d.sound_speed_m_s = columns ? 0 : plan.stress.sound_speed;
   state.motion.max_speed = 0.5 * typical_speed(plan);
+  state.n_steps = 1;  // the first step is shorter than those that count
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;
   d.n_steps = std::ceil(s.numerics.end_time_s / limit.dt);
-  d.predicted_seconds =
-      updates_per_second > 0 ? d.n_steps * d.n_particles / updates_per_second : 0;
   d.warnings = plan_warnings(s, plan);
   return d;
 }

@@ -40,11 +40,9 @@ struct SceneDescription {
   double reference_speed_m_s = 0, sound_speed_m_s = 0;
   double dt_s = 0, n_steps = 0;         ///< estimates
   std::string binding_limit;
-  double predicted_seconds = 0;         ///< n_particles * n_steps / updates per second
+  double predicted_seconds = 0;         ///< n_particles * n_steps / updates per second; by the caller
   std::vector<std::string> warnings;    ///< thin flow, grain larger than particle, ...
 };
-/// \param updates_per_second particle-updates/s of one thread on this machine
-SceneDescription describe(const Scenario& numbers, const SceneInputs& inputs,
-                          double updates_per_second);
+SceneDescription describe(const Scenario& numbers, const SceneInputs& inputs);
 
 }  // namespace sturz

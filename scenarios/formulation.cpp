@@ -64,7 +64,9 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
     c.reason = "`formulation: depth_averaged`";
   } else if (s.formulation == "full_stress") {
     c.reason = "`formulation: full_stress`; " + layers_text(c);
-    require(c.release_layers >= unresolved_layers || s.numerics.accept_unresolved,
+    // A release without any mass is refused as such by whoever fills it.
+    const bool unresolved = c.release_layers > 0 && c.release_layers < unresolved_layers;
+    require(!unresolved || s.numerics.accept_unresolved,
             "formulation = full_stress (" + short_number(c.release_layers) +
                 " layers of particles resolve the release, fewer than 2: the footprint would be "
                 "wrong by up to 100 %). Use formulation: auto, a numerics.spacing_m below " +

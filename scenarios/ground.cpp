@@ -45,7 +45,8 @@ int column_ground_factor(const Scenario& s, const SceneInputs& in) {
   const Grid& g = in.elevation->grid;
   // At least 8 x 8 cells are left of a small ground.
   const int most = std::max(1, std::min(g.n_cols, g.n_rows) / 8);
-  return std::clamp(static_cast<int>(s.numerics.spacing_m / g.cell_m), 1, most);
+  // A hair more than the quotient: 0.6/0.2 is under three.
+  return std::clamp(static_cast<int>(s.numerics.spacing_m / g.cell_m * (1 + 1e-9)), 1, most);
 }
 
 Raster<double> coarsened(const Raster<double>& z, int factor) {

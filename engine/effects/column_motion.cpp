@@ -27,6 +27,7 @@ class BasePass final : public Pass {
         p.size(), s.threads, Works{},
         [&](std::size_t begin, std::size_t end, Works& out) {
           for (std::size_t i = begin; i < end; ++i) {
+            if (s.leaves(i)) continue;  // the books take it as it was at the start of the step
             const Works w = push(s, i, ground[i].normal(), g_n[i], thickness[i],
                                  kick, dt);
             out.friction += p.mass[i] * w.friction;
@@ -159,6 +160,8 @@ class ColumnMotion final : public Pass {
     later_rise_ = sums.later;
     s.ledger.lost_energy += sums.stopped_energy;
     s.ledger.gravity_work -= sums.settled;
+    // Both were taken after the step's works were summed up.
+    s.ledger.kinetic -= sums.stopped_energy + sums.settled;
   }
 
   /// \return kinetic energy that the rim took [J/kg]

@@ -31,8 +31,9 @@ class CellPass final : public Pass {
 
 /// Fills the records and finds how hard the ground presses.
 ///
-/// The reaction of the ground is g cos + v.kappa.v. A column feels no bend sharper than its own
-/// thickness or than the smoothing length: a flow thicker than a corner's radius goes round it.
+/// The reaction of the ground is g cos + v.kappa.v, spread along the way over the column's own
+/// thickness or the smoothing length: a flow thicker than a corner's radius goes round it, and
+/// still takes the whole momentum of the turn, q' = v.kappa.v - q |v|/l.
 class PackPass final : public Pass {
  public:
   explicit PackPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
@@ -46,6 +47,7 @@ class PackPass final : public Pass {
     auto& normal_gravity = p.find_field("normal_gravity")->component[0];
     const auto& reach = p.find_field("reach")->component[0];
     const auto& thickness = p.find_field("thickness")->component[0];
+    auto& turning = p.find_field("turning")->component[0];
     const double kick = kick_length(s, dt);
     s.ledger.take_off += ordered_reduce(
         p.size(), s.threads, 0.0,
@@ -55,9 +57,10 @@ class PackPass final : public Pass {
             const Vec3 n = g.normal();
             const Vec3 v(p.vx[i], p.vy[i], p.vz[i]);
             before[0][i] = v.x(), before[1][i] = v.y(), before[2][i] = v.z();
-            const double felt = v.squaredNorm() / std::max(thickness[i], 0.5 * reach[i]);
-            const double turning = std::clamp(n.z() * g.bend(v.x(), v.y()), -felt, felt);
-            const double reaction = n.z() * s.gravity + turning;
+            const double per_s = v.norm() / std::max(thickness[i], 0.5 * reach[i]);
+            const double turned = turning[i] + kick * n.z() * g.bend(v.x(), v.y());
+            turning[i] = turned / (1 + kick * per_s);
+            const double reaction = n.z() * s.gravity + per_s * turning[i];
             if (reaction < 0) off += p.mass[i] * kick;
             normal_gravity[i] = std::max(0.0, reaction);
           }

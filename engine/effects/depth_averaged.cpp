@@ -21,6 +21,7 @@ void start_columns(State& s, ColumnFlow& flow, std::span<const double> vertical_
   auto& reach = p.find_field("reach")->component[0];
   auto& g_n = p.find_field("normal_gravity")->component[0];
   const DepthAveragedSettings& set = flow.settings;
+  Field* k = p.find_field("earth_pressure");
   double wave2 = 0, rate = std::sqrt(s.gravity / s.terrain.grid().cell_m);
   s.outside.assign(p.size(), 0);
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -32,6 +33,10 @@ void start_columns(State& s, ColumnFlow& flow, std::span<const double> vertical_
     thickness[i] = std::max(vertical_thickness[i] * n.z(),
                             lone_thickness(p.mass[i] / set.density, reach[i]));
     g_n[i] = s.gravity * n.z();
+    if (k) {
+      const EarthPressure& e = set.earth_pressure[flow.zone_of(s, i)];
+      k->component[0][i] = std::clamp(1.0, e.active, e.passive);
+    }
     const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
     rate = std::max(rate, set.base[flow.zone_of(s, i)].rate(v0.norm(), thickness[i], set.density,
                                                             s.gravity));
@@ -74,12 +79,12 @@ void add_depth_averaged(Step& step, State& state, const DepthAveragedSettings& s
   expect(!settings.base.empty() && settings.base.size() == settings.earth_pressure.size(),
          "base and earth pressure for every zone");
   ParticleSet& p = state.grains;
-  for (const char* name : {"thickness", "reach", "normal_gravity"}) p.add_field(name, 1);
+  for (const char* name : {"thickness", "reach", "normal_gravity", "turning"}) p.add_field(name, 1);
   p.add_field("ground", 5);
   p.add_field("velocity_before", 3);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
   if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))
-    std::fill_n(p.add_field("earth_pressure", 1).component[0].begin(), p.size(), 1.0);
+    p.add_field("earth_pressure", 1);
   for (auto* a : {&state.ax, &state.ay, &state.az}) a->assign(p.size(), 0.0);
   prepare_wrapping(state);
   auto flow = std::make_shared<ColumnFlow>(settings);

@@ -27,12 +27,14 @@ struct BasalResistance {
 
   /// tau_b of a Bingham film that flows at mean speed v, at least tau_y [Pa]. With x = tau_y/tau_b
   /// the cubic is x^3 - (3 + a) x + 2 = 0, a = 6 eta v/(h tau_y): convex on 0..1, so Newton from
-  /// below never overshoots.
+  /// below never overshoots. It starts at the better of two lower bounds, by the laws of fast flow
+  /// and of slow flow, where the root is nearly double: 2 y^2 = a (1 - y) for y = 1 - x.
   double bingham_stress(double speed, double thickness) const {
     if (yield_stress_pa <= 0) return 3 * viscosity_pa_s * speed / thickness;
     const double a = 6 * viscosity_pa_s * speed / (thickness * yield_stress_pa);
-    double x = 2 / (3 + a);
-    for (int i = 0; i < 8; ++i) x -= (x * x * x - (3 + a) * x + 2) / (3 * x * x - (3 + a));
+    if (!(a > 0)) return yield_stress_pa;
+    double x = std::max(2 / (3 + a), 1 - 2 * a / (std::sqrt(a * a + 8 * a) + a));
+    for (int i = 0; i < 5; ++i) x -= (x * x * x - (3 + a) * x + 2) / (3 * x * x - (3 + a));
     return yield_stress_pa / std::min(1.0, x);
   }
 

@@ -28,7 +28,9 @@ struct EarthPressure {
     e.passive = passive * (1 - ratio) + ratio;
     return e;
   }
-  bool varies() const { return active != passive; }
+  /// Differs from the isotropic 1 anywhere. Over a base as rough as the mass, active and passive
+  /// meet at 1 + 2 tan^2 phi.
+  bool varies() const { return active != 1 || passive != 1; }
 
   /// K after a strain: falls where the mass stretches, rises where it is pushed together (Hungr
   /// 1995; McDougall & Hungr 2004). A mass that does not strain keeps its K, so nothing ratchets

@@ -72,24 +72,25 @@ void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double r
   };
   for (std::size_t i = 0; i < set.size(); ++i) add(i, 0, 0, 0);
   if (!domain.x.active && !domain.y.active) return;
-  // Images stand within one reach of the period's edges, where the frame has room for them.
-  auto shifts = [&](const Period& p, double position, double out[3]) {
-    int n = 0;
-    out[n++] = 0;
-    if (!p.active) return n;
-    if (position < p.min + reach) out[n++] = 1;
-    if (position >= p.max - reach) out[n++] = -1;
-    return n;
+  // Images stand within one reach of the period's edges; where the period is shorter than the
+  // reach, several of them do. Those beyond the frame are nobody's neighbours and would not fit
+  // into the records' positions.
+  const double east = west_ + n_cols_ * width_, north = south_ + n_rows_ * height_;
+  auto for_each_turn = [&](const Period& p, double position, auto&& visit) {
+    visit(0);
+    if (!p.active) return;
+    for (int k = 1; position + (k - 1) * p.length() < p.min + reach; ++k) visit(k);
+    for (int k = 1; position - (k - 1) * p.length() >= p.max - reach; ++k) visit(-k);
   };
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    double sx[3], sy[3];
-    const int nx = shifts(domain.x, set.x[i], sx), ny = shifts(domain.y, set.y[i], sy);
-    for (int a = 0; a < nx; ++a)
-      for (int b = 0; b < ny; ++b)
-        if (sx[a] != 0 || sy[b] != 0)
-          add(i, sx[a] * domain.x.length(), sy[b] * domain.y.length(),
-              sx[a] * domain.x.rise + sy[b] * domain.y.rise);
-  }
+  for (std::size_t i = 0; i < set.size(); ++i)
+    for_each_turn(domain.x, set.x[i], [&](int a) {
+      for_each_turn(domain.y, set.y[i], [&](int b) {
+        const double dx = a * domain.x.length(), dy = b * domain.y.length();
+        const double x = set.x[i] + dx, y = set.y[i] + dy;
+        if ((a != 0 || b != 0) && x >= west_ && x <= east && y >= south_ && y <= north)
+          add(i, dx, dy, a * domain.x.rise + b * domain.y.rise);
+      });
+    });
 }
 
 /// By counting, stable: the order within a cell is that of storage.

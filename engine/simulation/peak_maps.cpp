@@ -49,6 +49,9 @@ int layer_bin(double layers) {
   return std::clamp(static_cast<int>(bin), 0, 127);
 }
 
+/// Width of a particle's spread [cells]: rounded alike wherever room for its weights is counted.
+double cells_wide(double width_m, double cell_m) { return std::max(1.0, width_m / cell_m); }
+
 /// Room is added with this margin so that a spreading flow seldom moves the arrays [cells].
 int margin(int n) { return 8 + n / 8; }
 
@@ -87,7 +90,7 @@ PeakMaps::PeakMaps(PeakMapSettings settings) : settings_(std::move(settings)) {
 
 /// Makes room for the weights of particles that are up to `width_m` wide.
 void PeakMaps::set_width(double width_m) {
-  width_cells_ = std::max(1.0, width_m / settings_.grid.cell_m);
+  width_cells_ = cells_wide(width_m, settings_.grid.cell_m);
   n_weights_ = static_cast<int>(std::ceil(3 * width_cells_));
   weights_x_.resize(n_weights_);
   weights_y_.resize(n_weights_);
@@ -162,7 +165,7 @@ template <bool with_motion>
 void PeakMaps::scatter(const ParticleSet& p) {
   const Grid& g = settings_.grid;
   const double per_cell = 1 / g.cell_m, far = 1.5 * width_cells_ + 1;
-  const double cells_per_reach = settings_.width_per_reach * per_cell;
+  const double width_per_reach = settings_.width_per_reach, cell = g.cell_m;
   const double* const reach = reach_;
   // Copies, because the compiler must assume that writing a double may change any member.
   const Room room{weights_x_.data(), weights_y_.data(), mass_.data(), motion_.data(),
@@ -180,7 +183,7 @@ void PeakMaps::scatter(const ParticleSet& p) {
       continue;
     const Motion motion(vx, vy, vz, 0.5 * v2);
     if (reach) {
-      width = std::max(1.0, cells_per_reach * reach[i]);
+      width = cells_wide(width_per_reach * reach[i], cell);
       n = static_cast<int>(std::ceil(3 * width));
     }
     switch (n) {

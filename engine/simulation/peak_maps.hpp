@@ -16,8 +16,9 @@ struct PeakMapSettings {
   double spacing_m = 1;           ///< particle spacing
   double bulk_density_kg_m3 = 1;  ///< reference: particle volume = mass / this, so volume is exact
   double reach_limit_m = 0.05;    ///< smoothed thickness that counts as reached: max(0.05, dx/10)
-  /// Width of a particle with a field "reach" (a column) over that reach.
-  double width_per_reach = 0.25;
+  /// Width of a particle with a field "reach" (a column) over that reach: one and a half mean
+  /// distances of columns, so that a lattice leaves no pattern on the map.
+  double width_per_reach = 0.375;
 };
 
 /// Thickness over spacing, weighted by mass, at one instant.

@@ -5,6 +5,7 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/interrupt.hpp"
 #include "ensemble/app/maps.hpp"
+#include "ensemble/app/member_order.hpp"
 #include "ensemble/app/progress_bar.hpp"
 #include "ensemble/runner.hpp"
 #include "io/member_file.hpp"
@@ -75,7 +76,7 @@ void keep(const EnsembleJob& job, const MemberResult& result, Console& console) 
 
 RunReport run_all(const EnsembleJob& job, Console& console) {
   RunPlan plan;
-  plan.members = job.to_do;
+  plan.members = start_order(job);
   plan.workers = job.workers;
   RunCallbacks callbacks;
   callbacks.run_member = [&job](std::int64_t k, const std::atomic<bool>& cancel) {

@@ -4,6 +4,8 @@
 #include "io/text_files.hpp"
 #include "reports/report.hpp"
 
+#include <algorithm>
+
 namespace sturz::app {
 
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
@@ -26,7 +28,10 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   for (const MemberSummary& m : content.members) members_s += m.scalars.wall_s;
   input.timings.emplace_back("members, all cores together", members_s);
   input.elapsed_s = manifest.compute_s;
-  input.resolved_thickness_m = 0.5 * manifest.spacing_m;
+  const bool particles =
+      std::any_of(content.members.begin(), content.members.end(),
+                  [](const MemberSummary& m) { return m.formulation != "depth_averaged"; });
+  input.resolved_thickness_m = particles ? 0.5 * manifest.spacing_m : 0;
   write_text_atomic(folder.report(), make_report(input));
 }
 

@@ -65,7 +65,8 @@ void write_results(const OutputFolder& folder, const Manifest& manifest, const S
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
       {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
-      {"outcome", std::string(to_string(result.outcome))}};
+      {"outcome", std::string(to_string(result.outcome))},
+      {"formulation", result.formulation}};
   write_layers(folder.peaks_nc(), peaks);
   const MemberSummary summary = summary_of(result);
   PageContent page;

@@ -17,8 +17,10 @@ Scene load_scene(const std::string& file, const std::vector<std::string>& overri
   scene.scenario = read_scenario(file, overrides);
   scene.medians = median_scenario(scene.scenario);
   scene.inputs = load_scene_inputs(scene.scenario);
-  scene.description =
-      describe(scene.medians, scene.inputs, updates_per_second(measure_machine_again));
+  SceneDescription& d = scene.description;
+  d = describe(scene.medians, scene.inputs);
+  d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
+                        updates_per_second(d.formulation, measure_machine_again);
   return scene;
 }
 
@@ -34,12 +36,18 @@ std::vector<std::string> description_lines(const Scene& scene) {
   lines.push_back("step: " + passes);
   lines.push_back(fmt::format("release: {} m3 on {} m2", grouped(d.release_volume_m3),
                               grouped(d.release_area_m2)));
-  lines.push_back(fmt::format("particles: {}, {} m apart; {:.1f} layers", d.n_particles,
-                              d.spacing_m, d.layers));
+  const bool columns = d.formulation == "depth_averaged";
+  lines.push_back(fmt::format("{}: {}, {} m apart; {:.1f} spacings thick at release",
+                              columns ? "columns" : "particles", d.n_particles, d.spacing_m,
+                              d.layers));
+  if (columns)
+    lines.emplace_back("not in columns: vertical structure, dilute states, a resolved pore fluid "
+                       "(pore_pressure_ratio stands for it)");
   lines.push_back(
       fmt::format("memory: {:.1f} MB a member", static_cast<double>(d.memory_bytes) / 1e6));
-  lines.push_back(fmt::format("expected speed: {:.1f} m/s; numerical sound speed {:.0f} m/s",
-                              d.reference_speed_m_s, d.sound_speed_m_s));
+  if (d.sound_speed_m_s > 0)
+    lines.push_back(fmt::format("expected speed: {:.1f} m/s; numerical sound speed {:.0f} m/s",
+                                d.reference_speed_m_s, d.sound_speed_m_s));
   lines.push_back(fmt::format("time step: {:.2g} s ({}); about {} steps", d.dt_s, d.binding_limit,
                               grouped(d.n_steps)));
   lines.push_back(fmt::format("predicted: at most {} a member on one core",

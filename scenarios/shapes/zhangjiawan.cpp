@@ -14,13 +14,15 @@ namespace {
 const Profile& surface_before_failure() {
   static const Profile p = {{-400, 2040}, {-150, 2092}, {-40, 2115}, {0, 2120},    {30, 2113},
                             {60, 2085},   {100, 2010},  {160, 1950}, {215, 1918},  {280, 1896},
-                            {340, 1880},  {400, 1868},  {840, 1815}, {1000, 1799}, {1300, 1772}};
+                            {340, 1880},  {400, 1868},  {840, 1815}, {1000, 1799}, {1300, 1772},
+                            {1700, 1740}};
   return p;
 }
 const Profile& failure_surface() {
   static const Profile p = {{-400, 2040}, {-150, 2092}, {-40, 2115}, {0, 2120},    {25, 2060},
                             {60, 2026},   {115, 1983},  {160, 1950}, {215, 1918},  {280, 1896},
-                            {340, 1880},  {400, 1868},  {840, 1815}, {1000, 1799}, {1300, 1772}};
+                            {340, 1880},  {400, 1868},  {840, 1815}, {1000, 1799}, {1300, 1772},
+                            {1700, 1740}};
   return p;
 }
 
@@ -41,7 +43,7 @@ double hill(double s, double n) {
 
 SyntheticScene build(const Numbers& p, double cell_m) {
   const double half_width = p.at("source_width_m") / 2;
-  const Grid grid = landslide_grid(-300, 1200, 400, cell_m);
+  const Grid grid = landslide_grid(-300, 1600, 400, cell_m);
   SyntheticScene scene{Raster<double>(grid), Raster<double>(grid)};
   auto& thickness = *scene.thickness;
   for (int row = 0; row < grid.n_rows; ++row)

@@ -83,5 +83,29 @@ TEST(Allocation, ARebuildOfTheListsSettlesIntoItsMemory) {
   EXPECT_LE(allocations(s, 20, 100, true), 10);
 }
 
+Scenario as_columns(Scenario s) {
+  s.formulation = "depth_averaged";
+  return s;
+}
+
+TEST(Allocation, AStepOfColumnsNeedsNoNewMemory) {
+  // Reaches settle and columns come to the period's edges within the first steps.
+  const int settled = 60;
+  Scenario sheet = as_columns(thin_sheet(1));  // periodic
+  EXPECT_EQ(allocations(sheet, settled, 100, false), 0);
+  sheet.grains->earth_pressure = "active_passive";
+  sheet.basal.turbulent_coefficient_m_s2 = Uncertain(200);
+  EXPECT_EQ(allocations(sheet, settled, 100, false), 0);
+  // A wall, a period and columns at rest.
+  Scenario box = as_columns(column_collapse(1, 12));
+  box.basal.friction_coefficient = 2;
+  EXPECT_EQ(allocations(box, settled, 100, false), 0);
+}
+
+TEST(Allocation, ASpreadingFlowOfColumnsAsksOnlyWhenItsCellsOutgrowTheirRoom) {
+  // Tables of cells and runs grow by factors: a handful of times while the flow doubles its extent.
+  EXPECT_LE(allocations(similarity_slide(), 4, 100, false), 8);
+}
+
 }  // namespace
 }  // namespace sturz

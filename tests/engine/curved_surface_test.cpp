@@ -182,8 +182,7 @@ TEST(CurvedSurface, SeesPatchesThatAddUp) {
   nodes.at(9, 11) = -7, nodes.at(9, 13) = -9;
   const Terrain whole = ground_of(nodes);
   for (double y = -79; y < 0; y += 0.73)
-    for (double x = 1; x < 100; x += 0.73)
-      expect_same(both.curved(x, y), whole.curved(x, y), x, y);
+    for (double x = 1; x < 100; x += 0.73) expect_same(both.curved(x, y), whole.curved(x, y), x, y);
 }
 
 /// The bilinear surface, without curvature.
@@ -224,7 +223,8 @@ TEST(CurvedSurface, IsBilinearBetweenTheOutermostNodes) {
 
 TEST(CurvedSurface, IsUnknownAndLevelOutside) {
   const Terrain t = ground_of(raster_of(rough, grid));
-  for (const Vec2& p : {Vec2(1, -40), Vec2(99, -40), Vec2(50, -1), Vec2(50, -79), Vec2(-1e6, 1e7)}) {
+  for (const Vec2& p :
+       {Vec2(1, -40), Vec2(99, -40), Vec2(50, -1), Vec2(50, -79), Vec2(-1e6, 1e7)}) {
     const CurvedSurface s = t.curved(p.x(), p.y());
     EXPECT_FALSE(s.known);
     EXPECT_EQ(s.z, t.height(p.x(), p.y()));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/peak_maps.hpp"
 
+#include "tests/support/peak_map_reading.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +11,10 @@
 
 namespace sturz {
 namespace {
+
+using test::at;
+using test::maps_of;
+using test::sum_of;
 
 constexpr double density = 1500;
 
@@ -24,25 +30,6 @@ ParticleSet cloud(std::size_t n, double x0, double y0, double size, unsigned see
     p.mass[i] = 900 + 200 * unit(random);
   }
   return p;
-}
-
-double sum_of(const std::vector<float>& layer) {
-  return std::accumulate(layer.begin(), layer.end(), 0.0);
-}
-
-float at(const MemberResult& r, PeakLayer layer, int row, int col) {
-  row -= r.window.row0, col -= r.window.col0;
-  if (row < 0 || col < 0 || row >= r.window.n_rows || col >= r.window.n_cols)
-    return info(layer).untouched;
-  return r.layer(layer)[static_cast<std::size_t>(row) * r.window.n_cols + col];
-}
-
-MemberResult maps_of(const PeakMapSettings& s, const ParticleSet& p) {
-  PeakMaps maps(s);
-  maps.record(p, 0);
-  MemberResult r;
-  maps.finish(p, r);
-  return r;
 }
 
 TEST(PeakMaps, KeepVolumeAtEveryRatioOfSpacingToCell) {

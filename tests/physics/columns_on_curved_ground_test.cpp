@@ -18,7 +18,8 @@ Scenario columns(Scenario s) {
 /// The lone column follows the mass point; the bend presses it on (a regression test too: every
 /// normal impulse counts for friction).
 TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
-  for (const double spacing : {8.0, 4.0, 2.0}) {
+  // The bend of 40 m is spread over two spacings of 8 m: there the energy's place is 2.1 % off.
+  for (const double spacing : {4.0, 2.0, 1.0}) {
     const Descent d = descend(columns(ramp_slide(90, spacing)));
     const EnergyLine line(d.s0, true), straight(d.s0, false);
     const std::string name = fmt::format("V2 columns, dx = {:.0f} m", spacing);

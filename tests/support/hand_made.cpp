@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 namespace sturz::test {
 namespace {
@@ -10,29 +11,34 @@ namespace {
 constexpr double density = 1560, h = 1.3;
 
 State state_of(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
-               const Domain& domain) {
+               const Domain& domain, double mass = density) {
   State s(std::move(ground), domain);
   ParticleSet& p = s.grains;
   p.resize(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     p.x[i] = places[i].x(), p.y[i] = places[i].y(), p.z[i] = places[i].z();
     p.vx[i] = velocity.x(), p.vy[i] = velocity.y(), p.vz[i] = velocity.z();
-    p.mass[i] = density;
-    s.ledger.released_mass += density;
+    p.mass[i] = mass;
+    s.ledger.released_mass += mass;
   }
   return s;
 }
 
-void finish(HandMade& made, double friction) {
+void open_books(State& s) {
+  refresh_motion(s, 0);
+  s.ledger.kinetic_0 = s.ledger.kinetic;
+}
+
+void finish(HandMade& made, std::vector<GroundFriction> base, ZoneMap zones) {
   add_gravity(made.step, made.state);
   ContactSettings contact;
   contact.reference_density = density;
   contact.stiffness = 4000;
-  contact.base = {{friction}};
+  contact.base = std::move(base);
+  contact.zones = std::move(zones);
   add_terrain_contact(made.step, made.state, contact);
   add_motion(made.step, made.state, {1, h});
-  refresh_motion(made.state, 0);
-  made.state.ledger.kinetic_0 = made.state.ledger.kinetic;
+  open_books(made.state);
 }
 
 }  // namespace
@@ -72,14 +78,30 @@ HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& 
   std::vector<double> depth;
   for (const Vec3& p : places) depth.push_back(top - p.z());
   add_grain_stress(made.step, made.state, settings, depth);
-  finish(made, friction);
+  finish(made, {{friction}}, {});
   return made;
 }
 
 HandMade parcels_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
                     const Domain& domain, double friction) {
+  return parcels_on_zones(std::move(ground), places, velocity, domain, {{friction}}, {});
+}
+
+HandMade parcels_on_zones(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+                          const Domain& domain, std::vector<GroundFriction> base, ZoneMap zones) {
   HandMade made{state_of(std::move(ground), places, velocity, domain), {}};
-  finish(made, friction);
+  finish(made, std::move(base), std::move(zones));
+  return made;
+}
+
+HandMade columns_on(Terrain ground, const std::vector<Vec3>& places, double thickness,
+                    const Vec3& velocity, const Domain& domain, DepthAveragedSettings settings) {
+  HandMade made{state_of(std::move(ground), places, velocity, domain, density * thickness), {}};
+  settings.density = density;
+  settings.instruction_set = best_instruction_set();
+  add_depth_averaged(made.step, made.state, settings,
+                     std::vector<double>(places.size(), thickness));
+  open_books(made.state);
   return made;
 }
 

@@ -2,6 +2,7 @@
 /// States and steps built by hand: the engine's own effects on a small even ground.
 #pragma once
 
+#include "engine/effects/depth_averaged.hpp"
 #include "engine/effects/grain_stress.hpp"
 #include "engine/effects/gravity.hpp"
 #include "engine/effects/motion.hpp"
@@ -35,5 +36,15 @@ HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& 
 /// Particles without stress: gravity, contact and motion alone.
 HandMade parcels_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
                     const Domain& domain = {}, double friction = 0.4);
+
+/// The same with a base of its own in each zone.
+HandMade parcels_on_zones(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+                          const Domain& domain, std::vector<GroundFriction> base, ZoneMap zones);
+
+/// Depth-averaged columns of density 1560 kg/m^3 on a lattice of 1 m (z of the places does not
+/// count), each with the vertical `thickness` [m].
+HandMade columns_on(Terrain ground, const std::vector<Vec3>& places, double thickness,
+                    const Vec3& velocity, const Domain& domain = {},
+                    DepthAveragedSettings settings = {});
 
 }  // namespace sturz::test
