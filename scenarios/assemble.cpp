@@ -109,7 +109,6 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
   if (plan.formulation.depth_averaged) {
     parts->least_dt_s = 1e-6 * std::sqrt(numbers.numerics.spacing_m / parts->state.gravity);
   } else {
-    parts->sound_speed_m_s = plan.stress.sound_speed;
     // A hundredth of the acoustic limit at v_ref: below it something has run away.
     parts->least_dt_s = 0.01 * plan.stress.courant * plan.stress.smoothing_length /
                         (1.1 * plan.stress.sound_speed);

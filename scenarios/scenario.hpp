@@ -109,6 +109,7 @@ struct NumericsSpec {
   double end_time_s = 120;
   double courant = 0.25;                      ///< dt <= courant h / (c0 + |v|)
   double sound_speed_factor = 10;             ///< c0 = factor * expected flow speed
+  bool adaptive_sound_speed = true;           ///< c0 follows the flow, see engine/effects/sound_speed.cpp
   double artificial_viscosity = 0.1;          ///< alpha_v of B.4
   double density_diffusion = 0.1;             ///< delta of B.2
   double jitter = 0.05;                       ///< of the release lattice, in spacings

@@ -173,6 +173,9 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
   const double at_rest = std::sqrt((1 + 4.0 / 3 * stress.shear_to_bulk()) * 9.81 * deepest);
   stress.sound_speed =
       s.numerics.sound_speed_factor * std::max({plan.reference_speed_m_s, at_rest, start});
+  stress.speed_factor = s.numerics.sound_speed_factor;
+  if (s.numerics.adaptive_sound_speed)
+    stress.least_sound_speed = s.numerics.sound_speed_factor * at_rest;
 
   ContactSettings& contact = plan.contact;
   contact.spacing = dx;

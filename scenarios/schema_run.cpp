@@ -30,6 +30,9 @@ void add_numerics(std::vector<KeyInfo>& keys) {
   keys.push_back(key(numerics, &NumericsSpec::sound_speed_factor,
                      {"numerics.sound_speed_factor", number, "1", 3, 100,
                       "Numerical sound speed over the expected flow speed."}));
+  keys.push_back(key(numerics, &NumericsSpec::adaptive_sound_speed,
+                     {"numerics.adaptive_sound_speed", flag, "", -no_limit, no_limit,
+                      "Let the sound speed follow the flow: fewer steps while the mass is slow."}));
   keys.push_back(key(numerics, &NumericsSpec::artificial_viscosity,
                      {"numerics.artificial_viscosity", number, "1", 0, 1,
                       "Strength of the artificial viscosity between approaching particles."}));

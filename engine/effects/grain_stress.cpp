@@ -6,36 +6,13 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/effects/terms/grain_stress_shared.hpp"
 #include "engine/effects/terms/grain_stress_update.hpp"
 #include "engine/effects/terms/wrapping.hpp"
-#include "engine/neighbors/neighbor_lists.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 
 namespace sturz {
 namespace {
-
-/// What the three passes share: lists, and the sweep's results in storage order.
-struct GrainStress {
-  GrainStressSettings settings;
-  NeighborLists lists;
-  std::vector<float> results[13];
-  std::vector<float> smooth[6];
-  double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
-
-  explicit GrainStress(const GrainStressSettings& s)
-      : settings(s),
-        lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
-              sweeps(s.instruction_set).tight_list) {}
-
-  SweepOutput output() {
-    SweepOutput out{};
-    float** slots[] = {&out.ax,  &out.ay,  &out.az,  &out.lxx, &out.lxy, &out.lxz,      &out.lyx,
-                       &out.lyy, &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
-    for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
-    for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
-    return out;
-  }
-};
 
 class NeighborPass final : public Pass {
  public:
@@ -245,8 +222,13 @@ void add_grain_stress(Step& step, State& state, const GrainStressSettings& setti
   before.component[1] = state.grains.vy;
   before.component[2] = state.grains.vz;
   prepare_wrapping(state);
-  start_geostatic(state, settings, depth);
-  auto shared = std::make_shared<GrainStress>(settings);
+  GrainStressSettings first = settings;
+  const bool follows = settings.least_sound_speed < settings.sound_speed;
+  if (follows) first.sound_speed = sound_speed_at_start(state, settings);
+  start_geostatic(state, first, depth);
+  auto shared = std::make_shared<GrainStress>(first);
+  state.sound_speed = first.sound_speed;
+  if (follows) add_sound_speed(step, shared, settings.sound_speed);
   step.add(std::make_unique<NeighborPass>(shared));
   step.add(std::make_unique<PackPass>(shared));
   step.add(std::make_unique<SweepPass>(shared));

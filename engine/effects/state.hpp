@@ -41,6 +41,7 @@ struct State {
   Domain domain;
   double gravity = 9.81;         ///< [m/s^2], along -z
   double time = 0;               ///< [s]
+  double sound_speed = 0;        ///< c0 at present; 0: nothing sounds [m/s]
   double previous_dt = 0;        ///< of the last step [s]; 0 before the first
   std::size_t n_steps = 0;
   int threads = 1;

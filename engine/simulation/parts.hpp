@@ -22,7 +22,6 @@ struct SimulationParts {
   std::int64_t member = 0;
   double spacing_m = 1;
   std::string formulation = "full_stress";
-  double sound_speed_m_s = 0;         ///< c0; 0: nothing sounds
   double reference_density = 1;       ///< of the bulk [kg/m^3]
   double least_dt_s = 0;              ///< below it the member has diverged
   double release_layers = 0;

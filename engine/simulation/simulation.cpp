@@ -118,9 +118,9 @@ class Run {
       end(Outcome::diverged, "a particle's position or velocity is not finite");
       return;
     }
-    if (parts_.sound_speed_m_s > 0)
+    if (s.sound_speed > 0)
       result_.scalars.max_mach =
-          std::max(result_.scalars.max_mach, s.motion.max_speed / parts_.sound_speed_m_s);
+          std::max(result_.scalars.max_mach, s.motion.max_speed / s.sound_speed);
     travelled_ += s.motion.max_speed * s.previous_dt;
     const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
     if (travelled_ >= half_cell) record();

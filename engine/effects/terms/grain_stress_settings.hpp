@@ -15,6 +15,9 @@ struct GrainStressSettings {
   double smoothing_length = 1.3;    ///< h [m]
   double reference_density = 1560;  ///< rho_ref = alpha_init rho_p [kg/m^3]
   double sound_speed = 100;         ///< c0 of compressional waves, sqrt((K + 4G/3)/rho) [m/s]
+  /// Where c0 may fall to while the mass is slow; equal to `sound_speed`: it stays fixed [m/s].
+  double least_sound_speed = 1e300;
+  double speed_factor = 10;         ///< c0 over the present largest speed where it follows the flow
   double poisson_ratio = 0.3;       ///< nu, sets G/K [-]
   double viscosity = 0.1;           ///< artificial viscosity alpha_v [-]
   double density_diffusion = 0.1;   ///< delta [-]

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the passes of the grain stress share. For grain_stress.cpp and sound_speed.cpp only.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/effects/step.hpp"
+#include "engine/effects/terms/grain_stress_settings.hpp"
+#include "engine/neighbors/neighbor_lists.hpp"
+
+namespace sturz {
+
+/// What the three passes share: lists, and the sweep's results in storage order.
+struct GrainStress {
+  GrainStressSettings settings;
+  NeighborLists lists;
+  std::vector<float> results[13];
+  std::vector<float> smooth[6];
+  double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
+
+  explicit GrainStress(const GrainStressSettings& s)
+      : settings(s),
+        lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
+              sweeps(s.instruction_set).tight_list) {}
+
+  SweepOutput output() {
+    SweepOutput out{};
+    float** slots[] = {&out.ax,  &out.ay,  &out.az,  &out.lxx, &out.lxy, &out.lxz,      &out.lyx,
+                       &out.lyy, &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
+    for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
+    for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
+    return out;
+  }
+};
+
+/// c0 of a mass that starts with the velocities it has, where it follows the flow [m/s].
+double sound_speed_at_start(const State&, const GrainStressSettings&);
+/// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole way down [m/s]
+void add_sound_speed(Step&, const std::shared_ptr<GrainStress>&, double planned);
+
+}  // namespace sturz
