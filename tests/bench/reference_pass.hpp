@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The hot loops of the reference step: the fewest lines that do the same physics, in float.
 ///
-/// Included by a file that is compiled for this very processor, so it holds plain data only.
+/// Included by files that are compiled for this very processor, so it holds plain data only.
 ///
 /// Left out against the engine: the gradient's correction (moment matrix), density diffusion,
 /// stress smoothing, the mirror image at the ground, drag at rest, parted grains, cohesion, walls,
@@ -17,11 +17,11 @@ namespace sturz::bench {
 inline constexpr int record_floats = 16;
 
 struct ReferenceNumbers {
-  float h, gradient_factor;   ///< smoothing length [m], C of grad W = -C t^3 r
+  float h, gradient_factor;  ///< smoothing length [m], C of grad W = -C t^3 r
   float density, sound_speed, viscosity;
-  float bulk, shear;          ///< K, G [Pa]
+  float bulk, shear;  ///< K, G [Pa]
   float static_friction, dynamic_friction;
-  float slowness;             ///< G I_0 / (d_p sqrt(rho_p)) [Pa^(1/2)/s]
+  float slowness;  ///< G I_0 / (d_p sqrt(rho_p)) [Pa^(1/2)/s]
   float gravity;
   float spring, damping, reach, basal_friction;  ///< of the ground [1/s^2], [1/s], [m], [-]
 };
@@ -47,16 +47,25 @@ struct ReferenceList {
   const int* offsets;
 };
 
-/// Writes the records.
-void pack_records(const ReferenceColumns&, const ReferenceNumbers&, float* records);
-/// One pass over the lists: velocity gradient, stress force, artificial viscosity.
-void sum_pairs(const ReferenceColumns&, const ReferenceNumbers&, const ReferenceList&);
-/// Continuity, then elastic + mu(I) with the stress turned along (Jaumann), then the kick.
-void update_particles(const ReferenceColumns&, const ReferenceNumbers&, float dt);
-/// Spring, damper and Coulomb friction of a bilinear ground.
-void meet_ground(const ReferenceColumns&, const ReferenceNumbers&, const ReferenceGround&,
-                 float dt);
-/// x += v dt. \return the diagonal of the box of velocities [m/s]
-float drift(const ReferenceColumns&, float dt);
+/// The loops as one compilation made them.
+struct ReferencePass {
+  const char* name;
+  /// Writes the records.
+  void (*pack_records)(const ReferenceColumns&, const ReferenceNumbers&, float* records);
+  /// One pass over the lists: velocity gradient, stress force, artificial viscosity.
+  void (*sum_pairs)(const ReferenceColumns&, const ReferenceNumbers&, const ReferenceList&);
+  /// Continuity, then elastic + mu(I) with the stress turned along (Jaumann), then the kick.
+  void (*update_particles)(const ReferenceColumns&, const ReferenceNumbers&, float dt);
+  /// Spring, damper and Coulomb friction of a bilinear ground.
+  void (*meet_ground)(const ReferenceColumns&, const ReferenceNumbers&, const ReferenceGround&,
+                      float dt);
+  /// x += v dt. \return the diagonal of the box of velocities [m/s]
+  float (*drift)(const ReferenceColumns&, float dt);
+};
+
+/// Both for this very processor: vectors as wide as it has, filled by its gather instructions; and
+/// vectors of 32 bytes filled float by float. Which is faster differs by a factor of two either
+/// way, so whoever uses them tries both.
+extern const ReferencePass reference_gathers, reference_single_loads;
 
 }  // namespace sturz::bench

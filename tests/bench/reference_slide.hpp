@@ -19,6 +19,8 @@ class ReferenceSlide {
   ReferenceSlide(const SimulationParts&, const ScenePlan&);
 
   void step(double dt);
+  /// Which compilation of the loops was the faster one here.
+  const char* variant() const { return pass_->name; }
   std::size_t size() const { return mass_.size(); }
   std::size_t n_rebuilds() const { return n_rebuilds_; }
   double neighbors_per_particle() const {
@@ -30,9 +32,14 @@ class ReferenceSlide {
 
  private:
   void rebuild();
+  void choose_pass();
   std::vector<std::vector<float>*> carried();
   ReferenceColumns columns();
+  ReferenceList list() const {
+    return {records_.data(), neighbors_.begin().data(), neighbors_.offsets().data()};
+  }
 
+  const ReferencePass* pass_ = &reference_gathers;
   ReferenceNumbers numbers_{};
   ReferenceGround ground_{};
   std::vector<float> nodes_;

@@ -59,7 +59,7 @@ Scene thin_slide() {
 }
 
 Scene column_slide(double n_columns, double end_time_s) {
-  Scenario s = box_on_slope(26, 1000, 400, ReleaseBox{{-450, -350}, {-50, 50}}, 5);
+  Scenario s = box_on_slope(26, 2000, 400, ReleaseBox{{-950, -850}, {-50, 50}}, 5);
   s.formulation = "depth_averaged";
   s.numerics.spacing_m = std::sqrt(100 * 100 / n_columns);
   s.numerics.end_time_s = end_time_s;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A sample by its ranks: median, range, and an interval of the median that assumes no distribution.
+/// A sample by its ranks: median, range, and an interval that assumes no distribution.
 #pragma once
 
 #include <vector>

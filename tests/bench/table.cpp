@@ -16,9 +16,8 @@ nlohmann::ordered_json numbers(const Summary& s) {
 }
 
 std::string thousands(std::size_t count) {
-  std::string digits = std::to_string(count);
-  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, ",");
-  return digits;
+  if (count < 1000) return std::to_string(count);
+  return fmt::format("{},{:03}", thousands(count / 1000), count % 1000);
 }
 
 }  // namespace
@@ -31,15 +30,15 @@ Cell cell(double value, int digits) { return {fmt::format("{:.{}f}", value, digi
 Cell yes_no(bool yes) { return {yes ? "yes" : "NO", yes}; }
 
 Cell range_cell(const Summary& s, int digits) {
-  return {fmt::format("{:.{}f} ({:.{}f}-{:.{}f})", s.median, digits, s.least, digits, s.most,
-                      digits),
-          numbers(s)};
+  return {
+      fmt::format("{:.{}f} ({:.{}f}-{:.{}f})", s.median, digits, s.least, digits, s.most, digits),
+      numbers(s)};
 }
 
 Cell interval_cell(const Summary& s, int digits) {
-  return {fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", s.median, digits, s.low, digits, s.high,
-                      digits),
-          numbers(s)};
+  return {
+      fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", s.median, digits, s.low, digits, s.high, digits),
+      numbers(s)};
 }
 
 void Table::add(std::vector<Cell> row) {

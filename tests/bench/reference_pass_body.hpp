@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+/// The loops themselves, compiled several times with different flags into namespaces of their own.
+#pragma once
+
 #include "tests/bench/reference_pass.hpp"
 
 #include <math.h>
 
-namespace sturz::bench {
+namespace sturz::bench::STURZ_REFERENCE {
 
-void pack_records(const ReferenceColumns& p, const ReferenceNumbers& k, float* records) {
+inline void pack_records(const ReferenceColumns& p, const ReferenceNumbers& k, float* records) {
   for (std::size_t i = 0; i < p.n; ++i) {
     float* r = records + record_floats * i;
     r[0] = p.x[i], r[1] = p.y[i], r[2] = p.z[i];
@@ -15,7 +18,8 @@ void pack_records(const ReferenceColumns& p, const ReferenceNumbers& k, float* r
   }
 }
 
-void sum_pairs(const ReferenceColumns& p, const ReferenceNumbers& k, const ReferenceList& list) {
+inline void sum_pairs(const ReferenceColumns& p, const ReferenceNumbers& k,
+                      const ReferenceList& list) {
   const float *x = list.records, *y = x + 1, *z = x + 2, *volume = x + 3;
   const float *vx = x + 4, *vy = x + 5, *vz = x + 6;
   const float *sxx = x + 8, *syy = x + 9, *szz = x + 10, *sxy = x + 11, *syz = x + 12,
@@ -58,7 +62,7 @@ void sum_pairs(const ReferenceColumns& p, const ReferenceNumbers& k, const Refer
   }
 }
 
-void update_particles(const ReferenceColumns& p, const ReferenceNumbers& k, float dt) {
+inline void update_particles(const ReferenceColumns& p, const ReferenceNumbers& k, float dt) {
   float *x_x = p.stress[0], *y_y = p.stress[1], *z_z = p.stress[2];
   float *x_y = p.stress[3], *y_z = p.stress[4], *z_x = p.stress[5];
   const float *lxx = p.gradient[0], *lxy = p.gradient[1], *lxz = p.gradient[2];
@@ -103,8 +107,8 @@ void update_particles(const ReferenceColumns& p, const ReferenceNumbers& k, floa
   }
 }
 
-void meet_ground(const ReferenceColumns& p, const ReferenceNumbers& k, const ReferenceGround& g,
-                 float dt) {
+inline void meet_ground(const ReferenceColumns& p, const ReferenceNumbers& k,
+                        const ReferenceGround& g, float dt) {
   for (std::size_t i = 0; i < p.n; ++i) {
     const float u = (p.x[i] - g.west) / g.cell, v = (p.y[i] - g.south) / g.cell;
     if (!(u >= 0 && v >= 0 && u < g.n_cols - 1 && v < g.n_rows - 1)) continue;
@@ -133,7 +137,7 @@ void meet_ground(const ReferenceColumns& p, const ReferenceNumbers& k, const Ref
   }
 }
 
-float drift(const ReferenceColumns& p, float dt) {
+inline float drift(const ReferenceColumns& p, float dt) {
   float* const position[3] = {p.x, p.y, p.z};
   const float* const velocity[3] = {p.vx, p.vy, p.vz};
   float diagonal2 = 0;
@@ -149,4 +153,4 @@ float drift(const ReferenceColumns& p, float dt) {
   return sqrtf(diagonal2);
 }
 
-}  // namespace sturz::bench
+}  // namespace sturz::bench::STURZ_REFERENCE

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The sub-commands of sturz_bench; each answers one question with tables.
+#pragma once
+
+#include "tests/bench/table.hpp"
+
+namespace sturz::bench {
+
+struct Options {
+  int pairs = 21;          ///< slices or pairs of each measurement
+  bool quick = false;      ///< fewer pairs and smaller scenes
+  double most = 200'000;   ///< particles of the largest scene of `scaling`
+  int threads = 0;         ///< of `threads` and `ensemble`; 0: all processors
+  int members = 6;         ///< of each ensemble
+  double end_time_s = 60;  ///< simulated time of an ensemble's member
+  double fail_below = 0;   ///< least throughput of the dense slide over the reference loop
+};
+
+/// How fast is one core, and where does the time go?
+Report throughput(const Options&);
+/// What does a particle-update cost in a larger scene?
+Report scaling(const Options&);
+/// How much faster is one member on all processors?
+Report threads(const Options&);
+/// How many members an hour, and what does the runner cost?
+Report ensemble(const Options&);
+/// What does an effect cost that a scene does not call for?
+Report absent_effects(const Options&);
+
+}  // namespace sturz::bench

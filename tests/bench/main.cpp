@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a step costs, what an absent effect costs, how members scale.
+#include "tests/bench/commands.hpp"
+#include "tests/bench/machine.hpp"
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+namespace {
+
+using sturz::bench::Options;
+using sturz::bench::Report;
+
+struct Command {
+  const char* name;
+  const char* help;
+  Report (*run)(const Options&);
+};
+
+constexpr Command commands[] = {
+    {"throughput", "Particle-updates per second of one core", sturz::bench::throughput},
+    {"scaling", "Cost of a particle-update from 1k to 1M particles", sturz::bench::scaling},
+    {"threads", "One member on one and on all processors", sturz::bench::threads},
+    {"ensemble", "Members per hour and what the runner costs", sturz::bench::ensemble},
+    {"absent-effects", "What effects cost that are not there", sturz::bench::absent_effects}};
+
+void add_options(CLI::App& app, Options& o, std::string& json) {
+  app.add_option("--pairs", o.pairs, "Pairs or slices per figure")->check(CLI::Range(3, 201));
+  app.add_option("--json", json, "Write the figures as JSON to a file, or - for standard output");
+  app.add_flag("--quick", o.quick, "7 pairs and smaller scenes");
+  app.add_option("--most", o.most, "Largest scene of scaling")->check(CLI::Range(2e3, 2e6));
+  app.add_option("--threads", o.threads, "Threads or workers; 0: all")->check(CLI::Range(0, 256));
+  app.add_option("--members", o.members, "Full-stress members; four times as many of columns")
+      ->check(CLI::Range(1, 10000));
+  app.add_option("--end-time", o.end_time_s, "Simulated time of a member [s]")
+      ->check(CLI::Range(0.1, 1e4));
+  app.add_option("--fail-below", o.fail_below,
+                 "throughput: exit code 1 when dense / reference is less");
+}
+
+void print(const Report& report, std::ostream& out) {
+  for (const auto& table : report.tables) out << "\n" << table.text();
+  out << "\n";
+  for (const auto& note : report.notes) out << note << "\n";
+}
+
+/// \return whether it could be written
+bool write_json(const nlohmann::ordered_json& all, const std::string& file) {
+  if (file == "-") {
+    std::cout << all.dump(2) << "\n";
+    return true;
+  }
+  std::ofstream out(file);
+  out << all.dump(2) << "\n";
+  return static_cast<bool>(out.flush());
+}
+
+int run(const Command& command, const Options& options, const std::string& json) {
+  // With the figures on standard output, readers get the tables on the other one.
+  std::ostream& out = json == "-" ? std::cerr : std::cout;
+  nlohmann::ordered_json all = {{"machine", sturz::bench::machine_facts()}};
+  const double load = sturz::bench::load_average();
+  out << "sturz_bench " << command.name << ": " << all["machine"].dump() << "\n";
+  if (all["machine"]["build_type"] != "Release") out << "warning: not a release build.\n";
+  const std::string warning = sturz::bench::load_warning(load);
+  if (!warning.empty()) out << warning << "\n";
+  out.flush();
+
+  const Report report = command.run(options);
+  print(report, out);
+  const double load_after = sturz::bench::load_average();
+  out << "load average: " << load << " before, " << load_after << " after\n";
+  all["load_before"] = load, all["load_after"] = load_after;
+  all["command"] = command.name, all["pairs"] = options.pairs, all["quick"] = options.quick;
+  for (const auto& table : report.tables) all[table.key()] = table.json();
+  all["notes"] = report.notes;
+  if (!json.empty() && !write_json(all, json)) {
+    std::cerr << json << ": cannot be written. Choose another file.\n";
+    return 2;
+  }
+  if (report.failed) std::cerr << "the limit of --fail-below does not hold\n";
+  return report.failed ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // As the program itself does: threads that wait sleep. OpenMP reads this before main starts.
+  if (!std::getenv("OMP_WAIT_POLICY") && setenv("OMP_WAIT_POLICY", "passive", 1) == 0)
+    execv("/proc/self/exe", argv);  // comes back only when it fails; then spinning it is
+  CLI::App app{"Times the scenes that the tests check."};
+  app.require_subcommand(1);
+  Options options;
+  std::string json;
+  add_options(app, options, json);
+  app.fallthrough();
+  for (const Command& c : commands) app.add_subcommand(c.name, c.help);
+  CLI11_PARSE(app, argc, argv);
+  if (options.quick && app.count("--pairs") == 0) options.pairs = 7;
+  try {
+    for (const Command& c : commands)
+      if (app.got_subcommand(c.name)) return run(c, options, json);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return 2;
+  }
+  return 2;
+}
