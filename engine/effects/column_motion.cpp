@@ -84,7 +84,7 @@ class BasePass final : public Pass {
   /// Exact solution of dv/dt = pull - plastic v/|v| - rate v with the direction frozen; the
   /// plastic part stops the column and never turns it.
   static Vec3 braked(const Vec3& v, const Vec3& pull, double plastic, double rate, double dt) {
-    const double x = rate * dt, decay = std::exp(-x);
+    const double x = rate * dt, decay = x > 0 ? std::exp(-x) : 1;
     const double mean = x > 1e-8 ? (1 - decay) / x : 1;
     const Vec3 trial = decay * v + (mean * dt) * pull;
     const double speed = trial.norm(), stop = plastic * mean * dt;
@@ -123,29 +123,21 @@ class ColumnMotion final : public Pass {
   }
 
  private:
+  /// In separate loops: the arithmetic four columns side by side, the look-ups one by one.
   void drift(State& s, double dt) {
     ParticleSet& p = s.grains;
     const GroundColumns ground(p);
     s.outside.resize(p.size());
+    climb_.resize(p.size());
+    rise_.resize(p.size());
     const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
     const DriftSums sums = ordered_reduce(
         p.size(), s.threads, DriftSums{},
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
-          for (std::size_t i = begin; i < end; ++i) {
-            const double z = p.z[i], climb = p.vz[i];
-            const ColumnGround mid = ground[i].ahead(0.5 * dt * p.vx[i], 0.5 * dt * p.vy[i]);
-            turn_to(p, i, mid.normal());
-            if (rim) out.stopped_energy += p.mass[i] * hold_at_rim(s, i, mid, dt);
-            p.x[i] += dt * p.vx[i];
-            p.y[i] += dt * p.vy[i];
-            s.outside[i] = !look_up_ground(s, ground, i);
-            turn_to(p, i, ground[i].normal());
-            out.any_outside |= s.outside[i] != 0;
-            const double counted = 0.5 * dt * (climb + p.vz[i]), rise = p.z[i] - z;
-            out.settled += p.mass[i] * settle(p, i, s.gravity * (rise - counted));
-            out.later += p.mass[i] * 0.5 * dt * p.vz[i];
-            out.risen += p.mass[i] * rise;
-          }
+          turn_to_mid_step(p, ground, dt, begin, end);
+          if (rim) hold_at_rim(s, ground, dt, begin, end, out);
+          go(s, ground, dt, begin, end, out);
+          settle(p, ground, s.gravity, dt, begin, end, out);
         },
         [](DriftSums& total, const DriftSums& block) {
           total.risen += block.risen;
@@ -164,37 +156,81 @@ class ColumnMotion final : public Pass {
     s.ledger.kinetic -= sums.stopped_energy + sums.settled;
   }
 
-  /// \return kinetic energy that the rim took [J/kg]
-  static double hold_at_rim(State& s, std::size_t i, const ColumnGround& ground, double dt) {
+  /// The slopes at the middle of the step make the way second order.
+  void turn_to_mid_step(ParticleSet& p, const GroundColumns& ground, double dt, std::size_t begin,
+                        std::size_t end) {
+    const double *east = ground.component[0], *north = ground.component[1];
+    const double *ee = ground.component[2], *en = ground.component[3], *nn = ground.component[4];
+    double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data(), *climb = climb_.data();
+    const double half = 0.5 * dt;
+#pragma omp simd
+    for (std::size_t i = begin; i < end; ++i) {
+      const Velocity v{vx[i], vy[i], vz[i]};
+      climb[i] = v.z;
+      const double x = half * v.x, y = half * v.y;
+      const Velocity mid =
+          v.turned(east[i] + ee[i] * x + en[i] * y, north[i] + en[i] * x + nn[i] * y);
+      vx[i] = mid.x, vy[i] = mid.y, vz[i] = mid.z;
+    }
+  }
+
+  /// Takes the velocity that would lead off the known ground.
+  void hold_at_rim(State& s, const GroundColumns& ground, double dt, std::size_t begin,
+                   std::size_t end, DriftSums& out) const {
     ParticleSet& p = s.grains;
-    const Vec3 v(p.vx[i], p.vy[i], p.vz[i]);
-    stop_at_rim(s, i, dt);
-    if (p.vx[i] == v.x() && p.vy[i] == v.y()) return 0;
-    p.vz[i] = ground.east * p.vx[i] + ground.north * p.vy[i];
-    return 0.5 * (v.squaredNorm() - Vec3(p.vx[i], p.vy[i], p.vz[i]).squaredNorm());
+    for (std::size_t i = begin; i < end; ++i) {
+      const Velocity v{p.vx[i], p.vy[i], p.vz[i]};
+      stop_at_rim(s, i, dt);
+      if (p.vx[i] == v.x && p.vy[i] == v.y) continue;
+      const ColumnGround mid = ground[i].ahead(0.5 * dt * v.x, 0.5 * dt * v.y);
+      p.vz[i] = mid.east * p.vx[i] + mid.north * p.vy[i];
+      out.stopped_energy +=
+          0.5 * p.mass[i] * (v.norm2() - Velocity{p.vx[i], p.vy[i], p.vz[i]}.norm2());
+    }
   }
 
-  /// First to the slope at the middle of the step, which makes the way second order, then to that
-  /// at its end.
-  static void turn_to(ParticleSet& p, std::size_t i, const Vec3& normal) {
-    const Vec3 v = turned_into_plane({p.vx[i], p.vy[i], p.vz[i]}, normal);
-    p.vx[i] = v.x(), p.vy[i] = v.y(), p.vz[i] = v.z();
+  void go(State& s, const GroundColumns& ground, double dt, std::size_t begin, std::size_t end,
+          DriftSums& out) {
+    ParticleSet& p = s.grains;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double z = p.z[i];
+      p.x[i] += dt * p.vx[i];
+      p.y[i] += dt * p.vy[i];
+      s.outside[i] = !look_up_ground(s, ground, i);
+      out.any_outside |= s.outside[i] != 0;
+      rise_[i] = p.z[i] - z;
+    }
   }
 
-  /// Kicks count gravity's work by the slopes at both ends of a step; over a kink or a cliff the
-  /// ground fell or rose by something else. The speed pays the difference, so a column never has
-  /// more energy than its fall gave it.
-  /// \param missed  [J/kg]; \return what the speed could pay [J/kg]
-  static double settle(ParticleSet& p, std::size_t i, double missed) {
-    const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
-    if (!(v2 > 0)) return 0;
-    const double left = std::max(0.0, v2 - 2 * missed), factor = std::sqrt(left / v2);
-    p.vx[i] *= factor, p.vy[i] *= factor, p.vz[i] *= factor;
-    return 0.5 * (v2 - left);
+  /// Turns to the slopes at the end of the step. Kicks count gravity's work by the slopes at both ends
+  /// of a step; over a kink or a cliff the ground fell or rose by something else. The speed pays
+  /// the difference, so a column never has more energy than its fall gave it.
+  void settle(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
+              std::size_t begin, std::size_t end, DriftSums& out) const {
+    const double *east = ground.component[0], *north = ground.component[1];
+    const double *climb = climb_.data(), *rise = rise_.data(), *mass = p.mass.data();
+    double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data();
+    double settled = 0, later = 0, risen = 0;
+    const double half = 0.5 * dt;
+#pragma omp simd reduction(+ : settled, later, risen)
+    for (std::size_t i = begin; i < end; ++i) {
+      const Velocity v = Velocity{vx[i], vy[i], vz[i]}.turned(east[i], north[i]);
+      const double v2 = v.norm2(), missed = gravity * (rise[i] - half * (climb[i] + v.z));
+      const double paid = v2 - 2 * missed, left = v2 > 0 && paid > 0 ? paid : 0;
+      const double share = v2 > 0 ? left / v2 : 0, factor = std::sqrt(share);
+      vx[i] = v.x * factor, vy[i] = v.y * factor, vz[i] = v.z * factor;
+      settled += 0.5 * mass[i] * (v2 - left);
+      later += mass[i] * half * vz[i];
+      risen += mass[i] * rise[i];
+    }
+    out.settled += settled;
+    out.later += later;
+    out.risen += risen;
   }
 
   std::shared_ptr<ColumnFlow> flow_;
   std::vector<std::uint8_t> keep_;
+  std::vector<double> climb_, rise_;  // of each column: v_z at the step's start [m/s], dz [m]
   double later_rise_ = 0;  // sum of m dz that the next kick counts [kg m]
 };
 

@@ -41,8 +41,9 @@ void start_columns(State& s, ColumnFlow& flow, std::span<const double> vertical_
     rate = std::max(rate, set.base[flow.zone_of(s, i)].rate(v0.norm(), thickness[i], set.density,
                                                             s.gravity));
     wave2 = std::max(wave2, g_n[i] * thickness[i] * 4 / (reach[i] * reach[i]));
-    const Vec3 v = turned_into_plane(v0, n);
-    p.vx[i] = v.x(), p.vy[i] = v.y(), p.vz[i] = v.z();
+    const Velocity v =
+        Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
+    p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
   }
   flow.fastest_wave = std::sqrt(wave2);
   // A small part of the time to cross a cell in free fall, or to be braked by a viscous base; the

@@ -3,12 +3,15 @@
 
 #include "engine/effects/fused_sweep.hpp"
 #include "ensemble/app/version.hpp"
+#include "tests/bench/clocks.hpp"
 
 #include <fmt/core.h>
 #include <malloc.h>
 #include <sched.h>
 #include <stdlib.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <ctime>
 #include <fstream>
 
@@ -51,9 +54,38 @@ double load_average() {
 std::string load_warning(double load) {
   if (load < 0.5) return "";
   return fmt::format(
-      "warning: the load is {:.2f}: others compute here too. Single-thread figures count this "
-      "thread's own time and hold to about 20 %; figures by the wall clock do not hold.",
+      "warning: the load is {:.2f}; if others go on computing, single-thread figures (this "
+      "thread's "
+      "own time) hold to about 20 %, figures by the wall clock not at all.",
       load);
+}
+
+Bystanders::Bystanders() : begin_(now()) {}
+
+Bystanders::Clocks Bystanders::now() {
+  Clocks c;
+  c.wall_s = wall_seconds();
+  c.own_s = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+  std::ifstream file("/proc/stat");
+  std::string name;
+  double user = 0, nice = 0, system = 0, idle = 0, wait = 0, irq = 0, soft = 0, stolen = 0;
+  if (file >> name >> user >> nice >> system >> idle >> wait >> irq >> soft >> stolen) {
+    const double tick = 1.0 / static_cast<double>(sysconf(_SC_CLK_TCK));
+    c.busy_s = tick * (user + nice + system + irq + soft);
+    c.stolen_s = tick * stolen;
+  }
+  return c;
+}
+
+double Bystanders::others() const {
+  const Clocks end = now();
+  const double busy = end.busy_s - begin_.busy_s - (end.own_s - begin_.own_s);
+  return std::max(0.0, busy / (end.wall_s - begin_.wall_s));
+}
+
+double Bystanders::stolen() const {
+  const Clocks end = now();
+  return (end.stolen_s - begin_.stolen_s) / (end.wall_s - begin_.wall_s);
 }
 
 int available_cores() {

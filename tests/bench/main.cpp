@@ -4,6 +4,7 @@
 #include "tests/bench/machine.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -71,11 +72,17 @@ int run(const Command& command, const Options& options, const std::string& json)
   if (!warning.empty()) out << warning << "\n";
   out.flush();
 
+  const sturz::bench::Bystanders bystanders;
   const Report report = command.run(options);
+  const double others = bystanders.others(), stolen = bystanders.stolen();
   print(report, out);
-  const double load_after = sturz::bench::load_average();
-  out << "load average: " << load << " before, " << load_after << " after\n";
-  all["load_before"] = load, all["load_after"] = load_after;
+  out << fmt::format(
+      "meanwhile others kept {:.2f} processors busy, the host took {:.2f}; "
+      "load average before: {:.2f}\n",
+      others, stolen, load);
+  if (others > 0.1)
+    out << "warning: not a quiet machine; do not trust figures by the wall clock.\n";
+  all["load_before"] = load, all["others_cores"] = others, all["stolen_cores"] = stolen;
   all["command"] = command.name, all["pairs"] = options.pairs, all["quick"] = options.quick;
   for (const auto& table : report.tables) all[table.key()] = table.json();
   all["notes"] = report.notes;

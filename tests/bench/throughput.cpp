@@ -227,8 +227,9 @@ void Throughput::add_notes() {
       "stress smoothing, mirror image at the ground, drag at rest, parted grains, walls, periods, "
       "zones, losses, energy ledger, double precision, thread-independent sums, step limits, peak "
       "maps, stop rule.",
-      "Bytes per particle: what the passes and arrays say; lists count their capacity. Allocated: "
-      "everything that a member holds, its first positions, maps and patch of ground included."};
+      "Bytes per particle: what the passes and arrays say at the end of the timed run; lists count "
+      "their capacity. Allocated: all that the allocator holds for a member after its first 16 "
+      "steps, first positions and maps included."};
 }
 
 }  // namespace

@@ -49,9 +49,6 @@ struct ColumnGround {
     return {east + bend_ee * x + bend_en * y, north + bend_en * x + bend_nn * y, bend_ee, bend_en,
             bend_nn};
   }
-  double bend(double vx, double vy) const {
-    return bend_ee * vx * vx + 2 * bend_en * vx * vy + bend_nn * vy * vy;
-  }
 };
 
 /// The arrays of field "ground", looked up once per pass.
@@ -71,12 +68,20 @@ struct GroundColumns {
   }
 };
 
-/// v turned into the plane of `normal` with its length kept: the ground's reaction does no work.
-inline Vec3 turned_into_plane(const Vec3& v, const Vec3& normal) {
-  const Vec3 in_plane = v - v.dot(normal) * normal;
-  const double length2 = in_plane.squaredNorm();
-  return length2 > 0 ? Vec3(in_plane * std::sqrt(v.squaredNorm() / length2)) : Vec3(0, 0, 0);
-}
+/// A velocity in plain numbers, for loops that the compiler puts side by side.
+struct Velocity {
+  double x, y, z;
+
+  double norm2() const { return x * x + y * y + z * z; }
+  /// Turned into the plane with these slopes, its length kept: the ground's reaction does no work.
+  Velocity turned(double east, double north) const {
+    const double off = (z - east * x - north * y) / (1 + east * east + north * north);
+    const Velocity in_plane{x + east * off, y + north * off, z - off};
+    const double length2 = in_plane.norm2(), factor = length2 > 0 ? norm2() / length2 : 0;
+    const double scale = std::sqrt(factor);
+    return {in_plane.x * scale, in_plane.y * scale, in_plane.z * scale};
+  }
+};
 
 /// Puts column i on the ground and keeps what lies below it.
 /// \return false off the known ground
