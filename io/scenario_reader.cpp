@@ -116,10 +116,15 @@ class Reader {
     const std::string inner = block.empty() ? "" : block + ".";
     const std::string near = nearest_name(name, siblings);
     if (!near.empty()) return "Did you mean " + inner + near + "?";
-    for (const auto& key : schema()) {
-      const std::string last = key.path.substr(key.path.rfind('.') + 1);
-      if (last == name || key.path == name) return "Did you mean " + key.path + "?";
-    }
+    std::string elsewhere;  // the one nearest to the top
+    const auto depth = [](const std::string& path) {
+      return std::count(path.begin(), path.end(), '.');
+    };
+    for (const auto& key : schema())
+      if (key.path.substr(key.path.rfind('.') + 1) == name &&
+          (elsewhere.empty() || depth(key.path) < depth(elsewhere)))
+        elsewhere = key.path;
+    if (!elsewhere.empty()) return "Did you mean " + elsewhere + "?";
     return (block.empty() ? "Known: " : "Known in " + block + ": ") + joined(siblings) + ".";
   }
 

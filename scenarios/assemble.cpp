@@ -44,6 +44,7 @@ Step make_step(const ScenePlan& plan, State& state) {
     add_grain_stress(step, state, plan.stress, plan.release.depth);
     add_gravity(step, state);
     add_terrain_contact(step, state, plan.contact);
+    if (plan.parcel_contacts) add_parcel_contacts(step, state, *plan.parcel_contacts);
     add_motion(step, state, {plan.stress.spacing, plan.stress.smoothing_length});
   }
   refresh_motion(state, 0);
@@ -142,11 +143,21 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   auto optional_note = [&](const char* name, const char* key, bool given) -> EffectNote {
     return {name, given, (given ? "`" : "no `") + std::string(key) + "`"};
   };
+  const auto* states = s.grains->states ? &*s.grains->states : nullptr;
+  auto states_note = [&](const char* name, const char* key, bool given) -> EffectNote {
+    if (given && columns) return {name, false, "not in depth_averaged"};
+    return {name, given, (given ? "`" : "no `") + std::string(key) + "`"};
+  };
   d.effects = {
       {"gravity", true, "always"},
       {"base", true, "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"},
       {"grain stress", !columns,
        columns ? "not in depth_averaged" : "`grains`: elastic + mu(I), 3-D, full stress"},
+      states_note("pressure of loose packings", "grains.states", states != nullptr),
+      states_note("kinetic theory", "grains.states.dilute", states && states->dilute),
+      states_note("lone parcels", "grains.states.ultradilute", states && states->ultradilute),
+      states_note("contacts of lone parcels", "grains.states.ultradilute.contacts: hertz_mindlin",
+                  plan.parcel_contacts.has_value()),
       {"lateral pressure of columns", columns,
        !columns      ? "not in full_stress"
        : !varying_k ? "`grains.earth_pressure: isotropic`, K = 1"

@@ -5,6 +5,8 @@
 #include "scenarios/number_text.hpp"
 #include "scenarios/value_text.hpp"
 
+#include <algorithm>
+
 namespace sturz {
 namespace {
 
@@ -39,6 +41,25 @@ std::string shown(const Scenario& s, const char* path) {
   return std::string(path) + " = " + value_text(find_key(path)->get(s));
 }
 
+/// What grains that part need to be told apart by.
+void check_states(const Scenario& s, Problems& problems) {
+  if (!s.grains || !s.grains->states) return;
+  const GrainStatesSpec& states = *s.grains->states;
+  if (s.formulation == "depth_averaged")
+    problems.push_back({"grains.states",
+                        "grains.states (formulation is depth_averaged; only full_stress knows it). "
+                        "Remove it or set formulation: full_stress."});
+  const double densest = support(s.grains->solid_fraction).second;
+  if (!states.max_fraction) return;
+  const double least = support(*states.max_fraction).first;
+  // The release is dense: it must fit under the packing that no pressure can close.
+  if (least < std::max(0.60, densest) + 0.02)
+    problems.push_back({"grains.states.max_fraction",
+                        "grains.states.max_fraction = " + number_text(least) +
+                            " (must be at least 0.02 above grains.solid_fraction = " +
+                            number_text(densest) + ", and 0.62). Raise it or leave it out."});
+}
+
 /// Columns have a drag and a lateral pressure of their own; particles get both from their stress.
 void check_formulation(const Scenario& s, Problems& problems) {
   if (s.formulation != "full_stress") return;
@@ -67,6 +88,7 @@ void check_drag(const Scenario& s, Problems& problems) {
 
 void check_material(const Scenario& s, Problems& problems) {
   check_grains(s, problems);
+  check_states(s, problems);
   check_formulation(s, problems);
   check_drag(s, problems);
 }

@@ -72,6 +72,31 @@ struct FrictionLaw {
   bool operator==(const FrictionLaw&) const = default;
 };
 
+/// Grains that part and collide: kinetic theory with a granular temperature.
+struct DiluteSpec {
+  Uncertain restitution{0.7};                 ///< of two grains, e
+  bool operator==(const DiluteSpec&) const = default;
+};
+
+/// Grains that have lost their neighbours: parcels in free flight.
+struct UltradiluteSpec {
+  std::string contacts = "none";              ///< none | hertz_mindlin
+  Uncertain restitution{0.7};                 ///< of two parcels, where they meet
+  Uncertain friction_coefficient{0.5};        ///< of two parcels
+  double youngs_modulus_pa = 5e10;            ///< softened to the speeds of the scene
+  bool operator==(const UltradiluteSpec&) const = default;
+};
+
+/// The states that grains pass through when the fraction they fill falls; full_stress only.
+struct GrainStatesSpec {
+  std::optional<DiluteSpec> dilute;
+  std::optional<UltradiluteSpec> ultradilute;
+  std::string stress_mode = "unified";        ///< unified | seed: the paper's switch between laws
+  std::optional<Uncertain> max_fraction;      ///< alpha_max; default max(0.64, solid_fraction + 0.08)
+  Uncertain frictional_pressure_pa{0.05};     ///< Fr of the paper's Eq. (23)
+  bool operator==(const GrainStatesSpec&) const = default;
+};
+
 struct GrainsSpec {
   Uncertain density_kg_m3{2600};              ///< of the grain material
   Uncertain diameter_m{0.1};
@@ -81,6 +106,7 @@ struct GrainsSpec {
   Uncertain cohesion_pa{0};
   Uncertain poisson_ratio{0.3};
   std::string earth_pressure = "isotropic";   ///< isotropic | active_passive; depth_averaged only
+  std::optional<GrainStatesSpec> states;      ///< absent: every grain is dense
   bool operator==(const GrainsSpec&) const = default;
 };
 

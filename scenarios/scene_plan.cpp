@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "engine/core/error.hpp"
+#include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/ground.hpp"
 #include "scenarios/number_text.hpp"
@@ -146,6 +147,35 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> base, ScenePla
   c.base = std::move(base);
 }
 
+/// Grains that may part: reference packing and laws (physics.md A.4, A.7, B.9).
+GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
+  const GrainStatesSpec& spec = *s.grains->states;
+  GrainStatesSettings states;
+  states.reference_fraction = reference_fraction;
+  states.friction.scale_pa = spec.frictional_pressure_pa.value;
+  states.friction.max_fraction = spec.max_fraction
+                                     ? spec.max_fraction->value
+                                     : std::max(0.64, s.grains->solid_fraction.value + 0.08);
+  if (spec.dilute)
+    states.dilute = KineticTheory{s.grains->density_kg_m3.value, s.grains->diameter_m.value,
+                                  spec.dilute->restitution.value, states.friction.max_fraction};
+  states.ultradilute = spec.ultradilute.has_value();
+  states.switched = spec.stress_mode == "seed";
+  return states;
+}
+
+ParcelContactSettings plan_parcel_contacts(const Scenario& s, double speed) {
+  const UltradiluteSpec& spec = *s.grains->states->ultradilute;
+  ParcelContactSettings contacts;
+  contacts.material.youngs_modulus = spec.youngs_modulus_pa;
+  contacts.material.poisson_ratio = s.grains->poisson_ratio.value;
+  contacts.material.density = s.grains->density_kg_m3.value;
+  contacts.restitution = spec.restitution.value;
+  contacts.friction = spec.friction_coefficient.value;
+  contacts.speed_bound = speed;
+  return contacts;
+}
+
 void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& base,
                       ScenePlan& plan) {
   const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
@@ -176,6 +206,16 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
   stress.speed_factor = s.numerics.sound_speed_factor;
   if (s.numerics.adaptive_sound_speed)
     stress.least_sound_speed = s.numerics.sound_speed_factor * at_rest;
+  if (s.grains->states) {
+    stress.states = plan_states(s, plan.reference_fraction);
+    // Loose packings are never stiffer than the grains' own elasticity at its softest.
+    GrainStressSettings softest = stress;
+    softest.sound_speed = std::min(stress.sound_speed, stress.least_sound_speed);
+    stress.states->friction.limit_slope(softest.bulk_modulus() / plan.reference_fraction);
+    if (s.grains->states->ultradilute && s.grains->states->ultradilute->contacts != "none")
+      plan.parcel_contacts =
+          plan_parcel_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
+  }
 
   ContactSettings& contact = plan.contact;
   contact.spacing = dx;
@@ -210,7 +250,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   require_room(domain.x, "x", s.numerics.spacing_m);
   require_room(domain.y, "y", s.numerics.spacing_m);
   const bool periodic = domain.x.active || domain.y.active;
-  const Raster<double> thickness = release_thickness(s.release, in);
+  Raster<double> thickness = release_thickness(s.release, in);
   const FormulationChoice formulation = choose_formulation(s, thickness);
   const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
 
@@ -221,7 +261,13 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   plan.formulation = formulation;
   plan.domain = domain;
 
-  plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * s.grains->solid_fraction.value;
+  plan.reference_fraction = s.grains->solid_fraction.value;
+  if (s.grains->states && !formulation.depth_averaged && plan.reference_fraction < dense_fraction) {
+    // A looser mass carries no load: it is set down as the packing it settles to at once.
+    for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
+    plan.reference_fraction = dense_fraction;
+  }
+  plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * plan.reference_fraction;
   plan.release = release_particles(plan.bed, thickness,
                                    {s.numerics.spacing_m, plan.bulk_density_kg_m3,
                                     s.numerics.jitter, s.ensemble.seed, member,
@@ -255,6 +301,15 @@ std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan)
     out.push_back("coarse grains: the smoothing length of " +
                   short_number(plan.stress.smoothing_length) + " m is under two grain diameters of " +
                   short_number(s.grains->diameter_m.value) + " m: the grains act as a parameter only");
+  if (s.grains->states && plan.formulation.depth_averaged)
+    out.push_back("grains.states is not used: columns have no states. Use formulation: full_stress "
+                  "where the grains may part");
+  const bool collides =
+      s.grains->states && s.grains->states->dilute && !plan.formulation.depth_averaged;
+  if (collides && s.grains->states->dilute->restitution.value < 0.7)
+    out.push_back("grains.states.dilute.restitution = " +
+                  short_number(s.grains->states->dilute->restitution.value) +
+                  " lies under 0.7, where kinetic theory was not made for");
   if (plan.release.dropped_fraction > 0.01)
     out.push_back("thin edge: " + short_number(100 * plan.release.dropped_fraction) +
                   " % of the release lies where it is too thin for a particle and was given to the others");

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "engine/effects/depth_averaged.hpp"
 #include "engine/effects/grain_stress.hpp"
+#include "engine/effects/parcel_contacts.hpp"
 #include "engine/effects/terrain_contact.hpp"
 #include "engine/particles/release.hpp"
 #include "engine/core/domain.hpp"
@@ -25,6 +27,8 @@ struct ScenePlan {
   ZoneMap zones;
   GrainStressSettings stress;     ///< full_stress
   ContactSettings contact;        ///< full_stress
+  std::optional<ParcelContactSettings> parcel_contacts;  ///< where lone parcels may meet
+  double reference_fraction = 0.6;///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;  ///< depth_averaged
   double reference_speed_m_s = 0; ///< v_ref of the fastest expected mass point; full_stress
   double available_energy_j = 0;  ///< release mass falling to the lowest ground in reach

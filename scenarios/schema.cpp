@@ -20,6 +20,12 @@ std::vector<KeyInfo> all_keys() {
   return keys;
 }
 
+GrainStatesSpec& make_states(Scenario& s) {
+  if (!s.grains) s.grains.emplace();
+  if (!s.grains->states) s.grains->states.emplace();
+  return *s.grains->states;
+}
+
 std::vector<BlockInfo> all_optional_blocks() {
   return {
       {"release.box", "A rectangular source.",
@@ -37,7 +43,7 @@ std::vector<BlockInfo> all_optional_blocks() {
        [](Scenario& s) {
          if (!s.release.cylinder) s.release.cylinder.emplace();
        }},
-      {"grains", "The moving mass as dense grains.",
+      {"grains", "The moving mass.",
        [](const Scenario& s) { return s.grains.has_value(); },
        [](Scenario& s) {
          if (!s.grains) s.grains.emplace();
@@ -47,6 +53,21 @@ std::vector<BlockInfo> all_optional_blocks() {
        [](Scenario& s) {
          if (!s.grains) s.grains.emplace();
          if (!s.grains->friction) s.grains->friction.emplace();
+       }},
+      {"grains.states", "Grains that part: pressure of loose packings, dilute and lone grains.",
+       [](const Scenario& s) { return s.grains && s.grains->states; },
+       [](Scenario& s) { make_states(s); }},
+      {"grains.states.dilute", "Grains that collide: kinetic theory, granular temperature.",
+       [](const Scenario& s) { return s.grains && s.grains->states && s.grains->states->dilute; },
+       [](Scenario& s) {
+         if (auto& dilute = make_states(s).dilute; !dilute) dilute.emplace();
+       }},
+      {"grains.states.ultradilute", "Grains without neighbours: parcels in free flight.",
+       [](const Scenario& s) {
+         return s.grains && s.grains->states && s.grains->states->ultradilute;
+       },
+       [](Scenario& s) {
+         if (auto& lone = make_states(s).ultradilute; !lone) lone.emplace();
        }},
   };
 }
@@ -105,7 +126,6 @@ std::span<const LaterKey> later_keys() {
   static const std::vector<LaterKey> keys = {
       {"fluid", "a pore fluid with particles of its own"},
       {"coupling", "drag between fluid and grains"},
-      {"grains.states", "dilute and ultradilute grains"},
       {"observation", "comparison with a mapped deposit"},
       {"prior", "ready-made distributions by material"},
   };

@@ -19,6 +19,31 @@ constexpr Block<FrictionLaw> friction{[](const Scenario& s) {
                                         auto& law = made_grains(s).friction;
                                         return law ? *law : law.emplace();
                                       }};
+GrainStatesSpec& made_states(Scenario& s) {
+  auto& states = made_grains(s).states;
+  return states ? *states : states.emplace();
+}
+const GrainStatesSpec* found_states(const Scenario& s) {
+  return s.grains && s.grains->states ? &*s.grains->states : nullptr;
+}
+constexpr Block<GrainStatesSpec> states{found_states, made_states};
+constexpr Block<DiluteSpec> dilute{[](const Scenario& s) {
+                                     const auto* found = found_states(s);
+                                     return found && found->dilute ? &*found->dilute : nullptr;
+                                   },
+                                   [](Scenario& s) -> DiluteSpec& {
+                                     auto& block = made_states(s).dilute;
+                                     return block ? *block : block.emplace();
+                                   }};
+constexpr Block<UltradiluteSpec> ultradilute{
+    [](const Scenario& s) {
+      const auto* found = found_states(s);
+      return found && found->ultradilute ? &*found->ultradilute : nullptr;
+    },
+    [](Scenario& s) -> UltradiluteSpec& {
+      auto& block = made_states(s).ultradilute;
+      return block ? *block : block.emplace();
+    }};
 constexpr Block<BasalSpec> basal{[](const Scenario& s) { return &s.basal; },
                                  [](Scenario& s) -> BasalSpec& { return s.basal; }};
 
@@ -57,6 +82,41 @@ void add_grains(std::vector<KeyInfo>& keys) {
                               {"isotropic", "active_passive"}));
 }
 
+void add_states(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(with_choices(
+      text_key(states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode", choice,
+               "unified: one continuous law from dense to dilute; seed: the paper's switch between "
+               "laws, with relaxation."),
+      {"unified", "seed"}));
+  keys.push_back(key(states, &GrainStatesSpec::max_fraction,
+                     {"grains.states.max_fraction", uncertain, "1", 0.55, 0.95,
+                      "Densest packing of the grains; by default solid_fraction + 0.08, at least "
+                      "0.64."}));
+  keys.push_back(key(states, &GrainStatesSpec::frictional_pressure_pa,
+                     {"grains.states.frictional_pressure_pa", uncertain, "Pa", 0, 1e6,
+                      "Scale of the pressure between fractions 0.5 and max_fraction."}));
+  keys.push_back(above_min(key(dilute, &DiluteSpec::restitution,
+                               {"grains.states.dilute.restitution", uncertain, "1", 0, 0.999,
+                                "Share of the speed that two colliding grains keep. The theory is "
+                                "made for 0.7 and more."})));
+  keys.push_back(with_choices(
+      text_key(ultradilute, &UltradiluteSpec::contacts, "grains.states.ultradilute.contacts",
+               choice, "What lone parcels do when they meet."),
+      {"none", "hertz_mindlin"}));
+  keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::restitution,
+                               {"grains.states.ultradilute.restitution", uncertain, "1", 0, 0.999,
+                                "Share of the speed that two lone parcels keep."})));
+  keys.push_back(key(ultradilute, &UltradiluteSpec::friction_coefficient,
+                     {"grains.states.ultradilute.friction_coefficient", uncertain, "1", 0, 2,
+                      "Friction between two lone parcels."}));
+  keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::youngs_modulus_pa,
+                               {"grains.states.ultradilute.youngs_modulus_pa", number, "Pa", 0,
+                                1e13,
+                                "Stiffness of the grains; softened to what the speeds of the "
+                                "scene need."})));
+}
+
 void add_basal(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
   keys.push_back(key(basal, &BasalSpec::friction_coefficient,
@@ -92,6 +152,7 @@ void add_basal(std::vector<KeyInfo>& keys) {
 
 void add_material_keys(std::vector<KeyInfo>& keys) {
   add_grains(keys);
+  add_states(keys);
   add_basal(keys);
   keys.push_back(with_choices(
       text_key(scene, &Scenario::formulation, "formulation", ValueKind::choice,

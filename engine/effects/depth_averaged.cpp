@@ -86,7 +86,7 @@ void add_depth_averaged(Step& step, State& state, const DepthAveragedSettings& s
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
   if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))
     p.add_field("earth_pressure", 1);
-  for (auto* a : {&state.ax, &state.ay, &state.az}) a->assign(p.size(), 0.0);
+  for (auto* a : {&state.ax, &state.ay, &state.az}) a->assign(p.size(), 0.0f);
   prepare_wrapping(state);
   auto flow = std::make_shared<ColumnFlow>(settings);
   start_columns(state, *flow, thickness);

@@ -8,6 +8,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/grain_stress_shared.hpp"
 #include "engine/effects/terms/grain_stress_update.hpp"
+#include "engine/effects/terms/lone_parcels.hpp"
 #include "engine/effects/terms/wrapping.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 
@@ -29,18 +30,36 @@ class NeighborPass final : public Pass {
     s.order_changed = false;
     if (!lists.needs_rebuild()) return;
     wrap_particles(s);
-    lists.rebuild(s.grains, s.domain, s.threads);
-    for (auto& r : shared_->results) r.resize(lists.padded_size());
-    for (auto& r : shared_->smooth) r.resize(lists.padded_size());
-    for (int c = 0; c < 6; ++c) {
-      s.boundary.moment[c].resize(lists.padded_size(), 0.0f);
-      s.boundary.gradient[c].resize(lists.padded_size(), 0.0f);
-    }
-    s.boundary.share.resize(lists.padded_size(), 0.0f);
+    rebuild(s, lists);
+    make_room(s, lists.padded_size());
+    ++s.n_sorts;
   }
   std::size_t bytes() const override { return shared_->lists.bytes(); }
 
  private:
+  void rebuild(State& s, NeighborLists& lists) const {
+    const GrainStressSettings& g = shared_->settings;
+    const bool flights = g.states && g.states->ultradilute;
+    s.n_listed = s.grains.size();
+    if (flights) {
+      detach_lone(s, g);
+      put_listed_first(s);
+    }
+    lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
+    if (!flights || !attach_near(s, g, lists)) return;
+    put_listed_first(s);
+    lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
+  }
+
+  void make_room(State& s, std::size_t padded) const {
+    for (auto& r : shared_->results) r.resize(padded);
+    for (auto& r : shared_->smooth) r.resize(padded);
+    if (shared_->settings.states)
+      for (auto& r : shared_->parted) r.resize(padded);
+    const std::size_t all = std::max(padded, s.grains.size());
+    for (auto* a : {&s.ax, &s.ay, &s.az, &s.boundary.share}) a->resize(all);
+  }
+
   std::shared_ptr<GrainStress> shared_;
 };
 
@@ -60,7 +79,7 @@ class PackPass final : public Pass {
     auto& before = p.find_field("velocity_before")->component;
     const auto& compression = p.find_field("compression")->component[0];
     const auto& stress = p.find_field("stress")->component;
-    parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(s.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       lists.pack_positions(p, begin, end);
       PackedRecord* records = lists.records();
       for (std::size_t i = begin; i < end; ++i) {
@@ -85,6 +104,8 @@ class PackPass final : public Pass {
       }
     });
     lists.copy_images();
+    for (std::size_t i = s.n_listed; i < p.size(); ++i)
+      before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
   }
 
  private:
@@ -117,29 +138,34 @@ class SweepPass final : public Pass {
                                    shared_->smoothing_now};
     const PackedView view = shared_->lists.view();
     SweepOutput out = shared_->output();
+    out.ax = s.ax.data(), out.ay = s.ay.data(), out.az = s.az.data();
     out.wall_share = s.boundary.share.data();
-    BoundaryView wall;
-    for (int c = 0; c < 6; ++c) {
-      wall.moment[c] = s.boundary.moment[c].data();
-      wall.gradient[c] = s.boundary.gradient[c].data();
-    }
+    const BoundaryView wall = boundary_view(s);
+    const KineticView flying{shared_->kinetic.data(), shared_->calm.data()};
     const Sweeps& loops = sweeps(g.instruction_set);
-    const std::size_t n = s.grains.size();
     constexpr std::size_t groups_per_range = 16;
     parallel_ranges(shared_->lists.n_groups(), groups_per_range, s.threads,
                     [&](std::size_t begin, std::size_t end) {
-                      loops.dense(view, constants, wall, out, begin, end);
-                      const std::size_t last = std::min(n, end * group_size);
-                      for (std::size_t i = begin * group_size; i < last; ++i) {
-                        s.ax[i] = out.ax[i];
-                        s.ay[i] = out.ay[i];
-                        s.az[i] = out.az[i];
-                      }
+                      if (g.states)
+                        loops.kinetic(view, flying, constants, wall, out, begin, end);
+                      else
+                        loops.dense(view, constants, wall, out, begin, end);
                     });
+    for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) s.ax[i] = s.ay[i] = s.az[i] = 0;
   }
-  std::size_t bytes() const override { return 13 * sizeof(float) * shared_->results[0].size(); }
+  std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
 
  private:
+  static BoundaryView boundary_view(const State& s) {
+    const BoundarySupport& b = s.boundary;
+    BoundaryView view{b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
+    for (int c = 0; c < 6 && !s.domain.walls.empty(); ++c) {
+      view.moment[c] = b.moment[c].data();
+      view.gradient[c] = b.gradient[c].data();
+    }
+    return view;
+  }
+
   std::shared_ptr<GrainStress> shared_;
 };
 
@@ -157,14 +183,20 @@ class StressPass final : public Pass {
     columns.compression = p.find_field("compression")->component[0].data();
     for (int k = 0; k < 6; ++k) columns.stress[k] = p.find_field("stress")->component[k].data();
     const SweepOutput rates = shared_->output();
-    const StressUpdate update(shared_->settings, dt, shared_->smoothing_now > 0);
+    const GrainStressSettings& g = shared_->settings;
+    const StressUpdate update(g, dt, shared_->smoothing_now > 0);
+    if (g.states && g.states->switched) columns.state = p.find_field("state")->component[0].data();
     const StressEnergies sums = ordered_reduce(
-        p.size(), s.threads, StressEnergies{},
+        s.n_listed, s.threads, StressEnergies{},
         [&](std::size_t begin, std::size_t end, StressEnergies& out) {
-          update.apply(columns, rates, begin, end, out);
+          if (g.states)
+            update.apply(parting(g, dt), columns, rates, begin, end, out);
+          else
+            update.apply(columns, rates, begin, end, out);
         },
         [](StressEnergies& total, const StressEnergies& block) { total += block; });
     s.ledger.elastic = sums.elastic;
+    s.ledger.frictional += sums.frictional;
     s.ledger.stress_power += sums.power;
     s.ledger.plastic += sums.plastic;
     s.ledger.diffusion += sums.diffusion;
@@ -173,19 +205,18 @@ class StressPass final : public Pass {
   }
 
  private:
+  static PartingPacking parting(const GrainStressSettings& g, double dt) {
+    const GrainStatesSettings& s = *g.states;
+    const double relaxation = 10 * g.smoothing_length / g.sound_speed;
+    return {g.bulk_modulus(), s.reference_fraction, s.friction, s.switched,
+            std::exp(-dt / relaxation)};
+  }
+
   /// What a particle that is about to leave has stored goes with it.
   void release_elastic(State& s) const {
-    const GrainStressSettings& g = shared_->settings;
-    const auto& e = s.grains.find_field("compression")->component[0];
-    const auto& c = s.grains.find_field("stress")->component;
-    for (std::size_t i = 0; i < s.grains.size(); ++i) {
+    for (std::size_t i = 0; i < s.n_listed; ++i) {
       if (!s.leaves(i)) continue;
-      const double p = -(c[0][i] + c[1][i] + c[2][i]) / 3;
-      const double xx = c[0][i] + p, yy = c[1][i] + p, zz = c[2][i] + p;
-      const double tau = std::sqrt(0.5 * (xx * xx + yy * yy + zz * zz) + c[3][i] * c[3][i] +
-                                   c[4][i] * c[4][i] + c[5][i] * c[5][i]);
-      const double stored =
-          elastic_energy(g, s.grains.mass[i] / g.reference_density, e[i], tau);
+      const double stored = stored_energy(shared_->settings, s.grains, i);
       s.ledger.elastic -= stored;
       s.ledger.lost_energy += stored;
     }
@@ -201,9 +232,12 @@ void start_geostatic(State& s, const GrainStressSettings& g, std::span<const dou
   const double k0 = 1 - mu / std::sqrt(1 + mu * mu);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double vertical = g.reference_density * s.gravity * depth[i];
-    compression[i] = vertical * (1 + 2 * k0) / 3 / g.bulk_modulus();
-    stress[0][i] = stress[1][i] = -k0 * vertical;
-    stress[2][i] = -vertical;
+    const double mean = vertical * (1 + 2 * k0) / 3;
+    compression[i] = g.compression_at(mean);
+    // Near the surface the frictional pressure may ask for more than the depth gives.
+    const double excess = g.pressure_at(compression[i]) - mean;
+    stress[0][i] = stress[1][i] = -k0 * vertical - excess;
+    stress[2][i] = -vertical - excess;
     s.ledger.elastic += elastic_energy(g, s.grains.mass[i] / g.reference_density, compression[i],
                                        vertical * (1 - k0) / std::sqrt(3.0));
   }
@@ -233,6 +267,7 @@ void add_grain_stress(Step& step, State& state, const GrainStressSettings& setti
   step.add(std::make_unique<PackPass>(shared));
   step.add(std::make_unique<SweepPass>(shared));
   step.add(std::make_unique<StressPass>(shared));
+  if (first.states) add_grain_states(step, state, shared);
 }
 
 }  // namespace sturz

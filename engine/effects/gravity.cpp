@@ -29,7 +29,7 @@ class Kick final : public Pass {
 }  // namespace
 
 void add_gravity(Step& step, State& state) {
-  for (auto* a : {&state.ax, &state.ay, &state.az}) a->assign(state.grains.size(), 0.0);
+  for (auto* a : {&state.ax, &state.ay, &state.az}) a->assign(state.grains.size(), 0.0f);
   step.add(std::make_unique<Kick>());
 }
 

@@ -44,8 +44,13 @@ class SoundSpeedPass final : public Pass {
     const double ratio = (g.sound_speed / c0) * (g.sound_speed / c0);  // K_old / K_new
     if (std::abs(ratio - 1) < 1e-3) return;
     g.sound_speed = s.sound_speed = c0;
-    for (double& e : s.grains.find_field("compression")->component[0])
-      if (e > 0) e *= ratio;
+    auto& compression = s.grains.find_field("compression")->component[0];
+    const auto& stress = s.grains.find_field("stress")->component;
+    for (std::size_t i = 0; i < compression.size(); ++i) {
+      double& e = compression[i];
+      if (e <= 0) continue;
+      e = g.states ? g.compression_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3) : e * ratio;
+    }
     const double gained = (ratio - 1) * s.ledger.elastic;
     s.ledger.elastic += gained;
     s.ledger.diffusion += gained;

@@ -19,7 +19,7 @@ struct MotionBounds {
   bool finite = true;            ///< false once any position or velocity is NaN or infinite
 };
 
-/// Ground and walls as seen by each particle at x_n; all arrays [n].
+/// Ground and walls as seen by each particle at x_n; all arrays [n rounded up to whole groups].
 ///
 /// A wall cuts the support of the particles beside it. The missing half is taken as their mirror
 /// image: same stress, same tangential and opposite normal velocity. Momentum then gains
@@ -28,11 +28,11 @@ struct MotionBounds {
 /// along the normal is felt too weakly in the last two layers). Force and strain are adjoint,
 /// so a bouncing column neither gains nor loses energy at the wall.
 struct BoundarySupport {
-  std::vector<double> distance, nx, ny, nz;  ///< to the ground along its normal [m]
-  std::vector<double> plane;                 ///< W_plane at that distance [1/m]
-  std::vector<float> share;                  ///< 0..1, from the sweep: how much of the image acts
-  std::vector<float> moment[6];              ///< xx yy zz xy yz zx [-]
-  std::vector<float> gradient[6];            ///< the same order [1/s]
+  std::vector<float> distance;    ///< to the ground along its normal; beyond 2h no more than it [m]
+  std::vector<float> nx, ny, nz;  ///< that normal, up to date within 2h
+  std::vector<float> share;       ///< 0..1, from the sweep: how much of the image acts
+  std::vector<float> moment[6];   ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
+  std::vector<float> gradient[6]; ///< the same order [1/s]
 };
 
 struct State {
@@ -46,13 +46,18 @@ struct State {
   std::size_t n_steps = 0;
   int threads = 1;
 
-  std::vector<double> ax, ay, az;        ///< acceleration of the force stage [m/s^2]
+  std::vector<float> ax, ay, az;         ///< acceleration of the force stage, at least [n] [m/s^2]
   std::vector<std::uint8_t> outside;     ///< 1: off the known terrain, 2: lost under the ground
   bool any_outside = false;
   /// What wrapping into the periods took off each particle's map position, by id [m]; empty
   /// where nothing is periodic.
   std::vector<double> wrapped_x, wrapped_y;
   bool order_changed = true;             ///< particles were added, removed or moved by force
+  /// Particles [0, n_listed) are grains of the continuum, the rest lone parcels in flight. Up to
+  /// date from the neighbour stage of a step to its end.
+  std::size_t n_listed = 0;
+  double hottest = 0;                    ///< largest granular temperature so far [m^2/s^2]
+  std::size_t n_sorts = 0;               ///< how often the storage order was made anew
   BoundarySupport boundary;
   MotionBounds motion;
   Ledger ledger;

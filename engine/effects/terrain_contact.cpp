@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/terrain_contact.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -44,6 +45,8 @@ class WallPressure {
     const Field* stress = s.grains.find_field("stress");
     if (!stress) return;
     for (int k = 0; k < 6; ++k) stress_[k] = stress->component[k].data();
+    if (const Field* kinetic = s.grains.find_field("kinetic_stress"))
+      for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
     compression_ = s.grains.find_field("compression")->component[0].data();
     density_ = c.reference_density;
     share_ = s.boundary.share.data();
@@ -51,18 +54,22 @@ class WallPressure {
   /// \param plane  plane_integral at the particle's distance [1/m]
   double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
     if (!compression_) return 0;
-    const double snn = nx * nx * stress_[0][i] + ny * ny * stress_[1][i] +
-                       nz * nz * stress_[2][i] +
-                       2 * (nx * ny * stress_[3][i] + ny * nz * stress_[4][i] +
-                            nz * nx * stress_[5][i]);
+    double snn = normal(stress_, i, nx, ny, nz);
+    if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
     if (snn >= 0) return 0;
     return -2 * snn * plane * share_[i] / (density_ * (1 + compression_[i]));
   }
 
  private:
+  static double normal(const double* const s[6], std::size_t i, double nx, double ny, double nz) {
+    return nx * nx * s[0][i] + ny * ny * s[1][i] + nz * nz * s[2][i] +
+           2 * (nx * ny * s[3][i] + ny * nz * s[4][i] + nz * nx * s[5][i]);
+  }
+
   double density_ = 1;
   const float* share_ = nullptr;
   const double* stress_[6] = {};
+  const double* kinetic_[6] = {};  ///< of grains that fly, see grain_states.cpp
   const double* compression_ = nullptr;
 };
 
@@ -94,20 +101,24 @@ class BoundaryPass final : public Pass {
   }
 
   void apply(State& s, double dt) override {
-    BoundarySupport& b = s.boundary;
-    for (auto* column : {&b.distance, &b.nx, &b.ny, &b.nz, &b.plane})
-      column->resize(s.grains.size());
-    s.outside.resize(s.grains.size());
-    const Mirror mirror(s, dt);
+    make_room(s);
+    // Where nothing moved in storage, what was far from the ground has come no nearer than it went.
+    const bool known = s.n_sorts == sorts_ && s.grains.size() == n_;
+    sorts_ = s.n_sorts;
+    n_ = s.grains.size();
+    const auto travel = static_cast<float>(1.0001 * s.motion.max_speed * s.previous_dt);
+    const auto far = static_cast<float>(2 * settings_.smoothing_length);
+    float* distance = s.boundary.distance.data();
     const Found found = ordered_reduce(
-        s.grains.size(), s.threads, Found{},
+        n_, s.threads, Found{},
         [&](std::size_t begin, std::size_t end, Found& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            locate(s, i, out);
-            mirror.set(b, i, b.plane[i], b.distance[i], b.nx[i], b.ny[i], b.nz[i]);
-            for (const Wall& wall : s.domain.walls)
-              if (s.time < wall.remove_at_s) add_wall(s, mirror, wall, i);
+            if (known && distance[i] - travel > far)
+              distance[i] -= travel;
+            else
+              locate(s, i, out);
           }
+          if (!s.domain.walls.empty()) add_walls(s, dt, begin, end);
         },
         [](Found& total, const Found& block) {
           total.any_outside |= block.any_outside;
@@ -123,73 +134,70 @@ class BoundaryPass final : public Pass {
     double leaked = 0;
   };
 
-  /// The ground's share of State::boundary's moment and gradient, and what walls add to it.
-  class Mirror {
-   public:
-    Mirror(const State& s, double dt) : set_(s.grains), ahead_(s.extrapolation(dt)) {
-      const Field* before = set_.find_field("velocity_before");
-      if (!before) return;
-      for (int k = 0; k < 3; ++k) before_[k] = before->component[k].data();
-    }
-    void set(BoundarySupport& b, std::size_t i, double plane, double d, double nx, double ny,
-             double nz) const {
-      put<false>(b, i, plane, d, nx, ny, nz);
-    }
-    void add(BoundarySupport& b, std::size_t i, double plane, double d, double nx, double ny,
-             double nz) const {
-      put<true>(b, i, plane, d, nx, ny, nz);
-    }
-
-   private:
-    template <bool accumulate>
-    void put(BoundarySupport& b, std::size_t i, double plane, double d, double nx, double ny,
-             double nz) const {
-      if (!before_[0]) return;  // nobody sums gradients
-      const double vx = set_.vx[i] + ahead_ * (set_.vx[i] - before_[0][i]);
-      const double vy = set_.vy[i] + ahead_ * (set_.vy[i] - before_[1][i]);
-      const double vz = set_.vz[i] + ahead_ * (set_.vz[i] - before_[2][i]);
-      const double moment = 2 * plane * (d > 0 ? d : 0);
-      const double gradient = 2 * plane * (vx * nx + vy * ny + vz * nz);
-      const double nn[6] = {nx * nx, ny * ny, nz * nz, nx * ny, ny * nz, nz * nx};
-      for (int c = 0; c < 6; ++c) {
-        const auto m = static_cast<float>(moment * nn[c]), g = static_cast<float>(gradient * nn[c]);
-        b.moment[c][i] = accumulate ? b.moment[c][i] + m : m;
-        b.gradient[c][i] = accumulate ? b.gradient[c][i] + g : g;
-      }
-    }
-
-    const ParticleSet& set_;
-    double ahead_;
-    const double* before_[3] = {};
-  };
+  /// Whole groups, because the sweep reads lanes.
+  static void make_room(State& s) {
+    const std::size_t padded = (s.grains.size() + 15) / 16 * 16;
+    BoundarySupport& b = s.boundary;
+    for (auto* column : {&b.distance, &b.nx, &b.ny, &b.nz}) column->resize(padded);
+    s.outside.resize(s.grains.size());
+    if (s.domain.walls.empty()) return;
+    for (int c = 0; c < 6; ++c) b.moment[c].resize(padded), b.gradient[c].resize(padded);
+  }
 
   void locate(State& s, std::size_t i, Found& out) const {
     BoundarySupport& b = s.boundary;
     Vec3 at(s.grains.x[i], s.grains.y[i], s.grains.z[i]);
     s.domain.wrap(at.x(), at.y(), at.z());
-    s.outside[i] = !s.terrain.inside(at.x(), at.y());
-    b.plane[i] = 0;
-    if (!s.outside[i]) {
-      const SurfaceDistance gap = s.terrain.distance(at, 0.5 * settings_.spacing);
-      b.distance[i] = gap.distance;
-      b.nx[i] = gap.normal.x(), b.ny[i] = gap.normal.y(), b.nz[i] = gap.normal.z();
-      b.plane[i] = plane_integral(gap.distance, settings_.smoothing_length);
-      if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
-        s.outside[i] = 2;
-        out.leaked += s.grains.mass[i];
-      }
+    SurfaceDistance gap;
+    s.outside[i] = !s.terrain.distance_inside(at, 0.5 * settings_.spacing, gap);
+    b.distance[i] = static_cast<float>(gap.distance);
+    b.nx[i] = static_cast<float>(gap.normal.x());
+    b.ny[i] = static_cast<float>(gap.normal.y());
+    b.nz[i] = static_cast<float>(gap.normal.z());
+    const double reach = 2 * settings_.smoothing_length;
+    if (gap.distance > reach)  // how long it need not be looked at again
+      b.distance[i] = static_cast<float>(std::fmax(reach, s.terrain.clearance(at)));
+    if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
+      s.outside[i] = 2;
+      out.leaked += s.grains.mass[i];
     }
     out.any_outside |= s.outside[i] != 0;
   }
 
-  void add_wall(State& s, const Mirror& mirror, const Wall& wall, std::size_t i) const {
-    const Vec3& n = wall.normal;
-    const double d = (Vec3(s.grains.x[i], s.grains.y[i], s.grains.z[i]) - wall.point).dot(n);
-    const double plane = plane_integral(d, settings_.smoothing_length);
-    if (plane > 0) mirror.add(s.boundary, i, plane, d, n.x(), n.y(), n.z());
+  /// What the mirrored halves beside analytic walls add to moment and gradient of [begin, end).
+  void add_walls(State& s, double dt, std::size_t begin, std::size_t end) const {
+    BoundarySupport& b = s.boundary;
+    const ParticleSet& p = s.grains;
+    const Field* before = p.find_field("velocity_before");
+    if (!before) return;  // nobody sums gradients
+    const double ahead = s.extrapolation(dt);
+    for (int c = 0; c < 6; ++c) {
+      std::fill(b.moment[c].begin() + begin, b.moment[c].begin() + end, 0.0f);
+      std::fill(b.gradient[c].begin() + begin, b.gradient[c].begin() + end, 0.0f);
+    }
+    for (const Wall& wall : s.domain.walls) {
+      if (s.time >= wall.remove_at_s) continue;
+      const Vec3& n = wall.normal;
+      const double nn[6] = {n.x() * n.x(), n.y() * n.y(), n.z() * n.z(),
+                            n.x() * n.y(), n.y() * n.z(), n.z() * n.x()};
+      for (std::size_t i = begin; i < end; ++i) {
+        const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
+        const double plane = plane_integral(d, settings_.smoothing_length);
+        if (plane <= 0) continue;
+        const Vec3 v(p.vx[i], p.vy[i], p.vz[i]);
+        const Vec3 last(before->component[0][i], before->component[1][i], before->component[2][i]);
+        const double moment = 2 * plane * std::fmax(0.0, d);
+        const double gradient = 2 * plane * (v + ahead * (v - last)).dot(n);
+        for (int c = 0; c < 6; ++c) {
+          b.moment[c][i] += static_cast<float>(moment * nn[c]);
+          b.gradient[c][i] += static_cast<float>(gradient * nn[c]);
+        }
+      }
+    }
   }
 
   ContactSettings settings_;
+  std::size_t sorts_ = 0, n_ = 0;  // of the step before
 };
 
 void book(State& s, const ContactSums& sums) {
@@ -231,8 +239,8 @@ class GroundContact final : public Pass {
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
             if (s.outside[i] || b.distance[i] >= reach) continue;
-            const double support =
-                pressure.acceleration(i, b.plane[i], b.nx[i], b.ny[i], b.nz[i]);
+            const double plane = plane_integral(b.distance[i], settings_.smoothing_length);
+            const double support = pressure.acceleration(i, plane, b.nx[i], b.ny[i], b.nz[i]);
             const ContactLaw& law = laws_[zoned ? zone_of(s, i) : 0];
             out.add(apply_contact(law, b.distance[i], b.nx[i], b.ny[i], b.nz[i], support, dt,
                                   start(i).data(), p.vx[i], p.vy[i], p.vz[i]),

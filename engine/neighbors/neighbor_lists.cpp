@@ -10,8 +10,6 @@
 namespace sturz {
 namespace {
 
-constexpr std::size_t groups_per_block = 32;
-
 std::int32_t to_units(double value, double origin, double unit) {
   return static_cast<std::int32_t>(std::lrint((value - origin) / unit));
 }
@@ -21,10 +19,12 @@ std::int32_t to_units(double value, double origin, double unit) {
 NeighborLists::NeighborLists(double support, double skin, TightList tight)
     : support_(support), skin_(skin), tight_(tight) {}
 
-void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads) {
-  n_particles_ = set.size();
+void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads,
+                            std::size_t n_listed) {
+  n_particles_ = n_listed;
   n_groups_ = (n_particles_ + group_size - 1) / group_size;
   for (std::size_t i = 0; i < n_particles_; ++i) domain.wrap(set.x[i], set.y[i], set.z[i]);
+  if (n_particles_ == 0) return rest();
   choose_frame(set, domain);
   sort_particles(set);
   make_images(set, domain);
@@ -36,6 +36,17 @@ void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads)
   copy_images();
   sort_records();
   build_lists(threads);
+  stale_ = false;
+  moved_ = 0;
+  ++n_rebuilds_;
+}
+
+/// Nobody to list.
+void NeighborLists::rest() {
+  images_.clear();
+  records_.clear();
+  list_end_.clear();
+  block_lists_.clear();
   stale_ = false;
   moved_ = 0;
   ++n_rebuilds_;
@@ -85,13 +96,14 @@ std::uint32_t NeighborLists::column_of(double x, double y) const {
 
 void NeighborLists::sort_particles(ParticleSet& set) {
   keys_.resize(n_particles_);
-  order_.resize(n_particles_);
+  order_.resize(set.size());
   for (std::size_t i = 0; i < n_particles_; ++i) {
     const std::int64_t z = to_units(set.z[i], origin_[2], unit_) + (std::int64_t{1} << 31);
     keys_[i] = (std::uint64_t{column_of(set.x[i], set.y[i])} << 32) | std::uint64_t(z);
   }
   std::iota(order_.begin(), order_.end(), 0u);
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+  const auto end = order_.begin() + static_cast<std::ptrdiff_t>(n_particles_);
+  std::sort(order_.begin(), end, [&](std::uint32_t a, std::uint32_t b) {
     return keys_[a] != keys_[b] ? keys_[a] < keys_[b] : set.id[a] < set.id[b];
   });
   set.permute(order_);
@@ -213,24 +225,33 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
 
 void NeighborLists::build_lists(int threads) {
   const std::size_t n_blocks = (n_groups_ + groups_per_block - 1) / groups_per_block;
-  if (block_lists_.size() < n_blocks) block_lists_.resize(n_blocks);
-  list_begin_.assign(n_groups_ + 1, 0);
+  block_lists_.resize(n_blocks);
+  blocks_.resize(n_blocks);
+  list_end_.resize(n_groups_);
   parallel_ranges(n_groups_, groups_per_block, threads, [&](std::size_t begin, std::size_t end) {
-    thread_local std::vector<std::uint32_t> candidates;
-    auto& out = block_lists_[begin / groups_per_block];
-    out.clear();
-    for (std::size_t g = begin; g < end; ++g)
-      list_begin_[g + 1] = static_cast<std::uint32_t>(collect(g, candidates, out));
+    // Collected in the thread's scratch first: a block's own vector then has the size it needs and
+    // a little room, so that later lists fit.
+    thread_local std::vector<std::uint32_t> candidates, found;
+    found.clear();
+    for (std::size_t g = begin; g < end; ++g) {
+      collect(g, candidates, found);
+      list_end_[g] = static_cast<std::uint32_t>(found.size());
+    }
+    auto& list = block_lists_[begin / groups_per_block];
+    if (list.capacity() < found.size()) list.reserve(found.size() + found.size() / 8);
+    list.assign(found.begin(), found.end());
+    blocks_[begin / groups_per_block] = list.data();
   });
-  std::partial_sum(list_begin_.begin(), list_begin_.end(), list_begin_.begin());
-  list_.resize(list_begin_.back());
-  for (std::size_t b = 0; b < n_blocks; ++b)
-    std::copy(block_lists_[b].begin(), block_lists_[b].end(),
-              list_.begin() + list_begin_[b * groups_per_block]);
 }
 
 PackedView NeighborLists::view() const {
-  return {records_.data(), n_particles_, list_begin_.data(), list_.data(), unit_};
+  return {records_.data(), n_particles_, blocks_.data(), list_end_.data(), unit_};
+}
+
+std::size_t NeighborLists::n_entries() const {
+  std::size_t n = 0;
+  for (const auto& b : block_lists_) n += b.size();
+  return n;
 }
 
 std::size_t NeighborLists::bytes() const {
@@ -238,8 +259,8 @@ std::size_t NeighborLists::bytes() const {
   for (const auto& b : block_lists_) blocks += b.capacity() * sizeof(std::uint32_t);
   return blocks + records_.capacity() * sizeof(PackedRecord) +
          keys_.capacity() * sizeof(std::uint64_t) +
-         (order_.capacity() + sorted_.capacity() + column_begin_.capacity() + list_.capacity() +
-          list_begin_.capacity()) *
+         (order_.capacity() + sorted_.capacity() + column_begin_.capacity() +
+          list_end_.capacity()) *
              sizeof(std::uint32_t);
 }
 

@@ -2,6 +2,8 @@
 /// Sorting particles into columns and listing, per group of 16, the neighbours they share.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -37,7 +39,20 @@ class NeighborLists {
 
   /// Wraps periodic positions, sorts the set into column order (permuting it), makes images and
   /// lists. `records()` then has the right size, with positions filled.
-  void rebuild(ParticleSet&, const Domain&, int threads);
+  void rebuild(ParticleSet& set, const Domain& domain, int threads) {
+    rebuild(set, domain, threads, set.size());
+  }
+  /// The same for the first `n_listed` particles; the others keep their places behind them.
+  void rebuild(ParticleSet&, const Domain&, int threads, std::size_t n_listed);
+  /// Calls visit(record, r^2 [m^2]) for every listed particle or image within the support of a
+  /// point, in a fixed order. An image's record stands for its source.
+  template <class Visit>
+  void for_each_near(double x, double y, double z, Visit&& visit) const;
+  /// Calls visit(record, source record) for every periodic image.
+  template <class Visit>
+  void for_each_image(Visit&& visit) const {
+    for (std::size_t k = 0; k < images_.size(); ++k) visit(padded_size() + k, images_[k].source);
+  }
   /// Writes positions (fixed point) of all records; the caller fills the other values of records
   /// 0..n-1 and then calls copy_images().
   void pack_positions(const ParticleSet&, std::size_t begin, std::size_t end);
@@ -46,13 +61,18 @@ class NeighborLists {
   PackedRecord* records() { return records_.data(); }
   std::size_t n_groups() const { return n_groups_; }
   std::size_t padded_size() const { return n_groups_ * group_size; }
+  /// Particles, padding and images, in whole groups.
+  std::size_t n_records_rounded() const {
+    return (records_.size() + group_size - 1) / group_size * group_size;
+  }
   PackedView view() const;
   /// Entries of all lists: the work of one sweep is 16 times as many pairs.
-  std::size_t n_entries() const { return list_.size(); }
+  std::size_t n_entries() const;
   std::size_t n_rebuilds() const { return n_rebuilds_; }
   std::size_t bytes() const;
 
  private:
+  void rest();
   void choose_frame(const ParticleSet&, const Domain&);
   void make_images(const ParticleSet&, const Domain&);
   void sort_particles(ParticleSet&);
@@ -80,8 +100,36 @@ class NeighborLists {
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> sorted_;   // record numbers in column order
   std::vector<std::uint32_t> column_begin_;
-  std::vector<std::uint32_t> list_, list_begin_;
+  std::vector<std::uint32_t> list_end_;                  // see PackedView
   std::vector<std::vector<std::uint32_t>> block_lists_;
+  std::vector<const std::uint32_t*> blocks_;
 };
+
+template <class Visit>
+void NeighborLists::for_each_near(double x, double y, double z, Visit&& visit) const {
+  if (n_particles_ == 0) return;
+  const auto index = [&](double v, double edge, std::uint32_t count) {
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((v - edge) / width_)), -1,
+                                    count);
+  };
+  const auto last = [](std::int64_t i, std::uint32_t count) {
+    return std::min<std::int64_t>(i, count - 1);
+  };
+  const auto row0 = std::max<std::int64_t>(0, index(y - support_, south_, n_rows_));
+  const auto row1 = last(index(y + support_, south_, n_rows_), n_rows_);
+  const auto col0 = std::max<std::int64_t>(0, index(x - support_, west_, n_cols_));
+  const auto col1 = last(index(x + support_, west_, n_cols_), n_cols_);
+  for (auto row = row0; row <= row1; ++row)
+    for (auto col = col0; col <= col1; ++col) {
+      const auto column =
+          static_cast<std::size_t>(row * n_cols_ + (row % 2 ? n_cols_ - 1 - col : col));
+      for (auto k = column_begin_[column]; k < column_begin_[column + 1]; ++k) {
+        const PackedRecord& r = records_[sorted_[k]];
+        const double dx = origin_[0] + r.x * unit_ - x, dy = origin_[1] + r.y * unit_ - y;
+        const double dz = origin_[2] + r.z * unit_ - z, r2 = dx * dx + dy * dy + dz * dz;
+        if (r2 < support_ * support_) visit(std::size_t{sorted_[k]}, r2);
+      }
+    }
+}
 
 }  // namespace sturz

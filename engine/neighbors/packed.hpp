@@ -10,6 +10,8 @@ namespace sturz {
 
 /// Particles per group: they sit in lanes while their common neighbours are broadcast.
 inline constexpr int group_size = 16;
+/// Groups whose lists are kept together, see PackedView.
+inline constexpr std::size_t groups_per_block = 32;
 
 /// One particle as neighbour. Positions are fixed point (differences are exact however far the
 /// scene's origin is); the unit is PackedView::unit_m.
@@ -24,14 +26,37 @@ struct alignas(64) PackedRecord {
 };
 static_assert(sizeof(PackedRecord) == 64);
 
+/// What a grain that flies among others brings besides its PackedRecord (physics.md B.6, B.9). The
+/// record's volume and stress are those of enduring contacts, which grains that have parted no
+/// longer feel; kinetic stresses act on the volume that the grains really take up.
+struct alignas(16) KineticRecord {
+  float growth = 1;           ///< true volume over PackedRecord::volume [-]
+  float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
+  float theta = 0;            ///< granular temperature [m^2/s^2]
+  float resistance = 1e30f;   ///< 1/k_theta; huge: no conduction [m s/kg]
+  float viscosity = 1;        ///< share of the artificial viscosity of dense grains [-]
+  float spare[2] = {0, 0};
+};
+static_assert(sizeof(KineticRecord) == 48);
+
 /// Everything a sweep needs to read. Group g holds particles g*16 .. g*16+15 of storage order;
 /// records n_particles .. n_records-1 are periodic images and padding.
 struct PackedView {
   const PackedRecord* records = nullptr;
   std::size_t n_particles = 0;
-  const std::uint32_t* list_begin = nullptr;  ///< [n_groups + 1] into list
-  const std::uint32_t* list = nullptr;        ///< record numbers
+  /// Record numbers near group g: from list(g) to list(g) + list_size(g). Lists are kept in blocks of
+  /// `groups_per_block` groups; list_end[g] counts from the start of g's block.
+  const std::uint32_t* const* block = nullptr;
+  const std::uint32_t* list_end = nullptr;
   double unit_m = 1;                          ///< metres per position unit
+
+  std::size_t list_start(std::size_t g) const {
+    return g % groups_per_block ? list_end[g - 1] : 0;
+  }
+  const std::uint32_t* list(std::size_t g) const {
+    return block[g / groups_per_block] + list_start(g);
+  }
+  std::size_t list_size(std::size_t g) const { return list_end[g] - list_start(g); }
 };
 
 /// Constants of the dense pair terms.
@@ -45,13 +70,22 @@ struct SweepConstants {
   double stress_smoothing = 0;   ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
 };
 
-/// What walls add at each particle, [n_particles rounded up to whole groups] each; order
-/// xx yy zz xy yz zx. The sweep takes it in the share n.M.n / 0.25 (at most 1) of the support that
-/// neighbours give along the wall's normal: a grain with nothing above it has no pressure field to
-/// be mirrored, and would bounce off its own image without loss.
+/// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep takes
+/// their mirror image in the share n.M.n / 0.25 (at most 1) of the support that neighbours give
+/// along the normal: a grain with nothing above it has no pressure field to be mirrored, and would
+/// bounce off its own image without loss.
 struct BoundaryView {
+  const float* distance;       ///< to the ground [m]; 2h and more: not felt
+  const float *nx, *ny, *nz;   ///< the ground's normal, finite everywhere
+  /// What analytic walls add, order xx yy zz xy yz zx; null where there are none.
   const float* moment[6];      ///< to the moment matrix [-]
   const float* gradient[6];    ///< to the velocity gradient before correction [1/s]
+};
+
+/// For a mass whose grains may part.
+struct KineticView {
+  const KineticRecord* records = nullptr;  ///< as many as PackedView::records
+  const std::uint8_t* calm = nullptr;      ///< by record/group_size: 1 where no grain flies
 };
 
 /// Results per particle, each [n_particles rounded up to whole groups].
@@ -62,6 +96,11 @@ struct SweepOutput {
   float* lzx; float* lzy; float* lzz;
   float* diffusion;                    ///< d(compression)/dt by delta-SPH [1/s]
   float* wall_share;                   ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
+  /// Written where a KineticView is given: how full the support is of neighbours and ground (1 inside
+  /// a dense mass, about a half at its surface), how many neighbours there are, and the heat
+  /// that granular temperature conducts per volume of the record [W/m^3].
+  float *fill, *neighbors, *heat;
+  static constexpr float uncounted = 1000;  ///< neighbours of a grain that nobody flies near
   float* smooth[6];                    ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
 };
 

@@ -44,8 +44,10 @@ Terrain::Terrain(std::shared_ptr<const Raster<double>> elevation, NodataRule rul
           "terrain: no 2 x 2 block of cells has known elevations (all or nearly all is nodata). "
           "Check the raster's nodata value and the area cut out of it.");
   lowest_m_ = std::numeric_limits<double>::infinity();
-  for (double z : base_->values)
+  for (double z : base_->values) {
     if (std::isfinite(z)) lowest_m_ = std::min(lowest_m_, z);
+    all_known_ = all_known_ && std::isfinite(z);
+  }
   bounds_ = std::make_shared<const std::vector<SurfaceBound>>(
       surface_bounds(base_->values, g.n_rows, g.n_cols, cell_m_));
   for (SurfaceBound b : *bounds_) roughest_ = rougher(roughest_, b);
@@ -128,23 +130,37 @@ SurfacePoint Terrain::surface(double x, double y) const {
   return surface_outside(x, y);
 }
 
-SurfaceDistance Terrain::distance(const Vec3& p, double reach) const {
+bool Terrain::distance_inside(const Vec3& p, double reach, SurfaceDistance& out) const {
   Block b;
-  if (find(p.x(), p.y(), b)) {
-    const Slope s = evaluate(b, per_cell_);
-    const double above = p.z() - s.z;
-    if (std::isfinite(s.z)) {
-      // The block's bounds hold within one cell; farther away only the whole ground's do.
-      const SurfaceBound& bound = reach <= cell_m_ ? *b.bound : roughest_;
-      if (bound.bend_per_m * reach <= 0.2 || above * bound.min_normal_z > reach) {
-        const Vec3 normal = upward_normal(s.east, s.north);
-        return {above * normal.z(), normal};
-      }
-      return closest(p, s, reach);
-    }
+  if (!find(p.x(), p.y(), b)) return false;
+  const Slope s = evaluate(b, per_cell_);
+  if (!std::isfinite(s.z)) return false;
+  const double above = p.z() - s.z;
+  // The block's bounds hold within one cell; farther away only the whole ground's do.
+  const SurfaceBound& bound = reach <= cell_m_ ? *b.bound : roughest_;
+  if (bound.bend_per_m * reach <= 0.2 || above * bound.min_normal_z > reach) {
+    const Vec3 normal = upward_normal(s.east, s.north);
+    out = {above * normal.z(), normal};
+  } else {
+    out = closest(p, s, reach);
   }
+  return true;
+}
+
+SurfaceDistance Terrain::distance(const Vec3& p, double reach) const {
+  SurfaceDistance found;
+  if (distance_inside(p, reach, found)) return found;
   const SurfacePoint level = surface_outside(p.x(), p.y());
   return {p.z() - level.z, level.normal};
+}
+
+double Terrain::clearance(const Vec3& p) const {
+  Block b;
+  if (!all_known_ || !find(p.x(), p.y(), b)) return 0;
+  const double above = (p.z() - evaluate(b, per_cell_).z) * roughest_.min_normal_z;
+  const double u = (p.x() - west_node_m_) * per_cell_, v = (north_node_m_ - p.y()) * per_cell_;
+  const double rim = std::min({u, v, grid().n_cols - 1 - u, grid().n_rows - 1 - v}) * cell_m_;
+  return std::max(0.0, std::min(above, rim));
 }
 
 SurfacePoint Terrain::surface_outside(double x, double y) const {

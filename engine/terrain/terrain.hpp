@@ -90,6 +90,11 @@ class Terrain {
   ///               Up to one cell costs 20-40 ns; more (or a whole smoothing support) makes nearly
   ///               all of a mountain count as bent and costs several times as much
   SurfaceDistance distance(const Vec3& p, double reach) const;
+  /// The same where the ground is known; false off it, and `out` untouched.
+  bool distance_inside(const Vec3& p, double reach, SurfaceDistance& out) const;
+  /// No point of the ground and no rim of the known ground is nearer than this [m]: the height above
+  /// ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
+  double clearance(const Vec3& p) const;
   /// Steepest slope (rise over run) between neighbouring nodes along a row or a column [-], for
   /// `describe`. Reads every node.
   double steepest_gradient() const;
@@ -127,6 +132,7 @@ class Terrain {
   NodataRule rule_;
   double west_node_m_ = 0, north_node_m_ = 0, cell_m_ = 1, per_cell_ = 1;
   double lowest_m_ = 0;
+  bool all_known_ = true;                                    ///< no unknown node anywhere
   int patch_row_ = 0, patch_col_ = 0, patch_rows_ = 0,
       patch_cols_ = 0;  ///< with a rim of base nodes
   std::vector<double> patch_;

@@ -11,9 +11,9 @@ std::size_t bytes(const std::vector<T>& v) {
 
 std::size_t state_bytes(const State& s) {
   std::size_t sum = bytes(s.outside) + bytes(s.boundary.share);
-  for (const auto* v : {&s.ax, &s.ay, &s.az, &s.wrapped_x, &s.wrapped_y}) sum += bytes(*v);
+  sum += bytes(s.wrapped_x) + bytes(s.wrapped_y);
   const BoundarySupport& b = s.boundary;
-  for (const auto* v : {&b.distance, &b.nx, &b.ny, &b.nz, &b.plane}) sum += bytes(*v);
+  for (const auto* v : {&s.ax, &s.ay, &s.az, &b.distance, &b.nx, &b.ny, &b.nz}) sum += bytes(*v);
   for (int k = 0; k < 6; ++k) sum += bytes(b.moment[k]) + bytes(b.gradient[k]);
   return sum;
 }

@@ -25,6 +25,7 @@ SweepAlone::SweepAlone(const SimulationParts& parts, const ScenePlan& plan, Inst
   fill_records(g);
   for (auto& r : results_) r.assign(lists_.padded_size(), 0);
   zeros_.assign(lists_.padded_size(), 0);
+  far_.assign(lists_.padded_size(), 1e9f);
   n_pairs_ = count_pairs();
 }
 
@@ -52,10 +53,11 @@ std::size_t SweepAlone::count_pairs() const {
   for (std::size_t i = 0; i < view.n_particles; ++i) {
     const PackedRecord& a = view.records[i];
     const std::size_t group = i / group_size;
-    for (auto k = view.list_begin[group]; k < view.list_begin[group + 1]; ++k) {
-      const PackedRecord& b = view.records[view.list[k]];
+    const std::uint32_t* list = view.list(group);
+    for (std::size_t k = 0; k < view.list_size(group); ++k) {
+      const PackedRecord& b = view.records[list[k]];
       const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-      n += view.list[k] != i && x * x + y * y + z * z < support * support;
+      n += list[k] != i && x * x + y * y + z * z < support * support;
     }
   }
   return n;
@@ -72,8 +74,8 @@ SweepOutput SweepAlone::output() {
 }
 
 double SweepAlone::run() {
-  BoundaryView wall{};
-  for (int k = 0; k < 6; ++k) wall.moment[k] = wall.gradient[k] = zeros_.data();
+  const float* zero = zeros_.data();
+  const BoundaryView wall{far_.data(), zero, zero, zero, {}, {}};
   const PackedView view = lists_.view();
   const SweepOutput out = output();
   return timed(thread_seconds, [&] {

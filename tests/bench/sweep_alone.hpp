@@ -43,7 +43,7 @@ class SweepAlone {
   NeighborLists lists_;
   SweepConstants constants_;
   std::array<std::vector<float>, 20> results_;
-  std::vector<float> zeros_;
+  std::vector<float> zeros_, far_;
   std::size_t n_pairs_ = 0;
 };
 

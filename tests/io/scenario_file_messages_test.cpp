@@ -57,12 +57,24 @@ TEST(ScenarioMessages, UnknownKey) {
                           "periodic, walls."));
 }
 
+TEST(ScenarioMessages, StatesOfGrains) {
+  const auto states = [](const std::string& text) {
+    return problems(scene("  friction_angle_deg: 24\n  states: {" + text + "}\n"));
+  };
+  EXPECT_THAT(states("dilute: {}, ultradilute: {}"), ElementsAre());
+  EXPECT_THAT(states("dilute: {restitution: 1.5}"),
+              ElementsAre(HasSubstr("grains.states.dilute.restitution = 1.5")));
+  EXPECT_THAT(states("max_fraction: 0.6"),
+              ElementsAre(HasSubstr("grains.states.max_fraction = 0.6 (must be at least 0.02 above")));
+  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  states: {dilute: {}}\n") +
+                       "formulation: depth_averaged\n"),
+              ElementsAre(HasSubstr("grains.states (formulation is depth_averaged")));
+}
+
 TEST(ScenarioMessages, KeysOfLaterVersionsAreNotUnknown) {
   EXPECT_THAT(problems(scene() + "fluid: {density_kg_m3: 1200}\n"),
               ElementsAre("scenario.yaml:7:1: fluid (not available in this version: a pore fluid "
                           "with particles of its own). Remove it."));
-  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  states: {dilute: {}}\n")),
-              ElementsAre(HasSubstr("grains.states (not available in this version")));
   EXPECT_THAT(problems(scene() + "prior: {}\ncoupling: 1\nobservation: {}\n").size(), 3u);
   EXPECT_THAT(problems(scene() + "ensemble: {design: morris}\n"),
               ElementsAre("scenario.yaml:7:20: ensemble.design = morris (not available in this "

@@ -20,6 +20,8 @@ struct SlowParticle {
   double inverse_pressure = 0;                              ///< 1/(p + p_c) [1/Pa]
   Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();    ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
+  double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
+  Vec3 ground_normal{0, 0, 1};
 };
 
 struct SlowRates {

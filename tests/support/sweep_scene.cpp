@@ -29,10 +29,12 @@ PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
 struct Rooms {
   std::array<std::vector<float>, 20> results;
   std::array<std::vector<float>, 12> wall;
+  std::array<std::vector<float>, 4> ground;  // distance and normal
 
   explicit Rooms(std::size_t n) {
     for (auto& r : results) r.assign(n, 0);
     for (auto& w : wall) w.assign(n, 0);
+    for (auto& g : ground) g.assign(n, 0);
   }
   SweepOutput output() {
     SweepOutput o{};
@@ -44,7 +46,7 @@ struct Rooms {
     return o;
   }
   BoundaryView boundary() const {
-    BoundaryView b{};
+    BoundaryView b{ground[0].data(), ground[1].data(), ground[2].data(), ground[3].data(), {}, {}};
     for (int k = 0; k < 6; ++k) b.moment[k] = wall[k].data(), b.gradient[k] = wall[6 + k].data();
     return b;
   }
@@ -87,6 +89,9 @@ SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConst
   for (std::size_t i = 0; i < set.size(); ++i) {
     const SlowParticle& p = particles[set.id[i]];
     lists.records()[i] = record_of(p, lists.records()[i]);
+    rooms.ground[0][i] = static_cast<float>(p.ground_distance);
+    for (int k = 0; k < 3; ++k)
+      rooms.ground[1 + k][i] = static_cast<float>(p.ground_normal[k]);
     for (int k = 0; k < 6; ++k) {
       rooms.wall[k][i] = static_cast<float>(p.wall_moment(entries[k][0], entries[k][1]));
       rooms.wall[6 + k][i] = static_cast<float>(p.wall_gradient(entries[k][0], entries[k][1]));

@@ -26,6 +26,9 @@ struct DenseScale {
   float diffusion;   ///< 2 delta h c0 C
   float density;     ///< rho_ref
   float smoothing;   ///< 2 zeta h c0 C
+  float inv_reach;   ///< 1/(2h) [1/m]
+  float laplacian;   ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
+  float plane;       ///< 2 * 10.5/h: twice the integral of W over a plane through the particle [1/m]
 };
 
 inline DenseScale dense_scale(const SweepConstants& c, double unit) {
@@ -41,6 +44,9 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
   s.density = static_cast<float>(c.reference_density);
   s.smoothing =
       static_cast<float>(2 * c.stress_smoothing * c.h * c.sound_speed * c.gradient_factor);
+  s.inv_reach = static_cast<float>(0.5 / c.h);
+  s.laplacian = static_cast<float>(c.gradient_factor);
+  s.plane = static_cast<float>(21 / c.h);
   return s;
 }
 
@@ -81,8 +87,9 @@ struct DenseSums {
   }
 
   /// Adds one neighbour to all lanes. A particle outside the support or the lane itself adds zero.
+  /// \param viscosity  DenseScale::viscosity, or the share of it that acts between the pair
   /// \return the weight V_j t^3
-  Lanes add(const DenseSelf& i, const PackedRecord& j, const DenseScale& k) {
+  Lanes add(const DenseSelf& i, const PackedRecord& j, const DenseScale& k, Lanes viscosity) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes r2 = fma(rx, rx, fma(ry, ry, rz * rz));
     const Lanes t =
@@ -101,7 +108,7 @@ struct DenseSums {
     gx = gx + dx, gy = gy + dy, gz = gz + dz;
 
     const Lanes ur = fma(ux, rx, fma(uy, ry, uz * rz));
-    const Lanes q = ur * Lanes::all(k.viscosity) / (r2 + Lanes::all(k.eta2));
+    const Lanes q = ur * viscosity / (r2 + Lanes::all(k.eta2));
     const Lanes sxy = Lanes::all(j.sxy), syz = Lanes::all(j.syz), szx = Lanes::all(j.szx);
     ax = fma(Lanes::all(j.sxx) + q, dx, fma(sxy, dy, fma(szx, dz, ax)));
     ay = fma(sxy, dx, fma(Lanes::all(j.syy) + q, dy, fma(syz, dz, ay)));

@@ -4,13 +4,17 @@
 
 #include <cmath>
 
+#include <optional>
+
 #include "engine/effects/fused_sweep.hpp"
+#include "engine/effects/terms/grain_states_settings.hpp"
 #include "engine/laws/mu_i_rheology.hpp"
 
 namespace sturz {
 
 struct GrainStressSettings {
   MuIRheology law;
+  std::optional<GrainStatesSettings> states;  ///< absent: every grain is dense
   double spacing = 1;               ///< dx [m]
   double smoothing_length = 1.3;    ///< h [m]
   double reference_density = 1560;  ///< rho_ref = alpha_init rho_p [kg/m^3]
@@ -50,6 +54,23 @@ struct GrainStressSettings {
     return reference_density * sound_speed * sound_speed / (1 + 4.0 / 3.0 * shear_to_bulk());
   }
   double shear_modulus() const { return shear_to_bulk() * bulk_modulus(); }
+
+  /// Contact pressure at a compression [Pa].
+  double pressure_at(double e) const {
+    const double squeezed = bulk_modulus() * std::fmax(0.0, e);
+    return states ? squeezed + states->friction.at(states->reference_fraction * (1 + e)) : squeezed;
+  }
+  /// Compression >= 0 that carries a pressure; 0 where the frictional pressure alone does.
+  double compression_at(double pressure) const {
+    double e = std::fmax(0.0, pressure / bulk_modulus());
+    if (!states) return e;
+    double low = 0, high = e;  // the frictional part only takes load off
+    for (int n = 0; n < 60 && high - low > 1e-15; ++n) {
+      e = 0.5 * (low + high);
+      (pressure_at(e) > pressure ? high : low) = e;
+    }
+    return e;
+  }
 };
 
 }  // namespace sturz

@@ -15,8 +15,12 @@ namespace sturz {
 struct GrainStress {
   GrainStressSettings settings;
   NeighborLists lists;
-  std::vector<float> results[13];
+  std::vector<float> results[10];  // velocity gradient, density diffusion
   std::vector<float> smooth[6];
+  // Only where grains may part:
+  std::vector<float> parted[3];  // fill, neighbours, heat; see SweepOutput
+  std::vector<KineticRecord> kinetic;
+  std::vector<std::uint8_t> calm;
   double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
 
   explicit GrainStress(const GrainStressSettings& s)
@@ -24,18 +28,22 @@ struct GrainStress {
         lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
               sweeps(s.instruction_set).tight_list) {}
 
+  /// Without accelerations and the image's share, which live in the state.
   SweepOutput output() {
     SweepOutput out{};
-    float** slots[] = {&out.ax,  &out.ay,  &out.az,  &out.lxx, &out.lxy, &out.lxz,      &out.lyx,
-                       &out.lyy, &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
-    for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
+    float** slots[] = {&out.lxx, &out.lxy, &out.lxz, &out.lyx, &out.lyy,
+                       &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
+    for (int k = 0; k < 10; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
+    out.fill = parted[0].data(), out.neighbors = parted[1].data(), out.heat = parted[2].data();
     return out;
   }
 };
 
 /// c0 of a mass that starts with the velocities it has, where it follows the flow [m/s].
 double sound_speed_at_start(const State&, const GrainStressSettings&);
+/// Adds fields and passes of grains that may part, see grain_states.cpp.
+void add_grain_states(Step&, State&, const std::shared_ptr<GrainStress>&);
 /// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole way down [m/s]
 void add_sound_speed(Step&, const std::shared_ptr<GrainStress>&, double planned);
 

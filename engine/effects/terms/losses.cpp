@@ -16,19 +16,21 @@ Vec3 start_velocity(const ParticleSet& p, std::size_t i) {
 void remove_outside(State& s, std::vector<std::uint8_t>& keep) {
   ParticleSet& p = s.grains;
   keep.resize(p.size());
+  std::size_t n_kept = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     keep[i] = !s.leaves(i);
+    n_kept += keep[i];
     if (keep[i]) continue;
     s.ledger.lost_mass += p.mass[i];
     s.ledger.lost_energy += 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
   }
+  if (n_kept == p.size()) return;
   for (auto* a : {&s.ax, &s.ay, &s.az}) {
     std::size_t n = 0;
     for (std::size_t i = 0; i < keep.size(); ++i)
       if (keep[i]) (*a)[n++] = (*a)[i];
     a->resize(n);
   }
-  if (s.ax.size() == p.size()) return;
   p.compact(keep);
   s.order_changed = true;
 }

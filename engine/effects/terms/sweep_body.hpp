@@ -2,7 +2,7 @@
 /// The loops over groups, compiled once per instruction set (see engine/core/lanes.hpp).
 #pragma once
 
-#include "engine/effects/terms/dense_sums.hpp"
+#include "engine/effects/terms/kinetic_sums.hpp"
 
 namespace sturz::STURZ_ISA {
 
@@ -37,10 +37,42 @@ inline Lanes wall_share(const DenseSums& s, const Lanes w[6], Lanes scale) {
   return select_less(share, one, max(share, Lanes::all(0)), one);
 }
 
+/// What ground and walls add to the moment matrix and, before correction, to the velocity gradient:
+/// 2 W_plane(d) d n n and 2 W_plane(d) v_n n n (SmoothingKernel::plane_integral), xx yy zz xy yz zx.
+struct Image {
+  Lanes moment[6], gradient[6];
+
+  Image(const BoundaryView& wall, const GroupRows& rows, int lane, const DenseScale& k,
+        std::size_t at) {
+    const Lanes zero = Lanes::all(0);
+    const Lanes d = max(Lanes::load(wall.distance + at), zero);
+    const Lanes y = max(fnma(d, Lanes::all(k.inv_reach), Lanes::all(1)), zero), y2 = y * y;
+    const Lanes tail = fma(y, fma(y, Lanes::all(4.0f / 7), Lanes::all(-1.5f)), Lanes::all(1));
+    const Lanes plane = Lanes::all(k.plane) * y2 * y2 * y * tail;
+    const Lanes nx = Lanes::load(wall.nx + at), ny = Lanes::load(wall.ny + at);
+    const Lanes nz = Lanes::load(wall.nz + at);
+    const Lanes vn = fma(Lanes::load(rows.vx + lane), nx,
+                         fma(Lanes::load(rows.vy + lane), ny, Lanes::load(rows.vz + lane) * nz));
+    // Farther than the support: nothing, whatever the distance (it may be a far lower bound).
+    const Lanes m = select_less(zero, plane, plane * d, zero);
+    const Lanes g = select_less(zero, plane, plane * vn, zero);
+    const Lanes nn[6] = {nx * nx, ny * ny, nz * nz, nx * ny, ny * nz, nz * nx};
+    for (int c = 0; c < 6; ++c) moment[c] = m * nn[c], gradient[c] = g * nn[c];
+    if (!wall.moment[0]) return;
+    for (int c = 0; c < 6; ++c) {
+      moment[c] = moment[c] + Lanes::load(wall.moment[c] + at);
+      gradient[c] = gradient[c] + Lanes::load(wall.gradient[c] + at);
+    }
+  }
+};
+
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
-inline void finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
-                         const DenseScale& k, const BoundaryView& wall, const SweepOutput& out,
-                         std::size_t at) {
+/// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours that
+///                parted alike are too small by it
+/// \return trace of the moment that ground and walls add
+inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
+                          const DenseScale& k, const BoundaryView& wall, const SweepOutput& out,
+                          std::size_t at, Lanes growth) {
   const Lanes sxx = Lanes::load(rows.sxx + lane), syy = Lanes::load(rows.syy + lane);
   const Lanes szz = Lanes::load(rows.szz + lane), sxy = Lanes::load(rows.sxy + lane);
   const Lanes syz = Lanes::load(rows.syz + lane), szx = Lanes::load(rows.szx + lane);
@@ -51,14 +83,16 @@ inline void finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
   (factor * fma(sxy, s.gx, fma(syy, s.gy, fma(syz, s.gz, s.ay)))).store(out.ay + at);
   (factor * fma(szx, s.gx, fma(syz, s.gy, fma(szz, s.gz, s.az)))).store(out.az + at);
 
-  Lanes w[6];
-  for (int c = 0; c < 6; ++c) w[c] = Lanes::load(wall.moment[c] + at);
-  const Lanes share = wall_share(s, w, Lanes::all(k.moment));
+  Image image(wall, rows, lane, k, at);
+  Lanes(&w)[6] = image.moment;
+  const Lanes moment = Lanes::all(k.moment) * growth;
+  const Lanes share = wall_share(s, w, moment);
   share.store(out.wall_share + at);
   for (Lanes& c : w) c = share * c;
-  const Correction b(s, Lanes::all(k.moment), w);
-  for (int c = 0; c < 6; ++c) w[c] = share * Lanes::load(wall.gradient[c] + at);
-  const Lanes scale = Lanes::all(k.gradient);
+  const Lanes imaged = w[0] + w[1] + w[2];
+  const Correction b(s, moment, w);
+  for (int c = 0; c < 6; ++c) w[c] = share * image.gradient[c];
+  const Lanes scale = Lanes::all(k.gradient) * growth;
   auto row = [&](Lanes x, Lanes y, Lanes z, float* ox, float* oy, float* oz) {
     fma(x, b.xx, fma(y, b.xy, z * b.zx)).store(ox + at);
     fma(x, b.xy, fma(y, b.yy, z * b.yz)).store(oy + at);
@@ -80,6 +114,51 @@ inline void finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
   const Lanes bz = fma(own.zx, s.nx, fma(own.yz, s.ny, own.zz * s.nz));
   const Lanes linear = Lanes::all(k.moment) * fma(bx, s.gx, fma(by, s.gy, bz * s.gz));
   (Lanes::all(k.diffusion) * (s.d - linear)).store(out.diffusion + at);
+  return imaged;
+}
+
+/// A third of the moment's trace: 1 inside a dense mass, about a half at its surface.
+inline Lanes fill_of(const DenseSums& s, const DenseScale& k, Lanes imaged) {
+  const Lanes trace = Lanes::all(k.moment) * (s.mxx + s.myy + s.mzz);
+  return Lanes::all(1.0f / 3) * (trace + imaged);
+}
+
+/// A group's kinetic records in rows.
+struct KineticRows {
+  alignas(64) float growth[group_size], theta[group_size];
+  alignas(64) float resistance[group_size], viscosity[group_size];
+  alignas(64) float xx[group_size], yy[group_size], zz[group_size];
+  alignas(64) float xy[group_size], yz[group_size], zx[group_size];
+
+  explicit KineticRows(const KineticRecord* first) {
+    for (int n = 0; n < group_size; ++n) {
+      const KineticRecord& k = first[n];
+      growth[n] = k.growth, theta[n] = k.theta;
+      resistance[n] = k.resistance, viscosity[n] = k.viscosity;
+      xx[n] = k.xx, yy[n] = k.yy, zz[n] = k.zz;
+      xy[n] = k.xy, yz[n] = k.yz, zx[n] = k.zx;
+    }
+  }
+};
+
+/// What kinetic stresses add to the acceleration, heat, and how full the support is.
+inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const GroupRows& rows,
+                           const KineticRows& own, int lane, const DenseScale& k, Lanes imaged,
+                           const SweepOutput& out, std::size_t at) {
+  const Lanes growth = Lanes::load(own.growth + lane);
+  const Lanes density =
+      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
+  const Lanes factor = Lanes::all(-k.gradient) * growth / density;
+  const Lanes xx = Lanes::load(own.xx + lane), yy = Lanes::load(own.yy + lane);
+  const Lanes zz = Lanes::load(own.zz + lane), xy = Lanes::load(own.xy + lane);
+  const Lanes yz = Lanes::load(own.yz + lane), zx = Lanes::load(own.zx + lane);
+  auto push = [&](float* a, Lanes force) { fma(factor, force, Lanes::load(a)).store(a); };
+  push(out.ax + at, fma(xx, s.gx, fma(xy, s.gy, fma(zx, s.gz, s.kx))));
+  push(out.ay + at, fma(xy, s.gx, fma(yy, s.gy, fma(yz, s.gz, s.ky))));
+  push(out.az + at, fma(zx, s.gx, fma(yz, s.gy, fma(zz, s.gz, s.kz))));
+  (Lanes::all(k.laplacian) * s.heat).store(out.heat + at);
+  fill_of(dense, k, imaged / growth).store(out.fill + at);
+  s.count.store(out.neighbors + at);
 }
 
 /// Deviator of the smoothed ratio's rate: zeta' (Sum w S_j - S_i Sum w).
@@ -99,42 +178,119 @@ inline void finish_ratio(const RatioSums& r, const GroupRows& rows, int lane, co
   (scale * fnma(v, Lanes::load(rows.szx + lane), r.zx)).store(out.smooth[5] + at);
 }
 
-template <bool smooth>
-inline void dense_groups(const PackedView& view, const SweepConstants& constants,
-                        const BoundaryView& wall, const SweepOutput& out, std::size_t first_group,
-                        std::size_t last_group) {
-  const DenseScale scale = dense_scale(constants, view.unit_m);
-  for (std::size_t g = first_group; g < last_group; ++g) {
-    const std::size_t first = g * group_size;
-    const GroupRows rows(view.records + first);
-    const std::uint32_t* begin = view.list + view.list_begin[g];
-    const std::uint32_t* end = view.list + view.list_begin[g + 1];
-    for (int lane = 0; lane < group_size; lane += Lanes::width) {
-      const DenseSelf self{IntLanes::load(rows.x + lane), IntLanes::load(rows.y + lane),
-                           IntLanes::load(rows.z + lane), Lanes::load(rows.vx + lane),
-                           Lanes::load(rows.vy + lane),   Lanes::load(rows.vz + lane),
-                           Lanes::load(rows.compression + lane)};
-      DenseSums sums;
-      sums.clear();
-      RatioSums ratio;
-      if constexpr (smooth) ratio.clear();
-      for (const std::uint32_t* j = begin; j != end; ++j) {
-        const Lanes w = sums.add(self, view.records[*j], scale);
-        if constexpr (smooth) ratio.add(view.records[*j], w);
-      }
-      finish_dense(sums, rows, lane, scale, wall, out, first + lane);
-      if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, first + lane);
+/// The lanes' own values of a group.
+inline DenseSelf self_of(const GroupRows& rows, int lane) {
+  return {IntLanes::load(rows.x + lane), IntLanes::load(rows.y + lane),
+          IntLanes::load(rows.z + lane), Lanes::load(rows.vx + lane),
+          Lanes::load(rows.vy + lane),   Lanes::load(rows.vz + lane),
+          Lanes::load(rows.compression + lane)};
+}
+
+/// \tparam fill  whether SweepOutput::fill is wanted
+template <bool smooth, bool fill>
+inline void dense_group(const PackedView& view, const DenseScale& scale, const BoundaryView& wall,
+                        const SweepOutput& out, std::size_t group) {
+  const std::size_t first = group * group_size;
+  const GroupRows rows(view.records + first);
+  const std::uint32_t* begin = view.list(group);
+  const std::uint32_t* end = begin + view.list_size(group);
+  for (int lane = 0; lane < group_size; lane += Lanes::width) {
+    const DenseSelf self = self_of(rows, lane);
+    DenseSums sums;
+    sums.clear();
+    RatioSums ratio;
+    if constexpr (smooth) ratio.clear();
+    for (const std::uint32_t* j = begin; j != end; ++j) {
+      const Lanes w = sums.add(self, view.records[*j], scale, Lanes::all(scale.viscosity));
+      if constexpr (smooth) ratio.add(view.records[*j], w);
     }
+    const Lanes imaged =
+        finish_dense(sums, rows, lane, scale, wall, out, first + lane, Lanes::all(1));
+    if constexpr (fill) fill_of(sums, scale, imaged).store(out.fill + first + lane);
+    if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, first + lane);
   }
 }
 
 inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
                         const BoundaryView& wall, const SweepOutput& out,
                         std::size_t first_group, std::size_t last_group) {
-  if (constants.stress_smoothing > 0)
-    dense_groups<true>(view, constants, wall, out, first_group, last_group);
-  else
-    dense_groups<false>(view, constants, wall, out, first_group, last_group);
+  const DenseScale scale = dense_scale(constants, view.unit_m);
+  const bool smooth = constants.stress_smoothing > 0;
+  for (std::size_t g = first_group; g < last_group; ++g)
+    smooth ? dense_group<true, false>(view, scale, wall, out, g)
+           : dense_group<false, false>(view, scale, wall, out, g);
+}
+
+/// A group in which some grain flies, or meets one that does.
+template <bool smooth>
+inline void kinetic_group(const PackedView& view, const KineticView& flying,
+                          const DenseScale& scale, const BoundaryView& wall,
+                          const SweepOutput& out, std::size_t group) {
+  const std::size_t first = group * group_size;
+  const GroupRows rows(view.records + first);
+  const KineticRows own(flying.records + first);
+  const std::uint32_t* begin = view.list(group);
+  const std::uint32_t* end = begin + view.list_size(group);
+  for (int lane = 0; lane < group_size; lane += Lanes::width) {
+    const DenseSelf self = self_of(rows, lane);
+    const KineticSelf kinetic{Lanes::load(own.theta + lane), Lanes::load(own.resistance + lane),
+                              Lanes::load(own.viscosity + lane)};
+    DenseSums sums;
+    sums.clear();
+    KineticSums more;
+    more.clear();
+    RatioSums ratio;
+    if constexpr (smooth) ratio.clear();
+    const Lanes half_viscosity = Lanes::all(0.5f * scale.viscosity);
+    for (const std::uint32_t* j = begin; j != end; ++j) {
+      const KineticRecord& k = flying.records[*j];
+      const Lanes viscosity = half_viscosity * (kinetic.viscosity + Lanes::all(k.viscosity));
+      const Lanes w = sums.add(self, view.records[*j], scale, viscosity);
+      more.add(self, kinetic, view.records[*j], k, w);
+      if constexpr (smooth) ratio.add(view.records[*j], w);
+    }
+    const std::size_t at = first + lane;
+    const Lanes imaged = finish_dense(sums, rows, lane, scale, wall, out, at,
+                                      Lanes::load(own.growth + lane));
+    finish_kinetic(more, sums, rows, own, lane, scale, imaged, out, at);
+    if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, at);
+  }
+}
+
+/// Whether nobody in the group or near it flies.
+inline bool calm_around(const PackedView& view, const KineticView& flying, std::size_t group) {
+  const std::uint32_t* list = view.list(group);
+  const std::size_t n = view.list_size(group);
+  unsigned calm = flying.calm[group];
+  for (std::size_t k = 0; k < n; ++k) calm &= flying.calm[list[k] / group_size];
+  return calm != 0;
+}
+
+/// What a calm group has in the outputs that only the kinetic sums fill. Its neighbours are not
+/// counted: a grain that has lost them shows by `fill` first.
+inline void leave_calm(const SweepOutput& out, std::size_t group) {
+  for (std::size_t i = group * group_size; i < (group + 1) * group_size; ++i) {
+    out.neighbors[i] = SweepOutput::uncounted;
+    out.heat[i] = 0;
+  }
+}
+
+inline void kinetic_sweep(const PackedView& view, const KineticView& flying,
+                          const SweepConstants& constants, const BoundaryView& wall,
+                          const SweepOutput& out, std::size_t first_group,
+                          std::size_t last_group) {
+  const DenseScale scale = dense_scale(constants, view.unit_m);
+  const bool smooth = constants.stress_smoothing > 0;
+  for (std::size_t g = first_group; g < last_group; ++g) {
+    if (calm_around(view, flying, g)) {
+      smooth ? dense_group<true, true>(view, scale, wall, out, g)
+             : dense_group<false, true>(view, scale, wall, out, g);
+      leave_calm(out, g);
+    } else {
+      smooth ? kinetic_group<true>(view, flying, scale, wall, out, g)
+             : kinetic_group<false>(view, flying, scale, wall, out, g);
+    }
+  }
 }
 
 inline std::size_t tight_list(const PackedRecord* records, std::size_t first, int n_in_group,

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How density and the pressure of contacts follow from strain: for masses that stay dense, and for
+/// those whose grains may part and meet again.
+#pragma once
+
+#include <cmath>
+
+#include "engine/effects/terms/grain_stress_settings.hpp"
+#include "engine/laws/grain_states.hpp"
+
+namespace sturz {
+
+/// p = K e above the reference density, nothing below (physics.md B.5 step 1).
+struct DensePacking {
+  static constexpr bool parts = false;
+  double bulk;  ///< K [Pa]
+
+  /// How much dilation is remembered: the sums of few far neighbours drift, and a grain that must
+  /// first lose a drifted 90 % of its volume would carry nothing when it is buried again.
+  static double bounded(double e) { return e > -0.2 ? e : -0.2; }
+  double pressure(double e) const { return e > 0 ? bulk * e : 0; }
+  static const MuIRheology& yielding(const MuIRheology& law, double) { return law; }
+  /// Parted grains carry no shear.
+  static bool carries_shear(double e) { return !(e < GrainStressSettings::separation); }
+};
+
+/// p = K e + p_fric(alpha): one continuous law from dense to parted (physics.md B.9).
+///
+/// The density of the continuity equation drifts where neighbours are few. It is kept between what
+/// the fill of the support allows: not under 0.85 of it (so a grain that is packed in again counts
+/// as such), and not over a third more than three times of it (so a grain that has lost its
+/// neighbours does not count as dense; the surface of a dense mass has a fill of about a half).
+struct PartingPacking {
+  static constexpr bool parts = true;
+  double bulk;                 ///< K [Pa]
+  double reference_fraction;   ///< alpha where e = 0
+  FrictionalPressure friction;
+  bool switched;               ///< the paper's switch between laws instead of the sum
+  double kept;                 ///< exp(-dt/tau_r) of the switch's relaxation
+
+  double fraction(double e) const { return reference_fraction * (1 + e); }
+  /// e after dt of the continuity equation; never -1. \param strain  dt tr L
+  static double carried(double e, double strain) {
+    return strain > 0 ? (1 + e) / (1 + strain) - 1 : (1 + e) * (1 - strain) - 1;
+  }
+  static double bounded(double e, double fill) {
+    const double least = std::fmin(0.85 * fill - 1, GrainStressSettings::separation);
+    const double most = fill < 0.3 ? fill / 0.3 - 1 : e;
+    return std::fmax(std::fmin(std::fmax(e, least), most), -0.999);
+  }
+  /// \param before  contact pressure at n [Pa]; \param state  GrainState at n
+  double pressure(double e, double before, double state) const {
+    const double squeezed = e > 0 ? bulk * e : 0;
+    if (!switched) return squeezed + friction.at(fraction(e));
+    const bool dense = state == static_cast<double>(GrainState::dense);
+    const double target = dense ? squeezed : friction.at(fraction(e));
+    return target + (before - target) * kept;
+  }
+  /// Cohesion fades with the contacts.
+  MuIRheology yielding(const MuIRheology& law, double e) const {
+    MuIRheology faded = law;
+    faded.cohesion *= 1 - kinetic_weight(fraction(e));
+    return faded;
+  }
+  static bool carries_shear(double) { return true; }  // as much as the frictional pressure allows
+};
+
+}  // namespace sturz
