@@ -53,13 +53,19 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       moment += b.volume * (b.position - a.position) * grad.transpose();
       // Bilateral viscosity; the mean density of a pair is taken as rho_a rho_b / rho_ref.
       const double phi = c.h * u.dot(r) / (r.squaredNorm() + 0.01 * c.h * c.h);
+      const double share = 0.5 * (a.viscosity_share + b.viscosity_share);
       const double pi =
-          -c.viscosity * c.sound_speed * phi * c.reference_density / (density_a * density_b);
+          -share * c.viscosity * c.sound_speed * phi * c.reference_density / (density_a * density_b);
       force += mass_b *
                ((a.stress + b.stress) / (density_a * density_b) - pi * Matrix3d::Identity()) * grad;
+      force += b.volume * a.growth * b.growth / density_a *
+               ((a.kinetic_stress + b.kinetic_stress) * grad);
+      ++rates.neighbors;
       const double rise = b.compression - a.compression;
       const double weight = -grad.dot(r) / r.squaredNorm();  // F_ij without the 0.01 h^2
       laplace += b.volume * weight * rise;
+      const double conduction = 4 / (1 / a.conductivity + 1 / b.conductivity);
+      rates.heat += b.volume * b.growth * conduction * weight * (b.theta - a.theta);
       grad_sum += b.volume * grad;
       density_gradient += b.volume * rise * grad;
       rates.smoothing +=
@@ -70,10 +76,14 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
     for (const SlowParticle& b : images) add(b);
     bool own_corrected = true;
     // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no image.
-    const double along = moment.cwiseProduct(a.wall_moment).sum();
+    rates.fill = moment.trace() / 3;
+    gradient *= a.growth;  // neighbours that parted alike leave too little
+    const Matrix3d grown = a.growth * moment;
+    const double along = grown.cwiseProduct(a.wall_moment).sum();
     rates.wall_share = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
     rates.gradient = (gradient + rates.wall_share * a.wall_gradient) *
-                     correction(moment + rates.wall_share * a.wall_moment, rates.corrected);
+                     correction(grown + rates.wall_share * a.wall_moment, rates.corrected);
+    rates.fill += rates.wall_share * a.wall_moment.trace() / (3 * a.growth);
     const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // grad of compression
     rates.acceleration = force;
     // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.

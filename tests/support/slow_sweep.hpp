@@ -22,6 +22,9 @@ struct SlowParticle {
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
   double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
   Vec3 ground_normal{0, 0, 1};
+  // For grains that fly, see KineticRecord:
+  double growth = 1, theta = 0, conductivity = 1e-30, viscosity_share = 1;
+  Eigen::Matrix3d kinetic_stress = Eigen::Matrix3d::Zero();  ///< [Pa]
 };
 
 struct SlowRates {
@@ -30,6 +33,9 @@ struct SlowRates {
   double diffusion = 0;
   double wall_share = 0;  ///< of the mirror image
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
+  double heat = 0;        ///< conducted, per volume that the grain takes up [W/m^3]
+  double fill = 0;        ///< a third of the moment's trace
+  int neighbors = 0;
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I
 };
 

@@ -5,6 +5,7 @@
 #include "engine/neighbors/smoothing_kernel.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace sturz::test {
 namespace {
@@ -27,7 +28,7 @@ PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
 
 /// Room for the sweep's results and inputs of walls, [padded].
 struct Rooms {
-  std::array<std::vector<float>, 20> results;
+  std::array<std::vector<float>, 23> results;
   std::array<std::vector<float>, 12> wall;
   std::array<std::vector<float>, 4> ground;  // distance and normal
 
@@ -43,6 +44,7 @@ struct Rooms {
     for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
     o.wall_share = results[19].data();
+    o.fill = results[20].data(), o.neighbors = results[21].data(), o.heat = results[22].data();
     return o;
   }
   BoundaryView boundary() const {
@@ -58,6 +60,8 @@ struct Rooms {
     }
     r.diffusion = results[12][i];
     r.wall_share = results[19][i];
+    r.fill = results[20][i], r.heat = results[22][i];
+    r.neighbors = static_cast<int>(results[21][i]);
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
       r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
@@ -73,38 +77,84 @@ SweepConstants usual_constants(double spacing) {
   return {h, SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, 0.16};
 }
 
+namespace {
+
+/// Lists over copies of the particles, with everything the sweeps read.
+struct Prepared {
+  ParticleSet set;
+  NeighborLists lists;
+  std::optional<Rooms> rooms;
+  std::vector<KineticRecord> kinetic;
+  std::vector<std::uint8_t> calm;
+
+  Prepared(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
+           InstructionSet isa, const Domain& domain)
+      : lists(2 * constants.h, 0.15 * constants.h, sweeps(isa).tight_list) {
+    set.resize(particles.size());
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      set.x[i] = particles[i].position.x();
+      set.y[i] = particles[i].position.y();
+      set.z[i] = particles[i].position.z();
+    }
+    lists.rebuild(set, domain, 1);
+    lists.pack_positions(set, 0, set.size());
+    rooms.emplace(lists.padded_size());
+    kinetic.resize(lists.n_records_rounded());
+    calm.assign(kinetic.size() / group_size, 1);
+    for (std::size_t i = 0; i < set.size(); ++i) take(particles[set.id[i]], i);
+    lists.copy_images();
+    lists.for_each_image([&](std::size_t image, std::size_t source) {
+      kinetic[image] = kinetic[source];
+      if (!calm[source / group_size]) calm[image / group_size] = 0;
+    });
+  }
+
+  SweepRun results() const {
+    SweepRun run;
+    run.rates.resize(set.size());
+    for (std::size_t i = 0; i < set.size(); ++i) run.rates[set.id[i]] = rooms->rates(i);
+    for (const auto& r : rooms->results)
+      run.raw.insert(run.raw.end(), r.begin(), r.begin() + static_cast<std::ptrdiff_t>(set.size()));
+    return run;
+  }
+
+ private:
+  void take(const SlowParticle& p, std::size_t i) {
+    lists.records()[i] = record_of(p, lists.records()[i]);
+    rooms->ground[0][i] = static_cast<float>(p.ground_distance);
+    for (int k = 0; k < 3; ++k) rooms->ground[1 + k][i] = static_cast<float>(p.ground_normal[k]);
+    for (int k = 0; k < 6; ++k) {
+      rooms->wall[k][i] = static_cast<float>(p.wall_moment(entries[k][0], entries[k][1]));
+      rooms->wall[6 + k][i] = static_cast<float>(p.wall_gradient(entries[k][0], entries[k][1]));
+    }
+    KineticRecord& k = kinetic[i];
+    k.growth = static_cast<float>(p.growth);
+    k.theta = static_cast<float>(p.theta);
+    k.resistance = static_cast<float>(1 / p.conductivity);
+    k.viscosity = static_cast<float>(p.viscosity_share);
+    float* stress[6] = {&k.xx, &k.yy, &k.zz, &k.xy, &k.yz, &k.zx};
+    for (int n = 0; n < 6; ++n)
+      *stress[n] = static_cast<float>(p.kinetic_stress(entries[n][0], entries[n][1]));
+    if (p.growth != 1 || p.theta != 0) calm[i / group_size] = 0;
+  }
+};
+
+}  // namespace
+
 SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
                     InstructionSet isa, const Domain& domain) {
-  ParticleSet set;
-  set.resize(particles.size());
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    set.x[i] = particles[i].position.x();
-    set.y[i] = particles[i].position.y();
-    set.z[i] = particles[i].position.z();
-  }
-  NeighborLists lists(2 * constants.h, 0.15 * constants.h, sweeps(isa).tight_list);
-  lists.rebuild(set, domain, 1);
-  lists.pack_positions(set, 0, set.size());
-  Rooms rooms(lists.padded_size());
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const SlowParticle& p = particles[set.id[i]];
-    lists.records()[i] = record_of(p, lists.records()[i]);
-    rooms.ground[0][i] = static_cast<float>(p.ground_distance);
-    for (int k = 0; k < 3; ++k)
-      rooms.ground[1 + k][i] = static_cast<float>(p.ground_normal[k]);
-    for (int k = 0; k < 6; ++k) {
-      rooms.wall[k][i] = static_cast<float>(p.wall_moment(entries[k][0], entries[k][1]));
-      rooms.wall[6 + k][i] = static_cast<float>(p.wall_gradient(entries[k][0], entries[k][1]));
-    }
-  }
-  lists.copy_images();
-  sweeps(isa).dense(lists.view(), constants, rooms.boundary(), rooms.output(), 0, lists.n_groups());
-  SweepRun run;
-  run.rates.resize(particles.size());
-  for (std::size_t i = 0; i < set.size(); ++i) run.rates[set.id[i]] = rooms.rates(i);
-  for (const auto& r : rooms.results)
-    run.raw.insert(run.raw.end(), r.begin(), r.begin() + static_cast<std::ptrdiff_t>(set.size()));
-  return run;
+  Prepared p(particles, constants, isa, domain);
+  sweeps(isa).dense(p.lists.view(), constants, p.rooms->boundary(), p.rooms->output(), 0,
+                    p.lists.n_groups());
+  return p.results();
+}
+
+SweepRun kinetic_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
+                       InstructionSet isa, const Domain& domain) {
+  Prepared p(particles, constants, isa, domain);
+  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.calm.data()}, constants,
+                      p.rooms->boundary(), p.rooms->output(), 0, p.lists.n_groups());
+  return p.results();
 }
 
 std::vector<SlowParticle> lattice(std::array<int, 3> n, double dx, double jitter,

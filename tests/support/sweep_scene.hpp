@@ -25,6 +25,10 @@ SweepConstants usual_constants(double spacing);
 SweepRun fast_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
                     const Domain& = {});
 
+/// The same through the sweep of grains that may fly.
+SweepRun kinetic_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
+                       const Domain& = {});
+
 /// A jittered cubic lattice of n[0] x n[1] x n[2] particles at spacing dx around `center`.
 std::vector<SlowParticle> lattice(std::array<int, 3> n, double dx, double jitter,
                                   const Vec3& center = {0, 0, 0}, unsigned seed = 1);
