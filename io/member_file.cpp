@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/grid_netcdf.hpp"
+#include "io/history_netcdf.hpp"
 #include "io/io_error.hpp"
 #include "io/member_netcdf.hpp"
 #include "io/netcdf_file.hpp"
@@ -15,9 +16,12 @@
 namespace sturz {
 namespace {
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 /// Few rows to a chunk: the statistics read members in bands of rows.
 constexpr int rows_per_chunk = 64, cols_per_chunk = 512;
+
+constexpr const char* passes_attribute = "passes";         // "; "-separated
+constexpr const char* seconds_attribute = "pass_seconds";  // in the same order
 
 bool has_maps(const MemberResult& m) { return m.window.n_cells() > 0 && !m.layers[0].empty(); }
 
@@ -57,6 +61,18 @@ void write_scalars(NetcdfWriter& file, const MemberScalars& scalars) {
   }
 }
 
+void write_passes(NetcdfWriter& file, const MemberResult& m) {
+  std::string names;
+  std::vector<double> seconds;
+  for (const auto& [name, spent] : m.pass_seconds) {
+    names += (names.empty() ? "" : "; ") + name;
+    seconds.push_back(spent);
+  }
+  if (seconds.empty()) return;
+  file.text(NetcdfWriter::global, passes_attribute, names);
+  file.numbers(NetcdfWriter::global, seconds_attribute, seconds);
+}
+
 void write_maps(NetcdfWriter& file, const MemberResult& m) {
   const Grid place = window_grid(m.grid, m.window);
   const GridDimensions dimensions = write_grid(file, place);
@@ -94,6 +110,17 @@ std::string need_text(const NetcdfReader& file, const char* name) {
   return *value;
 }
 
+std::vector<std::pair<std::string, double>> read_passes(const NetcdfReader& file) {
+  std::vector<std::pair<std::string, double>> passes;
+  std::string names = file.text("", passes_attribute).value_or("");
+  for (const double seconds : file.numbers("", seconds_attribute)) {
+    const std::size_t end = std::min(names.find("; "), names.size());
+    passes.emplace_back(names.substr(0, end), seconds);
+    names.erase(0, end + 2);
+  }
+  return passes;
+}
+
 }  // namespace
 
 std::string member_file_name(std::int64_t member) { return fmt::format("{:06d}.nc", member); }
@@ -103,6 +130,8 @@ void write_member(const std::filesystem::path& folder, const MemberResult& m) {
   NetcdfWriter file(folder / member_file_name(m.member));
   write_facts(file, m);
   write_scalars(file, m.scalars);
+  write_passes(file, m);
+  write_history(file, m.history);
   if (has_maps(m)) {
     write_maps(file, m);
   } else {
@@ -158,6 +187,8 @@ MemberResult read_member(const std::filesystem::path& path) {
   m.scalars = s.scalars;
   m.window = s.window;
   m.grid = read_grid_attributes(file);
+  m.history = read_history(file);
+  m.pass_seconds = read_passes(file);
   if (m.window.n_cells() == 0) return m;
   for (int i = 0; i < n_peak_layers; ++i) {
     auto& values = m.layers[static_cast<std::size_t>(i)];

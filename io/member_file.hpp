@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One finished member on disk: members/000017.nc, scalars, outcome and the maps it touched.
+/// One finished member on disk: members/000017.nc, scalars, outcome, history, and the maps it
+/// touched.
 ///
+/// The history (at most 400 rows of 9 to 15 float32 columns) is kept of every member of an
+/// ensemble: 25 to 40 kB that let any member be drawn over time without computing it again. Reading
+/// a MemberSummary does not touch it.
 /// The maps are CF rasters over the touched window (float32, bit for bit), so a member opens in GIS
 /// like the hazard map does. A failed member is kept too, without maps.
 #pragma once

@@ -85,6 +85,8 @@ class NetcdfReader {
   /// Empty when there is none of this name and kind.
   std::optional<std::string> text(const std::string& variable, const std::string& name) const;
   std::optional<double> number(const std::string& variable, const std::string& name) const;
+  /// Empty when there is none of this name, or it is text.
+  std::vector<double> numbers(const std::string& variable, const std::string& name) const;
   std::optional<std::int64_t> integer(const std::string& variable, const std::string& name) const;
   std::optional<std::uint64_t> hash(const std::string& variable, const std::string& name) const;
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "io/grid_netcdf.hpp"
+#include "io/history_netcdf.hpp"
 #include "io/io_error.hpp"
 #include "io/netcdf_file.hpp"
 
@@ -169,12 +170,14 @@ void restore_order(std::vector<Layer>& layers, const std::string& order) {
 
 }  // namespace
 
-void write_layers(const std::filesystem::path& path, const LayerStack& stack) {
+void write_layers(const std::filesystem::path& path, const LayerStack& stack,
+                  const MemberHistory& history) {
   NetcdfWriter file(path);
   write_attributes(file, stack);
   const GridDimensions place = write_grid(file, stack.grid);
   std::map<std::string, WrittenAxis> axes;
   for (const auto& layer : stack.layers) write_layer(file, layer, stack.grid, place, axes);
+  write_history(file, history);
   file.commit();
 }
 
@@ -188,7 +191,7 @@ LayerStack read_layers(const std::filesystem::path& path) {
       stack.attributes.emplace_back(name, *value);
   for (const auto& name : file.variables()) {
     const auto dimensions = file.dimensions(name);
-    if (dimensions.size() < 2) continue;  // coordinates and crs
+    if (dimensions.size() < 2) continue;  // coordinates, crs and history
     if (dimensions.size() > 3 || dimensions.back() != "x" ||
         dimensions[dimensions.size() - 2] != "y")
       throw IoError(

@@ -7,19 +7,23 @@
 /// No unlimited dimensions, no time stamps: the same layers give the same bytes.
 #pragma once
 
+#include "engine/simulation/history.hpp"
 #include "engine/terrain/raster.hpp"
 
 #include <filesystem>
 
 namespace sturz {
 
-/// Writes the whole stack in one stroke. Global attributes Conventions, title, source and history
+/// Writes the whole stack in one stroke, and with it the history of the member whose maps these are
+/// (see history_netcdf.hpp). How long it took to compute is not in it: the file says what the mass
+/// did, and two machines should agree on it; computing times are in the member's file. Global attributes Conventions, title, source and history
 /// are added where `stack.attributes` has none.
 /// \throws IoError when the disk refuses; SetupError for layers that contradict each other (two
 ///   axes of one name with other values, axis not increasing, wrong number of values)
-void write_layers(const std::filesystem::path& file, const LayerStack& stack);
+void write_layers(const std::filesystem::path& file, const LayerStack& stack,
+                  const MemberHistory& history = {});
 
-/// Reads back what write_layers wrote. \throws IoError
+/// Reads back the maps that write_layers wrote. \throws IoError
 LayerStack read_layers(const std::filesystem::path& file);
 
 }  // namespace sturz

@@ -116,16 +116,20 @@ std::optional<std::string> NetcdfReader::text(const std::string& variable,
 
 std::optional<double> NetcdfReader::number(const std::string& variable,
                                            const std::string& name) const {
+  const std::vector<double> all = numbers(variable, name);
+  return all.size() == 1 ? std::optional(all.front()) : std::nullopt;
+}
+
+std::vector<double> NetcdfReader::numbers(const std::string& variable,
+                                          const std::string& name) const {
   const Lock lock(netcdf_mutex());
   const int v = find(variable);
   nc_type type = NC_NAT;
   std::size_t length = 0;
-  if (nc_inq_att(id_, v, name.c_str(), &type, &length) != NC_NOERR || type == NC_CHAR ||
-      length != 1)
-    return std::nullopt;
-  double value = 0;
-  check(nc_get_att_double(id_, v, name.c_str(), &value), "reading attribute " + name);
-  return value;
+  if (nc_inq_att(id_, v, name.c_str(), &type, &length) != NC_NOERR || type == NC_CHAR) return {};
+  std::vector<double> values(length);
+  check(nc_get_att_double(id_, v, name.c_str(), values.data()), "reading attribute " + name);
+  return values;
 }
 
 std::optional<std::int64_t> NetcdfReader::integer(const std::string& variable,

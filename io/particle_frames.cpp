@@ -28,6 +28,10 @@ constexpr const char* vtk_type<float>() {
   return "Float32";
 }
 template <>
+constexpr const char* vtk_type<std::int8_t>() {
+  return "Int8";
+}
+template <>
 constexpr const char* vtk_type<std::uint32_t>() {
   return "UInt32";
 }
@@ -86,6 +90,11 @@ void add_point_data(VtpParts& parts, const ParticleFrame& f) {
   if (!f.mass.empty()) parts.add("mass", 1, std::vector<double>(f.mass.begin(), f.mass.end()));
   if (!f.density.empty()) parts.add("density", 1, narrowed(f.density));
   if (!f.pressure.empty()) parts.add("pressure", 1, narrowed(f.pressure));
+  if (!f.solid_fraction.empty()) parts.add("solid_fraction", 1, narrowed(f.solid_fraction));
+  if (!f.state.empty())
+    parts.add("state", 1, std::vector<std::int8_t>(f.state.begin(), f.state.end()));
+  if (!f.granular_temperature.empty())
+    parts.add("granular_temperature", 1, narrowed(f.granular_temperature));
   if (!f.id.empty()) parts.add("id", 1, std::vector<std::uint32_t>(f.id.begin(), f.id.end()));
   parts.text += "      </PointData>\n";
 }
@@ -136,7 +145,9 @@ void ParticleFrameWriter::write(const ParticleFrame& frame) {
   expect(frame.y.size() == n && frame.z.size() == n, "positions have one length");
   expect(fits(frame.vx.size()) && frame.vy.size() == frame.vx.size() &&
              frame.vz.size() == frame.vx.size() && fits(frame.mass.size()) &&
-             fits(frame.density.size()) && fits(frame.pressure.size()) && fits(frame.id.size()),
+             fits(frame.density.size()) && fits(frame.pressure.size()) && fits(frame.id.size()) &&
+             fits(frame.solid_fraction.size()) && fits(frame.state.size()) &&
+             fits(frame.granular_temperature.size()),
          "fields are empty or as long as the positions");
   const VtpParts parts = vtp(frame);
   AtomicFile file(folder_ / frame_name(name_, times_.size()));

@@ -18,7 +18,8 @@ class ParticleFrameWriter {
   explicit ParticleFrameWriter(std::filesystem::path folder, std::string name = "particles");
 
   /// Positions are absolute map coordinates (float64); fields velocity, speed, mass, density,
-  /// pressure and id; arrays that the frame leaves empty are left out. \throws IoError
+  /// pressure, solid_fraction, state (0 dense, 1 transition, 2 dilute, 3 ultradilute),
+  /// granular_temperature and id; arrays that the frame leaves empty are left out. \throws IoError
   void write(const ParticleFrame& frame);
 
   const std::filesystem::path& index() const { return index_; }

@@ -4,6 +4,7 @@
 #include "reports/codec.hpp"
 #include "reports/headline.hpp"
 #include "reports/legend.hpp"
+#include "reports/motion_charts.hpp"
 #include "reports/sections.hpp"
 
 #include <nlohmann/json.hpp>
@@ -182,6 +183,28 @@ Json convergence_json(const std::vector<ConvergencePoint>& points) {
   return {{"n", n}, {"series", series}};
 }
 
+Json motion_json(const MemberHistory& history) {
+  const auto numbers = [](const std::vector<double>& values) {
+    Json all = Json::array();
+    for (const double v : values) all.push_back(rounded(v));
+    return all;
+  };
+  Json charts = Json::array();
+  for (const MotionChart& chart : motion_charts(history)) {
+    Json lines = Json::array();
+    for (const MotionLine& line : chart.lines)
+      lines.push_back({{"label", line.label.substr(0, line.label.find(':'))},
+                       {"paint", line.paint},
+                       {"values", numbers(line.values)}});
+    charts.push_back({{"name", chart.name},
+                      {"unit", chart.unit},
+                      {"top", chart.top},
+                      {"stacked", chart.stacked},
+                      {"lines", lines}});
+  }
+  return {{"time", numbers(motion_times(history))}, {"charts", charts}};
+}
+
 }  // namespace
 
 Quantised quantise(const std::vector<float>& values, int n_members) {
@@ -231,6 +254,7 @@ std::string report_payload(const ReportInput& input, const MapScene* scene,
               {"lower", rounded(h.runout_m.lower)},
               {"upper", rounded(h.runout_m.upper)}}}};
   page["members"] = members_json(input);
+  if (input.history != nullptr) page["motion"] = motion_json(*input.history);
   page["convergence"] = convergence_json(input.convergence);
   if (scene != nullptr && maps != nullptr && default_layer(*maps) != nullptr)
     page["maps"] = maps_json(input, *scene, *maps, h.n_valid);

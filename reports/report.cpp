@@ -42,7 +42,7 @@ std::string head_html(const ReportInput& input) {
 /// Links to the parts that are there.
 std::string navigation_html(const std::string& body) {
   static constexpr std::pair<const char*, const char*> parts[] = {
-      {"maps", "Maps"},       {"spread", "Spread"},
+      {"maps", "Maps"},       {"motion", "Motion"}, {"spread", "Spread"},
       {"members", "Members"}, {"computation", "Computation"},
       {"origin", "Origin"},   {"reading", "Reading"}};
   std::string html = "<nav aria-label=\"Parts of this page\">";
@@ -78,8 +78,9 @@ std::string make_report(const ReportInput& input) {
   const MapScene* shown = scene ? &*scene : nullptr;
 
   const std::string body = warnings_html(input, h) + headline_html(input, h) +
-                           map_html(input, shown, maps) + charts_html(input, h) +
-                           members_html(input, h) + computation_html(input, h) +
+                           map_html(input, shown, maps) + motion_html(input) +
+                           charts_html(input, h) + members_html(input, h) +
+                           computation_html(input, h) +
                            provenance_html(input) + reading_html(input);
   std::string page = head_html(input) + "<body>\n<main>\n" + header_html(input, h) +
                      navigation_html(body) + body + "\n</main>\n";

@@ -35,6 +35,7 @@ struct ReportInput {
   const Raster<double>* elevation = nullptr;  ///< may be null: maps without relief
   const LayerStack* hazard = nullptr;         ///< maps of the ensemble; null for a single run
   const LayerStack* peaks = nullptr;          ///< maps of one member, used when `hazard` is null
+  const MemberHistory* history = nullptr;     ///< of a single run; may be null or empty
   std::vector<MemberSummary> members;
   ReportTable samples;  ///< sampled keys; one row per entry of `members`, or no rows
   std::vector<ConvergencePoint> convergence;            ///< may be empty

@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -17,6 +19,7 @@ struct ScalarColumn {
   const char* label;
   const char* units;
   double MemberScalars::*field;
+  bool percent = false;  ///< a share, shown to compare members, where some member has one
 };
 constexpr ScalarColumn scalar_columns[] = {
     {"runout", "m", &MemberScalars::runout_m},
@@ -25,6 +28,10 @@ constexpr ScalarColumn scalar_columns[] = {
     {"max thickness", "m", &MemberScalars::max_thickness_m},
     {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
     {"layers", "1", &MemberScalars::release_layers},
+    {"parted", "1", &MemberScalars::parted_fraction, true},
+    {"in transition", "1", &MemberScalars::transition_fraction, true},
+    {"dilute", "1", &MemberScalars::dilute_fraction, true},
+    {"ultradilute", "1", &MemberScalars::ultradilute_fraction, true},
     {"simulated", "s", &MemberScalars::end_time_s},
     {"steps", "1", &MemberScalars::n_steps},
     {"computed in", "s", &MemberScalars::wall_s},
@@ -45,18 +52,43 @@ std::string unit_of(const ReportTable& table, std::size_t k) {
   return k < table.units.size() ? table.units[k] : "1";
 }
 
-std::string table_head(const ReportTable& samples, bool with_samples) {
+/// Columns that say something about these members.
+std::vector<ScalarColumn> shown_columns(const std::vector<MemberSummary>& members) {
+  std::vector<ScalarColumn> shown;
+  std::copy_if(std::begin(scalar_columns), std::end(scalar_columns), std::back_inserter(shown),
+               [&](const ScalarColumn& c) {
+                 if (!c.percent) return true;
+                 return members.size() > 1 &&
+                        std::any_of(members.begin(), members.end(), [&](const MemberSummary& m) {
+                          return m.scalars.*c.field > 0;
+                        });
+               });
+  return shown;
+}
+
+std::string unit_of(const ScalarColumn& c) { return c.percent ? "%" : display_unit(c.units).label; }
+double factor_of(const ScalarColumn& c) { return c.percent ? 100 : display_unit(c.units).factor; }
+
+std::string full_name(const ScalarColumn& c) {
+  if (!c.percent) return c.label;
+  for (const ScalarInfo& scalar : scalar_table())
+    if (scalar.field == c.field) return scalar.long_name;
+  return c.label;
+}
+
+std::string table_head(const ReportTable& samples, bool with_samples,
+                       const std::vector<ScalarColumn>& columns) {
   std::string head = header_cell("member", "", "Number of the member") +
                      header_cell("outcome", "", "How the member ended");
   for (std::size_t k = 0; with_samples && k < samples.columns.size(); ++k)
     head += header_cell(key_label(samples, k), display_unit(unit_of(samples, k)).label,
                         samples.columns[k]);
-  for (const auto& c : scalar_columns)
-    head += header_cell(c.label, display_unit(c.units).label, c.label);
+  for (const auto& c : columns) head += header_cell(c.label, unit_of(c), full_name(c));
   return head;
 }
 
-std::string table_row(const ReportInput& input, std::size_t i) {
+std::string table_row(const ReportInput& input, std::size_t i,
+                      const std::vector<ScalarColumn>& columns) {
   const MemberSummary& m = input.members[i];
   std::string row =
       fmt::format("<tr{}><td class=\"n\" data-v=\"{}\">{}</td><td title=\"{}\">{}</td>",
@@ -66,8 +98,8 @@ std::string table_row(const ReportInput& input, std::size_t i) {
     for (std::size_t k = 0; k < input.samples.columns.size(); ++k)
       row += number_cell(display_unit(unit_of(input.samples, k)).factor * input.samples.rows[i][k]);
   const bool has_scalars = m.outcome != Outcome::failed && m.outcome != Outcome::cancelled;
-  for (const auto& c : scalar_columns)
-    row += number_cell(has_scalars ? display_unit(c.units).factor * m.scalars.*c.field : nan_d);
+  for (const auto& c : columns)
+    row += number_cell(has_scalars ? factor_of(c) * m.scalars.*c.field : nan_d);
   return row + "</tr>";
 }
 
@@ -117,8 +149,9 @@ std::string members_html(const ReportInput& input, const Headline& h) {
     order.resize(max_rows);
     std::sort(order.begin(), order.end());
   }
+  const std::vector<ScalarColumn> columns = shown_columns(input.members);
   std::string rows;
-  for (const std::size_t i : order) rows += table_row(input, i);
+  for (const std::size_t i : order) rows += table_row(input, i, columns);
   std::string html =
       fmt::format("<section id=\"members\"><h2>{}</h2>{}",
                   h.n_members == 1 ? "The run in numbers" : "Members", lost_members(input.members));
@@ -128,8 +161,8 @@ std::string members_html(const ReportInput& input, const Headline& h) {
         "where they fit; the rest is in members.csv.</p>",
         max_rows, n);
   return html + "<div class=\"table-box\" tabindex=\"0\"><table id=\"member-table\"><thead><tr>" +
-         table_head(input.samples, !input.samples.rows.empty()) + "</tr></thead><tbody>" + rows +
-         "</tbody></table></div></section>";
+         table_head(input.samples, !input.samples.rows.empty(), columns) +
+         "</tr></thead><tbody>" + rows + "</tbody></table></div></section>";
 }
 
 }  // namespace sturz

@@ -43,6 +43,7 @@ std::string computation_html(const ReportInput& input, const Headline&) {
   }
   if (!input.timings.empty())
     html += "<div><h3>Where the time went</h3>" + timing_table(input.timings) + "</div>";
+  if (input.hazard != nullptr) html += left_out_html(input.members);
   if (!input.notes.empty())
     html += "<div><h3>What was done to the input</h3>" + list(input.notes) + "</div>";
   return html + "</div></section>";

@@ -17,6 +17,12 @@ std::string warnings_html(const ReportInput& input, const Headline& h);
 std::string headline_html(const ReportInput& input, const Headline& h);
 /// Map panel, and still figures for readers without script. `scene`, `maps` may be null.
 std::string map_html(const ReportInput& input, const MapScene* scene, const LayerStack* maps);
+/// Travel, speeds and states over time of a single run, and what it left out; empty text for an
+/// ensemble.
+std::string motion_html(const ReportInput& input);
+/// How much of the mass of an ensemble's members was too loose for a scene without states; empty
+/// text where that is not known or nothing was left out.
+std::string left_out_html(const std::vector<MemberSummary>& members);
 /// Places for histogram, scatter plots, convergence; the script fills them.
 std::string charts_html(const ReportInput& input, const Headline& h);
 std::string members_html(const ReportInput& input, const Headline& h);

@@ -107,6 +107,7 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
   parts->spacing_m = numbers.numerics.spacing_m;
   parts->formulation = plan.formulation.name();
   parts->reference_density = plan.bulk_density_kg_m3;
+  parts->reference_fraction = plan.reference_fraction;
   if (plan.formulation.depth_averaged) {
     parts->least_dt_s = 1e-6 * std::sqrt(numbers.numerics.spacing_m / parts->state.gravity);
   } else {

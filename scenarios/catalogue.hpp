@@ -22,6 +22,11 @@ Scenario block_on_plane(double friction_coefficient = 0.46630765815499858,  // t
 /// \param particles_along particles over the column's length
 Scenario column_collapse(double aspect = 1, int particles_along = 16);
 
+/// A round column of glass beads, radius 1 m and height `aspect`, that collapses over level ground
+/// as rough as their avalanche angle, 27.4 degrees.
+/// \param particles_along particles over the radius
+Scenario cylinder_collapse(double aspect = 1, int particles_along = 10);
+
 /// A cap-shaped pile on level ground, flatter than its friction angle: it must stay where it is.
 Scenario pile(double spacing_m = 1);
 
@@ -34,6 +39,11 @@ Scenario thin_sheet(int layers = 1);
 /// A round mass that falls 100 m on a 30 degree slope and runs out on level ground; base tan 20
 /// degrees. \param azimuth_deg downhill direction, to test that the grid's axes do not matter
 Scenario ramp_slide(double azimuth_deg = 90, double spacing_m = 3);
+
+/// V7: a slab 0.1 m thick of glass beads, periodic in x and y, on an even slope with a base that
+/// holds its lowest layer: a tenth rougher than the slope is steep. Starts at rest.
+/// \param layers  spacings over the thickness
+Scenario bagnold_slab(double slope_deg = 24, int layers = 10);
 
 /// V18: a parabolic cap, 160 m long and 4 m thick, that spreads down a 35 degree slope over a base
 /// of tan 25 degrees; depth_averaged.

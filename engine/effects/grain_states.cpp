@@ -8,6 +8,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/grain_stress_shared.hpp"
 #include "engine/effects/terms/kinetic_update.hpp"
+#include "engine/effects/terms/lone_parcels.hpp"
 
 namespace sturz {
 namespace {
@@ -45,6 +46,7 @@ class KineticPack final : public Pass {
     const auto& compression = s.grains.find_field("compression")->component[0];
     const Field* theta = s.grains.find_field("granular_temperature");
     const Field* stress = s.grains.find_field("kinetic_stress");
+    const auto& fill = s.grains.find_field("fill")->component[0];
     for (std::size_t i = begin; i < end; ++i) {
       KineticRecord& k = g.kinetic[i];
       const double e = compression[i], hot = theta ? theta->component[0][i] : 0;
@@ -54,6 +56,7 @@ class KineticPack final : public Pass {
       const double fraction = states.reference_fraction * (1 + e);
       const double growth = (1 + std::max(e, GrainStressSettings::separation)) / (1 + e);
       k.growth = static_cast<float>(growth);
+      k.weight = static_cast<float>(growth / std::sqrt(std::clamp(fill[i] * growth, 0.4, 1.6)));
       double wave = 0;
       if (hot > 0) {
         const KineticTheory& law = *states.dilute;
@@ -140,7 +143,9 @@ class StatePass final : public Pass {
     const GrainStatesSettings& states = *shared_->settings.states;
     const auto& compression = s.grains.find_field("compression")->component[0];
     auto& state = s.grains.find_field("state")->component[0];
+    auto& fill = s.grains.find_field("fill")->component[0];
     Field* alone = s.grains.find_field("steps_alone");
+    const double touching = shared_->settings.touching_distance();
     const SweepOutput out = shared_->output();
     parallel_ranges(s.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) {
@@ -148,16 +153,30 @@ class StatePass final : public Pass {
                         const double fraction =
                             states.reference_fraction * (1 + compression[i]);
                         state[i] = named(fraction, state[i]);
+                        fill[i] = out.fill[i];
                         if (!alone) continue;
                         double& steps = alone->component[0][i];
-                        const bool lone = fraction < detach_fraction ||
-                                          out.neighbors[i] < detach_neighbors;
+                        const bool lone = (fraction < detach_fraction ||
+                                           out.neighbors[i] < detach_neighbors) &&
+                                          s.boundary.distance[i] >= touching;
                         steps = lone ? std::min<double>(steps + 1, detach_steps) : 0;
                       }
                     });
+    if (alone) land(s, alone->component[0], touching);
   }
 
  private:
+  /// A parcel that lies on the ground and does not bounce any more has landed.
+  void land(const State& s, std::vector<double>& alone, double touching) const {
+    const ParticleSet& p = s.grains;
+    const BoundarySupport& b = s.boundary;
+    const double calm = 0.1 * std::sqrt(s.gravity * shared_->settings.spacing);
+    for (std::size_t i = s.n_listed; i < p.size(); ++i) {
+      const double vn = p.vx[i] * b.nx[i] + p.vy[i] * b.ny[i] + p.vz[i] * b.nz[i];
+      if (b.distance[i] < touching && std::abs(vn) < calm) alone[i] = landed;
+    }
+  }
+
   static double named(double fraction, double before) {
     const bool stays = before == static_cast<double>(GrainState::dense) &&
                        fraction >= leave_dense_fraction;
@@ -172,6 +191,7 @@ class StatePass final : public Pass {
 void add_grain_states(Step& step, State& state, const std::shared_ptr<GrainStress>& shared) {
   const GrainStatesSettings& settings = *shared->settings.states;
   state.grains.add_field("state", 1);
+  std::fill_n(state.grains.add_field("fill", 1).component[0].begin(), state.grains.size(), 1.0);
   if (settings.dilute) {
     state.grains.add_field("granular_temperature", 1);
     state.grains.add_field("kinetic_stress", 6);

@@ -42,11 +42,12 @@ class NeighborPass final : public Pass {
     const bool flights = g.states && g.states->ultradilute;
     s.n_listed = s.grains.size();
     if (flights) {
+      attach_landed(s);
       detach_lone(s, g);
       put_listed_first(s);
     }
     lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
-    if (!flights || !attach_near(s, g, lists)) return;
+    if (!flights || !attach_near(s, g, lists, shared_->parcels)) return;
     put_listed_first(s);
     lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
   }
@@ -76,6 +77,7 @@ class PackPass final : public Pass {
     ParticleSet& p = s.grains;
     const double ahead = s.extrapolation(dt);
     const double reference = shared_->settings.reference_density;
+    const bool cohesive = shared_->settings.law.cohesion > 0;
     auto& before = p.find_field("velocity_before")->component;
     const auto& compression = p.find_field("compression")->component[0];
     const auto& stress = p.find_field("stress")->component;
@@ -98,6 +100,7 @@ class PackPass final : public Pass {
         r.szx = static_cast<float>(stress[5][i]);
         const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
         r.inverse_pressure = static_cast<float>(1 / (pressure + shared_->settings.ratio_floor()));
+        if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
         before[0][i] = p.vx[i];
         before[1][i] = p.vy[i];
         before[2][i] = p.vz[i];
@@ -109,6 +112,14 @@ class PackPass final : public Pass {
   }
 
  private:
+  /// epsilon = 0.3 of the largest principal tension there can be: 2 tau/sqrt(3) - p.
+  static float artificial_pressure(const std::vector<std::vector<double>>& s, std::size_t i,
+                                   double p) {
+    const Symmetric d{s[0][i] + p, s[1][i] + p, s[2][i] + p, s[3][i], s[4][i], s[5][i]};
+    const double tension = 2 * std::sqrt(d.norm2() / 3) - p;
+    return static_cast<float>(0.3 * std::fmax(0.0, tension));
+  }
+
   std::shared_ptr<GrainStress> shared_;
 };
 
@@ -135,6 +146,8 @@ class SweepPass final : public Pass {
                                    g.sound_speed,
                                    g.viscosity,
                                    g.density_diffusion,
+                                   g.law.cohesion > 0,
+                                   g.spacing,
                                    shared_->smoothing_now};
     const PackedView view = shared_->lists.view();
     SweepOutput out = shared_->output();
@@ -184,6 +197,7 @@ class StressPass final : public Pass {
     for (int k = 0; k < 6; ++k) columns.stress[k] = p.find_field("stress")->component[k].data();
     const SweepOutput rates = shared_->output();
     const GrainStressSettings& g = shared_->settings;
+    columns.distance = s.boundary.distance.data();
     const StressUpdate update(g, dt, shared_->smoothing_now > 0);
     if (g.states && g.states->switched) columns.state = p.find_field("state")->component[0].data();
     const StressEnergies sums = ordered_reduce(

@@ -49,6 +49,7 @@ struct State {
   std::vector<float> ax, ay, az;         ///< acceleration of the force stage, at least [n] [m/s^2]
   std::vector<std::uint8_t> outside;     ///< 1: off the known terrain, 2: lost under the ground
   bool any_outside = false;
+  bool corrupt = false;                  ///< a position was not finite: it must not count as lost
   /// What wrapping into the periods took off each particle's map position, by id [m]; empty
   /// where nothing is periodic.
   std::vector<double> wrapped_x, wrapped_y;

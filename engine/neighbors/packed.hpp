@@ -22,7 +22,7 @@ struct alignas(64) PackedRecord {
   float compression;            ///< rho / rho_ref - 1 [-]
   float sxx, syy, szz, sxy, syz, szx;  ///< stress, tension positive [Pa]
   float inverse_pressure;       ///< 1/(p + p_c), see SweepConstants::stress_smoothing [1/Pa]
-  float spare;
+  float tension;                ///< artificial pressure against clumps in tension [Pa], see TensionSums
 };
 static_assert(sizeof(PackedRecord) == 64);
 
@@ -31,11 +31,14 @@ static_assert(sizeof(PackedRecord) == 64);
 /// longer feel; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
   float growth = 1;           ///< true volume over PackedRecord::volume [-]
+  /// Takes the place of `growth` in pairs: sqrt(growth/fill) makes the sums over a cloud's few
+  /// neighbours complete, and keeps pairs symmetric.
+  float weight = 1;
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
   float theta = 0;            ///< granular temperature [m^2/s^2]
   float resistance = 1e30f;   ///< 1/k_theta; huge: no conduction [m s/kg]
   float viscosity = 1;        ///< share of the artificial viscosity of dense grains [-]
-  float spare[2] = {0, 0};
+  float spare = 0;
 };
 static_assert(sizeof(KineticRecord) == 48);
 
@@ -67,6 +70,8 @@ struct SweepConstants {
   double sound_speed = 1;        ///< c0 [m/s]
   double viscosity = 0.1;        ///< alpha_v
   double density_diffusion = 0.1;///< delta
+  bool tension = false;          ///< whether PackedRecord::tension is in this sweep
+  double spacing = 1;            ///< dx [m]; read where tension is
   double stress_smoothing = 0;   ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
 };
 
@@ -100,6 +105,9 @@ struct SweepOutput {
   /// a dense mass, about a half at its surface), how many neighbours there are, and the heat
   /// that granular temperature conducts per volume of the record [W/m^3].
   float *fill, *neighbors, *heat;
+  /// Symmetric velocity gradient as the pair forces of kinetic stresses feel it, xx yy zz xy yz zx:
+  /// their work on the motion is V sigma_k : this, exactly [1/s].
+  float* felt[6];
   static constexpr float uncounted = 1000;  ///< neighbours of a grain that nobody flies near
   float* smooth[6];                    ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
 };

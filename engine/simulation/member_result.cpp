@@ -67,6 +67,21 @@ constexpr std::array scalar_infos{
     ScalarInfo{"n_steps", "1", "number of time steps", &M::n_steps},
     ScalarInfo{"mean_dt_s", "s", "mean time step", &M::mean_dt_s},
     ScalarInfo{"wall_s", "s", "computing time", &M::wall_s},
+    ScalarInfo{"parted_fraction", "1",
+               "share of mass and time that is looser than 0.98 of its packing at release",
+               &M::parted_fraction},
+    ScalarInfo{"transition_fraction", "1",
+               "share of mass and time between the dense and the dilute state",
+               &M::transition_fraction},
+    ScalarInfo{"dilute_fraction", "1", "share of mass and time in the dilute state",
+               &M::dilute_fraction},
+    ScalarInfo{"ultradilute_fraction", "1",
+               "share of mass and time in the ultradilute state: grains on their own",
+               &M::ultradilute_fraction},
+    ScalarInfo{"max_granular_temperature_m2_s2", "m2 s-2", "largest granular temperature over time",
+               &M::max_granular_temperature_m2_s2},
+    ScalarInfo{"granular_ratio", "1", "largest granular temperature / largest speed squared",
+               &M::granular_ratio},
 };
 // A scalar that is added to the struct but forgotten here would silently miss from every file.
 static_assert(scalar_infos.size() * sizeof(double) == sizeof(MemberScalars));

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "engine/simulation/history.hpp"
 #include "engine/simulation/outcome.hpp"
 #include "engine/terrain/raster.hpp"
 
@@ -57,6 +59,12 @@ struct MemberScalars {
   double n_steps = 0;
   double mean_dt_s = 0;
   double wall_s = 0;                 ///< computing time; not part of any hash
+  double parted_fraction = 0;        ///< mass x time under 0.98 of its packing; NaN: depth_averaged
+  double transition_fraction = 0;    ///< mass x time in that state; 0 without grains.states
+  double dilute_fraction = 0;        ///< the same
+  double ultradilute_fraction = 0;   ///< the same
+  double max_granular_temperature_m2_s2 = 0;
+  double granular_ratio = 0;         ///< that over max_speed_m_s squared
 };
 
 struct ScalarInfo {
@@ -83,6 +91,10 @@ struct MemberResult {
   std::string warnings;               ///< '; '-separated, e.g. thin flow
   std::uint64_t state_hash = 0;       ///< of the final particle state, bitwise
   MemberScalars scalars;
+  MemberHistory history;              ///< not part of any hash
+  /// Computing time of each pass, and of what lies between steps; adds up to wall_s. Not part of
+  /// any hash.
+  std::vector<std::pair<std::string, double>> pass_seconds;
   Grid grid;                          ///< the whole hazard grid
   Window window;                      ///< the part that was touched
   std::array<std::vector<float>, n_peak_layers> layers;  ///< each [window.n_rows][window.n_cols]

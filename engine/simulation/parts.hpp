@@ -23,6 +23,7 @@ struct SimulationParts {
   double spacing_m = 1;
   std::string formulation = "full_stress";
   double reference_density = 1;       ///< of the bulk [kg/m^3]
+  double reference_fraction = 0.6;    ///< solid fraction of that bulk [-]
   double least_dt_s = 0;              ///< below it the member has diverged
   double release_layers = 0;
   double release_volume_m3 = 0;

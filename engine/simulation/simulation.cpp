@@ -8,56 +8,22 @@
 
 #include "engine/core/hash.hpp"
 #include "engine/core/sum.hpp"
+#include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/parts.hpp"
+#include "engine/simulation/state_shares.hpp"
+#include "engine/simulation/travel.hpp"
 
 namespace sturz {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Between two looks at the motion at least [s]: a tenth of the time a particle takes to fall by
+/// its own size.
+double look_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / 9.81); }
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// Where the mass is relative to where it started, and how fast.
-struct Displacement {
-  double front = 0;       // farthest particle, horizontal [m]
-  double com = 0;         // centre of mass, horizontal [m]
-  double mean_speed = 0;  // mass average [m/s]
-  double high_speed = 0;  // 99.9 % of the mass is slower [m/s]
-  double lowest = 0;      // elevation of the lowest particle [m]
-};
-
-Displacement measure(const SimulationParts& parts, std::vector<std::pair<double, double>>& speeds) {
-  const ParticleSet& p = parts.state.grains;
-  Displacement d;
-  if (p.size() == 0) return d;
-  double mass = 0, mx = 0, my = 0, momentum = 0, front2 = 0;
-  speeds.clear();
-  d.lowest = p.z[0];
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    double dx = p.x[i] - parts.start_x[p.id[i]], dy = p.y[i] - parts.start_y[p.id[i]];
-    if (!parts.state.wrapped_x.empty()) {
-      dx += parts.state.wrapped_x[p.id[i]];
-      dy += parts.state.wrapped_y[p.id[i]];
-    }
-    const double v =
-        std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
-    mass += p.mass[i];
-    mx += p.mass[i] * dx;
-    my += p.mass[i] * dy;
-    momentum += p.mass[i] * v;
-    front2 = std::max(front2, dx * dx + dy * dy);
-    d.lowest = std::min(d.lowest, p.z[i]);
-    speeds.emplace_back(v, p.mass[i]);
-  }
-  d.front = std::sqrt(front2);
-  d.com = std::hypot(mx, my) / mass;
-  d.mean_speed = momentum / mass;
-  const std::size_t tail = speeds.size() / 1000;
-  std::nth_element(speeds.begin(), speeds.end() - 1 - tail, speeds.end());
-  d.high_speed = (speeds.end() - 1 - tail)->first;
-  return d;
 }
 
 std::uint64_t hash_of(const ParticleSet& p) {
@@ -72,7 +38,11 @@ std::uint64_t hash_of(const ParticleSet& p) {
 class Run {
  public:
   Run(SimulationParts& parts, const RunControl& control)
-      : parts_(parts), control_(control), start_(Clock::now()) {}
+      : parts_(parts),
+        control_(control),
+        start_(Clock::now()),
+        passes_before_(parts.step.timings()),
+        history_(look_interval(parts.spacing_m)) {}
 
   MemberResult operator()() {
     State& s = parts_.state;
@@ -125,7 +95,7 @@ class Run {
     const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
     if (travelled_ >= half_cell) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
-    if (s.time - looked_at_ > 0.1 * std::sqrt(parts_.spacing_m / 9.81) &&
+    if (s.time - looked_at_ > look_interval(parts_.spacing_m) &&
         s.n_steps - looked_at_step_ >= 4)
       look_at_motion();
     frame(false);
@@ -147,9 +117,12 @@ class Run {
 
   void look_at_motion() {
     const State& s = parts_.state;
+    now_ = measure(parts_, each_);
+    const StateShares shares = state_shares(s.grains);
+    state_times_.add(shares, s.time - looked_at_);
+    if (s.grains.size() > 0 && history_.wants(s.time)) history_.add(history_row(shares));
     looked_at_ = s.time;
     looked_at_step_ = s.n_steps;
-    now_ = measure(parts_, speeds_);
     MemberScalars& m = result_.scalars;
     m.max_speed_m_s = std::max(
         m.max_speed_m_s, s.grains.size() > 1000 ? now_.high_speed : s.motion.max_speed);
@@ -159,6 +132,28 @@ class Run {
       m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
     if (parts_.stop.at_rest({s.time, s.ledger.kinetic, now_.front, now_.com}) && !ended_)
       end(Outcome::settled, "");
+  }
+
+  HistoryRow history_row(const StateShares& shares) {
+    const State& s = parts_.state;
+    const FrontAndTail ends = front_and_tail(each_);
+    HistoryRow row;
+    row.time_s = static_cast<float>(s.time);
+    row.front_travel_m = static_cast<float>(now_.front);
+    row.tail_travel_m = static_cast<float>(ends.tail_travel);
+    row.com_travel_m = static_cast<float>(now_.com);
+    row.front_speed_m_s = static_cast<float>(ends.front_speed);
+    row.tail_speed_m_s = static_cast<float>(ends.tail_speed);
+    row.mean_speed_m_s = static_cast<float>(now_.mean_speed);
+    row.max_speed_m_s = static_cast<float>(s.motion.max_speed);
+    row.kinetic_energy_j = static_cast<float>(s.ledger.kinetic);
+    row.dense = static_cast<float>(shares.dense);
+    row.transition = static_cast<float>(shares.transition);
+    row.dilute = static_cast<float>(shares.dilute);
+    row.ultradilute = static_cast<float>(shares.ultradilute);
+    row.mean_granular_temperature_m2_s2 = static_cast<float>(shares.mean_theta);
+    row.max_granular_temperature_m2_s2 = static_cast<float>(shares.max_theta);
+    return row;
   }
 
   /// |rho/rho_ref - 1| under load that 99 % of the particles stay below.
@@ -198,23 +193,7 @@ class Run {
     if (!force && s.time < next_frame_) return;
     if (control_.frame_every_s > 0)
       next_frame_ = control_.frame_every_s * (std::floor(s.time / control_.frame_every_s) + 1);
-    const ParticleSet& p = s.grains;
-    density_.assign(p.size(), parts_.reference_density);
-    pressure_.assign(p.size(), 0);
-    if (const Field* thickness = p.find_field("thickness")) {
-      const auto& g_n = p.find_field("normal_gravity")->component[0];
-      for (std::size_t i = 0; i < p.size(); ++i)
-        pressure_[i] = density_[i] * g_n[i] * thickness->component[0][i];  // at the base
-    }
-    if (const Field* stress = p.find_field("stress")) {
-      const auto& compression = p.find_field("compression")->component[0];
-      for (std::size_t i = 0; i < p.size(); ++i) {
-        density_[i] *= 1 + compression[i];
-        pressure_[i] = -(stress->component[0][i] + stress->component[1][i] +
-                         stress->component[2][i]) / 3;
-      }
-    }
-    control_.on_frame({s.time, p.x, p.y, p.z, p.vx, p.vy, p.vz, p.mass, density_, pressure_, p.id});
+    control_.on_frame(frames_.frame(parts_));
   }
 
   MemberResult finish() {
@@ -223,6 +202,7 @@ class Run {
     if (sound && s.grains.size() > 0) {
       record();
       look_at_motion();
+      history_.add_last(history_row(state_shares(s.grains)));
       frame(true);
     }
     MemberScalars& m = result_.scalars;
@@ -242,6 +222,9 @@ class Run {
     m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
     m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
     m.take_off_fraction = s.time > 0 ? book.take_off / (book.released_mass * s.time) : 0;
+    state_times_.write(m);
+    m.max_granular_temperature_m2_s2 = s.hottest;
+    m.granular_ratio = m.max_speed_m_s > 0 ? s.hottest / (m.max_speed_m_s * m.max_speed_m_s) : 0;
     m.end_time_s = s.time;
     m.n_particles = static_cast<double>(parts_.start_x.size());
     m.n_steps = static_cast<double>(s.n_steps);
@@ -261,8 +244,25 @@ class Run {
     }
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
+    const auto rows = history_.rows();
+    result_.history.rows.assign(rows.begin(), rows.end());
+    result_.history.has_states = s.grains.find_field("state") != nullptr;
+    result_.history.has_temperature = s.grains.find_field("granular_temperature") != nullptr;
     m.wall_s = seconds_since(start_);
+    share_out(m.wall_s);
     return std::move(result_);
+  }
+
+  /// Where the computing time went; what lies between the steps is the rest.
+  void share_out(double wall_s) {
+    double rest = wall_s;
+    const std::vector<PassTime>& passes = parts_.step.timings();
+    for (std::size_t k = 0; k < passes.size(); ++k) {
+      const double seconds = passes[k].seconds - passes_before_[k].seconds;
+      result_.pass_seconds.emplace_back(passes[k].name, seconds);
+      rest -= seconds;
+    }
+    result_.pass_seconds.emplace_back("peak maps, history, limits", std::max(0.0, rest));
   }
 
   /// From the release's centre of mass to the farthest reached cell [m].
@@ -288,6 +288,7 @@ class Run {
   SimulationParts& parts_;
   const RunControl& control_;
   Clock::time_point start_;
+  std::vector<PassTime> passes_before_;  // of steps that were made by hand
   MemberResult result_;
   Displacement now_;
   std::map<std::string, std::size_t> bound_;
@@ -295,8 +296,11 @@ class Run {
   bool ended_ = false;
   std::size_t looked_at_step_ = 0;
   double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0, p10_time_ = 0, progress_at_ = 0, next_frame_ = 0;
-  std::vector<std::pair<double, double>> speeds_;
-  std::vector<double> density_, pressure_, loaded_;
+  std::vector<ParticleTravel> each_;
+  std::vector<double> loaded_;
+  StateTimes state_times_;
+  HistoryRecorder history_;
+  FrameBuffers frames_;
 };
 
 }  // namespace

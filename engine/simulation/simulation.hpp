@@ -30,6 +30,9 @@ struct ParticleFrame {
   std::span<const double> x, y, z, vx, vy, vz;   ///< [n] m, m/s
   std::span<const double> mass, density, pressure;  ///< [n] kg, kg/m3, Pa
   std::span<const std::uint32_t> id;             ///< [n] stable across the run
+  std::span<const double> solid_fraction;        ///< [n] -; empty for columns
+  std::span<const double> state;                 ///< [n] 0 dense .. 3 ultradilute; may be empty
+  std::span<const double> granular_temperature;  ///< [n] m2/s2; may be empty
 };
 
 struct RunControl {

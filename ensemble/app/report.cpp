@@ -6,6 +6,7 @@
 #include "ensemble/app/finished_folder.hpp"
 #include "ensemble/app/report_page.hpp"
 #include "ensemble/app/saved_design.hpp"
+#include "io/member_file.hpp"
 #include "io/member_store.hpp"
 #include "io/netcdf_layers.hpp"
 
@@ -24,6 +25,7 @@ int report_command(const ReportOptions& options, Console& console) {
   const MemberStore store(finished.folder.members());
   DesignTable design;
   std::vector<ConvergencePoint> convergence;
+  MemberResult run;
   PageContent page;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
@@ -34,6 +36,10 @@ int report_command(const ReportOptions& options, Console& console) {
   }
   page.elevation = finished.elevation.get();
   page.members = store.members();
+  if (one_run && !page.members.empty()) {
+    run = read_member(finished.folder.members() / member_file_name(page.members.front().member));
+    page.run = &run;
+  }
   write_page(finished.folder, finished.manifest, finished.scenario, page);
   console.say(finished.folder.report().string());
   return ok;

@@ -4,9 +4,32 @@
 #include "io/text_files.hpp"
 #include "reports/report.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace sturz::app {
+namespace {
+
+using Timings = std::vector<std::pair<std::string, double>>;
+
+/// What took less than a hundredth of the time comes as one.
+Timings largest_first(Timings passes) {
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  double total = 0, rest = 0;
+  for (const auto& [name, seconds] : passes) total += seconds;
+  int n_small = 0;
+  while (!passes.empty() && passes.back().second < 0.01 * total) {
+    rest += passes.back().second;
+    ++n_small;
+    passes.pop_back();
+  }
+  if (n_small > 0) passes.emplace_back(fmt::format("{} others under 1 % each", n_small), rest);
+  return passes;
+}
+
+}  // namespace
 
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
                 const PageContent& content) {
@@ -24,9 +47,14 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.warnings = manifest.warnings;
   input.notes = manifest.notes;
   input.description = manifest.description;
-  double members_s = 0;
-  for (const MemberSummary& m : content.members) members_s += m.scalars.wall_s;
-  input.timings.emplace_back("members, all cores together", members_s);
+  if (content.run) {
+    input.history = &content.run->history;
+    input.timings = largest_first(content.run->pass_seconds);
+  } else {
+    double members_s = 0;
+    for (const MemberSummary& m : content.members) members_s += m.scalars.wall_s;
+    input.timings.emplace_back("members, all cores together", members_s);
+  }
   input.elapsed_s = manifest.compute_s;
   const bool particles =
       std::any_of(content.members.begin(), content.members.end(),

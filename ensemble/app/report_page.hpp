@@ -19,6 +19,7 @@ struct PageContent {
   const Raster<double>* elevation = nullptr;
   std::span<const MemberSummary> members;
   std::span<const ConvergencePoint> convergence;
+  const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 
 /// Writes report.html. \throws IoError

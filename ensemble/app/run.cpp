@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 namespace sturz::app {
@@ -67,28 +68,64 @@ void write_results(const OutputFolder& folder, const Manifest& manifest, const S
       {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
       {"outcome", std::string(to_string(result.outcome))},
       {"formulation", result.formulation}};
-  write_layers(folder.peaks_nc(), peaks);
+  write_layers(folder.peaks_nc(), peaks, result.history);
   const MemberSummary summary = summary_of(result);
   PageContent page;
   page.peaks = &peaks;
   page.elevation = scene.inputs.elevation.get();
   page.members = {&summary, 1};
+  page.run = &result;
   write_page(folder, manifest, scene.medians, page);
+}
+
+void print_line(const char* name, const std::string& value, Console& console) {
+  console.say(fmt::format("  {:<22}{}", name, value));
+}
+
+/// "93 %", and the digits that a small share needs.
+std::string share_text(double share) {
+  return share >= 0.1 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.2g} %", 100 * share);
+}
+
+/// Shares of mass and time per state, or what a scene without states would have had for them.
+void print_states(const MemberResult& r, Console& console) {
+  const MemberScalars& s = r.scalars;
+  if (!r.history.has_states) {
+    if (!std::isnan(s.parted_fraction))
+      print_line("parted", share_text(s.parted_fraction) + " of mass and time (states not asked for)",
+                 console);
+    return;
+  }
+  const double parted = s.transition_fraction + s.dilute_fraction + s.ultradilute_fraction;
+  std::string text = "dense " + share_text(1 - parted);
+  for (const auto& [name, share] : {std::pair("transition", s.transition_fraction),
+                                    std::pair("dilute", s.dilute_fraction),
+                                    std::pair("ultradilute", s.ultradilute_fraction)})
+    if (share > 0) text += fmt::format(", {} {}", name, share_text(share));
+  print_line("states", text + " (mass x time)", console);
+  if (r.history.has_temperature)
+    print_line("granular temperature",
+               fmt::format("{:.3g} m2/s2 at most, {} of the largest speed squared",
+                           s.max_granular_temperature_m2_s2, share_text(s.granular_ratio)),
+               console);
 }
 
 void print_summary(const MemberResult& r, const OutputFolder& folder, Console& console) {
   const MemberScalars& s = r.scalars;
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
   for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
+  nlohmann::ordered_json passes = nlohmann::ordered_json::object();
+  for (const auto& [name, seconds] : r.pass_seconds) passes[name] = seconds;
   console.event(nlohmann::ordered_json{{"event", "done"},
                                        {"outcome", to_string(r.outcome)},
                                        {"reason", r.reason},
                                        {"state_hash", fmt::format("{:016x}", r.state_hash)},
                                        {"scalars", scalars},
+                                       {"pass_seconds", passes},
                                        {"folder", folder.root.string()}}
                     .dump());
   const auto line = [&console](const char* name, const std::string& value) {
-    console.say(fmt::format("  {:<22}{}", name, value));
+    print_line(name, value, console);
   };
   console.say(fmt::format("{}{}{} after {:.1f} s of flow", to_string(r.outcome),
                           r.reason.empty() ? "" : ": ", r.reason, s.end_time_s));
@@ -102,6 +139,7 @@ void print_summary(const MemberResult& r, const OutputFolder& folder, Console& c
        fmt::format("{:.2f} m (deposit {:.2f} m)", s.max_thickness_m, s.max_deposit_m));
   line("largest energy", fmt::format("{:.1f} kJ/m2, pressure {:.1f} kPa", s.max_energy_j_m2 / 1e3,
                                      s.max_pressure_pa / 1e3));
+  print_states(r, console);
   line("particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,

@@ -9,6 +9,7 @@ namespace sturz::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class Commands : public App {};
 
@@ -42,6 +43,36 @@ TEST_F(Commands, RunHonoursOverrides) {
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(read("one/scenario.yaml"), HasSubstr("friction_coefficient: 0.31"));
   EXPECT_THAT(read("one/scenario.yaml"), HasSubstr("end_time_s: 1"));
+}
+
+TEST_F(Commands, RunTellsTheStatesOfItsGrainsOrWhatItLeftOut) {
+  const Ended dense = sturz({"run", path("scene.yaml"), "-o", path("dense")});
+  ASSERT_EQ(dense.exit_code, 0) << dense.err;
+  EXPECT_THAT(dense.out,
+              ::testing::ContainsRegex("parted +[0-9.]+ % of mass and time .states not asked for."));
+  EXPECT_THAT(read("dense/report.html"), HasSubstr("grains.states was not asked for"));
+  const Ended loose = sturz({"run", path("scene.yaml"), "-o", path("loose"), "--set",
+                             "grains.states.dilute.restitution=0.8"});
+  ASSERT_EQ(loose.exit_code, 0) << loose.err;
+  EXPECT_THAT(loose.out, ::testing::ContainsRegex("states +dense [0-9.]+ %.*.mass x time."));
+  EXPECT_THAT(loose.out, HasSubstr("of the largest speed squared"));
+  EXPECT_THAT(loose.out, Not(HasSubstr("parted")));
+  EXPECT_THAT(read("loose/report.html"), HasSubstr("Share of the mass by state"));
+  const Ended columns = sturz({"run", path("scene.yaml"), "-o", path("columns"), "--set",
+                               "formulation=depth_averaged"});
+  ASSERT_EQ(columns.exit_code, 0) << columns.err;
+  EXPECT_THAT(columns.out, Not(::testing::AnyOf(HasSubstr("parted"), HasSubstr("states"))));
+}
+
+TEST_F(Commands, RunTellsWhereItsTimeWent) {
+  const Ended ended = sturz({"run", path("scene.yaml"), "-o", path("one"), "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto done = event(ended, "done");
+  double sum = 0;
+  for (const auto& [name, seconds] : done.at("pass_seconds").items()) sum += seconds.get<double>();
+  EXPECT_TRUE(done.at("pass_seconds").contains("pair sweep"));
+  EXPECT_NEAR(sum, done.at("scalars").value("wall_s", 0.0), 1e-6);
+  EXPECT_THAT(read("one/report.html"), HasSubstr(">pair sweep</th>"));
 }
 
 TEST_F(Commands, RunWritesParticleFrames) {
@@ -122,6 +153,18 @@ TEST_F(Commands, ReportIsWrittenAgain) {
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_TRUE(exists("out/report.html"));
   EXPECT_EQ(sturz({"report", path("nowhere")}).exit_code, 1);
+}
+
+TEST_F(Commands, ReportOfARunIsTheSamePageAgain) {
+  ASSERT_EQ(sturz({"run", path("scene.yaml"), "-o", path("one"), "--set",
+                   "grains.states.dilute.restitution=0.8"})
+                .exit_code,
+            0);
+  const std::string before = read("one/report.html");
+  EXPECT_THAT(before, HasSubstr("Motion over time"));
+  std::filesystem::remove(path("one/report.html"));
+  ASSERT_EQ(sturz({"report", path("one")}).exit_code, 0);
+  EXPECT_TRUE(read("one/report.html") == before) << "history and computing times come from files";
 }
 
 }  // namespace

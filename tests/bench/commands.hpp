@@ -4,6 +4,8 @@
 
 #include "tests/bench/table.hpp"
 
+#include <string>
+
 namespace sturz::bench {
 
 struct Options {
@@ -13,6 +15,8 @@ struct Options {
   int threads = 0;         ///< of `threads` and `ensemble`; 0: all processors
   int members = 6;         ///< of each ensemble
   double end_time_s = 60;  ///< simulated time of an ensemble's member
+  bool full = false;       ///< of `hard`: all random members instead of 20
+  std::string states = "both";  ///< of `hard`: dense | all | both
   double fail_below = 0;   ///< least throughput of the dense slide over the reference loop
 };
 
@@ -26,5 +30,7 @@ Report threads(const Options&);
 Report ensemble(const Options&);
 /// What does an effect cost that a scene does not call for?
 Report absent_effects(const Options&);
+/// Does it survive what wants to break it, and by which margin?
+Report hard(const Options&);
 
 }  // namespace sturz::bench

@@ -2,6 +2,7 @@
 // What a step costs, what an absent effect costs, how members scale.
 #include "tests/bench/commands.hpp"
 #include "tests/bench/machine.hpp"
+#include "tests/bench/markdown.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -28,11 +29,19 @@ constexpr Command commands[] = {
     {"scaling", "Cost of a particle-update from 1k to 1M particles", sturz::bench::scaling},
     {"threads", "One member on one and on all processors", sturz::bench::threads},
     {"ensemble", "Members per hour and what the runner costs", sturz::bench::ensemble},
-    {"absent-effects", "What effects cost that are not there", sturz::bench::absent_effects}};
+    {"absent-effects", "What effects cost that are not there", sturz::bench::absent_effects},
+    {"hard", "Hard cases and random members against their bounds", sturz::bench::hard}};
 
-void add_options(CLI::App& app, Options& o, std::string& json) {
+/// Where the figures go besides the screen; empty: nowhere.
+struct Files {
+  std::string json, markdown;
+};
+
+void add_options(CLI::App& app, Options& o, Files& files) {
   app.add_option("--pairs", o.pairs, "Pairs or slices per figure")->check(CLI::Range(3, 201));
-  app.add_option("--json", json, "Write the figures as JSON to a file, or - for standard output");
+  app.add_option("--json", files.json,
+                 "Write the figures as JSON to a file, or - for standard output");
+  app.add_option("--markdown", files.markdown, "Write the tables as a Markdown page to a file");
   app.add_flag("--quick", o.quick, "7 pairs and smaller scenes");
   app.add_option("--most", o.most, "Largest scene of scaling")->check(CLI::Range(2e3, 2e6));
   app.add_option("--threads", o.threads, "Threads or workers; 0: all")->check(CLI::Range(0, 256));
@@ -40,6 +49,9 @@ void add_options(CLI::App& app, Options& o, std::string& json) {
       ->check(CLI::Range(1, 10000));
   app.add_option("--end-time", o.end_time_s, "Simulated time of a member [s]")
       ->check(CLI::Range(0.1, 1e4));
+  app.add_flag("--full", o.full, "hard: all random members");
+  app.add_option("--states", o.states, "hard: with which states of the grains")
+      ->check(CLI::IsMember({"dense", "all", "both"}));
   app.add_option("--fail-below", o.fail_below,
                  "throughput: exit code 1 when dense / reference is less");
 }
@@ -50,20 +62,23 @@ void print(const Report& report, std::ostream& out) {
   for (const auto& note : report.notes) out << note << "\n";
 }
 
-/// \return whether it could be written
-bool write_json(const nlohmann::ordered_json& all, const std::string& file) {
+/// \return whether it could be written; nothing is written where no file is named
+bool write(const std::string& text, const std::string& file) {
+  if (file.empty()) return true;
   if (file == "-") {
-    std::cout << all.dump(2) << "\n";
+    std::cout << text;
     return true;
   }
   std::ofstream out(file);
-  out << all.dump(2) << "\n";
-  return static_cast<bool>(out.flush());
+  out << text;
+  if (out.flush()) return true;
+  std::cerr << file << ": cannot be written. Choose another file.\n";
+  return false;
 }
 
-int run(const Command& command, const Options& options, const std::string& json) {
+int run(const Command& command, const Options& options, const Files& files) {
   // With the figures on standard output, readers get the tables on the other one.
-  std::ostream& out = json == "-" ? std::cerr : std::cout;
+  std::ostream& out = files.json == "-" ? std::cerr : std::cout;
   nlohmann::ordered_json all = {{"machine", sturz::bench::machine_facts()}};
   const double load = sturz::bench::load_average();
   out << "sturz_bench " << command.name << ": " << all["machine"].dump() << "\n";
@@ -86,11 +101,12 @@ int run(const Command& command, const Options& options, const std::string& json)
   all["command"] = command.name, all["pairs"] = options.pairs, all["quick"] = options.quick;
   for (const auto& table : report.tables) all[table.key()] = table.json();
   all["notes"] = report.notes;
-  if (!json.empty() && !write_json(all, json)) {
-    std::cerr << json << ": cannot be written. Choose another file.\n";
+  const std::string how =
+      fmt::format("sturz_bench {}{}", command.name, options.full ? " --full" : "");
+  if (!write(all.dump(2) + "\n", files.json) ||
+      !write(sturz::bench::markdown_page(report, all["machine"], how), files.markdown))
     return 2;
-  }
-  if (report.failed) std::cerr << "the limit of --fail-below does not hold\n";
+  if (report.failed) std::cerr << "a limit does not hold\n";
   return report.failed ? 1 : 0;
 }
 
@@ -103,15 +119,15 @@ int main(int argc, char** argv) {
   CLI::App app{"Times the scenes that the tests check."};
   app.require_subcommand(1);
   Options options;
-  std::string json;
-  add_options(app, options, json);
+  Files files;
+  add_options(app, options, files);
   app.fallthrough();
   for (const Command& c : commands) app.add_subcommand(c.name, c.help);
   CLI11_PARSE(app, argc, argv);
   if (options.quick && app.count("--pairs") == 0) options.pairs = 7;
   try {
     for (const Command& c : commands)
-      if (app.got_subcommand(c.name)) return run(c, options, json);
+      if (app.got_subcommand(c.name)) return run(c, options, files);
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
     return 2;

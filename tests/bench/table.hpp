@@ -40,6 +40,7 @@ class Table {
 
   void add(std::vector<Cell> row);
   const std::string& key() const { return key_; }
+  bool empty() const { return rows_.empty(); }
   std::string text() const;
   nlohmann::ordered_json json() const;  ///< an array of objects, one per row
 
@@ -51,6 +52,7 @@ class Table {
 
 /// What one sub-command found, in the order in which it was found.
 struct Report {
+  std::string title, summary;      ///< of a page made from it
   std::vector<Table> tables;
   std::vector<std::string> notes;  ///< how the figures are to be read
   bool failed = false;             ///< a limit that was asked for does not hold

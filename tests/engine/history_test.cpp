@@ -107,7 +107,8 @@ SimulationParts moved_row(int n) {
   std::vector<Vec3> places;
   for (int i = 0; i < n; ++i) places.emplace_back(0, i, 0.5 * i);
   test::HandMade made = test::parcels_on(test::even_ground(2 * n + 4), places, {0, 0, 0});
-  SimulationParts parts{std::move(made.state), std::move(made.step), PeakMaps({}), StopRule({})};
+  SimulationParts parts{std::move(made.state), std::move(made.step),
+                        PeakMaps({.grid = Grid{1, 1, 0, 1, 1, ""}}), StopRule({})};
   ParticleSet& p = parts.state.grains;
   parts.start_x = p.x;
   parts.start_y = p.y;
@@ -139,7 +140,7 @@ TEST(Travel, FrontAndTailAreSharesOfTheMass) {
 
 TEST(Travel, AHeavyParcelCountsByItsMass) {
   SimulationParts parts = moved_row(201);
-  parts.state.grains.mass[150] *= 1e4;
+  parts.state.grains.mass[150] *= 1e6;
   std::vector<ParticleTravel> each;
   measure(parts, each);
   const FrontAndTail ends = front_and_tail(each);

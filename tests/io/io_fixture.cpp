@@ -107,6 +107,17 @@ ShellResult shell(const std::string& command) {
   return result;
 }
 
+MemberHistory made_up_history(std::size_t n_rows, bool with_states) {
+  MemberHistory history;
+  history.has_states = history.has_temperature = with_states;
+  history.rows.resize(n_rows);
+  float value = 0.25F;
+  for (std::size_t i = 0; i < n_rows; ++i)
+    for (const HistoryColumn& column : history_table())
+      if (history.has(column.part)) history.rows[i].*column.field = value += 0.1F;
+  return history;
+}
+
 MemberResult made_up_member(std::int64_t number) {
   MemberResult m;
   m.member = number;
@@ -116,6 +127,9 @@ MemberResult made_up_member(std::int64_t number) {
   m.state_hash = 0xfedcba9876543210ULL + static_cast<std::uint64_t>(number);
   double value = 0.1 * static_cast<double>(number + 1);
   for (const ScalarInfo& scalar : scalar_table()) m.scalars.*scalar.field = value *= 1.37;
+  m.history = made_up_history(7, number % 2 == 0);
+  m.pass_seconds = {{"pair sweep", 0.1 * static_cast<double>(number + 1)},
+                    {"peak maps, history, limits", 1e-9}};
   m.grid = {12, 10, 500000.1, 4600000.3, 2.5, utm33_wkt()};
   m.window = {4, 5, 3, 4};
   for (int layer = 0; layer < n_peak_layers; ++layer)

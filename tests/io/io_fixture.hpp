@@ -89,6 +89,8 @@ struct ShellResult {
 };
 ShellResult shell(const std::string& command);
 
+/// Rows in which no two numbers are equal.
+MemberHistory made_up_history(std::size_t n_rows, bool with_states);
 /// A member with maps over a 3 x 4 window of a 10 x 12 grid; values differ by member.
 MemberResult made_up_member(std::int64_t number);
 

@@ -30,6 +30,17 @@ bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0);
 }
 
+void expect_same(const MemberHistory& a, const MemberHistory& b) {
+  EXPECT_EQ(a.has_states, b.has_states);
+  EXPECT_EQ(a.has_temperature, b.has_temperature);
+  ASSERT_EQ(a.rows.size(), b.rows.size());
+  for (std::size_t i = 0; i < a.rows.size(); ++i)
+    for (const HistoryColumn& column : history_table())
+      EXPECT_EQ(std::bit_cast<std::uint32_t>(a.rows[i].*column.field),
+                std::bit_cast<std::uint32_t>(b.rows[i].*column.field))
+          << column.name << " " << i;
+}
+
 void expect_same(const MemberResult& a, const MemberResult& b) {
   EXPECT_EQ(a.member, b.member);
   EXPECT_EQ(a.outcome, b.outcome);
@@ -40,6 +51,8 @@ void expect_same(const MemberResult& a, const MemberResult& b) {
   EXPECT_EQ(a.state_hash, b.state_hash);
   EXPECT_TRUE(a.grid.same_place(b.grid));
   EXPECT_EQ(a.grid.crs_wkt, b.grid.crs_wkt);
+  expect_same(a.history, b.history);
+  EXPECT_EQ(a.pass_seconds, b.pass_seconds);
   EXPECT_EQ(a.window.row0, b.window.row0);
   EXPECT_EQ(a.window.col0, b.window.col0);
   EXPECT_EQ(a.window.n_rows, b.window.n_rows);
@@ -67,6 +80,19 @@ TEST_F(MemberFile, RoundTripsBitForBit) {
   expect_same(read_member(members() / "000017.nc"), m);
 }
 
+TEST_F(MemberFile, AHistoryOfFullLengthIsSmallAndOptional) {
+  MemberResult m = made_up_member(1);
+  m.history = {};
+  write_member(members(), m);
+  expect_same(read_member(members() / "000001.nc"), m);
+  const auto without = std::filesystem::file_size(members() / "000001.nc");
+  m.history = made_up_history(HistoryRecorder::most_rows, true);
+  write_member(members(), m);
+  expect_same(read_member(members() / "000001.nc"), m);
+  EXPECT_LE(std::filesystem::file_size(members() / "000001.nc") - without, 65536U)
+      << "netCDF builds files in blocks of 64 kB: one more at most";
+}
+
 TEST_F(MemberFile, AFailedMemberIsKeptWithItsReason) {
   MemberResult m;
   m.member = 3;
@@ -80,8 +106,10 @@ TEST_F(MemberFile, PassesTheCfLint) {
   if (shell("/usr/bin/python3 -c 'import netCDF4'").exit_code != 0)
     GTEST_SKIP() << "python3 with netCDF4 is not installed";
   write_member(members(), made_up_member(1));
+  write_member(members(), made_up_member(2));  // with states
   const ShellResult lint = shell("/usr/bin/python3 " STURZ_SOURCE_DIR "/tests/support/cf_lint.py " +
-                                 (members() / "000001.nc").string());
+                                 (members() / "000001.nc").string() + " " +
+                                 (members() / "000002.nc").string());
   EXPECT_EQ(lint.exit_code, 0) << lint.output;
 }
 
@@ -202,11 +230,11 @@ TEST_F(Store, DamagedFilesAreNamedAndCountAsAbsent) {
 
 TEST_F(Store, AFlippedBitInAMapIsFoundWhenAllIsRead) {
   MemberResult m = made_up_member(0);
-  m.grid.n_rows = m.grid.n_cols = 100;
-  m.window = {0, 0, 100, 100};
+  m.grid.n_rows = m.grid.n_cols = 300;
+  m.window = {0, 0, 300, 300};
   std::mt19937 random(1);  // does not compress: nearly all of the file is maps
   for (auto& layer : m.layers) {
-    layer.resize(10000);
+    layer.resize(90000);
     for (float& v : layer) v = static_cast<float>(random());
   }
   write_member(members(), m);

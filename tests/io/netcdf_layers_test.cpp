@@ -2,6 +2,7 @@
 #include "io/netcdf_layers.hpp"
 
 #include "io/gdal_raster.hpp"
+#include "io/history_netcdf.hpp"
 #include "io/io_error.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/text_files.hpp"
@@ -98,6 +99,23 @@ TEST_F(NetcdfLayers, RoundTripsEveryBit) {
     EXPECT_EQ(bits(in.layers[i].values), bits(out.layers[i].values)) << in.layers[i].name;
   }
   EXPECT_THAT(in.attributes, ::testing::IsSupersetOf(out.attributes));
+}
+
+TEST_F(NetcdfLayers, HoldTheHistoryOfTheirMember) {
+  const MemberHistory out = made_up_history(5, true);
+  write_layers(path("peaks.nc"), every_kind(), out);
+  const MemberHistory in = read_history(NetcdfReader(path("peaks.nc")));
+  ASSERT_EQ(in.rows.size(), out.rows.size());
+  EXPECT_TRUE(in.has_states && in.has_temperature);
+  for (std::size_t i = 0; i < in.rows.size(); ++i)
+    for (const HistoryColumn& column : history_table())
+      EXPECT_EQ(in.rows[i].*column.field, out.rows[i].*column.field) << column.name;
+  EXPECT_EQ(read_layers(path("peaks.nc")).layers.size(), every_kind().layers.size())
+      << "the history is no map";
+  EXPECT_TRUE(read_history(NetcdfReader(written(every_kind()))).rows.empty());
+  if (!has_python()) GTEST_SKIP() << "python3 with netCDF4 and xarray is not installed";
+  const ShellResult lint = cf_lint(path("peaks.nc"));
+  EXPECT_EQ(lint.exit_code, 0) << lint.output;
 }
 
 TEST_F(NetcdfLayers, TheSameLayersGiveTheSameBytes) {

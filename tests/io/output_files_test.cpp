@@ -25,6 +25,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class TextFiles : public IoTest {};
 
@@ -198,8 +199,9 @@ class ParticleFrames : public IoTest {
   std::vector<double> vx{3, 0, 0, 0}, vy{4, 0, 0, 0}, vz{0, 0, 0, 1}, mass{1, 2, 3, 4};
   std::vector<double> density{2600, 2601, 2602, 2603}, pressure{0, 10, 20, 30};
   std::vector<std::uint32_t> id{3, 1, 2, 0};
+  std::vector<double> fraction{0.61, 0.55, 0.3, 0.01}, state{0, 1, 2, 3}, theta{0, 0.25, 4, 0};
   ParticleFrame frame(double time) const {
-    return {time, x, y, z, vx, vy, vz, mass, density, pressure, id};
+    return {time, x, y, z, vx, vy, vz, mass, density, pressure, id, fraction, state, theta};
   }
 };
 
@@ -233,6 +235,14 @@ TEST_F(ParticleFrames, HoldTheirValuesAsRawAppendedArrays) {
   array("mass", masses, sizeof masses);
   array("pressure", pressures, sizeof pressures);
   array("id", ids, sizeof ids);
+  std::int8_t states[4];
+  float fractions[4], temperatures[4];
+  array("state", states, sizeof states);
+  array("solid_fraction", fractions, sizeof fractions);
+  array("granular_temperature", temperatures, sizeof temperatures);
+  EXPECT_THAT(states, ElementsAre(0, 1, 2, 3));
+  EXPECT_EQ(fractions[2], 0.3F);
+  EXPECT_EQ(temperatures[1], 0.25F);
   EXPECT_EQ(points[0], 403000.123456789);
   EXPECT_EQ(points[4], 3);
   EXPECT_EQ(velocity[1], 4);
@@ -250,8 +260,19 @@ TEST_F(ParticleFrames, VtkReadsThem) {
       shell("/usr/bin/python3 -c \"import vtk; r = vtk.vtkXMLPolyDataReader(); r.SetFileName('" +
             path("particles_000000.vtp") +
             "'); r.Update(); d = r.GetOutput(); print(d.GetNumberOfPoints(), d.GetNumberOfVerts(), "
-            "d.GetPoint(0)[0], d.GetPointData().GetArray('speed').GetValue(0))\"");
-  EXPECT_EQ(read.output, "4 1 403000.123456789 5.0\n");
+            "d.GetPoint(0)[0], d.GetPointData().GetArray('speed').GetValue(0), "
+            "d.GetPointData().GetArray('state').GetValue(3))\"");
+  EXPECT_EQ(read.output, "4 1 403000.123456789 5.0 3\n");
+}
+
+TEST_F(ParticleFrames, LeaveOutWhatTheSceneDoesNotHave) {
+  ParticleFrame dry = frame(0);
+  dry.state = dry.granular_temperature = {};
+  ParticleFrameWriter(folder()).write(dry);
+  const std::string vtp = read_text(path("particles_000000.vtp"));
+  EXPECT_THAT(vtp, HasSubstr("Name=\"solid_fraction\""));
+  EXPECT_THAT(vtp, Not(HasSubstr("Name=\"state\"")));
+  EXPECT_THAT(vtp, Not(HasSubstr("granular_temperature")));
 }
 
 TEST_F(ParticleFrames, AnEmptyFrameIsStillAFile) {

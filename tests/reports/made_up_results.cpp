@@ -133,6 +133,7 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
     }
   sc.runout_m = (reach - 0.08) * length;
   sc.release_layers = 2.7;
+  sc.parted_fraction = 0.01 + 0.1 * x[1];
   sc.end_time_s = 74 + 20 * x[2];
   sc.n_particles = 2841;
   sc.n_steps = 18000 + 40 * static_cast<double>(number);
@@ -150,6 +151,31 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
         "<terrain contact>";
   }
   return m;
+}
+
+/// A mass that speeds up, loosens, comes to rest and packs again within a minute.
+MemberHistory make_history() {
+  MemberHistory h;
+  h.has_states = h.has_temperature = true;
+  for (int k = 0; k <= 120; ++k) {
+    const float s = static_cast<float>(k) / 120, bell = 4 * s * (1 - s);
+    HistoryRow row;
+    row.time_s = 60 * s;
+    row.front_travel_m = 900 * s * s * (3 - 2 * s);
+    row.com_travel_m = 0.7F * row.front_travel_m;
+    row.tail_travel_m = 0.4F * row.front_travel_m;
+    row.max_speed_m_s = 28 * bell;
+    row.front_speed_m_s = 24 * bell;
+    row.mean_speed_m_s = 17 * bell;
+    row.tail_speed_m_s = 6 * bell;
+    row.transition = 0.06F * bell;
+    row.dilute = 0.10F * bell * bell;
+    row.ultradilute = 0.02F * bell * bell * bell;
+    row.dense = 1 - row.transition - row.dilute - row.ultradilute;
+    row.max_granular_temperature_m2_s2 = 12 * bell;
+    h.rows.push_back(row);
+  }
+  return h;
 }
 
 class MadeUpSource : public MemberSource {
@@ -201,6 +227,7 @@ MadeUpResults make_up_results(const MadeUpScene& scene) {
   if (!source->results().empty()) r.peaks = peaks_of(source->results().front());
   HazardContext context;
   context.spacing_m = 7;
+  r.history = make_history();
   r.hazard = make_hazard_map(*source, HazardSpec{}, context);
   r.source = std::move(source);
   return r;
@@ -244,7 +271,14 @@ ReportInput MadeUpResults::single_input() const {
   ReportInput in = ensemble_input();
   in.hazard = nullptr;
   in.peaks = &peaks;
+  in.history = &history;
   in.members.resize(1);
+  if (!in.members.empty()) {
+    MemberScalars& m = in.members.front().scalars;
+    m.parted_fraction = 0.083, m.transition_fraction = 0.041, m.dilute_fraction = 0.054;
+    m.ultradilute_fraction = 0.0092, m.max_granular_temperature_m2_s2 = 12;
+    m.granular_ratio = 0.0153;
+  }
   in.samples.rows.resize(1);
   in.convergence.clear();
   return in;

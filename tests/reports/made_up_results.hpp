@@ -23,6 +23,7 @@ struct MadeUpResults {
   std::unique_ptr<MemberSource> source;
   LayerStack hazard;  ///< empty layers without members
   LayerStack peaks;   ///< of the first member
+  MemberHistory history;  ///< of the first member, with states
   DesignTable design;
 
   /// Page of the whole ensemble, with every optional part filled.

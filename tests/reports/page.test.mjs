@@ -152,6 +152,25 @@ test('charts are drawn and the table sorts', {skip}, async () => {
   await close();
 });
 
+test('a run is followed through time with one cursor', {skip}, async () => {
+  const {page, trouble, close} = await open('single');
+  await liveMap(page);
+  for (const name of ['travel', 'speed', 'states'])
+    assert.ok(await page.locator(`#chart-${name} canvas`).count() > 0, name);
+  assert.ok(!await page.locator('#motion .still-chart').first().isVisible());
+  assert.equal(await page.textContent('#read-states'), '');
+  await page.locator('#chart-speed').scrollIntoViewIfNeeded();
+  const box = await page.locator('#chart-speed').boundingBox();
+  const before = (await page.locator('#chart-states').boundingBox()).y;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.waitForTimeout(300);
+  assert.match(await page.textContent('#read-speed'), /^\d+(\.\d+)?\ss: fastest particle 2\d/);
+  assert.match(await page.textContent('#read-states'), /dense 8\d(\.\d)?\s%/);
+  assert.equal((await page.locator('#chart-states').boundingBox()).y, before, 'nothing may jump');
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
 test('a phone shows the page without sideways scrolling', {skip}, async () => {
   for (const name of ['ensemble', 'single', 'empty']) {
     const {page, close} = await open(
@@ -168,6 +187,9 @@ test('without script and in print the still maps stand in', {skip}, async () => 
   const {page, close} = await open('ensemble', {javaScriptEnabled: false});
   assert.ok(await page.locator('#still-maps figure').first().isVisible());
   await close();
+  const run = await open('single', {javaScriptEnabled: false});
+  assert.ok(await run.page.locator('#motion .still-chart').first().isVisible());
+  await run.close();
   const live = await open('ensemble');
   await liveMap(live.page);
   assert.ok(!await live.page.locator('#still-maps').isVisible());

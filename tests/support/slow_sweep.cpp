@@ -19,6 +19,12 @@ double derivative(double r, const SweepConstants& c) {
   return -normal * 105 / (16 * std::numbers::pi * h2 * h2) * q * rest * rest * rest;
 }
 
+/// Wendland C2 but for a factor.
+double w(double r, double h) {
+  const double q = r / h, t = 1 - 0.5 * q;
+  return t * t * t * t * (2 * q + 1);
+}
+
 /// B = M^-1, or the identity for det M < 0.15 or |B| > 5.
 Matrix3d correction(const Matrix3d& moment, bool& corrected) {
   corrected = moment.determinant() >= 0.15;
@@ -28,11 +34,18 @@ Matrix3d correction(const Matrix3d& moment, bool& corrected) {
   return corrected ? b : Matrix3d::Identity();
 }
 
+/// The same in units of the mean diagonal, for clouds.
+Matrix3d correction_in_a_cloud(const Matrix3d& moment, double growth, bool& corrected) {
+  const double least = std::max(1 / (growth * growth), 0.5);
+  const double mean = std::min(1.0, std::max(moment.trace() / 3, least));
+  return correction(moment / mean, corrected) / mean;
+}
+
 }  // namespace
 
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                                   const std::vector<SlowParticle>& images,
-                                  const SweepConstants& c) {
+                                  const SweepConstants& c, bool clouds) {
   std::vector<SlowRates> out(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const SlowParticle& a = particles[i];
@@ -58,14 +71,21 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
           -share * c.viscosity * c.sound_speed * phi * c.reference_density / (density_a * density_b);
       force += mass_b *
                ((a.stress + b.stress) / (density_a * density_b) - pi * Matrix3d::Identity()) * grad;
-      force += b.volume * a.growth * b.growth / density_a *
+      force += b.volume * a.weight * b.weight / density_a *
                ((a.kinetic_stress + b.kinetic_stress) * grad);
+      if (c.tension) {
+        const double near = w(distance, c.h) / w(c.spacing, c.h), near2 = near * near;
+        force -= b.volume / density_a * (a.tension + b.tension) * near2 * near2 * grad;
+      }
       ++rates.neighbors;
       const double rise = b.compression - a.compression;
       const double weight = -grad.dot(r) / r.squaredNorm();  // F_ij without the 0.01 h^2
       laplace += b.volume * weight * rise;
       const double conduction = 4 / (1 / a.conductivity + 1 / b.conductivity);
-      rates.heat += b.volume * b.growth * conduction * weight * (b.theta - a.theta);
+      const double shared = b.volume * a.weight * b.weight / a.growth;
+      rates.heat += shared * conduction * weight * (b.theta - a.theta);
+      const Matrix3d seen = -shared * u * grad.transpose();
+      rates.felt += 0.5 * (seen + seen.transpose());
       grad_sum += b.volume * grad;
       density_gradient += b.volume * rise * grad;
       rates.smoothing +=
@@ -81,8 +101,10 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
     const Matrix3d grown = a.growth * moment;
     const double along = grown.cwiseProduct(a.wall_moment).sum();
     rates.wall_share = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
+    const Matrix3d imaged = grown + rates.wall_share * a.wall_moment;
     rates.gradient = (gradient + rates.wall_share * a.wall_gradient) *
-                     correction(grown + rates.wall_share * a.wall_moment, rates.corrected);
+                     (clouds ? correction_in_a_cloud(imaged, a.growth, rates.corrected)
+                             : correction(imaged, rates.corrected));
     rates.fill += rates.wall_share * a.wall_moment.trace() / (3 * a.growth);
     const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // grad of compression
     rates.acceleration = force;

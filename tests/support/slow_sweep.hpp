@@ -23,7 +23,8 @@ struct SlowParticle {
   double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
   Vec3 ground_normal{0, 0, 1};
   // For grains that fly, see KineticRecord:
-  double growth = 1, theta = 0, conductivity = 1e-30, viscosity_share = 1;
+  double tension = 0;  ///< artificial pressure [Pa]
+  double growth = 1, weight = 1, theta = 0, conductivity = 1e-30, viscosity_share = 1;
   Eigen::Matrix3d kinetic_stress = Eigen::Matrix3d::Zero();  ///< [Pa]
 };
 
@@ -33,14 +34,17 @@ struct SlowRates {
   double diffusion = 0;
   double wall_share = 0;  ///< of the mirror image
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d felt = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
   double heat = 0;        ///< conducted, per volume that the grain takes up [W/m^3]
   double fill = 0;        ///< a third of the moment's trace
   int neighbors = 0;
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I
 };
 
-/// B.2, B.3, B.4 over all pairs. \param images extra particles that are neighbours only
+/// B.2, B.3, B.4 over all pairs. \param images extra particles that are neighbours only;
+/// \param clouds  the gradient's correction as kinetic groups have it
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
-                                  const std::vector<SlowParticle>& images, const SweepConstants&);
+                                  const std::vector<SlowParticle>& images, const SweepConstants&,
+                                  bool clouds = false);
 
 }  // namespace sturz::test

@@ -23,12 +23,13 @@ PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
   for (int k = 0; k < 6; ++k)
     *stress[k] = static_cast<float>(p.stress(entries[k][0], entries[k][1]));
   r.inverse_pressure = static_cast<float>(p.inverse_pressure);
+  r.tension = static_cast<float>(p.tension);
   return r;
 }
 
 /// Room for the sweep's results and inputs of walls, [padded].
 struct Rooms {
-  std::array<std::vector<float>, 23> results;
+  std::array<std::vector<float>, 29> results;
   std::array<std::vector<float>, 12> wall;
   std::array<std::vector<float>, 4> ground;  // distance and normal
 
@@ -45,6 +46,7 @@ struct Rooms {
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
     o.wall_share = results[19].data();
     o.fill = results[20].data(), o.neighbors = results[21].data(), o.heat = results[22].data();
+    for (int k = 0; k < 6; ++k) o.felt[k] = results[23 + k].data();
     return o;
   }
   BoundaryView boundary() const {
@@ -65,6 +67,7 @@ struct Rooms {
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
       r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
+      r.felt(entries[k][0], entries[k][1]) = r.felt(entries[k][1], entries[k][0]) = results[23 + k][i];
     }
     return r;
   }
@@ -74,7 +77,7 @@ struct Rooms {
 
 SweepConstants usual_constants(double spacing) {
   const double h = 1.3 * spacing;
-  return {h, SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, 0.16};
+  return {h, SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, false, spacing, 0.16};
 }
 
 namespace {
@@ -129,6 +132,7 @@ struct Prepared {
     }
     KineticRecord& k = kinetic[i];
     k.growth = static_cast<float>(p.growth);
+    k.weight = static_cast<float>(p.weight);
     k.theta = static_cast<float>(p.theta);
     k.resistance = static_cast<float>(1 / p.conductivity);
     k.viscosity = static_cast<float>(p.viscosity_share);

@@ -28,6 +28,7 @@ struct DenseScale {
   float smoothing;   ///< 2 zeta h c0 C
   float inv_reach;   ///< 1/(2h) [1/m]
   float laplacian;   ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
+  float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
   float plane;       ///< 2 * 10.5/h: twice the integral of W over a plane through the particle [1/m]
 };
 
@@ -46,6 +47,8 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
       static_cast<float>(2 * c.stress_smoothing * c.h * c.sound_speed * c.gradient_factor);
   s.inv_reach = static_cast<float>(0.5 / c.h);
   s.laplacian = static_cast<float>(c.gradient_factor);
+  const double t = 1 - c.spacing / (2 * c.h);
+  s.inv_w_spacing = static_cast<float>(1 / (t * t * t * t * (5 - 4 * t)));
   s.plane = static_cast<float>(21 / c.h);
   return s;
 }
@@ -127,10 +130,31 @@ struct Correction {
   Lanes xx, yy, zz, xy, yz, zx;
 
   /// \param wall  what walls add to the moment matrix, xx yy zz xy yz zx
-  Correction(const DenseSums& s, Lanes scale, const Lanes wall[6]) {
-    const Lanes mxx = fma(s.mxx, scale, wall[0]), myy = fma(s.myy, scale, wall[1]);
-    const Lanes mzz = fma(s.mzz, scale, wall[2]), mxy = fma(s.mxy, scale, wall[3]);
-    const Lanes myz = fma(s.myz, scale, wall[4]), mzx = fma(s.mzx, scale, wall[5]);
+  Correction(const DenseSums& s, Lanes scale, const Lanes wall[6])
+      : Correction(fma(s.mxx, scale, wall[0]), fma(s.myy, scale, wall[1]),
+                   fma(s.mzz, scale, wall[2]), fma(s.mxy, scale, wall[3]),
+                   fma(s.myz, scale, wall[4]), fma(s.mzx, scale, wall[5])) {}
+
+  /// In a cloud the few neighbours carry more or less than their share, whatever their directions:
+  /// there M is judged, and where it is poor replaced, in units of its mean diagonal. Not so at the
+  /// surface of a dense mass, where pair forces lack the same share that M does: a full gradient
+  /// there would make the stress dissipate what no force takes.
+  /// \param growth  how far the grain has parted from the others, 1: not at all
+  static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6], Lanes growth) {
+    const Lanes xx = fma(s.mxx, scale, wall[0]), yy = fma(s.myy, scale, wall[1]);
+    const Lanes zz = fma(s.mzz, scale, wall[2]), one = Lanes::all(1);
+    const Lanes least = max(one / (growth * growth), Lanes::all(0.5f));
+    const Lanes diagonal = max(Lanes::all(1.0f / 3) * (xx + yy + zz), least);
+    const Lanes u = one / select_less(diagonal, one, diagonal, one);
+    Correction c(u * xx, u * yy, u * zz, u * fma(s.mxy, scale, wall[3]),
+                 u * fma(s.myz, scale, wall[4]), u * fma(s.mzx, scale, wall[5]));
+    c.xx = u * c.xx, c.yy = u * c.yy, c.zz = u * c.zz;
+    c.xy = u * c.xy, c.yz = u * c.yz, c.zx = u * c.zx;
+    return c;
+  }
+
+ private:
+  Correction(Lanes mxx, Lanes myy, Lanes mzz, Lanes mxy, Lanes myz, Lanes mzx) {
     const Lanes cxx = fnma(myz, myz, myy * mzz);
     const Lanes cxy = fnma(mxy, mzz, myz * mzx);
     const Lanes czx = fnma(myy, mzx, mxy * myz);

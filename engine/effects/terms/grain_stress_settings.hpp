@@ -49,6 +49,8 @@ struct GrainStressSettings {
     return 0.02 * reference_density * 9.81 * spacing +
            law.cohesion / std::fmax(0.1, law.static_friction);
   }
+  /// Nearer to the ground than this a grain lies on it [m]: it rests at half a spacing.
+  double touching_distance() const { return 0.6 * spacing; }
   double shear_to_bulk() const { return 3 * (1 - 2 * poisson_ratio) / (2 * (1 + poisson_ratio)); }
   double bulk_modulus() const {
     return reference_density * sound_speed * sound_speed / (1 + 4.0 / 3.0 * shear_to_bulk());
@@ -64,6 +66,7 @@ struct GrainStressSettings {
   double compression_at(double pressure) const {
     double e = std::fmax(0.0, pressure / bulk_modulus());
     if (!states) return e;
+    if (pressure_at(0) >= pressure) return 0;
     double low = 0, high = e;  // the frictional part only takes load off
     for (int n = 0; n < 60 && high - low > 1e-15; ++n) {
       e = 0.5 * (low + high);

@@ -7,6 +7,7 @@
 
 #include "engine/effects/step.hpp"
 #include "engine/effects/terms/grain_stress_settings.hpp"
+#include "engine/effects/terms/parcel_search.hpp"
 #include "engine/neighbors/neighbor_lists.hpp"
 
 namespace sturz {
@@ -18,9 +19,10 @@ struct GrainStress {
   std::vector<float> results[10];  // velocity gradient, density diffusion
   std::vector<float> smooth[6];
   // Only where grains may part:
-  std::vector<float> parted[3];  // fill, neighbours, heat; see SweepOutput
+  std::vector<float> parted[9];  // fill, neighbours, heat, gradient felt; see SweepOutput
   std::vector<KineticRecord> kinetic;
   std::vector<std::uint8_t> calm;
+  ParcelSearch parcels;  // lone ones that meet again
   double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
 
   explicit GrainStress(const GrainStressSettings& s)
@@ -36,6 +38,7 @@ struct GrainStress {
     for (int k = 0; k < 10; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
     out.fill = parted[0].data(), out.neighbors = parted[1].data(), out.heat = parted[2].data();
+    for (int k = 0; k < 6; ++k) out.felt[k] = parted[3 + k].data();
     return out;
   }
 };

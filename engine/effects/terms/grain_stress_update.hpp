@@ -18,6 +18,7 @@ struct StressColumns {
   double *vx = nullptr, *vy = nullptr, *vz = nullptr;
   double* compression = nullptr;
   double* stress[6] = {};   ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
+  const float* distance = nullptr;  ///< to the ground [m]; where grains may part
   const double* state = nullptr;  ///< GrainState at n; read by the switched law only
 };
 
@@ -56,6 +57,7 @@ class StressUpdate {
         half_inv_shear_(0.5 / shear_),
         inv_density_(1 / g.reference_density),
         dt_(dt),
+        touching_(static_cast<float>(g.touching_distance())),
         slowness_(shear_ * dt * g.law.inertial_number_scale /
                   (g.law.grain_diameter * std::sqrt(g.law.grain_density))) {}
 
@@ -86,7 +88,8 @@ class StressUpdate {
     const float *r_lzx = r.lzx, *r_lzy = r.lzy, *r_lzz = r.lzz, *r_diffusion = r.diffusion;
     const float *r_xx = r.smooth[0], *r_yy = r.smooth[1], *r_zz = r.smooth[2];
     const float *r_xy = r.smooth[3], *r_yz = r.smooth[4], *r_zx = r.smooth[5];
-    const float* r_fill = r.fill;
+    const float *r_fill = r.fill, *c_distance = c.distance;
+    const float touching = touching_;
     const double *mass = c.mass, *c_state = c.state;
     double *compression = c.compression, *c_vx = c.vx, *c_vy = c.vy, *c_vz = c.vz;
     double *s_xx = c.stress[0], *s_yy = c.stress[1], *s_zz = c.stress[2];
@@ -106,17 +109,20 @@ class StressUpdate {
       // Density on the continuity equation, cut at zero pressure in tension.
       const double e0 = compression[i];
       double diffused = dt * r_diffusion[i], e1;
+      double squeezed_by;                              // de by the continuity equation alone
       double p0, p1;                                   // of contacts
       double q0 = 0, q1 = 0;                           // the frictional part of it
       if constexpr (Packing::parts) {
         const double carried = packing.carried(e0, dt * trace);
-        e1 = packing.bounded(carried + diffused, r_fill[i]);
+        e1 = packing.bounded(carried + diffused, r_fill[i], c_distance[i] < touching);
         diffused = e1 - carried;
+        squeezed_by = carried - e0;
         p0 = -(s_xx[i] + s_yy[i] + s_zz[i]) / 3;
         p1 = packing.pressure(e1, p0, c_state ? c_state[i] : 0);
         q0 = p0 - (e0 > 0 ? bulk * e0 : 0), q1 = p1 - (e1 > 0 ? bulk * e1 : 0);
       } else {
-        e1 = packing.bounded(e0 - dt * (1 + e0) * trace + diffused);
+        squeezed_by = -dt * (1 + e0) * trace;
+        e1 = packing.bounded(e0 + squeezed_by + diffused);
         p0 = packing.pressure(e0), p1 = packing.pressure(e1);
       }
       compression[i] = e1;
@@ -146,7 +152,7 @@ class StressUpdate {
       const Symmetric d{lxx - third,       lyy - third,       lzz - third,
                         0.5 * (lxy + lyx), 0.5 * (lyz + lzy), 0.5 * (lzx + lxz)};
       const Symmetric t = s.plus(2 * shear * dt, d);
-      const double trial2 = t.norm2(), trial = std::sqrt(trial2);
+      const double trial = std::sqrt(t.norm2());
       const double kept = yield_return(packing.yielding(law, e1), trial, p1, slowness);
       const double tau = packing.carries_shear(e1) ? kept : 0;
       const double scale = trial > 0 ? tau / trial : 0;
@@ -155,13 +161,15 @@ class StressUpdate {
       s_yz[i] = scale * t.yz, s_zx[i] = scale * t.zx;
 
       const double volume = mass[i] * inv_density, mean_p = 0.5 * (p0 + p1);
-      const double work = 0.5 * (s.dot(d) + t.dot(d));
+      // By the stresses at both ends of the step: what the trial overshoots never acts.
+      const double work = 0.5 * (s.dot(d) + scale * t.dot(d));
       const double squeezed = p1 - q1;
       elastic += volume * (squeezed * squeezed * half_inv_bulk + tau * tau * half_inv_shear);
       if constexpr (Packing::parts)
-        frictional += volume * 0.5 * (q0 + q1) * (diffused - dt * trace);
-      power += volume * dt * (work - mean_p * trace);
-      plastic += volume * (trial2 - tau * tau) * half_inv_shear;
+        frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
+      // As the law stores it: per reference volume.
+      power += volume * (dt * work + mean_p * squeezed_by);
+      plastic += volume * (dt * work - (tau * tau - s.norm2()) * half_inv_shear);
       diffusion += volume * (mean_p * diffused + smoothed * half_inv_shear);
     }
     out += StressEnergies{elastic, frictional, power, plastic, diffusion, resting};
@@ -170,7 +178,9 @@ class StressUpdate {
   MuIRheology law_;
   bool smooth_;
   double floor_, inv_rest_speed2_, rest_drag_;
-  double bulk_, shear_, half_inv_bulk_, half_inv_shear_, inv_density_, dt_, slowness_;
+  double bulk_, shear_, half_inv_bulk_, half_inv_shear_, inv_density_, dt_;
+  float touching_;
+  double slowness_;
 };
 
 }  // namespace sturz

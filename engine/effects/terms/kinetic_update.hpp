@@ -94,9 +94,17 @@ class KineticUpdate {
     // Expanding grains may push less, but do not pull: the bulk viscosity stops at the pressure.
     if (trace > 0) k.bulk_viscosity = std::min(k.bulk_viscosity, k.pressure * s0 / trace);
 
-    const double a = share * (4 * k.shear_viscosity * d.norm2() + k.bulk_viscosity * trace * trace) /
-                     (3 * density);
-    const double b = share * k.pressure * trace / (3 * density);
+    // Heated by what the pair forces take from the motion, no more: see SweepOutput::felt.
+    const Symmetric felt{r.felt[0][i], r.felt[1][i], r.felt[2][i],
+                         r.felt[3][i], r.felt[4][i], r.felt[5][i]};
+    const double opened = felt.trace();
+    double a = share * (2 * k.shear_viscosity * d.dot(felt) + k.bulk_viscosity * trace * opened) /
+               (3 * density);
+    double b = share * k.pressure * opened / (3 * density);
+    if (a < 0) {  // uneven surroundings: it cools, as fast as it has heat for
+      b -= a / std::fmax(s0, 1e-12);
+      a = 0;
+    }
     const double s1 = riccati_step(s0, a, b, k.dissipation / (3 * density), dt_);
     const double conducted = dt_ * r.heat[i] / density;  // J/kg
     double theta1 = std::clamp(s1 * s1 + conducted / 1.5, 0.0, hottest_);
@@ -114,7 +122,7 @@ class KineticUpdate {
     c.stress[3][i] = after.xy, c.stress[4][i] = after.yz, c.stress[5][i] = after.zx;
 
     const double mass = c.mass[i];
-    const double work = mass / density * dt_ * 0.5 * (before.dot(rate) + after.dot(rate));
+    const double work = mass / density * dt_ * 0.5 * (before.dot(felt) + after.dot(felt));
     out.power += work;
     out.granular += 1.5 * mass * theta1;
     out.conducted += mass * conducted;

@@ -38,27 +38,60 @@ struct GrainFields {
 /// What a parcel finds around it.
 struct Surroundings {
   int neighbors = 0;
-  double fill = 0;   ///< of its support, 1 inside a dense mass
-  double theta = 0;  ///< mean of the neighbours
+  double fill = 0;    ///< of its support, 1 inside a dense mass
+  double weight = 0, warm = 0;  ///< of the grains among them: sum of weights, and times theta
+
+  double theta() const { return weight > 0 ? warm / weight : 0; }
 };
 
-Surroundings look_around(const State& s, const GrainStressSettings& g, const NeighborLists& lists,
-                         const Field* theta, std::size_t i) {
-  const SmoothingKernel smoothing{g.smoothing_length};
-  const double factor = smoothing.discrete_gradient_factor(), reach = 2 * g.smoothing_length;
-  const double volume = g.spacing * g.spacing * g.spacing;
-  Surroundings found;
-  double weight = 0, warm = 0;
-  lists.for_each_near(s.grains.x[i], s.grains.y[i], s.grains.z[i], [&](std::size_t j, double r2) {
-    const double t = 1 - std::sqrt(r2) / reach, w = volume * t * t * t;
+/// Looks around every parcel, for grains in the lists and for other parcels.
+class Lookout {
+ public:
+  Lookout(const State& s, const GrainStressSettings& g)
+      : s_(s),
+        reach_(2 * g.smoothing_length),
+        factor_(SmoothingKernel{g.smoothing_length}.discrete_gradient_factor()),
+        volume_(g.spacing * g.spacing * g.spacing),
+        around_(s.grains.size() - s.n_listed) {}
+
+  const Surroundings& of(std::size_t parcel) const { return around_[parcel - s_.n_listed]; }
+
+  void grains(const NeighborLists& lists, const Field* theta) {
+    const ParticleSet& p = s_.grains;
+    for (std::size_t i = s_.n_listed; i < p.size(); ++i)
+      lists.for_each_near(p.x[i], p.y[i], p.z[i], [&](std::size_t j, double r2) {
+        Surroundings& found = around_[i - s_.n_listed];
+        const double w = count(found, r2);
+        if (!theta || j >= s_.n_listed) return;  // an image stands for a grain counted elsewhere
+        found.weight += w;
+        found.warm += w * theta->component[0][j];
+      });
+  }
+  void parcels(ParcelSearch& search) {
+    const ParticleSet& p = s_.grains;
+    std::vector<ParcelSphere> spheres;
+    for (std::size_t i = s_.n_listed; i < p.size(); ++i)
+      spheres.push_back({Vec3(p.x[i], p.y[i], p.z[i]), Vec3(0, 0, 0), 0, p.id[i]});
+    for (const NearPair& pair : search.find(spheres, reach_, s_.domain)) {
+      const double r2 = (spheres[pair.a].place - spheres[pair.b].place - pair.image).squaredNorm();
+      if (r2 >= reach_ * reach_) continue;
+      count(around_[pair.a], r2);
+      count(around_[pair.b], r2);
+    }
+  }
+
+ private:
+  double count(Surroundings& found, double r2) const {
+    const double t = 1 - std::sqrt(r2) / reach_, w = volume_ * t * t * t;
     ++found.neighbors;
-    found.fill += factor * w * r2 / 3;
-    weight += w;
-    if (theta && j < s.n_listed) warm += w * theta->component[0][j];
-  });
-  if (weight > 0) found.theta = warm / weight;
-  return found;
-}
+    found.fill += factor_ * w * r2 / 3;
+    return w;
+  }
+
+  const State& s_;
+  double reach_, factor_, volume_;
+  std::vector<Surroundings> around_;  // by parcel
+};
 
 }  // namespace
 
@@ -66,7 +99,7 @@ bool detach_lone(State& s, const GrainStressSettings& g) {
   GrainFields f(s.grains);
   bool any = false;
   for (std::size_t i = 0; i < s.grains.size(); ++i) {
-    if (f.alone[i] < detach_steps || f.alone[i] == in_flight) continue;
+    if (f.alone[i] != detach_steps) continue;
     const double stored = stored_energy(g, s.grains, i);
     s.ledger.elastic -= stored;
     s.ledger.lost_energy += stored;
@@ -85,6 +118,16 @@ bool detach_lone(State& s, const GrainStressSettings& g) {
   return any;
 }
 
+void attach_landed(State& s) {
+  GrainFields f(s.grains);
+  for (std::size_t i = 0; i < s.grains.size(); ++i) {
+    if (f.alone[i] != landed) continue;
+    f.compression[i] = GrainStressSettings::separation;
+    f.state[i] = static_cast<double>(GrainState::dense);
+    f.alone[i] = 0;
+  }
+}
+
 void put_listed_first(State& s) {
   const auto& alone = s.grains.find_field("steps_alone")->component[0];
   std::vector<std::uint32_t> order, behind;
@@ -97,19 +140,24 @@ void put_listed_first(State& s) {
   s.grains.permute(order);
 }
 
-bool attach_near(State& s, const GrainStressSettings& g, const NeighborLists& lists) {
+bool attach_near(State& s, const GrainStressSettings& g, const NeighborLists& lists,
+                 ParcelSearch& search) {
+  if (s.n_listed == s.grains.size()) return false;
   GrainFields f(s.grains);
+  Lookout lookout(s, g);
+  lookout.grains(lists, f.theta);
+  lookout.parcels(search);
   bool any = false;
   for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) {
-    const Surroundings around = look_around(s, g, lists, f.theta, i);
+    const Surroundings& around = lookout.of(i);
     const double reference = g.states->reference_fraction;
     if (around.neighbors < attach_neighbors || around.fill * reference <= attach_fraction) continue;
     f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation);
     f.state[i] = static_cast<double>(grain_state(reference * (1 + f.compression[i])));
     f.alone[i] = 0;
     if (f.theta) {
-      f.theta->component[0][i] = around.theta;
-      const double heat = 1.5 * s.grains.mass[i] * around.theta;
+      f.theta->component[0][i] = around.theta();
+      const double heat = 1.5 * s.grains.mass[i] * around.theta();
       s.ledger.granular += heat;
       s.ledger.granular_lost -= heat;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/terms/losses.hpp"
 
+#include <cmath>
+
 namespace sturz {
 namespace {
 
@@ -21,6 +23,7 @@ void remove_outside(State& s, std::vector<std::uint8_t>& keep) {
     keep[i] = !s.leaves(i);
     n_kept += keep[i];
     if (keep[i]) continue;
+    s.corrupt = s.corrupt || !std::isfinite(p.x[i] + p.y[i] + p.z[i]);
     s.ledger.lost_mass += p.mass[i];
     s.ledger.lost_energy += 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
   }

@@ -27,11 +27,15 @@ struct DensePacking {
 /// p = K e + p_fric(alpha): one continuous law from dense to parted (physics.md B.9).
 ///
 /// The density of the continuity equation drifts where neighbours are few. It is kept between what
-/// the fill of the support allows: not under 0.85 of it (so a grain that is packed in again counts
-/// as such), and not over a third more than three times of it (so a grain that has lost its
-/// neighbours does not count as dense; the surface of a dense mass has a fill of about a half).
+/// the fill of the support allows: not under 0.85 of it where that is nearly full (so a grain that
+/// is packed in again counts as such), and not over eight times of it (so a grain that has lost its
+/// neighbours does not count as dense: the surface of a dense mass has a fill of about a half, a
+/// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make the fill too uneven to correct by.
+/// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing, not
+/// a cloud: it stays dense, without load, so that it carries at once when others run up on it.
 struct PartingPacking {
   static constexpr bool parts = true;
+  static constexpr double sparse = 0.12;   ///< fill under which nobody is dense
   double bulk;                 ///< K [Pa]
   double reference_fraction;   ///< alpha where e = 0
   FrictionalPressure friction;
@@ -43,10 +47,13 @@ struct PartingPacking {
   static double carried(double e, double strain) {
     return strain > 0 ? (1 + e) / (1 + strain) - 1 : (1 + e) * (1 - strain) - 1;
   }
-  static double bounded(double e, double fill) {
-    const double least = std::fmin(0.85 * fill - 1, GrainStressSettings::separation);
-    const double most = fill < 0.3 ? fill / 0.3 - 1 : e;
-    return std::fmax(std::fmin(std::fmax(e, least), most), -0.999);
+  /// \param touching  whether it lies on the ground
+  static double bounded(double e, double fill, bool touching) {
+    const double packed = touching ? 1 : 0.85 * fill * smoothstep(2 * (fill - 0.3));
+    const double least = std::fmin(packed - 1, GrainStressSettings::separation);
+    const double lifted = std::fmax(e, least);
+    const double most = fill < sparse ? (touching ? 0 : fill / sparse - 1) : lifted;
+    return std::fmax(std::fmin(lifted, most), -0.999);
   }
   /// \param before  contact pressure at n [Pa]; \param state  GrainState at n
   double pressure(double e, double before, double state) const {
@@ -56,10 +63,11 @@ struct PartingPacking {
     const double target = dense ? squeezed : friction.at(fraction(e));
     return target + (before - target) * kept;
   }
-  /// Cohesion fades with the contacts.
-  MuIRheology yielding(const MuIRheology& law, double e) const {
+  /// Cohesion ends where grains part, over the two percent after it ends in a mass that stays dense. Held on to through the transition it would be shear without pressure, that
+  /// is tension, and pull grains into clumps (physics.md B.13, I1).
+  static MuIRheology yielding(const MuIRheology& law, double e) {
     MuIRheology faded = law;
-    faded.cohesion *= 1 - kinetic_weight(fraction(e));
+    faded.cohesion *= smoothstep((e - GrainStressSettings::separation + 0.02) / 0.02);
     return faded;
   }
   static bool carries_shear(double) { return true; }  // as much as the frictional pressure allows

@@ -76,7 +76,7 @@ void refresh_motion(State& s, double dt) {
   s.motion.max_acceleration = dt > 0 ? std::sqrt(sums.change2) / dt : 0;
   for (int k = 0; k < 3; ++k)
     s.motion.velocity_range[k] = p.size() ? sums.hi[k] - sums.lo[k] : 0;
-  s.motion.finite = std::isfinite(sums.check);
+  s.motion.finite = std::isfinite(sums.check) && !s.corrupt;
   Ledger& book = s.ledger;
   book.kinetic = sums.kinetic;
   book.gravity_work += sums.gravity_work;

@@ -13,7 +13,7 @@ struct GroupRows {
   alignas(64) float compression[group_size];
   alignas(64) float sxx[group_size], syy[group_size], szz[group_size];
   alignas(64) float sxy[group_size], syz[group_size], szx[group_size];
-  alignas(64) float inverse_pressure[group_size];
+  alignas(64) float inverse_pressure[group_size], tension[group_size];
 
   explicit GroupRows(const PackedRecord* first) {
     for (int k = 0; k < group_size; ++k) {
@@ -22,7 +22,7 @@ struct GroupRows {
       vx[k] = p.vx, vy[k] = p.vy, vz[k] = p.vz, compression[k] = p.compression;
       sxx[k] = p.sxx, syy[k] = p.syy, szz[k] = p.szz;
       sxy[k] = p.sxy, syz[k] = p.syz, szx[k] = p.szx;
-      inverse_pressure[k] = p.inverse_pressure;
+      inverse_pressure[k] = p.inverse_pressure, tension[k] = p.tension;
     }
   }
 };
@@ -69,7 +69,9 @@ struct Image {
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
 /// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours that
 ///                parted alike are too small by it
+/// \tparam flying  whether the group may be a cloud
 /// \return trace of the moment that ground and walls add
+template <bool flying>
 inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
                           const DenseScale& k, const BoundaryView& wall, const SweepOutput& out,
                           std::size_t at, Lanes growth) {
@@ -90,7 +92,8 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
   share.store(out.wall_share + at);
   for (Lanes& c : w) c = share * c;
   const Lanes imaged = w[0] + w[1] + w[2];
-  const Correction b(s, moment, w);
+  const Correction b =
+      flying ? Correction::in_a_cloud(s, moment, w, growth) : Correction(s, moment, w);
   for (int c = 0; c < 6; ++c) w[c] = share * image.gradient[c];
   const Lanes scale = Lanes::all(k.gradient) * growth;
   auto row = [&](Lanes x, Lanes y, Lanes z, float* ox, float* oy, float* oz) {
@@ -123,9 +126,21 @@ inline Lanes fill_of(const DenseSums& s, const DenseScale& k, Lanes imaged) {
   return Lanes::all(1.0f / 3) * (trace + imaged);
 }
 
+/// What the artificial stress adds to the acceleration.
+inline void finish_tension(const TensionSums& s, const GroupRows& rows, int lane,
+                           const DenseScale& k, const SweepOutput& out, std::size_t at) {
+  const Lanes density =
+      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
+  const Lanes factor = Lanes::all(k.gradient) / density, own = Lanes::load(rows.tension + lane);
+  auto push = [&](float* a, Lanes force) { fma(factor, force, Lanes::load(a)).store(a); };
+  push(out.ax + at, fma(own, s.cx, s.bx));
+  push(out.ay + at, fma(own, s.cy, s.by));
+  push(out.az + at, fma(own, s.cz, s.bz));
+}
+
 /// A group's kinetic records in rows.
 struct KineticRows {
-  alignas(64) float growth[group_size], theta[group_size];
+  alignas(64) float growth[group_size], weight[group_size], theta[group_size];
   alignas(64) float resistance[group_size], viscosity[group_size];
   alignas(64) float xx[group_size], yy[group_size], zz[group_size];
   alignas(64) float xy[group_size], yz[group_size], zx[group_size];
@@ -133,7 +148,7 @@ struct KineticRows {
   explicit KineticRows(const KineticRecord* first) {
     for (int n = 0; n < group_size; ++n) {
       const KineticRecord& k = first[n];
-      growth[n] = k.growth, theta[n] = k.theta;
+      growth[n] = k.growth, weight[n] = k.weight, theta[n] = k.theta;
       resistance[n] = k.resistance, viscosity[n] = k.viscosity;
       xx[n] = k.xx, yy[n] = k.yy, zz[n] = k.zz;
       xy[n] = k.xy, yz[n] = k.yz, zx[n] = k.zx;
@@ -145,10 +160,10 @@ struct KineticRows {
 inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const GroupRows& rows,
                            const KineticRows& own, int lane, const DenseScale& k, Lanes imaged,
                            const SweepOutput& out, std::size_t at) {
-  const Lanes growth = Lanes::load(own.growth + lane);
+  const Lanes growth = Lanes::load(own.growth + lane), weight = Lanes::load(own.weight + lane);
   const Lanes density =
       Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
-  const Lanes factor = Lanes::all(-k.gradient) * growth / density;
+  const Lanes factor = Lanes::all(-k.gradient) * weight / density;
   const Lanes xx = Lanes::load(own.xx + lane), yy = Lanes::load(own.yy + lane);
   const Lanes zz = Lanes::load(own.zz + lane), xy = Lanes::load(own.xy + lane);
   const Lanes yz = Lanes::load(own.yz + lane), zx = Lanes::load(own.zx + lane);
@@ -156,7 +171,13 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
   push(out.ax + at, fma(xx, s.gx, fma(xy, s.gy, fma(zx, s.gz, s.kx))));
   push(out.ay + at, fma(xy, s.gx, fma(yy, s.gy, fma(yz, s.gz, s.ky))));
   push(out.az + at, fma(zx, s.gx, fma(yz, s.gy, fma(zz, s.gz, s.kz))));
-  (Lanes::all(k.laplacian) * s.heat).store(out.heat + at);
+  // Per volume that the grain takes up: the record's times `growth`.
+  const Lanes share = weight / growth, half = Lanes::all(0.5f);
+  (Lanes::all(k.laplacian) * share * s.heat).store(out.heat + at);
+  const Lanes felt = Lanes::all(k.gradient) * share;
+  (felt * s.exx).store(out.felt[0] + at), (felt * s.eyy).store(out.felt[1] + at);
+  (felt * s.ezz).store(out.felt[2] + at), (half * felt * s.exy).store(out.felt[3] + at);
+  (half * felt * s.eyz).store(out.felt[4] + at), (half * felt * s.ezx).store(out.felt[5] + at);
   fill_of(dense, k, imaged / growth).store(out.fill + at);
   s.count.store(out.neighbors + at);
 }
@@ -187,7 +208,8 @@ inline DenseSelf self_of(const GroupRows& rows, int lane) {
 }
 
 /// \tparam fill  whether SweepOutput::fill is wanted
-template <bool smooth, bool fill>
+/// \tparam tension  whether artificial stress acts
+template <bool smooth, bool fill, bool tension>
 inline void dense_group(const PackedView& view, const DenseScale& scale, const BoundaryView& wall,
                         const SweepOutput& out, std::size_t group) {
   const std::size_t first = group * group_size;
@@ -200,29 +222,39 @@ inline void dense_group(const PackedView& view, const DenseScale& scale, const B
     sums.clear();
     RatioSums ratio;
     if constexpr (smooth) ratio.clear();
+    TensionSums pull;
+    if constexpr (tension) pull.clear();
     for (const std::uint32_t* j = begin; j != end; ++j) {
       const Lanes w = sums.add(self, view.records[*j], scale, Lanes::all(scale.viscosity));
       if constexpr (smooth) ratio.add(view.records[*j], w);
+      if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const Lanes imaged =
-        finish_dense(sums, rows, lane, scale, wall, out, first + lane, Lanes::all(1));
+        finish_dense<false>(sums, rows, lane, scale, wall, out, first + lane, Lanes::all(1));
     if constexpr (fill) fill_of(sums, scale, imaged).store(out.fill + first + lane);
+    if constexpr (tension) finish_tension(pull, rows, lane, scale, out, first + lane);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, first + lane);
   }
+}
+
+/// The loop with the terms of this step.
+template <bool fill>
+inline auto pick_dense(const SweepConstants& c) {
+  if (c.stress_smoothing > 0)
+    return c.tension ? &dense_group<true, fill, true> : &dense_group<true, fill, false>;
+  return c.tension ? &dense_group<false, fill, true> : &dense_group<false, fill, false>;
 }
 
 inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
                         const BoundaryView& wall, const SweepOutput& out,
                         std::size_t first_group, std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
-  const bool smooth = constants.stress_smoothing > 0;
-  for (std::size_t g = first_group; g < last_group; ++g)
-    smooth ? dense_group<true, false>(view, scale, wall, out, g)
-           : dense_group<false, false>(view, scale, wall, out, g);
+  const auto group = pick_dense<false>(constants);
+  for (std::size_t g = first_group; g < last_group; ++g) group(view, scale, wall, out, g);
 }
 
 /// A group in which some grain flies, or meets one that does.
-template <bool smooth>
+template <bool smooth, bool tension>
 inline void kinetic_group(const PackedView& view, const KineticView& flying,
                           const DenseScale& scale, const BoundaryView& wall,
                           const SweepOutput& out, std::size_t group) {
@@ -241,6 +273,8 @@ inline void kinetic_group(const PackedView& view, const KineticView& flying,
     more.clear();
     RatioSums ratio;
     if constexpr (smooth) ratio.clear();
+    TensionSums pull;
+    if constexpr (tension) pull.clear();
     const Lanes half_viscosity = Lanes::all(0.5f * scale.viscosity);
     for (const std::uint32_t* j = begin; j != end; ++j) {
       const KineticRecord& k = flying.records[*j];
@@ -248,13 +282,21 @@ inline void kinetic_group(const PackedView& view, const KineticView& flying,
       const Lanes w = sums.add(self, view.records[*j], scale, viscosity);
       more.add(self, kinetic, view.records[*j], k, w);
       if constexpr (smooth) ratio.add(view.records[*j], w);
+      if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const std::size_t at = first + lane;
-    const Lanes imaged = finish_dense(sums, rows, lane, scale, wall, out, at,
+    const Lanes imaged = finish_dense<true>(sums, rows, lane, scale, wall, out, at,
                                       Lanes::load(own.growth + lane));
     finish_kinetic(more, sums, rows, own, lane, scale, imaged, out, at);
+    if constexpr (tension) finish_tension(pull, rows, lane, scale, out, at);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, at);
   }
+}
+
+inline auto pick_kinetic(const SweepConstants& c) {
+  if (c.stress_smoothing > 0)
+    return c.tension ? &kinetic_group<true, true> : &kinetic_group<true, false>;
+  return c.tension ? &kinetic_group<false, true> : &kinetic_group<false, false>;
 }
 
 /// Whether nobody in the group or near it flies.
@@ -272,6 +314,7 @@ inline void leave_calm(const SweepOutput& out, std::size_t group) {
   for (std::size_t i = group * group_size; i < (group + 1) * group_size; ++i) {
     out.neighbors[i] = SweepOutput::uncounted;
     out.heat[i] = 0;
+    for (float* column : out.felt) column[i] = 0;
   }
 }
 
@@ -280,15 +323,14 @@ inline void kinetic_sweep(const PackedView& view, const KineticView& flying,
                           const SweepOutput& out, std::size_t first_group,
                           std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
-  const bool smooth = constants.stress_smoothing > 0;
+  const auto calm = pick_dense<true>(constants);
+  const auto stirred = pick_kinetic(constants);
   for (std::size_t g = first_group; g < last_group; ++g) {
     if (calm_around(view, flying, g)) {
-      smooth ? dense_group<true, true>(view, scale, wall, out, g)
-             : dense_group<false, true>(view, scale, wall, out, g);
+      calm(view, scale, wall, out, g);
       leave_calm(out, g);
     } else {
-      smooth ? kinetic_group<true>(view, flying, scale, wall, out, g)
-             : kinetic_group<false>(view, flying, scale, wall, out, g);
+      stirred(view, flying, scale, wall, out, g);
     }
   }
 }

@@ -7,7 +7,7 @@ import {numberText} from './data.js';
 
 const font = '11px system-ui, sans-serif';
 
-function axes(c, xLabel, yLabel) {
+export function axes(c, xLabel, yLabel) {
   const shared = {
     stroke: c.muted, grid: {stroke: c.line, width: 1}, ticks: {show: false}, font, labelFont: font,
     values: (_, ticks) => ticks.map((t) => t === null ? null : numberText(t)),
@@ -19,7 +19,7 @@ function axes(c, xLabel, yLabel) {
 }
 
 /** Keeps a plot as wide as its box, and redraws it when the page's colours change. */
-function keepDrawn(box, make) {
+export function keepDrawn(box, make) {
   let plot = null;
   const draw = () => {
     plot?.destroy();

@@ -34,3 +34,8 @@ export function colours() {
     warm: of('--warm'), band: of('--band'), sheet: of('--sheet'),
   };
 }
+
+/** A colour of the style sheet by its name without the dashes. */
+export function colourOf(name) {
+  return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}

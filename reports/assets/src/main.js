@@ -6,6 +6,7 @@ import '../page.css';
 
 import {drawCharts} from './charts.js';
 import {startMaps} from './controls.js';
+import {drawMotion} from './motion.js';
 import {makeSortable} from './table.js';
 
 const page = JSON.parse(document.getElementById('sturz-data').textContent);
@@ -14,6 +15,10 @@ makeSortable(document.getElementById('member-table'));
 
 for (const part of document.querySelectorAll('.needs-script')) part.hidden = false;
 if (document.getElementById('spread')) drawCharts(page);
+if (document.getElementById('motion')) {
+  drawMotion(page.motion);
+  document.documentElement.classList.add('live-motion');
+}
 
 if (page.maps) {
   startMaps(page).then(

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// V10 and V11 as flows of particles: colliding grains in a box without gravity.
+#include "engine/effects/grain_stress.hpp"
+#include "engine/effects/gravity.hpp"
+#include "engine/effects/motion.hpp"
+#include "engine/effects/terrain_contact.hpp"
+#include "tests/support/hand_made.hpp"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace sturz::test {
+namespace {
+
+constexpr double density = 1560, dx = 1, h = 1.3, reference_fraction = 0.6;
+
+/// A cloud of `n` x `n` x `layers` grains at solid fraction `fraction`, periodic in x and y, far
+/// above the ground, between two smooth walls where `walls` says so.
+struct Cloud {
+  KineticTheory law{2600, 0.1, 0.9, 0.63};
+  double fraction = 0.2;
+  double theta = 0.01;  ///< at the start [m^2/s^2]
+  int n = 8, layers = 12;
+  double jitter = 0.1;
+  bool walls = true;
+
+  double spacing() const { return dx * std::cbrt(reference_fraction / fraction); }
+  double bottom() const { return 40; }
+  double top() const { return bottom() + layers * spacing(); }
+};
+
+GrainStressSettings settings_of(const Cloud& c) {
+  GrainStressSettings g;
+  g.smoothing_length = h;
+  g.reference_density = density;
+  g.sound_speed = 40;
+  g.instruction_set = best_instruction_set();
+  g.states = GrainStatesSettings{};
+  g.states->reference_fraction = reference_fraction;
+  g.states->dilute = c.law;
+  return g;
+}
+
+Domain box_of(const Cloud& c) {
+  Domain d;
+  const double half = 0.5 * c.n * c.spacing();
+  d.x = {true, -half, half, 0};
+  d.y = {true, -half, half, 0};
+  if (!c.walls) return d;
+  for (const double side : {1.0, -1.0}) {
+    Wall wall;
+    wall.point = {0, 0, side > 0 ? c.bottom() : c.top()};
+    wall.normal = {0, 0, side};
+    d.walls.push_back(wall);
+  }
+  return d;
+}
+
+void place(const Cloud& c, ParticleSet& p) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> shift(-c.jitter, c.jitter);
+  p.resize(static_cast<std::size_t>(c.n) * c.n * c.layers);
+  const double half = 0.5 * c.n * c.spacing();
+  std::size_t i = 0;
+  for (int a = 0; a < c.n; ++a)
+    for (int b = 0; b < c.n; ++b)
+      for (int k = 0; k < c.layers; ++k, ++i) {
+        p.x[i] = (a + 0.5 + shift(random)) * c.spacing() - half;
+        p.y[i] = (b + 0.5 + shift(random)) * c.spacing() - half;
+        p.z[i] = (k + 0.5 + shift(random)) * c.spacing() + c.bottom();
+        p.mass[i] = density * dx * dx * dx;
+      }
+}
+
+void warm_up(const Cloud& c, State& s) {
+  for (double& e : s.grains.find_field("compression")->component[0])
+    e = c.fraction / reference_fraction - 1;
+  for (auto& component : s.grains.find_field("stress")->component)
+    std::fill(component.begin(), component.end(), 0.0);
+  for (double& theta : s.grains.find_field("granular_temperature")->component[0]) theta = c.theta;
+  s.ledger.elastic = s.ledger.elastic_0 = 0;
+}
+
+/// Stress, contact and, where grains shall move, motion.
+HandMade cloud_of(const Cloud& c, bool moving) {
+  HandMade made{State(even_ground(64), box_of(c)), {}};
+  State& s = made.state;
+  s.gravity = 0;
+  place(c, s.grains);
+  for (double m : s.grains.mass) s.ledger.released_mass += m;
+  add_grain_stress(made.step, s, settings_of(c), std::vector<double>(s.grains.size(), 0));
+  warm_up(c, s);
+  if (moving) add_gravity(made.step, s);
+  ContactSettings contact;
+  contact.reference_density = density;
+  contact.stiffness = 4000;
+  add_terrain_contact(made.step, s, contact);
+  if (moving) add_motion(made.step, s, {dx, h});
+  refresh_motion(s, 0);
+  return made;
+}
+
+double total_heat(const State& s) {
+  double sum = 0;
+  const auto& theta = s.grains.find_field("granular_temperature")->component[0];
+  for (std::size_t i = 0; i < theta.size(); ++i) sum += 1.5 * s.grains.mass[i] * theta[i];
+  return sum;
+}
+
+/// Largest deviation of the cloud's heat from Haff's law theta_0/(1 + t/tau)^2 within 3 tau.
+struct Cooling {
+  double worst = 0;
+  double stirred = 0;  ///< kinetic energy at the end over the heat at the start
+};
+Cooling cool(const Cloud& c) {
+  HandMade made = cloud_of(c, true);
+  const double g0 = 1 / (1 - std::cbrt(c.fraction / c.law.max_fraction));
+  const double e = c.law.restitution;
+  const double tau = c.law.grain_diameter * std::sqrt(std::numbers::pi) /
+                     (4 * (1 - e * e) * c.fraction * g0 * std::sqrt(c.theta));
+  const double heat = total_heat(made.state);
+  Cooling out;
+  while (made.state.time < 3 * tau) {
+    made.state.motion.max_speed = 10;  // theta is bounded by the speed of the scene
+    made.advance();
+    const double expected = heat / std::pow(1 + made.state.time / tau, 2);
+    out.worst = std::max(out.worst, std::abs(total_heat(made.state) / expected - 1));
+  }
+  out.stirred = made.state.ledger.kinetic / heat;
+  EXPECT_LT(std::abs(made.state.ledger.conducted), 1e-5 * heat);
+  EXPECT_EQ(made.state.n_listed, made.state.grains.size());
+  fmt::print("V10 box, jitter {}: {} steps to 3 tau = {:.2f} s, worst error {:.3f} %, stirred "
+             "{:.2f} % of the heat\n",
+             c.jitter, made.state.n_steps, made.state.time, 100 * out.worst, 100 * out.stirred);
+  return out;
+}
+
+/// V10 with particles that are free to move: the cloud's pressure stands against its walls while
+/// it cools.
+TEST(KineticBox, AnEvenCloudCoolsByHaffsLaw) {
+  Cloud c;
+  c.jitter = 0;
+  EXPECT_LT(cool(c).worst, 0.01);
+}
+
+/// An uneven one stirs itself; grains that crowd together cool faster.
+TEST(KineticBox, AnUnevenCloudIsReported) {
+  const Cooling found = cool({});
+  RecordProperty("worst_error", fmt::format("{:.5f}", found.worst));
+  EXPECT_LT(found.stirred, 0.02);
+}
+
+/// Means over the inner half of the cloud.
+struct Inner {
+  double theta = 0, pressure = 0, shear = 0;
+};
+Inner inner_of(const Cloud& c, const State& s) {
+  const auto& theta = s.grains.find_field("granular_temperature")->component[0];
+  const auto& stress = s.grains.find_field("kinetic_stress")->component;
+  Inner sum;
+  double n = 0;
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    const double z = (s.grains.z[i] - c.bottom()) / (c.top() - c.bottom());
+    if (z < 0.25 || z > 0.75) continue;
+    ++n;
+    sum.theta += theta[i];
+    sum.pressure -= (stress[0][i] + stress[1][i] + stress[2][i]) / 3;
+    sum.shear += stress[5][i];
+  }
+  return {sum.theta / n, sum.pressure / n, sum.shear / n};
+}
+
+struct Shear {
+  double fraction, theta, pressure, ratio;  ///< theta*, P*, tau/P of physics.md V11
+};
+
+class UniformShear : public testing::TestWithParam<Shear> {};
+INSTANTIATE_TEST_SUITE_P(Fractions, UniformShear,
+                         testing::Values(Shear{0.1, 3.4827, 0.6369, 0.286},
+                                         Shear{0.2, 1.3969, 0.9475, 0.282},
+                                         Shear{0.3, 1.0492, 1.9525, 0.291},
+                                         Shear{0.4, 0.93119, 4.4018, 0.299}),
+                         [](const auto& i) {
+                           return fmt::format("{:.0f}Percent", 100 * i.param.fraction);
+                         });
+
+/// V11 with particles held in uniform shear: gradient, heating, conduction and stress of the
+/// sweep, against the closed form, with a jittered cloud of free top and bottom.
+TEST_P(UniformShear, ReachesTheClosedForm) {
+  for (const int layers : {10, 14, 20}) {
+    Cloud c;
+    c.fraction = GetParam().fraction;
+    c.theta = 1e-4;
+    c.layers = layers;
+    c.walls = false;
+    c.law.grain_diameter = 0.4;
+    HandMade made = cloud_of(c, false);
+    State& s = made.state;
+    const double rate = 2, scale = rate * c.law.grain_diameter;
+    auto& compression = s.grains.find_field("compression")->component[0];
+    const double e0 = c.fraction / reference_fraction - 1;
+    for (int step = 0; step < 1500; ++step) {
+      // The shear is held: grains stay in place and keep the velocities that it gives them.
+      for (std::size_t i = 0; i < s.grains.size(); ++i) {
+        s.grains.vx[i] = rate * (s.grains.z[i] - c.bottom());
+        s.grains.vy[i] = s.grains.vz[i] = 0;
+        compression[i] = e0;
+      }
+      s.motion.max_speed = 100;
+      s.motion.velocity_range[0] = 0;
+      made.step.apply(s, 0.02);
+    }
+    const Inner inner = inner_of(c, s);
+    const double unit = 2600 * scale * scale;
+    const double theta = inner.theta / (scale * scale), pressure = inner.pressure / unit;
+    const double ratio = inner.shear / inner.pressure;
+    fmt::print("V11 box, alpha {}, {} layers: theta* {:.4f} ({:+.2f} %), P* {:.4f} ({:+.2f} %), "
+               "tau/P {:.4f}\n",
+               c.fraction, layers, theta, 100 * (theta / GetParam().theta - 1), pressure,
+               100 * (pressure / GetParam().pressure - 1), ratio);
+    EXPECT_NEAR(theta / GetParam().theta, 1, 0.03);
+    EXPECT_NEAR(pressure / GetParam().pressure, 1, 0.03);
+    EXPECT_NEAR(ratio / GetParam().ratio, 1, 0.03);
+  }
+}
+
+}  // namespace
+}  // namespace sturz::test
