@@ -43,18 +43,17 @@ def draw_passes(axis, throughput):
             colour = names.setdefault(name, colours[len(names) % len(colours)])
             width = row["ns_per_update"]
             axis.barh(y, width, left=left, color=colour)
-            if width > 25:
-                axis.text(left + width / 2, y, name, ha="center", va="center", fontsize=6,
-                          rotation=0 if width > 90 else 90)
             left += width
     axis.set_yticks(range(len(scenes)), [name for name, _ in scenes], fontsize=8)
     axis.set_xlabel("ns a particle-update, one core")
     axis.set_title("Where a step's time goes", fontsize=9)
+    handles = [plt.Rectangle((0, 0), 1, 1, color=colour) for colour in names.values()]
+    axis.legend(handles, list(names), fontsize=6, ncol=2, loc="center left", bbox_to_anchor=(1, 0.5))
 
 
 def main():
     out, scaling, throughput = sys.argv[1], *[json.load(open(p)) for p in sys.argv[2:4]]
-    figure, axes = plt.subplots(1, 2, figsize=(11, 3.4), width_ratios=[1, 1.5])
+    figure, axes = plt.subplots(1, 2, figsize=(13, 3.4), width_ratios=[1, 1.3])
     draw_growth(axes[0], scaling)
     draw_passes(axes[1], throughput)
     figure.tight_layout()
