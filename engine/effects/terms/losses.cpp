@@ -18,10 +18,11 @@ Vec3 start_velocity(const ParticleSet& p, std::size_t i) {
 void remove_outside(State& s, std::vector<std::uint8_t>& keep) {
   ParticleSet& p = s.grains;
   keep.resize(p.size());
-  std::size_t n_kept = 0;
+  std::size_t n_kept = 0, n_listed = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     keep[i] = !s.leaves(i);
     n_kept += keep[i];
+    n_listed += keep[i] && i < s.n_listed;
     if (keep[i]) continue;
     s.corrupt = s.corrupt || !std::isfinite(p.x[i] + p.y[i] + p.z[i]);
     s.ledger.lost_mass += p.mass[i];
@@ -35,6 +36,7 @@ void remove_outside(State& s, std::vector<std::uint8_t>& keep) {
     a->resize(n);
   }
   p.compact(keep);
+  s.n_listed = n_listed;
   s.order_changed = true;
 }
 
