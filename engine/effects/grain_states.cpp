@@ -47,10 +47,12 @@ class KineticPack final : public Pass {
     const Field* theta = s.grains.find_field("granular_temperature");
     const Field* stress = s.grains.find_field("kinetic_stress");
     const auto& fill = s.grains.find_field("fill")->component[0];
+    const PackedRecord* records = g.lists.records();
     for (std::size_t i = begin; i < end; ++i) {
       KineticRecord& k = g.kinetic[i];
       const double e = compression[i], hot = theta ? theta->component[0][i] : 0;
       k = {};
+      k.viscosity = records[i].viscosity;
       if (e >= GrainStressSettings::separation && hot == 0) continue;
       g.calm[i / group_size] = 0;
       const double fraction = states.reference_fraction * (1 + e);
@@ -69,7 +71,7 @@ class KineticPack final : public Pass {
       }
       // Artificial viscosity belongs to sound: that of contacts, or of the collisions in their place.
       const double apart = kinetic_share(fraction, states.switched);
-      k.viscosity = static_cast<float>(
+      k.viscosity *= static_cast<float>(
           1 - apart + apart * std::min(1.0, wave / g.settings.sound_speed) / growth);
     }
   }

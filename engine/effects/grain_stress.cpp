@@ -9,6 +9,7 @@
 #include "engine/effects/terms/grain_stress_shared.hpp"
 #include "engine/effects/terms/grain_stress_update.hpp"
 #include "engine/effects/terms/lone_parcels.hpp"
+#include "engine/effects/terms/viscous_share.hpp"
 #include "engine/effects/terms/wrapping.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 
@@ -81,6 +82,7 @@ class PackPass final : public Pass {
     auto& before = p.find_field("velocity_before")->component;
     const auto& compression = p.find_field("compression")->component[0];
     const auto& stress = p.find_field("stress")->component;
+    const auto& viscous = p.find_field("viscous_ratio")->component[0];
     parallel_ranges(s.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       lists.pack_positions(p, begin, end);
       PackedRecord* records = lists.records();
@@ -92,14 +94,16 @@ class PackPass final : public Pass {
         r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
         r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
         r.compression = static_cast<float>(e);
-        r.sxx = static_cast<float>(stress[0][i]);
-        r.syy = static_cast<float>(stress[1][i]);
-        r.szz = static_cast<float>(stress[2][i]);
-        r.sxy = static_cast<float>(stress[3][i]);
-        r.syz = static_cast<float>(stress[4][i]);
-        r.szx = static_cast<float>(stress[5][i]);
         const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
-        r.inverse_pressure = static_cast<float>(1 / (pressure + shared_->settings.ratio_floor()));
+        const ViscousShare v = viscous_share(viscous[i]);
+        const double share = 1 - v.carried, mean = -v.carried * pressure;
+        r.viscosity = static_cast<float>(v.acting);
+        r.sxx = static_cast<float>(share * stress[0][i] + mean);
+        r.syy = static_cast<float>(share * stress[1][i] + mean);
+        r.szz = static_cast<float>(share * stress[2][i] + mean);
+        r.sxy = static_cast<float>(share * stress[3][i]);
+        r.syz = static_cast<float>(share * stress[4][i]);
+        r.szx = static_cast<float>(share * stress[5][i]);
         if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
         before[0][i] = p.vx[i];
         before[1][i] = p.vy[i];
@@ -148,7 +152,8 @@ class SweepPass final : public Pass {
                                    g.density_diffusion,
                                    g.law.cohesion > 0,
                                    g.spacing,
-                                   shared_->smoothing_now};
+                                   shared_->smoothing_now,
+                                   g.ratio_floor()};
     const PackedView view = shared_->lists.view();
     SweepOutput out = shared_->output();
     out.ax = s.ax.data(), out.ay = s.ay.data(), out.az = s.az.data();
@@ -195,6 +200,7 @@ class StressPass final : public Pass {
     columns.vx = p.vx.data(), columns.vy = p.vy.data(), columns.vz = p.vz.data();
     columns.compression = p.find_field("compression")->component[0].data();
     for (int k = 0; k < 6; ++k) columns.stress[k] = p.find_field("stress")->component[k].data();
+    columns.viscous_ratio = p.find_field("viscous_ratio")->component[0].data();
     const SweepOutput rates = shared_->output();
     const GrainStressSettings& g = shared_->settings;
     columns.distance = s.boundary.distance.data();
@@ -265,6 +271,7 @@ void add_grain_stress(Step& step, State& state, const GrainStressSettings& setti
   expect(depth.size() == state.grains.size(), "one depth per particle");
   state.grains.add_field("compression", 1);
   state.grains.add_field("stress", 6);
+  state.grains.add_field("viscous_ratio", 1);
   Field& before = state.grains.add_field("velocity_before", 3);
   before.component[0] = state.grains.vx;
   before.component[1] = state.grains.vy;

@@ -21,7 +21,7 @@ struct alignas(64) PackedRecord {
   float vx, vy, vz;             ///< [m/s]
   float compression;            ///< rho / rho_ref - 1 [-]
   float sxx, syy, szz, sxy, syz, szx;  ///< stress, tension positive [Pa]
-  float inverse_pressure;       ///< 1/(p + p_c), see SweepConstants::stress_smoothing [1/Pa]
+  float viscosity;              ///< share of the artificial viscosity that acts [-]
   float tension;                ///< artificial pressure against clumps in tension [Pa], see TensionSums
 };
 static_assert(sizeof(PackedRecord) == 64);
@@ -37,7 +37,7 @@ struct alignas(16) KineticRecord {
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
   float theta = 0;            ///< granular temperature [m^2/s^2]
   float resistance = 1e30f;   ///< 1/k_theta; huge: no conduction [m s/kg]
-  float viscosity = 1;        ///< share of the artificial viscosity of dense grains [-]
+  float viscosity = 1;        ///< takes the place of PackedRecord::viscosity [-]
   float spare = 0;
 };
 static_assert(sizeof(KineticRecord) == 48);
@@ -73,6 +73,7 @@ struct SweepConstants {
   bool tension = false;          ///< whether PackedRecord::tension is in this sweep
   double spacing = 1;            ///< dx [m]; read where tension is
   double stress_smoothing = 0;   ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
+  double ratio_floor = 0;        ///< p_c [Pa]; read where the ratio is smoothed
 };
 
 /// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep takes

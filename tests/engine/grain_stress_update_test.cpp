@@ -22,7 +22,7 @@ GrainStressSettings settings() {
 
 /// One particle of 1560 kg with its columns and rates.
 struct Grain {
-  double mass = 1560, vx = 5, vy = 0, vz = 0, compression = 0;
+  double mass = 1560, vx = 5, vy = 0, vz = 0, compression = 0, viscous_ratio = 0;
   std::array<double, 6> stress{};
   std::array<float, 9> gradient{};
   std::array<float, 6> smooth{};
@@ -50,6 +50,7 @@ struct Grain {
     StressColumns c;
     c.mass = &mass, c.vx = &vx, c.vy = &vy, c.vz = &vz, c.compression = &compression;
     for (int k = 0; k < 6; ++k) c.stress[k] = &stress[k];
+    c.viscous_ratio = &viscous_ratio;
     SweepOutput r{};
     float** slots[] = {&r.lxx, &r.lxy, &r.lxz, &r.lyx, &r.lyy, &r.lyz, &r.lzx, &r.lzy, &r.lzz};
     for (int k = 0; k < 9; ++k) *slots[k] = &gradient[k];
@@ -107,6 +108,21 @@ TEST(GrainStressUpdate, SteadyShearReachesTheFrictionOfItsRate) {
     }
 }
 
+/// eta times the rate of shear over the shear stress, eta = alpha_v h c0 rho/10.
+TEST(GrainStressUpdate, ViscosityIsComparedWithTheFrictionWhereGrainsYield) {
+  const GrainStressSettings g = settings();
+  Grain grain;
+  grain.set_stress(g, 2e4, Matrix3d::Zero());
+  grain.set_gradient(simple_shear(5));
+  for (int n = 0; n < 4000; ++n) grain.update(g, 1e-3);
+  const double eta =
+      0.1 * g.viscosity * g.smoothing_length * g.sound_speed * g.reference_density;
+  EXPECT_NEAR(grain.viscous_ratio, eta * 5 / grain.tau(), 1e-3 * grain.viscous_ratio);
+  grain.set_gradient(simple_shear(-0.5));
+  for (int n = 0; n < 3; ++n) grain.update(g, 1e-3);
+  EXPECT_EQ(grain.viscous_ratio, 0) << "unloading is elastic";
+}
+
 TEST(GrainStressUpdate, SmallStrainsAreElastic) {
   const GrainStressSettings g = settings();
   Grain grain;
@@ -115,6 +131,7 @@ TEST(GrainStressUpdate, SmallStrainsAreElastic) {
   const double strain = 0.3 * g.law.static_friction * 2e4 / g.shear_modulus();
   for (int n = 0; n < 100; ++n) grain.update(g, strain / 0.1 / 100);
   EXPECT_NEAR(grain.stress[5], g.shear_modulus() * strain, 1e-3 * grain.stress[5]);
+  EXPECT_EQ(grain.viscous_ratio, 0);
 }
 
 TEST(GrainStressUpdate, RigidRotationTurnsTheStressAndKeepsItsSize) {

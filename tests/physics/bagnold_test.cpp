@@ -18,10 +18,6 @@ namespace {
 constexpr double slope_deg = 24;
 constexpr double height_m = 0.1;
 const double tan_slope = std::tan(slope_deg * degree);
-/// At the default of 0.1 it takes 4 % of the shear stress at ten layers, and mu(I) answers 4 % of
-/// stress with 40 % of shear rate (see the reported lines).
-constexpr double low_viscosity = 0.005;
-
 /// u(z) = 2/3 (I/d) sqrt(phi g cos) [h^3/2 - (h-z)^3/2] with mu(I) = tan(slope), zero at the
 /// ground; sqrt(phi) because I holds the grains' density and the pressure that of the bulk.
 double solution_m_s(double z) {
@@ -139,7 +135,7 @@ Steady flow_steadily(const Scenario& s) {
   return out;
 }
 
-Scenario slab(double degrees, int layers, double viscosity = low_viscosity) {
+Scenario slab(double degrees, int layers, double viscosity = 0.1) {
   Scenario s = bagnold_slab(degrees, layers);
   s.numerics.artificial_viscosity = viscosity;
   return s;
@@ -172,8 +168,7 @@ TEST(Bagnold, SlabFlowsWithItsProfile) {
 
 TEST(Bagnold, WhatViscosityAndARoughBaseCostIsReported) {
   for (const int layers : {10, 14}) {
-    for (const double viscosity : {0.1, 0.02}) {
-      if (viscosity < 0.1 && layers > 10) continue;
+    for (const double viscosity : {0.2, 0.005}) {
       const Steady r = flow_steadily(slab(slope_deg, layers, viscosity));
       const std::string name = fmt::format("V7 slab, layers {}, viscosity {}", layers, viscosity);
       record({name, "L2 of u(z)", r.flow.l2, 0, r.flow.l2, 0.05}, r.finished);
@@ -202,29 +197,25 @@ TEST(Bagnold, SlabStopsAtTwentyDegrees) {
   expect_conserved(f);
 }
 
-/// mu_2 is that of 32.8 degrees: whatever the speed, g (sin - mu_2 cos) is left over.
+/// mu_2 is that of 32.8 degrees: whatever the speed, g (sin - mu_2 cos) is left over. What the
+/// shear rate leaves over besides is the mean of a one-dimensional integration of the same law.
 TEST(Bagnold, SlabAcceleratesAtThirtyFourDegrees) {
-  for (const double viscosity : {low_viscosity, 0.1}) {
-    Scenario s = slab(34, 10, viscosity);
-    s.numerics.end_time_s = 2;
-    std::vector<double> t, u;
-    const Finished f = run(start(s), {0.05, [&](double time, const SimulationParts& p) {
-                                        if (time < 1) return;
-                                        t.push_back(time);
-                                        u.push_back(examine(p).mean);
-                                      }});
-    const double least =
-        gravity_m_s2 * (std::sin(34 * degree) -
-                        s.grains->friction->dynamic_coefficient.value * std::cos(34 * degree));
-    const double acceleration = slope_of(t, u);
-    record({fmt::format("V7 slab at 34 deg, viscosity {}", viscosity), "m/s2 from 1 s to 2 s",
-            acceleration, least, std::min(0.0, acceleration / least - 1)},
-           f);
-    if (viscosity == low_viscosity) {
-      EXPECT_GE(acceleration, least);
-    }
-    expect_conserved(f);
-  }
+  constexpr double integrated_m_s2 = 0.937;
+  Scenario s = slab(34, 10);
+  s.numerics.end_time_s = 2;
+  std::vector<double> t, u;
+  const Finished f = run(start(s), {0.05, [&](double time, const SimulationParts& p) {
+                                      if (time < 1) return;
+                                      t.push_back(time);
+                                      u.push_back(examine(p).mean);
+                                    }});
+  const double least =
+      gravity_m_s2 * (std::sin(34 * degree) -
+                      s.grains->friction->dynamic_coefficient.value * std::cos(34 * degree));
+  const double acceleration = slope_of(t, u);
+  record(relative("V7 slab at 34 deg", "m/s2 from 1 s to 2 s", acceleration, integrated_m_s2), f);
+  EXPECT_GE(acceleration, least);
+  expect_conserved(f);
 }
 
 }  // namespace

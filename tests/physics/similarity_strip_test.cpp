@@ -43,14 +43,13 @@ double front_share() {
   return lo;
 }
 
-Simulation ridge(const char* formulation, double spacing, int wide) {
+Simulation ridge(const char* formulation, double spacing, int wide,
+                 double friction_angle_deg = 20) {
   Scenario s = similarity_slide(spacing);
   const double width = wide * spacing, cell = 0.5 * spacing;
   s.formulation = formulation;
-  // The closed form has K = 1; a rough mass spreads less (active K under one): the half-length is
-  // 7, 13 and 17 % short with 15, 25 and 30 degrees inside, at four layers.
   s.grains->friction.reset();
-  s.grains->friction_angle_deg = Uncertain(15);
+  s.grains->friction_angle_deg = Uncertain(friction_angle_deg);
   s.terrain.synthetic = SyntheticTerrain{
       "plane", cell, {{"slope_deg", 35}, {"length_m", 560}, {"width_m", width}}};
   s.release.paraboloid.reset();
@@ -93,6 +92,11 @@ struct Ridge {
   }
 };
 
+Line line(const std::string& name, double metres, double expected, double tolerance) {
+  return relative(name, "m", metres, expected, tolerance);
+}
+
+/// NaN for a tolerance: reported only.
 void compare(const std::string& name, Simulation simulation, double half_tolerance,
              double front_tolerance) {
   const Finished f = run(std::move(simulation));
@@ -100,18 +104,23 @@ void compare(const std::string& name, Simulation simulation, double half_toleran
   const double way =
       0.5 * gravity_m_s2 * (sin35 - std::tan(25 * degree) * cos35) * end_time * end_time;
   const double a = spread();
-  // A mass that is weaker inside than at its base shears: its centre outruns the plug's.
-  record(relative(name + ", centre", "m", ridge.centre, way), f);
-  expect_within(relative(name + ", half-length", "m", ridge.half, a, half_tolerance), f);
-  expect_within(relative(name + ", x99", "m", ridge.x99, way + front_share() * a, front_tolerance),
-                f);
+  const Line half = line(name + ", half-length", ridge.half, a, half_tolerance);
+  const Line front = line(name + ", x99", ridge.x99, way + front_share() * a, front_tolerance);
+  record(line(name + ", centre", ridge.centre, way, reported_only), f);
+  std::isnan(half_tolerance) ? record(half, f) : expect_within(half, f);
+  std::isnan(front_tolerance) ? record(front, f) : expect_within(front, f);
   expect_conserved(f);
 }
 
+/// The closed form has K = 1. A mass that is rougher inside than its base spreads less (active K under
+/// one); one that is much smoother shears inside, and its centre outruns the plug's.
 TEST(SimilarityStrip, FullStressSpreadsWithinATenthFromFourLayersOn) {
   for (const int layers : {4, 5})
     compare(fmt::format("V18 strip, {} layers", layers),
             ridge("full_stress", depth / layers, 6), 0.10, 0.06);
+  for (const double angle : {15.0, 25.0, 30.0})
+    compare(fmt::format("V18 strip, 4 layers, {} deg inside", angle),
+            ridge("full_stress", depth / 4, 6, angle), reported_only, reported_only);
 }
 
 TEST(SimilarityStrip, ColumnsSpreadWithinAHundredth) {

@@ -25,6 +25,11 @@ double w(double r, double h) {
   return t * t * t * t * (2 * q + 1);
 }
 
+/// s/(p + p_c)
+Matrix3d pressure_ratio(const Matrix3d& stress, const SweepConstants& c) {
+  return stress / (c.ratio_floor - stress.trace() / 3);
+}
+
 /// B = M^-1, or the identity for det M < 0.15 or |B| > 5.
 Matrix3d correction(const Matrix3d& moment, bool& corrected) {
   corrected = moment.determinant() >= 0.15;
@@ -89,7 +94,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       grad_sum += b.volume * grad;
       density_gradient += b.volume * rise * grad;
       rates.smoothing +=
-          b.volume * weight * (b.stress * b.inverse_pressure - a.stress * a.inverse_pressure);
+          b.volume * weight * (pressure_ratio(b.stress, c) - pressure_ratio(a.stress, c));
     };
     for (const SlowParticle& b : particles)
       if (&b != &a) add(b);

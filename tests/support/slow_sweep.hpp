@@ -17,14 +17,14 @@ struct SlowParticle {
   double volume = 1;                                        ///< m/rho [m^3]
   double compression = 0;                                   ///< rho/rho_ref - 1
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();         ///< [Pa], tension positive
-  double inverse_pressure = 0;                              ///< 1/(p + p_c) [1/Pa]
+  double viscosity_share = 1;                               ///< of the artificial viscosity that acts
   Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();    ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
   double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
   Vec3 ground_normal{0, 0, 1};
   // For grains that fly, see KineticRecord:
   double tension = 0;  ///< artificial pressure [Pa]
-  double growth = 1, weight = 1, theta = 0, conductivity = 1e-30, viscosity_share = 1;
+  double growth = 1, weight = 1, theta = 0, conductivity = 1e-30;
   Eigen::Matrix3d kinetic_stress = Eigen::Matrix3d::Zero();  ///< [Pa]
 };
 

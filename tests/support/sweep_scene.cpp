@@ -22,7 +22,7 @@ PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
   float* stress[6] = {&r.sxx, &r.syy, &r.szz, &r.sxy, &r.syz, &r.szx};
   for (int k = 0; k < 6; ++k)
     *stress[k] = static_cast<float>(p.stress(entries[k][0], entries[k][1]));
-  r.inverse_pressure = static_cast<float>(p.inverse_pressure);
+  r.viscosity = static_cast<float>(p.viscosity_share);
   r.tension = static_cast<float>(p.tension);
   return r;
 }
@@ -77,7 +77,7 @@ struct Rooms {
 
 SweepConstants usual_constants(double spacing) {
   const double h = 1.3 * spacing;
-  return {h, SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, false, spacing, 0.16};
+  return {h, SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, false, spacing, 0.16, 300};
 }
 
 namespace {
@@ -188,7 +188,7 @@ void roughen(std::vector<SlowParticle>& particles, double dx, unsigned seed) {
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b <= a; ++b) p.stress(a, b) = p.stress(b, a) = 3e4 * u(random);
     p.stress -= 5e4 * Eigen::Matrix3d::Identity();
-    p.inverse_pressure = -3 / p.stress.trace();
+    p.viscosity_share = 0.6 + 0.4 * u(random);
   }
 }
 

@@ -5,7 +5,8 @@
 ///   velocity gradient  L += (v_i - v_j) (x) d          B.3, corrected by B = M^-1 after the loop
 ///   moment matrix      M += r_ij (x) d                 B.3
 ///   momentum           A += sigma_j d, G += d          B.4, a = -(C/rho)(A + sigma_i G)
-///   viscosity          A += k q d, q = v_ij.r_ij/(r^2 + 0.01 h^2)   B.4, bilateral
+///   viscosity          A += k (f_i + f_j)/2 q d, q = v_ij.r_ij/(r^2 + 0.01 h^2)   B.4, bilateral,
+///                      in the shares f that act (terms/viscous_share.hpp)
 ///   density diffusion  D += V_j t^3 (e_j - e_i), N += (e_j - e_i) d  B.2; the linear part of the
 ///                      density field, N's gradient, is taken out so that a hydrostatic column
 ///                      or a sheet on a slope does not diffuse
@@ -27,6 +28,7 @@ struct DenseScale {
   float density;     ///< rho_ref
   float smoothing;   ///< 2 zeta h c0 C
   float inv_reach;   ///< 1/(2h) [1/m]
+  float ratio_floor; ///< p_c of the smoothed ratio [Pa]
   float laplacian;   ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
   float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
   float plane;       ///< 2 * 10.5/h: twice the integral of W over a plane through the particle [1/m]
@@ -45,6 +47,7 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
   s.density = static_cast<float>(c.reference_density);
   s.smoothing =
       static_cast<float>(2 * c.stress_smoothing * c.h * c.sound_speed * c.gradient_factor);
+  s.ratio_floor = static_cast<float>(c.ratio_floor);
   s.inv_reach = static_cast<float>(0.5 / c.h);
   s.laplacian = static_cast<float>(c.gradient_factor);
   const double t = 1 - c.spacing / (2 * c.h);
@@ -63,11 +66,13 @@ struct DenseSelf {
 /// The ratio, not the stress, is smoothed because it is uniform in a geostatic column and in a
 /// sheet on a slope, up to the bed and the free surface.
 struct RatioSums {
+  static constexpr float third = 1.0f / 3;
   Lanes xx, yy, zz, xy, yz, zx, weight;
 
   void clear() { xx = yy = zz = xy = yz = zx = weight = Lanes::all(0); }
-  void add(const PackedRecord& j, Lanes w) {
-    const Lanes v = w * Lanes::all(j.inverse_pressure);
+  void add(const PackedRecord& j, const DenseScale& k, Lanes w) {
+    // In the order of finish_ratio, or a uniform ratio would not cancel to the last bit.
+    const Lanes v = w * Lanes::all(1 / (k.ratio_floor - third * (j.sxx + j.syy + j.szz)));
     xx = fma(v, Lanes::all(j.sxx), xx), yy = fma(v, Lanes::all(j.syy), yy);
     zz = fma(v, Lanes::all(j.szz), zz), xy = fma(v, Lanes::all(j.sxy), xy);
     yz = fma(v, Lanes::all(j.syz), yz), zx = fma(v, Lanes::all(j.szx), zx);
@@ -90,7 +95,7 @@ struct DenseSums {
   }
 
   /// Adds one neighbour to all lanes. A particle outside the support or the lane itself adds zero.
-  /// \param viscosity  DenseScale::viscosity, or the share of it that acts between the pair
+  /// \param viscosity  DenseScale::viscosity in the share that acts between the pair
   /// \return the weight V_j t^3
   Lanes add(const DenseSelf& i, const PackedRecord& j, const DenseScale& k, Lanes viscosity) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);

@@ -56,6 +56,11 @@ struct GrainStressSettings {
     return reference_density * sound_speed * sound_speed / (1 + 4.0 / 3.0 * shear_to_bulk());
   }
   double shear_modulus() const { return shear_to_bulk() * bulk_modulus(); }
+  /// What the artificial viscosity is in uniform shear [Pa s]: alpha_v h c0/10 in three dimensions
+  /// (Monaghan 2005; physics.md B.4).
+  double shear_viscosity() const {
+    return 0.1 * viscosity * smoothing_length * sound_speed * reference_density;
+  }
 
   /// Contact pressure at a compression [Pa].
   double pressure_at(double e) const {

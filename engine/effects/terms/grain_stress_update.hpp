@@ -9,6 +9,7 @@
 #include "engine/effects/terms/packing.hpp"
 #include "engine/effects/terms/stored_energy.hpp"
 #include "engine/effects/terms/symmetric_tensor.hpp"
+#include "engine/effects/terms/viscous_share.hpp"
 
 namespace sturz {
 
@@ -18,6 +19,7 @@ struct StressColumns {
   double *vx = nullptr, *vy = nullptr, *vz = nullptr;
   double* compression = nullptr;
   double* stress[6] = {};   ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
+  double* viscous_ratio = nullptr;  ///< see viscous_share.hpp
   const float* distance = nullptr;  ///< to the ground [m]; where grains may part
   const double* state = nullptr;  ///< GrainState at n; read by the switched law only
 };
@@ -57,6 +59,7 @@ class StressUpdate {
         half_inv_shear_(0.5 / shear_),
         inv_density_(1 / g.reference_density),
         dt_(dt),
+        viscous_(g.shear_viscosity() / (shear_ * dt)),
         touching_(static_cast<float>(g.touching_distance())),
         slowness_(shear_ * dt * g.law.inertial_number_scale /
                   (g.law.grain_diameter * std::sqrt(g.law.grain_density))) {}
@@ -79,8 +82,8 @@ class StressUpdate {
 
  private:
   template <bool smooth, class Packing>
-  void range(const Packing packing, const StressColumns& c, const SweepOutput& r, std::size_t begin, std::size_t end,
-             StressEnergies& out) const {
+  void range(const Packing packing, const StressColumns& c, const SweepOutput& r,
+             std::size_t begin, std::size_t end, StressEnergies& out) const {
     double elastic = 0, frictional = 0, power = 0, plastic = 0, diffusion = 0, resting = 0;
     // Pointers in locals: the vectoriser does not look through the structs.
     const float *r_lxx = r.lxx, *r_lxy = r.lxy, *r_lxz = r.lxz;
@@ -91,6 +94,7 @@ class StressUpdate {
     const float *r_fill = r.fill, *c_distance = c.distance;
     const float touching = touching_;
     const double *mass = c.mass, *c_state = c.state;
+    double* c_ratio = c.viscous_ratio;
     double *compression = c.compression, *c_vx = c.vx, *c_vy = c.vy, *c_vz = c.vz;
     double *s_xx = c.stress[0], *s_yy = c.stress[1], *s_zz = c.stress[2];
     double *s_xy = c.stress[3], *s_yz = c.stress[4], *s_zx = c.stress[5];
@@ -98,7 +102,8 @@ class StressUpdate {
     const double dt = dt_, bulk = bulk_, shear = shear_, slowness = slowness_, floor = floor_;
     const double inv_rest_speed2 = inv_rest_speed2_, rest_drag = rest_drag_;
     const double half_inv_bulk = half_inv_bulk_, half_inv_shear = half_inv_shear_;
-    const double inv_density = inv_density_;
+    const double inv_density = inv_density_, viscous = viscous_;
+    const double held = law.cohesion > 0 ? 0 : -1;  // compression
 #pragma omp simd reduction(+ : elastic, frictional, power, plastic, diffusion, resting)
     for (std::size_t i = begin; i < end; ++i) {
       const double lxx = r_lxx[i], lxy = r_lxy[i], lxz = r_lxz[i];
@@ -156,6 +161,11 @@ class StressUpdate {
       const double kept = yield_return(packing.yielding(law, e1), trial, p1, slowness);
       const double tau = packing.carries_shear(e1) ? kept : 0;
       const double scale = trial > 0 ? tau / trial : 0;
+      const double carried = viscous_share(c_ratio[i]).carried;
+      // (trial - tau)/(G dt) has yielded. In tension the viscosity stays: it is all that keeps a
+      // cohesive mass from tearing at every spacing.
+      const double eta = e1 < held ? 0 : viscous;
+      c_ratio[i] = eta * (trial - tau) / (tau + 1e-6);
       s_xx[i] = scale * t.xx - p1, s_yy[i] = scale * t.yy - p1;
       s_zz[i] = scale * t.zz - p1, s_xy[i] = scale * t.xy;
       s_yz[i] = scale * t.yz, s_zx[i] = scale * t.zx;
@@ -163,13 +173,14 @@ class StressUpdate {
       const double volume = mass[i] * inv_density, mean_p = 0.5 * (p0 + p1);
       // By the stresses at both ends of the step: what the trial overshoots never acts.
       const double work = 0.5 * (s.dot(d) + scale * t.dot(d));
+      const double replaced = carried * dt * work;  // the viscosity takes it instead
       const double squeezed = p1 - q1;
       elastic += volume * (squeezed * squeezed * half_inv_bulk + tau * tau * half_inv_shear);
       if constexpr (Packing::parts)
         frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
       // As the law stores it: per reference volume.
-      power += volume * (dt * work + mean_p * squeezed_by);
-      plastic += volume * (dt * work - (tau * tau - s.norm2()) * half_inv_shear);
+      power += volume * (dt * work - replaced + mean_p * squeezed_by);
+      plastic += volume * (dt * work - replaced - (tau * tau - s.norm2()) * half_inv_shear);
       diffusion += volume * (mean_p * diffused + smoothed * half_inv_shear);
     }
     out += StressEnergies{elastic, frictional, power, plastic, diffusion, resting};
@@ -179,6 +190,7 @@ class StressUpdate {
   bool smooth_;
   double floor_, inv_rest_speed2_, rest_drag_;
   double bulk_, shear_, half_inv_bulk_, half_inv_shear_, inv_density_, dt_;
+  double viscous_;  ///< eta/(G dt) of the artificial viscosity
   float touching_;
   double slowness_;
 };

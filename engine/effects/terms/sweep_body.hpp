@@ -13,7 +13,7 @@ struct GroupRows {
   alignas(64) float compression[group_size];
   alignas(64) float sxx[group_size], syy[group_size], szz[group_size];
   alignas(64) float sxy[group_size], syz[group_size], szx[group_size];
-  alignas(64) float inverse_pressure[group_size], tension[group_size];
+  alignas(64) float viscosity[group_size], tension[group_size];
 
   explicit GroupRows(const PackedRecord* first) {
     for (int k = 0; k < group_size; ++k) {
@@ -22,7 +22,7 @@ struct GroupRows {
       vx[k] = p.vx, vy[k] = p.vy, vz[k] = p.vz, compression[k] = p.compression;
       sxx[k] = p.sxx, syy[k] = p.syy, szz[k] = p.szz;
       sxy[k] = p.sxy, syz[k] = p.syz, szx[k] = p.szx;
-      inverse_pressure[k] = p.inverse_pressure, tension[k] = p.tension;
+      viscosity[k] = p.viscosity, tension[k] = p.tension;
     }
   }
 };
@@ -185,8 +185,10 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
 /// Deviator of the smoothed ratio's rate: zeta' (Sum w S_j - S_i Sum w).
 inline void finish_ratio(const RatioSums& r, const GroupRows& rows, int lane, const DenseScale& k,
                          const SweepOutput& out, std::size_t at) {
-  const Lanes v = r.weight * Lanes::load(rows.inverse_pressure + lane);
-  const Lanes scale = Lanes::all(k.smoothing), third = Lanes::all(1.0f / 3);
+  const Lanes third = Lanes::all(RatioSums::third), scale = Lanes::all(k.smoothing);
+  const Lanes trace = Lanes::load(rows.sxx + lane) + Lanes::load(rows.syy + lane) +
+                      Lanes::load(rows.szz + lane);
+  const Lanes v = r.weight * (Lanes::all(1) / (Lanes::all(k.ratio_floor) - third * trace));
   const Lanes xx = fnma(v, Lanes::load(rows.sxx + lane), r.xx);
   const Lanes yy = fnma(v, Lanes::load(rows.syy + lane), r.yy);
   const Lanes zz = fnma(v, Lanes::load(rows.szz + lane), r.zz);
@@ -224,9 +226,12 @@ inline void dense_group(const PackedView& view, const DenseScale& scale, const B
     if constexpr (smooth) ratio.clear();
     TensionSums pull;
     if constexpr (tension) pull.clear();
+    const Lanes half = Lanes::all(0.5f * scale.viscosity);
+    const Lanes own = half * Lanes::load(rows.viscosity + lane);
     for (const std::uint32_t* j = begin; j != end; ++j) {
-      const Lanes w = sums.add(self, view.records[*j], scale, Lanes::all(scale.viscosity));
-      if constexpr (smooth) ratio.add(view.records[*j], w);
+      const Lanes viscosity = fma(half, Lanes::all(view.records[*j].viscosity), own);
+      const Lanes w = sums.add(self, view.records[*j], scale, viscosity);
+      if constexpr (smooth) ratio.add(view.records[*j], scale, w);
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const Lanes imaged =
@@ -275,13 +280,13 @@ inline void kinetic_group(const PackedView& view, const KineticView& flying,
     if constexpr (smooth) ratio.clear();
     TensionSums pull;
     if constexpr (tension) pull.clear();
-    const Lanes half_viscosity = Lanes::all(0.5f * scale.viscosity);
+    const Lanes half = Lanes::all(0.5f * scale.viscosity), mine = half * kinetic.viscosity;
     for (const std::uint32_t* j = begin; j != end; ++j) {
       const KineticRecord& k = flying.records[*j];
-      const Lanes viscosity = half_viscosity * (kinetic.viscosity + Lanes::all(k.viscosity));
+      const Lanes viscosity = fma(half, Lanes::all(k.viscosity), mine);
       const Lanes w = sums.add(self, view.records[*j], scale, viscosity);
       more.add(self, kinetic, view.records[*j], k, w);
-      if constexpr (smooth) ratio.add(view.records[*j], w);
+      if constexpr (smooth) ratio.add(view.records[*j], scale, w);
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const std::size_t at = first + lane;
