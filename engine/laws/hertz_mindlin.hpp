@@ -54,6 +54,8 @@ struct ContactForce {
 ///   k_n = 4/3 E* sqrt(R* delta)   S_n = 2 E* sqrt(R* delta)   k_t = S_t = 8 G* sqrt(R* delta)
 ///   F_n = k_n delta - 2 sqrt(5/6) b sqrt(S_n m*) v_n          v_n > 0: parting
 ///   F_t = -k_t xi, at most mu_c |F_n|; while it sticks, - 2 sqrt(5/6) b sqrt(S_t m*) v_t
+/// F_t with its damper is held to mu_c |F_n|, too, unlike there: a slow contact that slides lies at
+/// the limit, and looked at anew in every step it would count as sticking in the first of them.
 /// The stored energy is 8/15 E* sqrt(R*) delta^(5/2) + 1/2 k_t xi^2.
 ///
 /// \param overlap   delta > 0 [m]; without overlap there is no force and no history
@@ -87,6 +89,8 @@ inline ContactForce press_contact(const ContactPair& pair, double overlap, const
   } else {
     tangential -= drag * pair.damping * std::sqrt(tangential_stiffness * pair.mass) *
                   (velocity - vn * normal);
+    const double all = tangential.norm();
+    if (all > cap) tangential *= cap / all;
   }
   out.force = out.normal * normal + tangential;
   out.stored = 0.4 * spring * overlap + 0.5 * tangential_stiffness * history.squaredNorm();

@@ -95,7 +95,7 @@ TEST(HertzMindlin, RestitutionIsTheOneThatWasSet) {  // V12
 
 TEST(HertzMindlin, RestitutionDoesNotDependOnSpeedSizeOrStiffness) {
   const GrainMaterial soft = softened(rock, softest_modulus(rock.density, 40));
-  for (double v : {0.01, 1.0, 40.0})
+  for (double v : {1e-6, 1e-4, 0.01, 1.0, 40.0})
     for (const ContactPair& pair : {spheres(0.7, soft), wall(0.7, soft), wall(0.7)})
       EXPECT_NEAR(collide(pair, v, 1000).restitution, 0.7, 0.002) << v;
 }
@@ -150,6 +150,18 @@ TEST(HertzMindlin, ForceHasThePublishedForm) {
   EXPECT_NEAR(friction.norm(), 0.3 * sliding.normal, 1e-9);
   EXPECT_NEAR(friction.normalized().dot(stretched.normalized()), -1, 1e-12);
   EXPECT_NEAR((kt * history + friction).norm(), 0, 1e-9);
+}
+
+TEST(HertzMindlin, FrictionWithItsDamperStaysWithinCoulombsLimit) {
+  const Vec3 n(0, 0, 1), velocity(0.4, 0, 0), none(0, 0, 0);
+  for (const double friction : {0.0, 0.3}) {
+    ContactPair pair = spheres(0.5);
+    pair.friction = friction;
+    Vec3 history(0, 0, 0);  // sticks: neither spring nor slip, the damper alone
+    const ContactForce f = press_contact(pair, 1e-6, n, velocity, none, history);
+    EXPECT_NEAR((f.force - f.normal * n).norm(), friction * f.normal, 1e-12 * f.normal);
+    EXPECT_LE(f.force.x(), 0);
+  }
 }
 
 TEST(HertzMindlin, ApartThereIsNoForceAndNoMemory) {

@@ -59,6 +59,18 @@ TEST(PartingPacking, CohesionEndsWhereGrainsPart) {
   EXPECT_NEAR(p.yielding(law, -0.03).cohesion, 2500, 1e-6);
 }
 
+TEST(PartingPacking, RatioIsNotSmoothedWhereCohesionAloneHolds) {
+  MuIRheology law;
+  const double trace = loose().pressure(-0.01, 0, 0);
+  ASSERT_GT(trace, 0);
+  EXPECT_TRUE(PartingPacking::smooths(-0.01, trace, law));  // loose, but pressed all the same
+  EXPECT_FALSE(PartingPacking::smooths(-0.5, 0, law));
+  law.cohesion = 5000;
+  EXPECT_FALSE(PartingPacking::smooths(-0.01, trace, law));
+  EXPECT_FALSE(PartingPacking::smooths(0, 0, law));
+  EXPECT_TRUE(PartingPacking::smooths(0.001, 2e4, law));
+}
+
 TEST(PartingPacking, SwitchedPressureRelaxesToTheLawOfItsState) {
   const PartingPacking p = loose(true);
   const auto dense = static_cast<double>(GrainState::dense);

@@ -279,6 +279,23 @@ TEST(ParcelContacts, BounceFromTheGroundAsItsRestitutionSays) {
   EXPECT_GT(f.state.ledger.parcel_dissipated(), 0);
 }
 
+TEST(ParcelContacts, ASlidingParcelIsSlowedByCoulombFrictionAlone) {
+  // Every step looks at the contact anew: the damper of a contact that sticks must not add to it.
+  for (const double friction : {0.0, 0.2}) {
+    Scene scene = free_flight();
+    scene.gravity = 9.81;
+    scene.ground = true;
+    scene.contacts.on_ground = true;
+    scene.contacts.ground_friction = friction;
+    scene.contacts.speed_bound = 8;
+    Flight f({{{-8, 0.2, 0.5}, {5, 0, 0}}}, scene);
+    for (int n = 0; n < 60; ++n) f.advance(0.005);
+    EXPECT_NEAR(5 - f.velocity(0).x(), friction * 9.81 * 0.3, 0.02 * friction * 9.81 * 0.3);
+    const double spin = 2.5 * (5 - f.velocity(0).x()) / 0.5;  // the arm is the overlap shorter
+    EXPECT_NEAR(f.spin(0).y(), spin, 2e-3 * spin);
+  }
+}
+
 TEST(ParcelContacts, ASlidingParcelEndsUpRolling) {
   Scene scene = free_flight();
   scene.gravity = 9.81;

@@ -82,7 +82,8 @@ CaseReport cohesive_bank_stands(States states) {
 
 CaseReport tall_bank_falls(States states) {
   const Fall fall = let_go(1.2 * critical_height(), 10, states);
-  return report(fall, {at_least("farthest particle, heights", fall.moved, 0.2)});
+  return report(fall, {at_least("farthest particle, heights", fall.moved, 0.2),
+                       at_least("closest pair, dx", fall.closest, 0.5)});
 }
 
 /// 24 x 6 x 6 particles without weight; the three outermost layers of both ends move apart.

@@ -144,7 +144,8 @@ class StressUpdate {
                   s_xy[i],      s_yz[i],      s_zx[i]};
       double smoothed = 0;
       if constexpr (smooth) {
-        const double before = s.norm2(), weight = p0 > 0 ? dt * (p0 + floor) * motion : 0;
+        const double before = s.norm2();
+        const double weight = packing.smooths(e0, p0, law) ? dt * (p0 + floor) * motion : 0;
         s = s.plus(weight, {r_xx[i], r_yy[i], r_zz[i], r_xy[i],
                             r_yz[i], r_zx[i]});
         smoothed = s.norm2() - before;

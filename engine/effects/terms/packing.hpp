@@ -20,6 +20,8 @@ struct DensePacking {
   static double bounded(double e) { return e > -0.2 ? e : -0.2; }
   double pressure(double e) const { return e > 0 ? bulk * e : 0; }
   static const MuIRheology& yielding(const MuIRheology& law, double) { return law; }
+  /// Whether the stress ratio of a grain that starts the step at e under p is smoothed.
+  static bool smooths(double, double p, const MuIRheology&) { return p > 0; }
   /// Parted grains carry no shear.
   static bool carries_shear(double e) { return !(e < GrainStressSettings::separation); }
 };
@@ -69,6 +71,12 @@ struct PartingPacking {
     MuIRheology faded = law;
     faded.cohesion *= smoothstep((e - GrainStressSettings::separation + 0.02) / 0.02);
     return faded;
+  }
+  /// Not where cohesion alone holds a grain: the ratio is that to p_c there, which is thousands of
+  /// Pa, and a loaded neighbour's would flow into grains that only hang on (a bank bulged by an
+  /// eighth of its height). The trace of pressure that such a grain keeps is no load.
+  static bool smooths(double e, double p, const MuIRheology& law) {
+    return law.cohesion > 0 ? e > 0 : p > 0;
   }
   static bool carries_shear(double) { return true; }  // as much as the frictional pressure allows
 };
