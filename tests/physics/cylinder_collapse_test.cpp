@@ -29,7 +29,7 @@ struct Material {
 };
 /// Repose angle of the sands of Lube et al. 2004.
 constexpr Material sand{"sand", 31, 1.24, 1.6};
-/// Avalanche angle of the glass beads of Lajeunesse et al. 2004.
+/// Avalanche angle of the glass beads of Lajeunesse et al. 2005.
 constexpr Material beads{"beads", 27.4, 1.35, 2.0};
 
 /// Finer columns take minutes: by command only.
