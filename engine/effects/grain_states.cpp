@@ -58,7 +58,7 @@ class KineticPack final : public Pass {
       const double fraction = states.reference_fraction * (1 + e);
       const double growth = (1 + std::max(e, GrainStressSettings::separation)) / (1 + e);
       k.growth = static_cast<float>(growth);
-      k.weight = static_cast<float>(growth / std::sqrt(std::clamp(fill[i] * growth, 0.4, 1.6)));
+      k.weight = static_cast<float>(pair_weight(growth, fill[i]));
       double wave = 0;
       if (hot > 0) {
         const KineticTheory& law = *states.dilute;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -142,6 +143,40 @@ TEST(GrainStates, ALoneParcelFliesItsParabola) {
   ASSERT_EQ(alone[i], in_flight);
   EXPECT_EQ(state.grains.vx[i], vx);
   EXPECT_NEAR(state.grains.x[i], x0 + vx * (state.time - t0), 1e-12);
+}
+
+/// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others far
+/// apart from everybody; all as lone parcels. \return how many are taken back as grains
+std::size_t taken_back(const std::vector<Vec3>& places) {
+  Simulation simulation = explosion("none");
+  State& state = simulation.parts().state;
+  ParticleSet& p = state.grains;
+  const double dx = simulation.parts().spacing_m;
+  std::fill(p.find_field("steps_alone")->component[0].begin(),
+            p.find_field("steps_alone")->component[0].end(), in_flight);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const double above = 10.0 * static_cast<double>(i);
+    const Vec3 at = i < places.size() ? places[i] : Vec3(0, 0, 10 + above);
+    p.x[i] = dx * at.x(), p.y[i] = dx * at.y(), p.z[i] = 100 + dx * at.z();
+    p.vx[i] = p.vy[i] = p.vz[i] = 0;
+    for (auto& before : p.find_field("velocity_before")->component) before[i] = 0;
+  }
+  refresh_motion(state, 0);
+  simulation.step();
+  return state.n_listed;
+}
+
+/// B.9: eight neighbours among the grains. One that stays in flight is nobody's neighbour.
+TEST(GrainStates, AParcelComesBackOnlyAmongThoseThatComeToo) {
+  std::vector<Vec3> star{Vec3(0, 0, 0)}, crowd;
+  for (const double x : {-1.04, 1.04})
+    for (const double y : {-1.04, 1.04})
+      for (const double z : {-1.04, 1.04}) star.emplace_back(x, y, z);
+  for (const double x : {-1.2, 0.0, 1.2})
+    for (const double y : {-1.2, 0.0, 1.2})
+      for (const double z : {-1.2, 0.0, 1.2}) crowd.emplace_back(x, y, z);
+  EXPECT_EQ(taken_back(star), 0u);
+  EXPECT_EQ(taken_back(crowd), crowd.size());
 }
 
 /// A mass looser than a packing that carries load is set down as that packing.

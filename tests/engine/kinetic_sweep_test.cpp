@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sweep of grains that may fly, against its slow twin and against the dense sweep.
+#include "engine/effects/terms/kinetic_update.hpp"
 #include "tests/support/sweep_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -165,6 +166,28 @@ TEST(KineticSweep, LinearVelocityGivesTheExactGradientInAnExpandedCloud) {
     }
     EXPECT_GT(inside, 100);
   }
+}
+
+/// A grain that finds its first neighbour: the fill of the step before knows nothing of it, and the
+/// density follows later still.
+TEST(KineticSweep, APairThatMeetsInEmptySpaceIsNotFeltManyTimesOver) {
+  const auto constants = test::usual_constants(dx);
+  for (const double growth : {5.0, 30.0, 100.0, 1000.0}) {
+    auto pair = test::lattice({2, 1, 1}, dx, 0);
+    for (SlowParticle& p : pair) {
+      p.growth = growth;
+      p.weight = pair_weight(growth, 0);
+    }
+    pair[0].velocity = Vec3(0, 0, 0), pair[1].velocity = Vec3(-1, 0, 0);
+    const auto fast = test::kinetic_sweep(pair, constants, best_instruction_set()).rates;
+    EXPECT_LT(fast[0].felt.norm(), 11 / dx) << growth;  // 1/dx is what there is; it was 330
+    EXPECT_GT(fast[0].felt.norm(), 0) << growth;
+  }
+  for (const double growth : {5.0, 30.0})
+    for (const double filled : {0.4, 1.0, 3.0}) {
+      const double weight = pair_weight(growth, filled / growth);
+      EXPECT_NEAR(weight * weight / growth * (filled / growth), 1, 1e-12);  // the sums are whole
+    }
 }
 
 }  // namespace

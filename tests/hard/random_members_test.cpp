@@ -7,12 +7,13 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace sturz::test {
 namespace {
 
-void expect_survival(const RandomMembers& members, int n) {
-  for (const int number : spread(n)) {
+void expect_survival(const RandomMembers& members, const std::vector<int>& numbers) {
+  for (const int number : numbers) {
     SCOPED_TRACE(
         fmt::format("{}, {}, member {}", members.ground(), to_string(members.states()), number));
     const Survival s = members.run(number);
@@ -27,7 +28,13 @@ void expect_survival(const RandomMembers& members, int n) {
 
 TEST(RandomMembers, SurviveSteepGround) {
   for (const States states : {States::dense_only, States::all})
-    expect_survival(RandomMembers::on_steep_ground(states), hard_members(20) / 4);
+    expect_survival(RandomMembers::on_steep_ground(states), spread(hard_members(20) / 4));
+}
+
+/// 58 diverged and 419 threw a grain at nine times the speed of free fall where lone parcels came
+/// back; in 206 a handful of grains bounced off the foot of the slope and threw one at 1.2 times.
+TEST(RandomMembers, ParcelsThatComeBackAndGrainsThatHitTheGroundAreNotThrown) {
+  expect_survival(RandomMembers::on_steep_ground(States::all), {58, 206, 419});
 }
 
 TEST(RandomMembers, SurviveMonteMarsicano) {
@@ -35,7 +42,7 @@ TEST(RandomMembers, SurviveMonteMarsicano) {
   if (!std::filesystem::exists(folder + "/marsicano_10m.tif"))
     GTEST_SKIP() << "shared data marsicano_tinitaly is not there";
   for (const States states : {States::dense_only, States::all})
-    expect_survival(RandomMembers::on_marsicano(folder, states), hard_members(20) / 4);
+    expect_survival(RandomMembers::on_marsicano(folder, states), spread(hard_members(20) / 4));
 }
 
 }  // namespace

@@ -48,6 +48,17 @@ inline double kinetic_share(double fraction, bool switched) {
   return std::fmax(0.0, (kinetic_weight(fraction) - trace) / (1 - trace));
 }
 
+/// KineticRecord::weight: sums are completed to the whole, but not from less than 0.4 of it. One
+/// neighbour fills at most 1/23 of a support, so grains that have parted further than `most` have no
+/// sum to complete. Without this bound the first neighbour of such a grain would count hundreds of
+/// times over: the fill is that of the step before, and was empty.
+/// \param growth  volume over that of the record; \param fill  of the support
+inline double pair_weight(double growth, double fill) {
+  constexpr double most = 30;
+  const double told = std::fmin(growth, most);
+  return told / std::sqrt(std::fmax(fill * told, 0.4));
+}
+
 /// Speed of sound in colliding grains: c^2 = dp/drho at theta, and what compression heats
 /// (2/3 p^2/(rho^2 theta)), over theta.
 inline double kinetic_wave2(const KineticTheory& law, const KineticCoefficients& k, double fraction) {

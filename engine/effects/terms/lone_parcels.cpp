@@ -19,6 +19,7 @@ struct GrainFields {
         stress(p.find_field("stress")->component),
         state(p.find_field("state")->component[0]),
         alone(p.find_field("steps_alone")->component[0]),
+        fill(p.find_field("fill")->component[0]),
         theta(p.find_field("granular_temperature")),
         kinetic(p.find_field("kinetic_stress")) {}
 
@@ -31,7 +32,7 @@ struct GrainFields {
 
   std::vector<double>& compression;
   std::vector<std::vector<double>>& stress;
-  std::vector<double>&state, &alone;
+  std::vector<double>&state, &alone, &fill;
   Field *theta, *kinetic;
 };
 
@@ -42,6 +43,9 @@ struct Surroundings {
   double weight = 0, warm = 0;  ///< of the grains among them: sum of weights, and times theta
 
   double theta() const { return weight > 0 ? warm / weight : 0; }
+  bool enough(const GrainStressSettings& g) const {
+    return neighbors >= attach_neighbors && fill * g.states->reference_fraction > attach_fraction;
+  }
 };
 
 /// Looks around every parcel, for grains in the lists and for other parcels.
@@ -49,6 +53,7 @@ class Lookout {
  public:
   Lookout(const State& s, const GrainStressSettings& g)
       : s_(s),
+        g_(g),
         reach_(2 * g.smoothing_length),
         factor_(SmoothingKernel{g.smoothing_length}.discrete_gradient_factor()),
         volume_(g.spacing * g.spacing * g.spacing),
@@ -67,17 +72,30 @@ class Lookout {
         found.warm += w * theta->component[0][j];
       });
   }
-  void parcels(ParcelSearch& search) {
+  /// Counts those parcels besides that come too. One that stays in flight is in no list: who came
+  /// for its sake would be alone there, and leave again. \return who comes, by parcel
+  std::vector<char> parcels(ParcelSearch& search) {
     const ParticleSet& p = s_.grains;
     std::vector<ParcelSphere> spheres;
     for (std::size_t i = s_.n_listed; i < p.size(); ++i)
       spheres.push_back({Vec3(p.x[i], p.y[i], p.z[i]), Vec3(0, 0, 0), 0, p.id[i]});
-    for (const NearPair& pair : search.find(spheres, reach_, s_.domain)) {
-      const double r2 = (spheres[pair.a].place - spheres[pair.b].place - pair.image).squaredNorm();
-      if (r2 >= reach_ * reach_) continue;
-      count(around_[pair.a], r2);
-      count(around_[pair.b], r2);
+    const std::vector<NearPair>& pairs = search.find(spheres, reach_, s_.domain);
+    std::vector<char> comes(spheres.size(), 1);
+    const std::vector<Surroundings> among_grains = around_;
+    for (bool all = false; !all;) {
+      around_ = among_grains;
+      for (const NearPair& pair : pairs) {
+        const double r2 =
+            (spheres[pair.a].place - spheres[pair.b].place - pair.image).squaredNorm();
+        if (r2 >= reach_ * reach_ || !comes[pair.a] || !comes[pair.b]) continue;
+        count(around_[pair.a], r2);
+        count(around_[pair.b], r2);
+      }
+      all = true;
+      for (std::size_t k = 0; k < comes.size(); ++k)
+        if (comes[k] && !around_[k].enough(g_)) comes[k] = 0, all = false;
     }
+    return comes;
   }
 
  private:
@@ -89,6 +107,7 @@ class Lookout {
   }
 
   const State& s_;
+  const GrainStressSettings& g_;
   double reach_, factor_, volume_;
   std::vector<Surroundings> around_;  // by parcel
 };
@@ -146,12 +165,13 @@ bool attach_near(State& s, const GrainStressSettings& g, const NeighborLists& li
   GrainFields f(s.grains);
   Lookout lookout(s, g);
   lookout.grains(lists, f.theta);
-  lookout.parcels(search);
+  const std::vector<char> comes = lookout.parcels(search);
   bool any = false;
   for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) {
+    if (!comes[i - s.n_listed]) continue;
     const Surroundings& around = lookout.of(i);
     const double reference = g.states->reference_fraction;
-    if (around.neighbors < attach_neighbors || around.fill * reference <= attach_fraction) continue;
+    f.fill[i] = around.fill;
     f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation);
     f.state[i] = static_cast<double>(grain_state(reference * (1 + f.compression[i])));
     f.alone[i] = 0;

@@ -33,11 +33,13 @@ struct DensePacking {
 /// is packed in again counts as such), and not over eight times of it (so a grain that has lost its
 /// neighbours does not count as dense: the surface of a dense mass has a fill of about a half, a
 /// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make the fill too uneven to correct by.
+/// Few neighbours do not hold a grain under pressure either: see held().
 /// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing, not
 /// a cloud: it stays dense, without load, so that it carries at once when others run up on it.
 struct PartingPacking {
   static constexpr bool parts = true;
   static constexpr double sparse = 0.12;   ///< fill under which nobody is dense
+  static constexpr double surface = 0.45;  ///< fill from which a grain holds whatever presses it
   double bulk;                 ///< K [Pa]
   double reference_fraction;   ///< alpha where e = 0
   FrictionalPressure friction;
@@ -49,12 +51,20 @@ struct PartingPacking {
   static double carried(double e, double strain) {
     return strain > 0 ? (1 + e) / (1 + strain) - 1 : (1 + e) * (1 - strain) - 1;
   }
+  /// Largest e that so few neighbours hold: 0 up to `sparse`, 0.017 at a fill of 0.2, 0.13 in a
+  /// corner (0.3), any from `surface` on; grains at rest stay below. Without it a handful of grains
+  /// that hits the ground bounces as one elastic body and throws one of them off with what the
+  /// others lose. What the bound takes is booked with density diffusion, as a loss.
+  static double held(double fill) {
+    const double closed = smoothstep((fill - sparse) / (surface - sparse));
+    return 0.1 * closed / (1 - closed);
+  }
   /// \param touching  whether it lies on the ground
   static double bounded(double e, double fill, bool touching) {
     const double packed = touching ? 1 : 0.85 * fill * smoothstep(2 * (fill - 0.3));
     const double least = std::fmin(packed - 1, GrainStressSettings::separation);
     const double lifted = std::fmax(e, least);
-    const double most = fill < sparse ? (touching ? 0 : fill / sparse - 1) : lifted;
+    const double most = fill < sparse && !touching ? fill / sparse - 1 : held(fill);
     return std::fmax(std::fmin(lifted, most), -0.999);
   }
   /// \param before  contact pressure at n [Pa]; \param state  GrainState at n
