@@ -19,7 +19,8 @@ struct StressColumns {
   double *vx = nullptr, *vy = nullptr, *vz = nullptr;
   double* compression = nullptr;
   double* stress[6] = {};   ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
-  double* viscous_ratio = nullptr;  ///< see viscous_share.hpp
+  /// What the artificial viscosity would carry, over the friction of yielding grains [-]
+  double* viscous_ratio = nullptr;
   const float* distance = nullptr;  ///< to the ground [m]; where grains may part
   const double* state = nullptr;  ///< GrainState at n; read by the switched law only
 };
@@ -166,7 +167,7 @@ class StressUpdate {
       // (trial - tau)/(G dt) has yielded. In tension the viscosity stays: it is all that keeps a
       // cohesive mass from tearing at every spacing.
       const double eta = e1 < held ? 0 : viscous;
-      c_ratio[i] = eta * (trial - tau) / (tau + 1e-6);
+      c_ratio[i] = eta * (trial - tau) / (tau + 1e-6);  // finite without load
       s_xx[i] = scale * t.xx - p1, s_yy[i] = scale * t.yy - p1;
       s_zz[i] = scale * t.zz - p1, s_xy[i] = scale * t.xy;
       s_yz[i] = scale * t.yz, s_zx[i] = scale * t.zx;

@@ -32,7 +32,8 @@ struct DensePacking {
 /// the fill of the support allows: not under 0.85 of it where that is nearly full (so a grain that
 /// is packed in again counts as such), and not over eight times of it (so a grain that has lost its
 /// neighbours does not count as dense: the surface of a dense mass has a fill of about a half, a
-/// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make the fill too uneven to correct by.
+/// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make the fill too
+/// uneven to correct by.
 /// Few neighbours do not hold a grain under pressure either: see held().
 /// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing, not
 /// a cloud: it stays dense, without load, so that it carries at once when others run up on it.
@@ -75,8 +76,9 @@ struct PartingPacking {
     const double target = dense ? squeezed : friction.at(fraction(e));
     return target + (before - target) * kept;
   }
-  /// Cohesion ends where grains part, over the two percent after it ends in a mass that stays dense. Held on to through the transition it would be shear without pressure, that
-  /// is tension, and pull grains into clumps (physics.md B.13, I1).
+  /// Cohesion ends where grains part, over the two percent after it ends in a mass that stays dense.
+  /// Held on to through the transition it would be shear without pressure, that is tension, and pull
+  /// grains into clumps (physics.md B.13, I1).
   static MuIRheology yielding(const MuIRheology& law, double e) {
     MuIRheology faded = law;
     faded.cohesion *= smoothstep((e - GrainStressSettings::separation + 0.02) / 0.02);
