@@ -22,6 +22,8 @@ constexpr int rows_per_chunk = 64, cols_per_chunk = 512;
 
 constexpr const char* passes_attribute = "passes";         // "; "-separated
 constexpr const char* seconds_attribute = "pass_seconds";  // in the same order
+constexpr const char* effects_attribute = "effects";       // as `describe` names them
+constexpr const char* effect_seconds_attribute = "effect_seconds";
 
 bool has_maps(const MemberResult& m) { return m.window.n_cells() > 0 && !m.layers[0].empty(); }
 
@@ -61,16 +63,17 @@ void write_scalars(NetcdfWriter& file, const MemberScalars& scalars) {
   }
 }
 
-void write_passes(NetcdfWriter& file, const MemberResult& m) {
+void write_seconds(NetcdfWriter& file, const char* names_attribute, const char* numbers_attribute,
+                   const NamedSeconds& times) {
   std::string names;
   std::vector<double> seconds;
-  for (const auto& [name, spent] : m.pass_seconds) {
+  for (const auto& [name, spent] : times) {
     names += (names.empty() ? "" : "; ") + name;
     seconds.push_back(spent);
   }
   if (seconds.empty()) return;
-  file.text(NetcdfWriter::global, passes_attribute, names);
-  file.numbers(NetcdfWriter::global, seconds_attribute, seconds);
+  file.text(NetcdfWriter::global, names_attribute, names);
+  file.numbers(NetcdfWriter::global, numbers_attribute, seconds);
 }
 
 void write_maps(NetcdfWriter& file, const MemberResult& m) {
@@ -110,15 +113,16 @@ std::string need_text(const NetcdfReader& file, const char* name) {
   return *value;
 }
 
-std::vector<std::pair<std::string, double>> read_passes(const NetcdfReader& file) {
-  std::vector<std::pair<std::string, double>> passes;
-  std::string names = file.text("", passes_attribute).value_or("");
-  for (const double seconds : file.numbers("", seconds_attribute)) {
+NamedSeconds read_seconds(const NetcdfReader& file, const char* names_attribute,
+                          const char* numbers_attribute) {
+  NamedSeconds times;
+  std::string names = file.text("", names_attribute).value_or("");
+  for (const double seconds : file.numbers("", numbers_attribute)) {
     const std::size_t end = std::min(names.find("; "), names.size());
-    passes.emplace_back(names.substr(0, end), seconds);
+    times.emplace_back(names.substr(0, end), seconds);
     names.erase(0, end + 2);
   }
-  return passes;
+  return times;
 }
 
 }  // namespace
@@ -130,7 +134,8 @@ void write_member(const std::filesystem::path& folder, const MemberResult& m) {
   NetcdfWriter file(folder / member_file_name(m.member));
   write_facts(file, m);
   write_scalars(file, m.scalars);
-  write_passes(file, m);
+  write_seconds(file, passes_attribute, seconds_attribute, m.pass_seconds);
+  write_seconds(file, effects_attribute, effect_seconds_attribute, m.effect_seconds);
   write_history(file, m.history);
   if (has_maps(m)) {
     write_maps(file, m);
@@ -164,6 +169,7 @@ MemberSummary read_member_summary(const NetcdfReader& file) {
   const auto window = [&](const char* name) { return static_cast<int>(need_integer(file, name)); };
   m.window = {window("window_row0"), window("window_col0"), window("window_n_rows"),
               window("window_n_cols")};
+  m.effect_seconds = read_seconds(file, effects_attribute, effect_seconds_attribute);
   return m;
 }
 
@@ -188,7 +194,8 @@ MemberResult read_member(const std::filesystem::path& path) {
   m.window = s.window;
   m.grid = read_grid_attributes(file);
   m.history = read_history(file);
-  m.pass_seconds = read_passes(file);
+  m.pass_seconds = read_seconds(file, passes_attribute, seconds_attribute);
+  m.effect_seconds = std::move(s.effect_seconds);
   if (m.window.n_cells() == 0) return m;
   for (int i = 0; i < n_peak_layers; ++i) {
     auto& values = m.layers[static_cast<std::size_t>(i)];

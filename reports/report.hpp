@@ -42,7 +42,8 @@ struct ReportInput {
   std::vector<std::string> warnings;                    ///< to be read before the maps
   std::vector<std::string> notes;                       ///< what was resampled, corrected, left out
   std::vector<std::string> description;                 ///< lines of `describe`: effects and why
-  std::vector<std::pair<std::string, double>> timings;  ///< what took how long [s]
+  NamedSeconds timings;                                 ///< by effect, all members together [s]
+  NamedSeconds pass_timings;  ///< by pass of a step, shown folded; may be empty [s]
   double elapsed_s = 0;                                 ///< wall time of the whole run; 0 = unknown
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };

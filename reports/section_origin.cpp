@@ -15,7 +15,7 @@ std::string list(const std::vector<std::string>& lines) {
   return html + "</ul>";
 }
 
-std::string timing_table(const std::vector<std::pair<std::string, double>>& timings) {
+std::string timing_table(const NamedSeconds& timings) {
   double total = 0;
   for (const auto& [name, seconds] : timings) total += seconds;
   std::string html = "<table class=\"plain\"><tbody>";
@@ -30,6 +30,14 @@ std::string timing_table(const std::vector<std::pair<std::string, double>>& timi
   return html + "</tbody></table>";
 }
 
+std::string times_html(const ReportInput& input) {
+  std::string html = timing_table(input.timings);
+  if (!input.pass_timings.empty())
+    html += "<details><summary>By pass of a step</summary>" + timing_table(input.pass_timings) +
+            "</details>";
+  return html;
+}
+
 }  // namespace
 
 std::string computation_html(const ReportInput& input, const Headline&) {
@@ -42,7 +50,7 @@ std::string computation_html(const ReportInput& input, const Headline&) {
     html += "</pre></div>";
   }
   if (!input.timings.empty())
-    html += "<div><h3>Where the time went</h3>" + timing_table(input.timings) + "</div>";
+    html += "<div><h3>Where the time went</h3>" + times_html(input) + "</div>";
   if (input.hazard != nullptr) html += left_out_html(input.members);
   if (!input.notes.empty())
     html += "<div><h3>What was done to the input</h3>" + list(input.notes) + "</div>";

@@ -145,30 +145,33 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
     return {name, given, (given ? "`" : "no `") + std::string(key) + "`"};
   };
   const auto* states = s.grains->states ? &*s.grains->states : nullptr;
-  auto states_note = [&](const char* name, const char* key, bool given) -> EffectNote {
-    if (given && columns) return {name, false, "not in depth_averaged"};
-    return {name, given, (given ? "`" : "no `") + std::string(key) + "`"};
+  auto states_note = [&](std::string_view name, const char* key, bool given) -> EffectNote {
+    if (given && columns) return {std::string(name), false, "not in depth_averaged"};
+    return {std::string(name), given, (given ? "`" : "no `") + std::string(key) + "`"};
   };
   d.effects = {
-      {"gravity", true, "always"},
-      {"base", true, "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"},
-      {"grain stress", !columns,
+      {std::string(EffectName::gravity), true, "always"},
+      {std::string(EffectName::base), true,
+       "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"},
+      {std::string(EffectName::grain_stress), !columns,
        columns ? "not in depth_averaged" : "`grains`: elastic + mu(I), 3-D, full stress"},
-      states_note("pressure of loose packings", "grains.states", states != nullptr),
-      states_note("kinetic theory", "grains.states.dilute", states && states->dilute),
-      states_note("lone parcels", "grains.states.ultradilute", states && states->ultradilute),
-      states_note("contacts of lone parcels", "grains.states.ultradilute.contacts: hertz_mindlin",
+      states_note(EffectName::states, "grains.states", states != nullptr),
+      states_note(EffectName::kinetic_theory, "grains.states.dilute", states && states->dilute),
+      states_note(EffectName::lone_parcels, "grains.states.ultradilute",
+                  states && states->ultradilute),
+      states_note(EffectName::parcel_contacts, "grains.states.ultradilute.contacts: hertz_mindlin",
                   plan.parcel_contacts.has_value()),
-      {"lateral pressure of columns", columns,
-       !columns      ? "not in full_stress"
+      {std::string(EffectName::column_pressure), columns,
+       !columns     ? "not in full_stress"
        : !varying_k ? "`grains.earth_pressure: isotropic`, K = 1"
-                     : "`grains.earth_pressure: active_passive`"},
+                    : "`grains.earth_pressure: active_passive`"},
       optional_note("turbulent base", "basal.turbulent_coefficient_m_s2",
                     basal.turbulent_coefficient_m_s2.has_value()),
       optional_note("viscous base", "basal.viscosity_pa_s", basal.viscosity_pa_s.has_value()),
       optional_note("zones of the base", "basal.zones", zones),
-      {"walls", walls, walls ? "`domain.walls`" : "no `domain.walls`"},
+      {std::string(EffectName::walls), walls, walls ? "`domain.walls`" : "no `domain.walls`"},
       {"periodic images", periodic, periodic ? "`domain.periodic`" : "no `domain.periodic`"},
+      {std::string(EffectName::motion), true, "always"},
       {"excavation", s.release.surface == "pre_failure",
        "`release.surface: " + s.release.surface + "`"},
   };

@@ -15,6 +15,7 @@ class BasePass final : public Pass {
  public:
   explicit BasePass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
   std::string_view name() const override { return "gravity and base"; }
+  std::string_view effect() const override { return EffectName::base; }
   Stage stage() const override { return Stage::contact; }
 
   void apply(State& s, double dt) override {
@@ -105,6 +106,7 @@ class ColumnMotion final : public Pass {
  public:
   explicit ColumnMotion(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
   std::string_view name() const override { return "column motion"; }
+  std::string_view effect() const override { return EffectName::motion; }
   Stage stage() const override { return Stage::move; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {

@@ -15,6 +15,7 @@ class CellPass final : public Pass {
  public:
   explicit CellPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
   std::string_view name() const override { return "column cells"; }
+  std::string_view effect() const override { return EffectName::column_pressure; }
   Stage stage() const override { return Stage::neighbors; }
 
   void apply(State& s, double) override {
@@ -38,6 +39,7 @@ class PackPass final : public Pass {
  public:
   explicit PackPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
   std::string_view name() const override { return "column pack"; }
+  std::string_view effect() const override { return EffectName::column_pressure; }
   Stage stage() const override { return Stage::pack; }
 
   void apply(State& s, double dt) override {
@@ -122,6 +124,7 @@ class SweepPass final : public Pass {
  public:
   explicit SweepPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
   std::string_view name() const override { return "column sweep"; }
+  std::string_view effect() const override { return EffectName::column_pressure; }
   Stage stage() const override { return Stage::force; }
 
   void limits(const State&, std::vector<StepLimit>& out) const override {

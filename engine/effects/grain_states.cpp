@@ -18,6 +18,7 @@ class KineticPack final : public Pass {
  public:
   explicit KineticPack(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "kinetic pack"; }
+  std::string_view effect() const override { return flying_effect(shared_->settings); }
   Stage stage() const override { return Stage::pack; }
 
   void apply(State& s, double) override {
@@ -83,6 +84,7 @@ class KineticPass final : public Pass {
  public:
   explicit KineticPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "granular temperature"; }
+  std::string_view effect() const override { return EffectName::kinetic_theory; }
   Stage stage() const override { return Stage::stress; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
@@ -139,6 +141,7 @@ class StatePass final : public Pass {
  public:
   explicit StatePass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "grain states"; }
+  std::string_view effect() const override { return EffectName::states; }
   Stage stage() const override { return Stage::stress; }
 
   void apply(State& s, double) override {

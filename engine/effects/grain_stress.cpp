@@ -2,6 +2,8 @@
 #include "engine/effects/grain_stress.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 
 #include "engine/core/error.hpp"
@@ -16,10 +18,20 @@
 namespace sturz {
 namespace {
 
+std::int64_t now_ns() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+double ratio(std::int64_t part_ns, std::int64_t all_ns) {
+  return all_ns > 0 ? static_cast<double>(part_ns) / static_cast<double>(all_ns) : 0;
+}
+
 class NeighborPass final : public Pass {
  public:
   explicit NeighborPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "neighbor lists"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
   Stage stage() const override { return Stage::neighbors; }
 
   void apply(State& s, double) override {
@@ -29,28 +41,49 @@ class NeighborPass final : public Pass {
                                                         range[2] * range[2]));
     if (s.order_changed) lists.invalidate();
     s.order_changed = false;
+    parcels_ns_ = all_ns_ = 0;
     if (!lists.needs_rebuild()) return;
+    const std::int64_t start = now_ns();
     wrap_particles(s);
     rebuild(s, lists);
     make_room(s, lists.padded_size());
     ++s.n_sorts;
+    all_ns_ = now_ns() - start;
+  }
+  EffectPart part() const override {
+    if (!flights()) return {};
+    return {EffectName::lone_parcels, "who leaves and comes back", ratio(parcels_ns_, all_ns_)};
   }
   std::size_t bytes() const override { return shared_->lists.bytes(); }
 
  private:
-  void rebuild(State& s, NeighborLists& lists) const {
+  bool flights() const {
     const GrainStressSettings& g = shared_->settings;
-    const bool flights = g.states && g.states->ultradilute;
+    return g.states && g.states->ultradilute;
+  }
+
+  void rebuild(State& s, NeighborLists& lists) {
     s.n_listed = s.grains.size();
-    if (flights) {
-      attach_landed(s);
-      detach_lone(s, g);
-      put_listed_first(s);
-    }
+    if (flights()) let_go(s);
     lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
-    if (!flights || !attach_near(s, g, lists, shared_->parcels)) return;
+    if (flights()) take_back(s, lists);
+  }
+
+  void let_go(State& s) {
+    const std::int64_t start = now_ns();
+    attach_landed(s);
+    detach_lone(s, shared_->settings);
     put_listed_first(s);
-    lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
+    parcels_ns_ += now_ns() - start;
+  }
+
+  void take_back(State& s, NeighborLists& lists) {
+    const std::int64_t start = now_ns();
+    if (attach_near(s, shared_->settings, lists, shared_->parcels)) {
+      put_listed_first(s);
+      lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
+    }
+    parcels_ns_ += now_ns() - start;
   }
 
   void make_room(State& s, std::size_t padded) const {
@@ -63,6 +96,7 @@ class NeighborPass final : public Pass {
   }
 
   std::shared_ptr<GrainStress> shared_;
+  std::int64_t parcels_ns_ = 0, all_ns_ = 0;  // of this step
 };
 
 /// Fills the records of the pair sweep. Velocities go in extrapolated by half a step to v_{n+1/2}:
@@ -71,6 +105,7 @@ class PackPass final : public Pass {
  public:
   explicit PackPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "pack"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
   Stage stage() const override { return Stage::pack; }
 
   void apply(State& s, double dt) override {
@@ -131,6 +166,7 @@ class SweepPass final : public Pass {
  public:
   explicit SweepPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "pair sweep"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
   Stage stage() const override { return Stage::force; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
@@ -159,21 +195,39 @@ class SweepPass final : public Pass {
     out.ax = s.ax.data(), out.ay = s.ay.data(), out.az = s.az.data();
     out.wall_share = s.boundary.share.data();
     const BoundaryView wall = boundary_view(s);
-    const KineticView flying{shared_->kinetic.data(), shared_->calm.data()};
     const Sweeps& loops = sweeps(g.instruction_set);
     constexpr std::size_t groups_per_range = 16;
+    flying_ns_ = all_ns_ = 0;
     parallel_ranges(shared_->lists.n_groups(), groups_per_range, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       if (g.states)
-                        loops.kinetic(view, flying, constants, wall, out, begin, end);
+                        timed_kinetic(view, constants, wall, out, begin, end);
                       else
                         loops.dense(view, constants, wall, out, begin, end);
                     });
     for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) s.ax[i] = s.ay[i] = s.az[i] = 0;
   }
+  EffectPart part() const override {
+    if (!shared_->settings.states) return {};
+    return {flying_effect(shared_->settings), "groups that fly", ratio(flying_ns_, all_ns_)};
+  }
   std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
 
  private:
+  /// The sweep of a mass whose grains may part, and which part of its time those take that do: two
+  /// looks at the clock for 16 groups, and one where the kind of group changes.
+  void timed_kinetic(const PackedView& view, const SweepConstants& constants,
+                     const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
+                     std::size_t end) {
+    FlyingClock clock{&now_ns};
+    const std::int64_t start = now_ns();
+    sweeps(shared_->settings.instruction_set)
+        .kinetic(view, {shared_->kinetic.data(), shared_->calm.data(), &clock}, constants, wall,
+                 out, begin, end);
+    all_ns_.fetch_add(now_ns() - start, std::memory_order_relaxed);
+    flying_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
+  }
+
   static BoundaryView boundary_view(const State& s) {
     const BoundarySupport& b = s.boundary;
     BoundaryView view{b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
@@ -185,12 +239,14 @@ class SweepPass final : public Pass {
   }
 
   std::shared_ptr<GrainStress> shared_;
+  std::atomic<std::int64_t> flying_ns_ = 0, all_ns_ = 0;  // of this step, all threads
 };
 
 class StressPass final : public Pass {
  public:
   explicit StressPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "stress update"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
   Stage stage() const override { return Stage::stress; }
 
   void apply(State& s, double dt) override {

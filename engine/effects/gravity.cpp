@@ -10,6 +10,7 @@ namespace {
 class Kick final : public Pass {
  public:
   std::string_view name() const override { return "gravity and kick"; }
+  std::string_view effect() const override { return EffectName::gravity; }
   Stage stage() const override { return Stage::kick; }
 
   void apply(State& s, double full) override {

@@ -20,6 +20,7 @@ class Motion final : public Pass {
  public:
   explicit Motion(const MotionSettings& m) : settings_(m) {}
   std::string_view name() const override { return "motion"; }
+  std::string_view effect() const override { return EffectName::motion; }
   Stage stage() const override { return Stage::move; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {

@@ -27,6 +27,7 @@ class ParcelContacts final : public Pass {
     ground_law_.friction = c.ground_friction;
   }
   std::string_view name() const override { return "parcel contacts"; }
+  std::string_view effect() const override { return EffectName::parcel_contacts; }
   Stage stage() const override { return Stage::contact; }
 
   void apply(State& s, double dt) override {

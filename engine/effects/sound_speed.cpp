@@ -19,6 +19,7 @@ class SoundSpeedPass final : public Pass {
   SoundSpeedPass(std::shared_ptr<GrainStress> shared, double planned)
       : shared_(std::move(shared)), planned_(planned) {}
   std::string_view name() const override { return "sound speed"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
   Stage stage() const override { return Stage::neighbors; }
 
   void apply(State& s, double) override {

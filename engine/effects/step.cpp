@@ -13,11 +13,31 @@ std::string_view to_string(Stage stage) {
   return names[static_cast<int>(stage)];
 }
 
+NamedSeconds by_pass(std::span<const PassTime> passes) {
+  NamedSeconds out;
+  for (const PassTime& p : passes) {
+    out.emplace_back(p.name, p.seconds - p.part_seconds);
+    if (!p.part.effect.empty())
+      out.emplace_back(p.name + ", " + std::string(p.part.name), p.part_seconds);
+  }
+  return out;
+}
+
+NamedSeconds by_effect(std::span<const PassTime> passes) {
+  NamedSeconds out;
+  for (const PassTime& p : passes) {
+    add_seconds(out, p.effect, p.seconds - p.part_seconds);
+    if (!p.part.effect.empty()) add_seconds(out, p.part.effect, p.part_seconds);
+  }
+  return out;
+}
+
 void Step::add(std::unique_ptr<Pass> pass) {
   auto after = std::upper_bound(
       passes_.begin(), passes_.end(), pass->stage(),
       [](Stage s, const std::unique_ptr<Pass>& p) { return s < p->stage(); });
-  timings_.insert(timings_.begin() + (after - passes_.begin()), {std::string(pass->name()), 0.0});
+  timings_.insert(timings_.begin() + (after - passes_.begin()),
+                  {std::string(pass->name()), 0.0, std::string(pass->effect()), pass->part(), 0.0});
   passes_.insert(after, std::move(pass));
 }
 
@@ -36,7 +56,9 @@ void Step::apply(State& state, double dt) {
   for (std::size_t k = 0; k < passes_.size(); ++k) {
     passes_[k]->apply(state, dt);
     const auto after = Clock::now();
-    timings_[k].seconds += std::chrono::duration<double>(after - before).count();
+    const double seconds = std::chrono::duration<double>(after - before).count();
+    timings_[k].seconds += seconds;
+    timings_[k].part_seconds += passes_[k]->part().share * seconds;
     before = after;
   }
   state.time += dt;

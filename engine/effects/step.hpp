@@ -3,11 +3,14 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "engine/core/named_seconds.hpp"
 #include "engine/effects/state.hpp"
+#include "engine/effects/terms/effect_names.hpp"
 
 namespace sturz {
 
@@ -30,12 +33,21 @@ struct StepLimit {
   double dt;          ///< [s], infinity when it does not bind
 };
 
+/// A part of a pass that works for another effect than the pass itself.
+struct EffectPart {
+  std::string_view effect;  ///< EffectName; empty: no such part
+  std::string_view name;    ///< after the pass's name, e.g. "groups that fly"
+  double share = 0;         ///< of the last `apply`'s time, 0..1
+};
+
 /// One pass over the particles at a fixed stage of the step. An effect is one to three passes.
 class Pass {
  public:
   virtual ~Pass() = default;
   virtual std::string_view name() const = 0;   ///< lower-case noun, for `describe` and timings
   virtual Stage stage() const = 0;
+  virtual std::string_view effect() const = 0;  ///< EffectName that its time counts to
+  virtual EffectPart part() const { return {}; }
   /// Appends this pass's limits; none by default.
   virtual void limits(const State&, std::vector<StepLimit>&) const {}
   virtual void apply(State&, double dt) = 0;   ///< dt in [s]
@@ -47,7 +59,16 @@ class Pass {
 struct PassTime {
   std::string name;
   double seconds = 0;
+  std::string effect = {};  ///< see Pass::effect
+  EffectPart part = {};     ///< share: not used
+  double part_seconds = 0;  ///< of `seconds`, for the part's effect
 };
+
+/// By pass, in the order of the step; the part of a pass that has one stands behind it as "pass,
+/// part".
+NamedSeconds by_pass(std::span<const PassTime>);
+/// By effect. Has the same sum.
+NamedSeconds by_effect(std::span<const PassTime>);
 
 class Step {
  public:

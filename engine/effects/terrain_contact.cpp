@@ -92,6 +92,7 @@ class BoundaryPass final : public Pass {
  public:
   explicit BoundaryPass(const ContactSettings& c) : settings_(c) {}
   std::string_view name() const override { return "ground and wall support"; }
+  std::string_view effect() const override { return EffectName::base; }
   Stage stage() const override { return Stage::boundary; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
@@ -221,6 +222,7 @@ class GroundContact final : public Pass {
     }
   }
   std::string_view name() const override { return "terrain contact"; }
+  std::string_view effect() const override { return EffectName::base; }
   Stage stage() const override { return Stage::contact; }
 
   void limits(const State&, std::vector<StepLimit>& out) const override {
@@ -268,6 +270,7 @@ class WallContact final : public Pass {
  public:
   explicit WallContact(const ContactSettings& c) : settings_(c) {}
   std::string_view name() const override { return "wall contact"; }
+  std::string_view effect() const override { return EffectName::walls; }
   Stage stage() const override { return Stage::contact; }
 
   void apply(State& s, double dt) override {

@@ -88,10 +88,18 @@ struct BoundaryView {
   const float* gradient[6];    ///< to the velocity gradient before correction [1/s]
 };
 
+/// How long a sweep spends on groups in which some grain flies or meets one that does. A function
+/// of the caller because headers of the library must not be compiled for one instruction set.
+struct FlyingClock {
+  std::int64_t (*now_ns)() = nullptr;
+  std::int64_t spent_ns = 0;  ///< added to
+};
+
 /// For a mass whose grains may part.
 struct KineticView {
   const KineticRecord* records = nullptr;  ///< as many as PackedView::records
   const std::uint8_t* calm = nullptr;      ///< by record/group_size: 1 where no grain flies
+  FlyingClock* clock = nullptr;            ///< may be null
 };
 
 /// Results per particle, each [n_particles rounded up to whole groups].

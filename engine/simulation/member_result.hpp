@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/named_seconds.hpp"
 #include "engine/simulation/history.hpp"
 #include "engine/simulation/outcome.hpp"
 #include "engine/terrain/raster.hpp"
@@ -94,7 +95,9 @@ struct MemberResult {
   MemberHistory history;              ///< not part of any hash
   /// Computing time of each pass, and of what lies between steps; adds up to wall_s. Not part of
   /// any hash.
-  std::vector<std::pair<std::string, double>> pass_seconds;
+  NamedSeconds pass_seconds;
+  /// The same by effect, in the words of `describe`; the same sum.
+  NamedSeconds effect_seconds;
   Grid grid;                          ///< the whole hazard grid
   Window window;                      ///< the part that was touched
   std::array<std::vector<float>, n_peak_layers> layers;  ///< each [window.n_rows][window.n_cols]
@@ -111,6 +114,7 @@ struct MemberSummary {
   std::uint64_t state_hash = 0;
   MemberScalars scalars;
   Window window;
+  NamedSeconds effect_seconds;  ///< may be empty
 };
 
 /// Finished members, wherever they are kept; implemented by io, handed out by the app.

@@ -256,13 +256,16 @@ class Run {
   /// Where the computing time went; what lies between the steps is the rest.
   void share_out(double wall_s) {
     double rest = wall_s;
-    const std::vector<PassTime>& passes = parts_.step.timings();
+    std::vector<PassTime> passes = parts_.step.timings();
     for (std::size_t k = 0; k < passes.size(); ++k) {
-      const double seconds = passes[k].seconds - passes_before_[k].seconds;
-      result_.pass_seconds.emplace_back(passes[k].name, seconds);
-      rest -= seconds;
+      passes[k].seconds -= passes_before_[k].seconds;
+      passes[k].part_seconds -= passes_before_[k].part_seconds;
+      rest -= passes[k].seconds;
     }
-    result_.pass_seconds.emplace_back("peak maps, history, limits", std::max(0.0, rest));
+    passes.push_back(
+        {"peak maps, history, limits", std::max(0.0, rest), std::string(EffectName::bookkeeping)});
+    result_.pass_seconds = by_pass(passes);
+    result_.effect_seconds = by_effect(passes);
   }
 
   /// From the release's centre of mass to the farthest reached cell [m].

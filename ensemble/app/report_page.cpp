@@ -11,10 +11,21 @@
 namespace sturz::app {
 namespace {
 
-using Timings = std::vector<std::pair<std::string, double>>;
+/// Of all members, largest first.
+NamedSeconds sum_of_effects(std::span<const MemberSummary> members) {
+  NamedSeconds sums;
+  for (const MemberSummary& m : members) {
+    for (const auto& [name, seconds] : m.effect_seconds) add_seconds(sums, name, seconds);
+    if (m.effect_seconds.empty() && m.scalars.wall_s > 0)
+      add_seconds(sums, "members that do not say", m.scalars.wall_s);
+  }
+  std::stable_sort(sums.begin(), sums.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return sums;
+}
 
 /// What took less than a hundredth of the time comes as one.
-Timings largest_first(Timings passes) {
+NamedSeconds largest_first(NamedSeconds passes) {
   std::stable_sort(passes.begin(), passes.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
   double total = 0, rest = 0;
@@ -49,12 +60,9 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.description = manifest.description;
   if (content.run) {
     input.history = &content.run->history;
-    input.timings = largest_first(content.run->pass_seconds);
-  } else {
-    double members_s = 0;
-    for (const MemberSummary& m : content.members) members_s += m.scalars.wall_s;
-    input.timings.emplace_back("members, all cores together", members_s);
+    input.pass_timings = largest_first(content.run->pass_seconds);
   }
+  input.timings = sum_of_effects(content.members);
   input.elapsed_s = manifest.compute_s;
   const bool particles =
       std::any_of(content.members.begin(), content.members.end(),

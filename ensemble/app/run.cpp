@@ -18,6 +18,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -53,9 +54,23 @@ MemberResult compute(const RunOptions& options, const Scene& scene, const Output
   return result;
 }
 
+nlohmann::ordered_json as_json(const NamedSeconds& times) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+  for (const auto& [name, seconds] : times) out[name] = seconds;
+  return out;
+}
+
+/// "grain stress 1.25 s; base 0.31 s", for a text attribute.
+std::string as_text(const NamedSeconds& times) {
+  std::string text;
+  for (const auto& [name, seconds] : times)
+    text += fmt::format("{}{} {:.6g} s", text.empty() ? "" : "; ", name, seconds);
+  return text;
+}
+
 MemberSummary summary_of(const MemberResult& r) {
   return {r.member,   r.outcome,    r.reason,  r.formulation, r.binding_limit,
-          r.warnings, r.state_hash, r.scalars, r.window};
+          r.warnings, r.state_hash, r.scalars, r.window,      r.effect_seconds};
 }
 
 void write_results(const OutputFolder& folder, const Manifest& manifest, const Scene& scene,
@@ -67,7 +82,8 @@ void write_results(const OutputFolder& folder, const Manifest& manifest, const S
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
       {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
       {"outcome", std::string(to_string(result.outcome))},
-      {"formulation", result.formulation}};
+      {"formulation", result.formulation},
+      {"computing_time_by_effect", as_text(result.effect_seconds)}};
   write_layers(folder.peaks_nc(), peaks, result.history);
   const MemberSummary summary = summary_of(result);
   PageContent page;
@@ -110,18 +126,29 @@ void print_states(const MemberResult& r, Console& console) {
                console);
 }
 
+/// The effects by what they cost, as shares of the computing time.
+void print_effects(const MemberResult& r, Console& console) {
+  NamedSeconds times = r.effect_seconds;
+  std::stable_sort(times.begin(), times.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string text;
+  for (const auto& [name, seconds] : times)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name,
+                        share_text(seconds / std::max(r.scalars.wall_s, 1e-9)));
+  print_line("where the time went", text, console);
+}
+
 void print_summary(const MemberResult& r, const OutputFolder& folder, Console& console) {
   const MemberScalars& s = r.scalars;
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
   for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
-  nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-  for (const auto& [name, seconds] : r.pass_seconds) passes[name] = seconds;
   console.event(nlohmann::ordered_json{{"event", "done"},
                                        {"outcome", to_string(r.outcome)},
                                        {"reason", r.reason},
                                        {"state_hash", fmt::format("{:016x}", r.state_hash)},
                                        {"scalars", scalars},
-                                       {"pass_seconds", passes},
+                                       {"effect_seconds", as_json(r.effect_seconds)},
+                                       {"pass_seconds", as_json(r.pass_seconds)},
                                        {"folder", folder.root.string()}}
                     .dump());
   const auto line = [&console](const char* name, const std::string& value) {
@@ -147,6 +174,7 @@ void print_summary(const MemberResult& r, const OutputFolder& folder, Console& c
   line("computing", fmt::format("{} steps in {} ({:.2g} M particle updates/s)", grouped(s.n_steps),
                                 duration_text(s.wall_s),
                                 s.n_steps * s.n_particles / (1e6 * std::max(s.wall_s, 1e-9))));
+  print_effects(r, console);
   console.say(fmt::format("Results are in {}: report.html, peaks.nc", folder.root.string()));
 }
 

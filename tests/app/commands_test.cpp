@@ -73,6 +73,14 @@ TEST_F(Commands, RunTellsWhereItsTimeWent) {
   EXPECT_TRUE(done.at("pass_seconds").contains("pair sweep"));
   EXPECT_NEAR(sum, done.at("scalars").value("wall_s", 0.0), 1e-6);
   EXPECT_THAT(read("one/report.html"), HasSubstr(">pair sweep</th>"));
+  double effects = 0;
+  for (const auto& [name, seconds] : done.at("effect_seconds").items())
+    effects += seconds.get<double>();
+  EXPECT_NEAR(effects, sum, 1e-6);
+  EXPECT_THAT(read("one/report.html"), HasSubstr(">grain stress</th>"));
+  EXPECT_FALSE(done.at("effect_seconds").contains("states of the grains"));
+  const Ended words = sturz({"run", path("scene.yaml"), "-o", path("two")});
+  EXPECT_THAT(words.out, ::testing::ContainsRegex("where the time went +[a-z ]+[0-9.]+ %, "));
 }
 
 TEST_F(Commands, RunWritesParticleFrames) {

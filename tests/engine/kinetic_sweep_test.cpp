@@ -190,5 +190,29 @@ TEST(KineticSweep, APairThatMeetsInEmptySpaceIsNotFeltManyTimesOver) {
     }
 }
 
+int looks = 0;
+std::int64_t next_look() { return ++looks; }
+
+TEST(KineticSweep, ClockIsReadOnlyWhereTheKindOfGroupChangesAndChangesNoBit) {
+  const auto constants = test::usual_constants(dx);
+  const auto mixed = half_flying();
+  auto calm = test::lattice({12, 11, 9}, dx, 0.2), stirred = calm;
+  for (SlowParticle& p : stirred) p.growth = p.weight = 1.5;
+  for (auto isa : {InstructionSet::plain, InstructionSet::avx2, InstructionSet::avx512}) {
+    if (!supports(isa)) continue;
+    const auto timed = [&](const std::vector<SlowParticle>& cloud) {
+      looks = 0;
+      FlyingClock clock{&next_look};
+      const auto run = test::kinetic_sweep(cloud, constants, isa, {}, &clock);
+      EXPECT_EQ(run.raw, test::kinetic_sweep(cloud, constants, isa).raw) << to_string(isa);
+      EXPECT_EQ(2 * clock.spent_ns, looks);  // every stay among groups that fly is one tick long
+      return clock.spent_ns;
+    };
+    EXPECT_EQ(timed(calm), 0);
+    EXPECT_EQ(timed(stirred), 1);
+    EXPECT_GT(timed(mixed), 1);
+  }
+}
+
 }  // namespace
 }  // namespace sturz

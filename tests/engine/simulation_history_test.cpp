@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What a whole run tells about its course: history, states, frames, where the time went.
+#include "engine/effects/terms/effect_names.hpp"
 #include "engine/simulation/simulation.hpp"
 #include "io/scene_inputs.hpp"
 #include "scenarios/assemble.hpp"
@@ -156,6 +157,68 @@ TEST(SimulationHistory, TheComputingTimeIsSharedOutCompletely) {
   }
   EXPECT_NEAR(sum, r.scalars.wall_s, 1e-6);
   EXPECT_EQ(r.pass_seconds.back().first, "peak maps, history, limits");
+}
+
+const double* seconds_of(const NamedSeconds& times, std::string_view name) {
+  for (const auto& [each, seconds] : times)
+    if (each == name) return &seconds;
+  return nullptr;
+}
+
+/// Adds up, and every effect is one that `describe` says is on.
+void expect_effects_of(const Scenario& s, const MemberResult& r) {
+  double sum = 0;
+  const auto effects = describe(s, load_scene_inputs(s)).effects;
+  for (const auto& [name, seconds] : r.effect_seconds) {
+    EXPECT_GE(seconds, 0) << name;
+    sum += seconds;
+    if (name == EffectName::bookkeeping) continue;
+    const auto note = std::find_if(effects.begin(), effects.end(),
+                                   [&](const EffectNote& e) { return e.name == name; });
+    ASSERT_NE(note, effects.end()) << name;
+    EXPECT_TRUE(note->active) << name;
+  }
+  EXPECT_NEAR(sum, r.scalars.wall_s, 1e-6);
+}
+
+TEST(SimulationHistory, TheComputingTimeIsSharedOutByEffect) {
+  const Scenario dense = over_the_cliff(), loose = with_states(over_the_cliff());
+  const MemberResult without = run(dense), with = run(loose);
+  expect_effects_of(dense, without);
+  expect_effects_of(loose, with);
+  for (const auto name :
+       {EffectName::states, EffectName::kinetic_theory, EffectName::lone_parcels}) {
+    EXPECT_EQ(seconds_of(without.effect_seconds, name), nullptr) << name;
+    ASSERT_NE(seconds_of(with.effect_seconds, name), nullptr) << name;
+    EXPECT_GT(*seconds_of(with.effect_seconds, name), 0) << name;
+  }
+  EXPECT_EQ(seconds_of(without.pass_seconds, "pair sweep, groups that fly"), nullptr);
+  const double* flying = seconds_of(with.pass_seconds, "pair sweep, groups that fly");
+  ASSERT_NE(flying, nullptr);
+  EXPECT_GT(*flying, 0);
+  EXPECT_LT(*flying, *seconds_of(with.effect_seconds, EffectName::kinetic_theory));
+}
+
+TEST(SimulationHistory, GroupsThatFlyTakeNoTimeWhereNobodyFlies) {
+  // A sheet without edges, at rest.
+  Scenario s = with_states(thin_sheet(8));
+  s.terrain.synthetic->parameters["slope_deg"] = 0;
+  s.numerics.end_time_s = 0.5;
+  const MemberResult r = run(s);
+  const MemberScalars& m = r.scalars;
+  ASSERT_EQ(m.transition_fraction + m.dilute_fraction + m.ultradilute_fraction, 0);
+  ASSERT_NE(seconds_of(r.pass_seconds, "pair sweep, groups that fly"), nullptr);
+  EXPECT_EQ(*seconds_of(r.pass_seconds, "pair sweep, groups that fly"), 0);
+  EXPECT_GT(*seconds_of(r.pass_seconds, "pair sweep"), 0);
+}
+
+TEST(SimulationHistory, ColumnsSpendTheirTimeOnEffectsOfColumns) {
+  Scenario s = similarity_slide(8);
+  s.numerics.end_time_s = 0.5;
+  const MemberResult r = run(s);
+  expect_effects_of(s, r);
+  EXPECT_NE(seconds_of(r.effect_seconds, EffectName::column_pressure), nullptr);
+  EXPECT_EQ(seconds_of(r.effect_seconds, EffectName::grain_stress), nullptr);
 }
 
 TEST(SimulationHistory, LookingDoesNotChangeWhatHappens) {

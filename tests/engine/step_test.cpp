@@ -23,6 +23,7 @@ class Note final : public Pass {
        std::vector<StepLimit> limits = {})
       : name_(std::move(name)), stage_(stage), heard_(heard), limits_(std::move(limits)) {}
   std::string_view name() const override { return name_; }
+  std::string_view effect() const override { return EffectName::bookkeeping; }
   Stage stage() const override { return stage_; }
   void limits(const State&, std::vector<StepLimit>& out) const override {
     out.insert(out.end(), limits_.begin(), limits_.end());
@@ -61,6 +62,21 @@ TEST(Step, AppliesPassesByStageAndThenInTheOrderInWhichTheyCame) {
     EXPECT_GE(step.timings()[k].seconds, 0);
   }
   EXPECT_EQ(step.bytes(), 90u);
+}
+
+TEST(Step, TimesByPassAndByEffectHaveTheSameSum) {
+  const EffectPart flying{EffectName::kinetic_theory, "groups that fly"};
+  const std::vector<PassTime> passes = {{"lists", 1, "grain stress"},
+                                        {"sweep", 8, "grain stress", flying, 3},
+                                        {"warmth", 0.5, "kinetic theory"},
+                                        {"ground", 2, "base"}};
+  EXPECT_THAT(by_pass(passes),
+              testing::ElementsAre(testing::Pair("lists", 1), testing::Pair("sweep", 5),
+                                   testing::Pair("sweep, groups that fly", 3),
+                                   testing::Pair("warmth", 0.5), testing::Pair("ground", 2)));
+  EXPECT_THAT(by_effect(passes),
+              testing::ElementsAre(testing::Pair("grain stress", 6),
+                                   testing::Pair("kinetic theory", 3.5), testing::Pair("base", 2)));
 }
 
 TEST(Step, AdvancesTheClock) {

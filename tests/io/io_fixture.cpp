@@ -130,6 +130,9 @@ MemberResult made_up_member(std::int64_t number) {
   m.history = made_up_history(7, number % 2 == 0);
   m.pass_seconds = {{"pair sweep", 0.1 * static_cast<double>(number + 1)},
                     {"peak maps, history, limits", 1e-9}};
+  m.effect_seconds = {{"grain stress", 0.25 * static_cast<double>(number + 1)},
+                      {"base", 0.1},
+                      {"bookkeeping", 1e-9}};
   m.grid = {12, 10, 500000.1, 4600000.3, 2.5, utm33_wkt()};
   m.window = {4, 5, 3, 4};
   for (int layer = 0; layer < n_peak_layers; ++layer)

@@ -53,6 +53,7 @@ void expect_same(const MemberResult& a, const MemberResult& b) {
   EXPECT_EQ(a.grid.crs_wkt, b.grid.crs_wkt);
   expect_same(a.history, b.history);
   EXPECT_EQ(a.pass_seconds, b.pass_seconds);
+  EXPECT_EQ(a.effect_seconds, b.effect_seconds);
   EXPECT_EQ(a.window.row0, b.window.row0);
   EXPECT_EQ(a.window.col0, b.window.col0);
   EXPECT_EQ(a.window.n_rows, b.window.n_rows);

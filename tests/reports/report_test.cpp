@@ -136,6 +136,20 @@ TEST(Report, ShowsASingleRunFromItsPeaks) {
   EXPECT_FALSE(holds(page, "Probability that"));
 }
 
+TEST(Report, TellsWhereTheTimeWentByEffectAndFoldedByPass) {
+  const auto results = testing::make_up_results();
+  const std::string single = make_report(results.single_input());
+  const std::size_t effects = single.find(">kinetic theory</th>");
+  const std::size_t folded = single.find("<summary>By pass of a step</summary>");
+  const std::size_t passes = single.find(">pair sweep, groups that fly</th>");
+  ASSERT_NE(passes, std::string::npos);
+  EXPECT_LT(effects, folded);
+  EXPECT_LT(folded, passes);
+  const std::string ensemble = make_report(results.ensemble_input());
+  EXPECT_TRUE(holds(ensemble, ">kinetic theory</th>"));
+  EXPECT_FALSE(holds(ensemble, "By pass of a step"));
+}
+
 TEST(Report, DrawsWithoutElevationAndWithoutAnyTouchedCell) {
   auto results = testing::make_up_results();
   ReportInput input = results.ensemble_input();

@@ -28,6 +28,7 @@ class StartNote final : public Pass {
  public:
   explicit StartNote(Field& before) : before_(before) {}
   std::string_view name() const override { return "start of step"; }
+  std::string_view effect() const override { return EffectName::bookkeeping; }
   Stage stage() const override { return Stage::pack; }
   void apply(State& s, double) override {
     before_.component = {s.grains.vx, s.grains.vy, s.grains.vz};

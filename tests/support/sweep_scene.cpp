@@ -154,9 +154,9 @@ SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConst
 }
 
 SweepRun kinetic_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
-                       InstructionSet isa, const Domain& domain) {
+                       InstructionSet isa, const Domain& domain, FlyingClock* clock) {
   Prepared p(particles, constants, isa, domain);
-  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.calm.data()}, constants,
+  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.calm.data(), clock}, constants,
                       p.rooms->boundary(), p.rooms->output(), 0, p.lists.n_groups());
   return p.results();
 }

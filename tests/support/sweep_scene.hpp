@@ -27,7 +27,7 @@ SweepRun fast_sweep(const std::vector<SlowParticle>&, const SweepConstants&, Ins
 
 /// The same through the sweep of grains that may fly.
 SweepRun kinetic_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
-                       const Domain& = {});
+                       const Domain& = {}, FlyingClock* = nullptr);
 
 /// A jittered cubic lattice of n[0] x n[1] x n[2] particles at spacing dx around `center`.
 std::vector<SlowParticle> lattice(std::array<int, 3> n, double dx, double jitter,

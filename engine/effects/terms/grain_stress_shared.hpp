@@ -43,6 +43,11 @@ struct GrainStress {
   }
 };
 
+/// What the passes that only grains in flight call for count to.
+inline std::string_view flying_effect(const GrainStressSettings& g) {
+  return g.states->dilute ? EffectName::kinetic_theory : EffectName::states;
+}
+
 /// c0 of a mass that starts with the velocities it has, where it follows the flow [m/s].
 double sound_speed_at_start(const State&, const GrainStressSettings&);
 /// Adds fields and passes of grains that may part, see grain_states.cpp.

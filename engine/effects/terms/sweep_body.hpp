@@ -330,14 +330,26 @@ inline void kinetic_sweep(const PackedView& view, const KineticView& flying,
   const DenseScale scale = dense_scale(constants, view.unit_m);
   const auto calm = pick_dense<true>(constants);
   const auto stirred = pick_kinetic(constants);
+  bool stirring = false;
+  std::int64_t since = 0;
+  const auto turn = [&](bool to_stirring) {  // the clock is read where the kind of group changes
+    if (!flying.clock || stirring == to_stirring) return;
+    const std::int64_t now = flying.clock->now_ns();
+    if (stirring) flying.clock->spent_ns += now - since;
+    since = now;
+    stirring = to_stirring;
+  };
   for (std::size_t g = first_group; g < last_group; ++g) {
-    if (calm_around(view, flying, g)) {
+    const bool quiet = calm_around(view, flying, g);
+    turn(!quiet);
+    if (quiet) {
       calm(view, scale, wall, out, g);
       leave_calm(out, g);
     } else {
       stirred(view, flying, scale, wall, out, g);
     }
   }
+  turn(false);
 }
 
 inline std::size_t tight_list(const PackedRecord* records, std::size_t first, int n_in_group,

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What an effect is called wherever it is spoken of: `describe`, computing times, reports.
+#pragma once
+
+#include <string_view>
+
+namespace sturz {
+
+struct EffectName {
+  static constexpr std::string_view gravity = "gravity";
+  static constexpr std::string_view base = "base";
+  static constexpr std::string_view grain_stress = "grain stress";
+  static constexpr std::string_view states = "states of the grains";
+  static constexpr std::string_view kinetic_theory = "kinetic theory";
+  static constexpr std::string_view lone_parcels = "lone parcels";
+  static constexpr std::string_view parcel_contacts = "contacts of lone parcels";
+  static constexpr std::string_view column_pressure = "lateral pressure of columns";
+  static constexpr std::string_view walls = "walls";
+  static constexpr std::string_view motion = "motion";
+  /// Nobody asks for it: peak maps, history, limits of the time step.
+  static constexpr std::string_view bookkeeping = "bookkeeping";
+};
+
+}  // namespace sturz
