@@ -23,9 +23,9 @@ std::string timing_table(const NamedSeconds& timings) {
     const double share = total > 0 ? seconds / total : 0;
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td>"
-        "<svg width=\"120\" height=\"8\" aria-hidden=\"true\"><rect class=\"bar\" height=\"8\" "
+        "<svg width=\"72\" height=\"8\" aria-hidden=\"true\"><rect class=\"bar\" height=\"8\" "
         "rx=\"2\" width=\"{:.1f}\"/></svg></td></tr>",
-        html_escape(name), duration_text(seconds), html_escape(percent_text(share)), 120 * share);
+        html_escape(name), duration_text(seconds), html_escape(percent_text(share)), 72 * share);
   }
   return html + "</tbody></table>";
 }
