@@ -17,19 +17,17 @@ def number(text, digits=4):
     return "-" if math.isnan(value) else f"{value:.{digits}g}"
 
 
-def error_of(row):
-    """Relative errors as per cent; those with a reference of zero are in the quantity's own unit."""
-    value = float(row["error"])
-    if math.isnan(value):
-        return "-"
-    return f"{100 * value:+.2g} %" if float(row["reference"]) else number(row["error"], 3)
+def is_relative(row):
+    """Others are in the quantity's own unit."""
+    measured, reference, error = (float(row[k]) for k in ("measured", "reference", "error"))
+    return reference != 0 and abs(abs(measured / reference - 1) - abs(error)) < 1e-3 * abs(error) + 1e-9
 
 
-def tolerance_of(row):
-    value = float(row["tolerance"])
+def per_cent(row, column, sign=""):
+    value = float(row[column])
     if math.isnan(value):
         return "-"
-    return f"{100 * value:.3g} %" if float(row["reference"]) else number(row["tolerance"], 3)
+    return f"{100 * value:{sign}.3g} %" if is_relative(row) else number(row[column], 3)
 
 
 def natural(text):
@@ -51,8 +49,8 @@ def main(path):
           "| case | quantity | measured | reference | error | tolerance | verdict | dx m | particles "
           "| mean dt s | s |\n|---|---|---|---|---|---|---|---|---|---|---|")
     for r in rows:
-        cells = [r["case"], r["quantity"], number(r["measured"]), number(r["reference"]), error_of(r),
-                 tolerance_of(r), f"**{r['verdict']}**" if r["verdict"] == "missed" else r["verdict"],
+        cells = [r["case"], r["quantity"], number(r["measured"]), number(r["reference"]), per_cent(r, "error", "+"),
+                 per_cent(r, "tolerance"), f"**{r['verdict']}**" if r["verdict"] == "missed" else r["verdict"],
                  number(r["dx_m"], 3), r["particles"], number(r["dt_s"], 3), number(r["wall_s"], 2)]
         print("| " + " | ".join(cells) + " |")
 
