@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <span>
 #include <type_traits>
 
@@ -205,9 +205,9 @@ double unresolved_spacing(const std::vector<MemberSummary>& members, const Hazar
 LayerStack make_hazard_map(const MemberSource& members, const HazardSpec& spec,
                            const HazardContext& context) {
   const MemberTiles tiles(members, context.memory_limit_bytes, blocks_at_once);
-  HazardLayers layers = empty_hazard_layers(members.grid(), spec,
-                                            unresolved_spacing(members.members(), context),
-                                            static_cast<std::int64_t>(tiles.n_members()));
+  HazardLayers layers =
+      empty_hazard_layers(members.grid(), spec, unresolved_spacing(members.members(), context),
+                          static_cast<std::int64_t>(tiles.n_members()));
   Filler fill(layers, tiles.n_members());
   std::array<CellBlock, blocks_at_once> blocks;
   for (const Window& tile : tiles.tiles()) fill_tile(tile, tiles, layers, fill, blocks);

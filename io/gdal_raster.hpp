@@ -19,7 +19,7 @@ struct RasterRequest {
   std::string crs_key = "terrain.crs";
   std::string fallback_crs;  ///< stands in only when the file has none; empty: refuse
   std::string fallback_crs_key;
-  double factor = 1;         ///< multiplies the values of a thickness raster
+  double factor = 1;                  ///< multiplies the values of a thickness raster
   std::optional<double> cell_size_m;  ///< wanted cells; default: the raster's own
 };
 

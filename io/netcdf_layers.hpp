@@ -16,8 +16,8 @@ namespace sturz {
 
 /// Writes the whole stack in one stroke, and with it the history of the member whose maps these are
 /// (see history_netcdf.hpp). How long it took to compute is not in it: the file says what the mass
-/// did, and two machines should agree on it; computing times are in the member's file. Global attributes Conventions, title, source and history
-/// are added where `stack.attributes` has none.
+/// did, and two machines should agree on it; computing times are in the member's file. Global
+/// attributes Conventions, title, source and history are added where `stack.attributes` has none.
 /// \throws IoError when the disk refuses; SetupError for layers that contradict each other (two
 ///   axes of one name with other values, axis not increasing, wrong number of values)
 void write_layers(const std::filesystem::path& file, const LayerStack& stack,

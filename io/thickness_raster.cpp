@@ -97,11 +97,10 @@ void refuse_negative(const RasterSource& s) {
       "0)"
       " is negative{}",
       s.label, *negative, row, col, s.x_of(col + 0.5, row + 0.5), s.y_of(col + 0.5, row + 0.5),
-      counts_down
-          ? fmt::format(", like all its {} values. If these are depths counted downwards, "
-                        "set `release.thickness_factor: -1`.",
-                        std::count_if(s.values.begin(), s.values.end(), is_negative))
-          : ". Set such cells to nodata or zero."));
+      counts_down ? fmt::format(", like all its {} values. If these are depths counted downwards, "
+                                "set `release.thickness_factor: -1`.",
+                                std::count_if(s.values.begin(), s.values.end(), is_negative))
+                  : ". Set such cells to nodata or zero."));
 }
 
 /// Square metres of a source cell, 0 if its system has no metres (degrees).

@@ -38,13 +38,13 @@ struct ReportInput {
   const MemberHistory* history = nullptr;     ///< of a single run; may be null or empty
   std::vector<MemberSummary> members;
   ReportTable samples;  ///< sampled keys; one row per entry of `members`, or no rows
-  std::vector<ConvergencePoint> convergence;            ///< may be empty
-  std::vector<std::string> warnings;                    ///< to be read before the maps
-  std::vector<std::string> notes;                       ///< what was resampled, corrected, left out
-  std::vector<std::string> description;                 ///< lines of `describe`: effects and why
-  NamedSeconds timings;                                 ///< by effect, all members together [s]
-  NamedSeconds pass_timings;  ///< by pass of a step, shown folded; may be empty [s]
-  double elapsed_s = 0;                                 ///< wall time of the whole run; 0 = unknown
+  std::vector<ConvergencePoint> convergence;  ///< may be empty
+  std::vector<std::string> warnings;          ///< to be read before the maps
+  std::vector<std::string> notes;             ///< what was resampled, corrected, left out
+  std::vector<std::string> description;       ///< lines of `describe`: effects and why
+  NamedSeconds timings;                       ///< by effect, all members together [s]
+  NamedSeconds pass_timings;                  ///< by pass of a step, shown folded; may be empty [s]
+  double elapsed_s = 0;                       ///< wall time of the whole run; 0 = unknown
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

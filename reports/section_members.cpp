@@ -59,9 +59,8 @@ std::vector<ScalarColumn> shown_columns(const std::vector<MemberSummary>& member
                [&](const ScalarColumn& c) {
                  if (!c.percent) return true;
                  return members.size() > 1 &&
-                        std::any_of(members.begin(), members.end(), [&](const MemberSummary& m) {
-                          return m.scalars.*c.field > 0;
-                        });
+                        std::any_of(members.begin(), members.end(),
+                                    [&](const MemberSummary& m) { return m.scalars.*c.field > 0; });
                });
   return shown;
 }
@@ -161,8 +160,8 @@ std::string members_html(const ReportInput& input, const Headline& h) {
         "where they fit; the rest is in members.csv.</p>",
         max_rows, n);
   return html + "<div class=\"table-box\" tabindex=\"0\"><table id=\"member-table\"><thead><tr>" +
-         table_head(input.samples, !input.samples.rows.empty(), columns) +
-         "</tr></thead><tbody>" + rows + "</tbody></table></div></section>";
+         table_head(input.samples, !input.samples.rows.empty(), columns) + "</tr></thead><tbody>" +
+         rows + "</tbody></table></div></section>";
 }
 
 }  // namespace sturz

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace sturz {
 namespace {

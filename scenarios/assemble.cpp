@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assemble.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/core/error.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/gravity.hpp"
@@ -11,6 +8,9 @@
 #include "engine/simulation/parts.hpp"
 #include "scenarios/scene_plan.hpp"
 #include "scenarios/schema.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace sturz {
 namespace {
@@ -101,8 +101,8 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
   State state = make_state(numbers, plan, threads);
   Step step = make_step(plan, state);
   auto parts = std::make_unique<SimulationParts>(
-      SimulationParts{std::move(state), std::move(step), make_peaks(numbers, plan, inputs.hazard_grid),
-                      make_stop(numbers, plan)});
+      SimulationParts{std::move(state), std::move(step),
+                      make_peaks(numbers, plan, inputs.hazard_grid), make_stop(numbers, plan)});
   parts->member = member;
   parts->spacing_m = numbers.numerics.spacing_m;
   parts->formulation = plan.formulation.name();
@@ -112,8 +112,8 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
     parts->least_dt_s = 1e-6 * std::sqrt(numbers.numerics.spacing_m / parts->state.gravity);
   } else {
     // A hundredth of the acoustic limit at v_ref: below it something has run away.
-    parts->least_dt_s = 0.01 * plan.stress.courant * plan.stress.smoothing_length /
-                        (1.1 * plan.stress.sound_speed);
+    parts->least_dt_s =
+        0.01 * plan.stress.courant * plan.stress.smoothing_length / (1.1 * plan.stress.sound_speed);
   }
   parts->release_layers = plan.release.layers;
   parts->release_volume_m3 = plan.release.volume_m3;

@@ -3,14 +3,14 @@
 /// that knows which scenario block brings which effect.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "engine/effects/fused_sweep.hpp"
 #include "engine/simulation/simulation.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace sturz {
 
@@ -31,17 +31,17 @@ struct EffectNote {
 /// What a scene will be, before anything is computed.
 struct SceneDescription {
   std::vector<EffectNote> effects;
-  std::vector<std::string> passes;      ///< the step, in order
+  std::vector<std::string> passes;  ///< the step, in order
   std::string formulation, formulation_reason;
   std::size_t n_particles = 0;
-  std::size_t memory_bytes = 0;         ///< of one member while it runs
+  std::size_t memory_bytes = 0;  ///< of one member while it runs
   double spacing_m = 0, release_volume_m3 = 0, release_area_m2 = 0;
-  double layers = 0;                    ///< volume-weighted median vertical thickness / spacing
+  double layers = 0;  ///< volume-weighted median vertical thickness / spacing
   double reference_speed_m_s = 0, sound_speed_m_s = 0;
-  double dt_s = 0, n_steps = 0;         ///< estimates
+  double dt_s = 0, n_steps = 0;  ///< estimates
   std::string binding_limit;
-  double predicted_seconds = 0;         ///< n_particles * n_steps / updates per second; by the caller
-  std::vector<std::string> warnings;    ///< thin flow, grain larger than particle, ...
+  double predicted_seconds = 0;       ///< n_particles * n_steps / updates per second; by the caller
+  std::vector<std::string> warnings;  ///< thin flow, grain larger than particle, ...
 };
 SceneDescription describe(const Scenario& numbers, const SceneInputs& inputs);
 

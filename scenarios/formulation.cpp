@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/formulation.hpp"
 
+#include "engine/core/error.hpp"
+#include "scenarios/number_text.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "engine/core/error.hpp"
-#include "scenarios/number_text.hpp"
 
 namespace sturz {
 namespace {

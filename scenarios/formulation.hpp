@@ -2,10 +2,10 @@
 /// Which of the two formulations computes a member, and why.
 #pragma once
 
-#include <string>
-
 #include "engine/terrain/raster.hpp"
 #include "scenarios/scenario.hpp"
+
+#include <string>
 
 namespace sturz {
 
@@ -14,7 +14,8 @@ struct FormulationChoice {
   std::string reason;
   double layers = 0;          ///< least number of layers that resolve the flow: of the two below
   double release_layers = 0;  ///< volume-weighted median release thickness / spacing
-  double deposit_layers = 0;  ///< expected deposit thickness / spacing; infinite in a confined scene
+  double deposit_layers =
+      0;  ///< expected deposit thickness / spacing; infinite in a confined scene
 
   const char* name() const { return depth_averaged ? "depth_averaged" : "full_stress"; }
 };

@@ -23,7 +23,8 @@ std::shared_ptr<const Raster<double>> with_margin(const Raster<double>& z, const
   for (int r = 0; r < g.n_rows; ++r)
     for (int c = 0; c < g.n_cols; ++c) {
       const int rr = r - my, cc = c - mx;
-      const int row = (rr + z.grid.n_rows) % z.grid.n_rows, col = (cc + z.grid.n_cols) % z.grid.n_cols;
+      const int row = (rr + z.grid.n_rows) % z.grid.n_rows,
+                col = (cc + z.grid.n_cols) % z.grid.n_cols;
       double shift = 0;
       if (cc < 0) shift -= d.x.rise;
       if (cc >= z.grid.n_cols) shift += d.x.rise;

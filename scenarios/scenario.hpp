@@ -2,6 +2,8 @@
 /// What a scene is: the plain data of one scenario file. Presence of a block switches an effect on.
 #pragma once
 
+#include "scenarios/uncertain.hpp"
+
 #include <array>
 #include <cstdint>
 #include <map>
@@ -9,24 +11,22 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/uncertain.hpp"
-
 namespace sturz {
 
 /// Ground written as a formula instead of a raster; see scenarios/synthetic_terrain.hpp.
 struct SyntheticTerrain {
-  std::string shape;                         ///< plane, bowl, step, flume, ramp, zhangjiawan, shuicheng
+  std::string shape;  ///< plane, bowl, step, flume, ramp, zhangjiawan, shuicheng
   double cell_size_m = 5;
   std::map<std::string, double> parameters;  ///< the shape's own numbers, e.g. slope_deg
   bool operator==(const SyntheticTerrain&) const = default;
 };
 
 struct TerrainSpec {
-  std::string raster;                         ///< path of any GDAL raster; empty: synthetic
+  std::string raster;  ///< path of any GDAL raster; empty: synthetic
   std::optional<SyntheticTerrain> synthetic;
-  std::string crs;                            ///< given by the user where the file has none (or a wrong one)
-  std::optional<double> cell_size_m;          ///< working grid; default: the raster's own
-  std::string nodata = "outflow";             ///< outflow | wall
+  std::string crs;  ///< given by the user where the file has none (or a wrong one)
+  std::optional<double> cell_size_m;  ///< working grid; default: the raster's own
+  std::string nodata = "outflow";     ///< outflow | wall
   bool operator==(const TerrainSpec&) const = default;
 };
 
@@ -35,7 +35,7 @@ struct ReleaseBox {
   std::array<double, 2> x_m{}, y_m{};
   bool operator==(const ReleaseBox&) const = default;
 };
-struct ReleaseParaboloid {                    ///< thickness * (1 - (dx/a)^2 - (dy/b)^2)
+struct ReleaseParaboloid {  ///< thickness * (1 - (dx/a)^2 - (dy/b)^2)
   std::array<double, 2> center_m{}, semi_axes_m{};
   bool operator==(const ReleaseParaboloid&) const = default;
 };
@@ -48,42 +48,42 @@ struct ReleaseCylinder {
 /// Where and how thick the mass starts. Exactly one of polygon, thickness_raster, box, paraboloid,
 /// cylinder, or none of them when the synthetic terrain brings its own source.
 struct ReleaseSpec {
-  std::string polygon;                        ///< any OGR polygon layer
-  std::string layer;                          ///< layer name inside `polygon`; empty: the first
-  std::string thickness_attribute;            ///< field of `polygon` with a thickness in metres
-  std::string thickness_raster;               ///< metres, vertical; nodata means zero
-  double thickness_factor = 1;                ///< of `thickness_raster`: -1 where depths count downward
-  std::string crs;                            ///< where the release file has none
+  std::string polygon;              ///< any OGR polygon layer
+  std::string layer;                ///< layer name inside `polygon`; empty: the first
+  std::string thickness_attribute;  ///< field of `polygon` with a thickness in metres
+  std::string thickness_raster;     ///< metres, vertical; nodata means zero
+  double thickness_factor = 1;      ///< of `thickness_raster`: -1 where depths count downward
+  std::string crs;                  ///< where the release file has none
   std::optional<ReleaseBox> box;
   std::optional<ReleaseParaboloid> paraboloid;
   std::optional<ReleaseCylinder> cylinder;
-  std::optional<Uncertain> thickness_m;       ///< vertical thickness of polygon, box, ...
-  std::optional<Uncertain> volume_m3;         ///< bulk; scales the thickness
-  std::string surface = "bed";                ///< bed: terrain is the bed; pre_failure: bed = terrain - thickness
+  std::optional<Uncertain> thickness_m;  ///< vertical thickness of polygon, box, ...
+  std::optional<Uncertain> volume_m3;    ///< bulk; scales the thickness
+  std::string surface = "bed";  ///< bed: terrain is the bed; pre_failure: bed = terrain - thickness
   std::array<double, 3> velocity_m_s{0, 0, 0};
   bool operator==(const ReleaseSpec&) const = default;
 };
 
 /// mu(I) = static + (dynamic - static) / (scale / I + 1)
 struct FrictionLaw {
-  Uncertain static_coefficient{0.38};         ///< key `static`
-  Uncertain dynamic_coefficient{0.64};        ///< key `dynamic`
+  Uncertain static_coefficient{0.38};   ///< key `static`
+  Uncertain dynamic_coefficient{0.64};  ///< key `dynamic`
   Uncertain inertial_number_scale{0.3};
   bool operator==(const FrictionLaw&) const = default;
 };
 
 /// Grains that part and collide: kinetic theory with a granular temperature.
 struct DiluteSpec {
-  Uncertain restitution{0.7};                 ///< of two grains, e
+  Uncertain restitution{0.7};  ///< of two grains, e
   bool operator==(const DiluteSpec&) const = default;
 };
 
 /// Grains that have lost their neighbours: parcels in free flight.
 struct UltradiluteSpec {
-  std::string contacts = "none";              ///< none | hertz_mindlin
-  Uncertain restitution{0.7};                 ///< of two parcels, where they meet
-  Uncertain friction_coefficient{0.5};        ///< of two parcels
-  double youngs_modulus_pa = 5e10;            ///< softened to the speeds of the scene
+  std::string contacts = "none";        ///< none | hertz_mindlin
+  Uncertain restitution{0.7};           ///< of two parcels, where they meet
+  Uncertain friction_coefficient{0.5};  ///< of two parcels
+  double youngs_modulus_pa = 5e10;      ///< softened to the speeds of the scene
   bool operator==(const UltradiluteSpec&) const = default;
 };
 
@@ -91,29 +91,30 @@ struct UltradiluteSpec {
 struct GrainStatesSpec {
   std::optional<DiluteSpec> dilute;
   std::optional<UltradiluteSpec> ultradilute;
-  std::string stress_mode = "unified";        ///< unified | seed: the paper's switch between laws
-  std::optional<Uncertain> max_fraction;      ///< alpha_max; default max(0.64, solid_fraction + 0.08)
-  Uncertain frictional_pressure_pa{0.05};     ///< Fr of the paper's Eq. (23)
+  std::string stress_mode = "unified";     ///< unified | seed: the paper's switch between laws
+  std::optional<Uncertain> max_fraction;   ///< alpha_max; default max(0.64, solid_fraction + 0.08)
+  Uncertain frictional_pressure_pa{0.05};  ///< Fr of the paper's Eq. (23)
   bool operator==(const GrainStatesSpec&) const = default;
 };
 
 struct GrainsSpec {
-  Uncertain density_kg_m3{2600};              ///< of the grain material
+  Uncertain density_kg_m3{2600};  ///< of the grain material
   Uncertain diameter_m{0.1};
   Uncertain solid_fraction{0.6};
-  std::optional<FrictionLaw> friction;        ///< either this ...
-  std::optional<Uncertain> friction_angle_deg;///< ... or this: mu = tan(angle), no rate dependence
+  std::optional<FrictionLaw> friction;  ///< either this ...
+  std::optional<Uncertain>
+      friction_angle_deg;  ///< ... or this: mu = tan(angle), no rate dependence
   Uncertain cohesion_pa{0};
   Uncertain poisson_ratio{0.3};
-  std::string earth_pressure = "isotropic";   ///< isotropic | active_passive; depth_averaged only
-  std::optional<GrainStatesSpec> states;      ///< absent: every grain is dense
+  std::string earth_pressure = "isotropic";  ///< isotropic | active_passive; depth_averaged only
+  std::optional<GrainStatesSpec> states;     ///< absent: every grain is dense
   bool operator==(const GrainsSpec&) const = default;
 };
 
 /// A part of the ground with values of its own; what it does not give is that of `basal`.
 struct BasalZone {
-  std::string polygon;                        ///< any OGR polygon layer
-  std::string layer;                          ///< layer name inside `polygon`; empty: the first
+  std::string polygon;  ///< any OGR polygon layer
+  std::string layer;    ///< layer name inside `polygon`; empty: the first
   std::optional<double> friction_coefficient, pore_pressure_ratio, cohesion_pa;
   bool operator==(const BasalZone&) const = default;
 };
@@ -122,26 +123,26 @@ struct BasalSpec {
   Uncertain friction_coefficient{0.4};
   Uncertain pore_pressure_ratio{0};
   Uncertain cohesion_pa{0};
-  Uncertain restitution{0.2};                 ///< full_stress only
+  Uncertain restitution{0.2};                           ///< full_stress only
   std::optional<Uncertain> turbulent_coefficient_m_s2;  ///< Voellmy's xi; depth_averaged only
-  std::optional<Uncertain> viscosity_pa_s;    ///< laminar drag at the base; depth_averaged only
-  std::optional<Uncertain> yield_stress_pa;   ///< Bingham, with viscosity_pa_s; depth_averaged only
-  std::vector<BasalZone> zones;               ///< where two overlap, the later one holds
+  std::optional<Uncertain> viscosity_pa_s;   ///< laminar drag at the base; depth_averaged only
+  std::optional<Uncertain> yield_stress_pa;  ///< Bingham, with viscosity_pa_s; depth_averaged only
+  std::vector<BasalZone> zones;              ///< where two overlap, the later one holds
   bool operator==(const BasalSpec&) const = default;
 };
 
 struct NumericsSpec {
-  double spacing_m = 0;                       ///< particle spacing dx; 0 = not given (an error)
+  double spacing_m = 0;  ///< particle spacing dx; 0 = not given (an error)
   double end_time_s = 120;
-  double courant = 0.25;                      ///< dt <= courant h / (c0 + |v|)
-  double sound_speed_factor = 10;             ///< c0 = factor * expected flow speed
-  bool adaptive_sound_speed = true;           ///< c0 follows the flow, see engine/effects/sound_speed.cpp
-  double artificial_viscosity = 0.1;          ///< alpha_v of B.4
-  double density_diffusion = 0.1;             ///< delta of B.2
-  double jitter = 0.05;                       ///< of the release lattice, in spacings
+  double courant = 0.25;              ///< dt <= courant h / (c0 + |v|)
+  double sound_speed_factor = 10;     ///< c0 = factor * expected flow speed
+  bool adaptive_sound_speed = true;   ///< c0 follows the flow, see engine/effects/sound_speed.cpp
+  double artificial_viscosity = 0.1;  ///< alpha_v of B.4
+  double density_diffusion = 0.1;     ///< delta of B.2
+  double jitter = 0.05;               ///< of the release lattice, in spacings
   bool stop_at_rest = true;
-  double max_wall_time_s = 0;                 ///< per member; 0 = none
-  bool accept_unresolved = false;             ///< run full_stress although under two layers resolve it
+  double max_wall_time_s = 0;      ///< per member; 0 = none
+  bool accept_unresolved = false;  ///< run full_stress although under two layers resolve it
   bool operator==(const NumericsSpec&) const = default;
 };
 
@@ -153,15 +154,15 @@ struct WallSpec {
 };
 
 struct DomainSpec {
-  std::vector<std::string> periodic;          ///< subset of x, y: the terrain's extent is the period
+  std::vector<std::string> periodic;  ///< subset of x, y: the terrain's extent is the period
   std::vector<WallSpec> walls;
   bool operator==(const DomainSpec&) const = default;
 };
 
 struct EnsembleSpec {
-  std::string design = "latin_hypercube";     ///< monte_carlo | latin_hypercube | sobol | table
-  std::string table;                          ///< CSV of a user's design (design: table)
-  int members = 0;                            ///< 0 = not given
+  std::string design = "latin_hypercube";  ///< monte_carlo | latin_hypercube | sobol | table
+  std::string table;                       ///< CSV of a user's design (design: table)
+  int members = 0;                         ///< 0 = not given
   std::uint64_t seed = 1;
   std::map<std::string, double> correlation;  ///< "path/path" -> Gaussian copula correlation
   double max_failed_fraction = 0.05;
@@ -169,7 +170,7 @@ struct EnsembleSpec {
 };
 
 struct HazardSpec {
-  std::optional<double> cell_size_m;          ///< default: the terrain's working cell
+  std::optional<double> cell_size_m;  ///< default: the terrain's working cell
   std::vector<double> thickness_m{0.1, 0.5, 1, 2};
   std::vector<double> speed_m_s{1, 5, 10};
   std::vector<double> energy_kj_m2{10, 100, 1000};
@@ -184,12 +185,12 @@ struct Scenario {
   ReleaseSpec release;
   std::optional<GrainsSpec> grains;
   BasalSpec basal;
-  std::string formulation = "auto";           ///< auto | full_stress | depth_averaged
+  std::string formulation = "auto";  ///< auto | full_stress | depth_averaged
   NumericsSpec numerics;
   DomainSpec domain;
   EnsembleSpec ensemble;
   HazardSpec hazard;
-  std::string directory;                      ///< where relative paths of the file start; not a key
+  std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;
 };
 

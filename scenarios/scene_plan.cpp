@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/scene_plan.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/ground.hpp"
 #include "scenarios/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace sturz {
 namespace {
@@ -37,8 +37,7 @@ Raster<double> release_thickness(const ReleaseSpec& spec, const SceneInputs& in)
 Terrain excavate(const Terrain& ground, const Raster<double>& fine_thickness) {
   const Grid& g = ground.grid();
   const int factor = static_cast<int>(std::lround(g.cell_m / fine_thickness.grid.cell_m));
-  const Raster<double> thickness =
-      factor > 1 ? coarsened(fine_thickness, factor) : fine_thickness;
+  const Raster<double> thickness = factor > 1 ? coarsened(fine_thickness, factor) : fine_thickness;
   int r0 = g.n_rows, r1 = -1, c0 = g.n_cols, c1 = -1;
   for (int r = 0; r < g.n_rows; ++r)
     for (int c = 0; c < g.n_cols; ++c)
@@ -116,7 +115,8 @@ std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
   all.friction_coefficient = spec.friction_coefficient.value;
   all.pore_pressure_ratio = spec.pore_pressure_ratio.value;
   all.cohesion_pa = spec.cohesion_pa.value;
-  if (spec.turbulent_coefficient_m_s2) all.turbulent_coefficient = spec.turbulent_coefficient_m_s2->value;
+  if (spec.turbulent_coefficient_m_s2)
+    all.turbulent_coefficient = spec.turbulent_coefficient_m_s2->value;
   if (spec.viscosity_pa_s) all.viscosity_pa_s = spec.viscosity_pa_s->value;
   if (spec.yield_stress_pa) all.yield_stress_pa = spec.yield_stress_pa->value;
   std::vector<BasalResistance> base{all};
@@ -213,8 +213,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
     softest.sound_speed = std::min(stress.sound_speed, stress.least_sound_speed);
     stress.states->friction.limit_slope(softest.bulk_modulus() / plan.reference_fraction);
     if (s.grains->states->ultradilute && s.grains->states->ultradilute->contacts != "none")
-      plan.parcel_contacts =
-          plan_parcel_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
+      plan.parcel_contacts = plan_parcel_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
   }
 
   ContactSettings& contact = plan.contact;
@@ -234,8 +233,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
 void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, std::vector<std::string>& out) {
   const FormulationChoice& f = plan.formulation;
   if (f.depth_averaged || f.layers >= resolved_layers) return;
-  out.push_back("thin flow: " + short_number(f.layers) +
-                " layers of particles resolve the " +
+  out.push_back("thin flow: " + short_number(f.layers) + " layers of particles resolve the " +
                 (f.release_layers <= f.deposit_layers ? "release" : "expected deposit") +
                 " (fewer than 4). Centre of mass and speed hold, the footprint may be wrong by "
                 "15-100 %. Use formulation: auto or a spacing below " +
@@ -245,7 +243,8 @@ void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, std::vector<std
 }  // namespace
 
 ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
-  require(s.grains.has_value(), "grains: the block is missing (nothing would move). Add `grains:`.");
+  require(s.grains.has_value(),
+          "grains: the block is missing (nothing would move). Add `grains:`.");
   const Domain domain = make_domain(s.domain, *in.elevation);
   require_room(domain.x, "x", s.numerics.spacing_m);
   require_room(domain.y, "y", s.numerics.spacing_m);
@@ -268,10 +267,10 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * plan.reference_fraction;
-  plan.release = release_particles(plan.bed, thickness,
-                                   {s.numerics.spacing_m, plan.bulk_density_kg_m3,
-                                    s.numerics.jitter, s.ensemble.seed, member,
-                                    plan.formulation.depth_averaged});
+  plan.release =
+      release_particles(plan.bed, thickness,
+                        {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
+                         s.ensemble.seed, member, plan.formulation.depth_averaged});
   plan.zones = {in.zones};
   const std::vector<BasalResistance> base = basal_by_zone(s.basal);
   if (plan.formulation.depth_averaged)
@@ -299,11 +298,13 @@ std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan)
   if (!plan.formulation.depth_averaged &&
       2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
     out.push_back("coarse grains: the smoothing length of " +
-                  short_number(plan.stress.smoothing_length) + " m is under two grain diameters of " +
-                  short_number(s.grains->diameter_m.value) + " m: the grains act as a parameter only");
+                  short_number(plan.stress.smoothing_length) +
+                  " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
+                  " m: the grains act as a parameter only");
   if (s.grains->states && plan.formulation.depth_averaged)
-    out.push_back("grains.states is not used: columns have no states. Use formulation: full_stress "
-                  "where the grains may part");
+    out.push_back(
+        "grains.states is not used: columns have no states. Use formulation: full_stress "
+        "where the grains may part");
   const bool collides =
       s.grains->states && s.grains->states->dilute && !plan.formulation.depth_averaged;
   if (collides && s.grains->states->dilute->restitution.value < 0.7)
@@ -311,8 +312,9 @@ std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan)
                   short_number(s.grains->states->dilute->restitution.value) +
                   " lies under 0.7, where kinetic theory was not made for");
   if (plan.release.dropped_fraction > 0.01)
-    out.push_back("thin edge: " + short_number(100 * plan.release.dropped_fraction) +
-                  " % of the release lies where it is too thin for a particle and was given to the others");
+    out.push_back(
+        "thin edge: " + short_number(100 * plan.release.dropped_fraction) +
+        " % of the release lies where it is too thin for a particle and was given to the others");
   // Columns thin out continuously; particles do not.
   for (double threshold : s.hazard.thickness_m)
     if (!plan.formulation.depth_averaged && threshold < 0.5 * dx) {

@@ -3,35 +3,35 @@
 /// describe, so that what is described is what is run.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-
+#include "engine/core/domain.hpp"
 #include "engine/effects/depth_averaged.hpp"
 #include "engine/effects/grain_stress.hpp"
 #include "engine/effects/parcel_contacts.hpp"
 #include "engine/effects/terrain_contact.hpp"
 #include "engine/particles/release.hpp"
-#include "engine/core/domain.hpp"
 #include "scenarios/formulation.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
 
+#include <cstdint>
+#include <optional>
+
 namespace sturz {
 
 struct ScenePlan {
-  Terrain bed;                    ///< of this member, excavation laid over the shared raster
+  Terrain bed;  ///< of this member, excavation laid over the shared raster
   Domain domain;
   FormulationChoice formulation;
   Release release;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
-  GrainStressSettings stress;     ///< full_stress
-  ContactSettings contact;        ///< full_stress
+  GrainStressSettings stress;                            ///< full_stress
+  ContactSettings contact;                               ///< full_stress
   std::optional<ParcelContactSettings> parcel_contacts;  ///< where lone parcels may meet
-  double reference_fraction = 0.6;///< solid fraction of the mass as it is set down
-  DepthAveragedSettings columns;  ///< depth_averaged
-  double reference_speed_m_s = 0; ///< v_ref of the fastest expected mass point; full_stress
-  double available_energy_j = 0;  ///< release mass falling to the lowest ground in reach
+  double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
+  DepthAveragedSettings columns;    ///< depth_averaged
+  double reference_speed_m_s = 0;   ///< v_ref of the fastest expected mass point; full_stress
+  double available_energy_j = 0;    ///< release mass falling to the lowest ground in reach
 
   explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
 };

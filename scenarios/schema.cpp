@@ -43,8 +43,7 @@ std::vector<BlockInfo> all_optional_blocks() {
        [](Scenario& s) {
          if (!s.release.cylinder) s.release.cylinder.emplace();
        }},
-      {"grains", "The moving mass.",
-       [](const Scenario& s) { return s.grains.has_value(); },
+      {"grains", "The moving mass.", [](const Scenario& s) { return s.grains.has_value(); },
        [](Scenario& s) {
          if (!s.grains) s.grains.emplace();
        }},

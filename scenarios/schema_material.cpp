@@ -110,11 +110,11 @@ void add_states(std::vector<KeyInfo>& keys) {
   keys.push_back(key(ultradilute, &UltradiluteSpec::friction_coefficient,
                      {"grains.states.ultradilute.friction_coefficient", uncertain, "1", 0, 2,
                       "Friction between two lone parcels."}));
-  keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::youngs_modulus_pa,
-                               {"grains.states.ultradilute.youngs_modulus_pa", number, "Pa", 0,
-                                1e13,
-                                "Stiffness of the grains; softened to what the speeds of the "
-                                "scene need."})));
+  keys.push_back(
+      above_min(key(ultradilute, &UltradiluteSpec::youngs_modulus_pa,
+                    {"grains.states.ultradilute.youngs_modulus_pa", number, "Pa", 0, 1e13,
+                     "Stiffness of the grains; softened to what the speeds of the "
+                     "scene need."})));
 }
 
 void add_basal(std::vector<KeyInfo>& keys) {

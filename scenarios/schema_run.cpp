@@ -33,10 +33,11 @@ void add_numerics(std::vector<KeyInfo>& keys) {
   keys.push_back(key(numerics, &NumericsSpec::adaptive_sound_speed,
                      {"numerics.adaptive_sound_speed", flag, "", -no_limit, no_limit,
                       "Let the sound speed follow the flow: fewer steps while the mass is slow."}));
-  keys.push_back(key(numerics, &NumericsSpec::artificial_viscosity,
-                     {"numerics.artificial_viscosity", number, "1", 0, 1,
-                      "Strength of the artificial viscosity. Where grains flow it stands in for at most "
-                      "a tenth of their friction."}));
+  keys.push_back(
+      key(numerics, &NumericsSpec::artificial_viscosity,
+          {"numerics.artificial_viscosity", number, "1", 0, 1,
+           "Strength of the artificial viscosity. Where grains flow it stands in for at most "
+           "a tenth of their friction."}));
   keys.push_back(key(numerics, &NumericsSpec::density_diffusion,
                      {"numerics.density_diffusion", number, "1", 0, 0.5,
                       "Strength of the density smoothing (delta-SPH)."}));

@@ -2,18 +2,18 @@
 /// What bounds a scene besides the ground: analytic walls and periodic directions.
 #pragma once
 
+#include "engine/core/vec.hpp"
+
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "engine/core/vec.hpp"
 
 namespace sturz {
 
 /// A plane that holds the particles on the side of its normal.
 struct Wall {
   Vec3 point{0, 0, 0};
-  Vec3 normal{0, 0, 1};             ///< unit, into the free side
+  Vec3 normal{0, 0, 1};  ///< unit, into the free side
   double friction_coefficient = 0;
   double remove_at_s = std::numeric_limits<double>::infinity();
 };
@@ -21,8 +21,8 @@ struct Wall {
 /// One periodic direction: leaving at `max` means entering at `min`, `rise` lower or higher.
 struct Period {
   bool active = false;
-  double min = 0, max = 0;          ///< [m]
-  double rise = 0;                  ///< z(max) - z(min) of the repeating terrain [m]
+  double min = 0, max = 0;  ///< [m]
+  double rise = 0;          ///< z(max) - z(min) of the repeating terrain [m]
   double length() const { return max - min; }
 };
 

@@ -37,9 +37,7 @@ inline Lanes sqrt(Lanes a) { return {_mm512_sqrt_ps(a.v)}; }
 inline Lanes select_less(Lanes a, Lanes b, Lanes yes, Lanes no) {
   return {_mm512_mask_blend_ps(_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ), no.v, yes.v)};
 }
-inline bool any_less(Lanes a, Lanes b) {
-  return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ) != 0;
-}
+inline bool any_less(Lanes a, Lanes b) { return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ) != 0; }
 /// float(load(p)[lane] - j): exact integer difference, one rounding.
 struct IntLanes {
   __m512i v;

@@ -7,7 +7,8 @@ namespace sturz {
 /// Energies in J, dissipation positive; impulses in N s; mass in kg.
 ///
 /// Kinetic energy changes only through booked works:
-///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping - lost_energy.
+///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
+///   lost_energy.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
@@ -21,31 +22,31 @@ struct Ledger {
   double kinetic_0 = 0, elastic_0 = 0, spring_0 = 0;  ///< at release
 
   double gravity_work = 0;
-  double stress_work = 0;      ///< by pair forces and the wall's share of the pressure field
-  double stress_power = 0;     ///< integral of V sigma : D
-  double frictional = 0;       ///< stored by the frictional pressure of grains that part
-  double granular = 0;         ///< of granular temperature, now
-  double conducted = 0;        ///< gained by its conduction: zero but for rounding
-  double collisions = 0;       ///< dissipated by collisions of grains
-  double granular_lost = 0;    ///< with grains that left the continuum, less what came back
-  double plastic = 0;          ///< dissipated by yielding
-  double diffusion = 0;        ///< elastic energy added by density diffusion and stress smoothing
-  double contact_work = 0;     ///< by contact springs, dampers and the ground guard, parcel_work too
-  double parcel_work = 0;      ///< by contacts of lone parcels, on their flight
-  double rotational = 0, parcel_elastic = 0;  ///< now: spins of lone parcels, their contacts' springs
-  double friction = 0;         ///< dissipated by Coulomb friction and cohesion at the base
-  double rest_damping = 0;     ///< dissipated below the speed of rest (physics.md I4)
-  double lost_energy = 0;      ///< kinetic and elastic energy that left or was taken by the rim
+  double stress_work = 0;    ///< by pair forces and the wall's share of the pressure field
+  double stress_power = 0;   ///< integral of V sigma : D
+  double frictional = 0;     ///< stored by the frictional pressure of grains that part
+  double granular = 0;       ///< of granular temperature, now
+  double conducted = 0;      ///< gained by its conduction: zero but for rounding
+  double collisions = 0;     ///< dissipated by collisions of grains
+  double granular_lost = 0;  ///< with grains that left the continuum, less what came back
+  double plastic = 0;        ///< dissipated by yielding
+  double diffusion = 0;      ///< elastic energy added by density diffusion and stress smoothing
+  double contact_work = 0;   ///< by contact springs, dampers and the ground guard, parcel_work too
+  double parcel_work = 0;    ///< by contacts of lone parcels, on their flight
+  double rotational = 0,
+         parcel_elastic = 0;  ///< now: spins of lone parcels, their contacts' springs
+  double friction = 0;        ///< dissipated by Coulomb friction and cohesion at the base
+  double rest_damping = 0;    ///< dissipated below the speed of rest (physics.md I4)
+  double lost_energy = 0;     ///< kinetic and elastic energy that left or was taken by the rim
 
-  double take_off = 0;         ///< mass times time on ground that bends away faster than it falls [kg s]
+  double take_off = 0;  ///< mass times time on ground that bends away faster than it falls [kg s]
 
-  double stress_impulse[3] = {0, 0, 0};  ///< sum of m a dt of pair forces alone: zero but for rounding
-  double stress_impulse_scale = 0;       ///< sum of |m a dt|
+  double stress_impulse[3] = {0, 0,
+                              0};   ///< sum of m a dt of pair forces alone: zero but for rounding
+  double stress_impulse_scale = 0;  ///< sum of |m a dt|
 
   /// Potential energy set free so far, plus what the mass started with [J].
-  double released_energy() const {
-    return kinetic_0 + elastic_0 - potential;
-  }
+  double released_energy() const { return kinetic_0 + elastic_0 - potential; }
   /// Dissipated by artificial viscosity and discretisation.
   double numerical() const { return -stress_work - stress_power; }
   /// Dissipated in normal contact with ground and walls.
@@ -54,10 +55,10 @@ struct Ledger {
   double parcel_dissipated() const { return -parcel_work - rotational - parcel_elastic; }
   /// Energy that no booking explains [J]: time integration of gravity and of the stress law.
   double residual() const {
-    return (kinetic - kinetic_0) + potential + (elastic - elastic_0) +
-           (spring - spring_0) + frictional + granular + collisions - conducted + granular_lost +
-           plastic + friction + rest_damping + damping() + rotational +
-           parcel_elastic + parcel_dissipated() + numerical() - diffusion + lost_energy;
+    return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
+           frictional + granular + collisions - conducted + granular_lost + plastic + friction +
+           rest_damping + damping() + rotational + parcel_elastic + parcel_dissipated() +
+           numerical() - diffusion + lost_energy;
   }
 };
 

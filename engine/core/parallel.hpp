@@ -2,11 +2,11 @@
 /// Loops over particles by threads, and sums whose bits do not depend on how many there are.
 #pragma once
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
-
-#include <omp.h>
 
 namespace sturz {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What gravity, lateral pressure and the base do to a column, and where it goes.
-#include <cmath>
-
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/column_flow.hpp"
 #include "engine/effects/terms/losses.hpp"
 #include "engine/effects/terms/step_books.hpp"
+
+#include <cmath>
 
 namespace sturz {
 namespace {
@@ -29,8 +29,7 @@ class BasePass final : public Pass {
         [&](std::size_t begin, std::size_t end, Works& out) {
           for (std::size_t i = begin; i < end; ++i) {
             if (s.leaves(i)) continue;  // the books take it as it was at the start of the step
-            const Works w = push(s, i, ground[i].normal(), g_n[i], thickness[i],
-                                 kick, dt);
+            const Works w = push(s, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
             out.friction += p.mass[i] * w.friction;
             out.contact += p.mass[i] * w.contact;
           }
@@ -204,9 +203,9 @@ class ColumnMotion final : public Pass {
     }
   }
 
-  /// Turns to the slopes at the end of the step. Kicks count gravity's work by the slopes at both ends
-  /// of a step; over a kink or a cliff the ground fell or rose by something else. The speed pays
-  /// the difference, so a column never has more energy than its fall gave it.
+  /// Turns to the slopes at the end of the step. Kicks count gravity's work by the slopes at both
+  /// ends of a step; over a kink or a cliff the ground fell or rose by something else. The speed
+  /// pays the difference, so a column never has more energy than its fall gave it.
   void settle(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
               std::size_t begin, std::size_t end, DriftSums& out) const {
     const double *east = ground.component[0], *north = ground.component[1];
@@ -233,7 +232,7 @@ class ColumnMotion final : public Pass {
   std::shared_ptr<ColumnFlow> flow_;
   std::vector<std::uint8_t> keep_;
   std::vector<double> climb_, rise_;  // of each column: v_z at the step's start [m/s], dz [m]
-  double later_rise_ = 0;  // sum of m dz that the next kick counts [kg m]
+  double later_rise_ = 0;             // sum of m dz that the next kick counts [kg m]
 };
 
 }  // namespace

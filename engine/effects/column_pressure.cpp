@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells, records and the sweep over neighbouring columns.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/column_flow.hpp"
 #include "engine/effects/terms/wrapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace sturz {
 namespace {
@@ -56,8 +56,9 @@ class PackPass final : public Pass {
   }
 
  private:
-  /// How hard the ground presses on columns [begin, end); adds mass times time of those that it lets
-  /// go of. Plain loops over plain arrays, so that the compiler puts four columns side by side.
+  /// How hard the ground presses on columns [begin, end); adds mass times time of those that it
+  /// lets go of. Plain loops over plain arrays, so that the compiler puts four columns side by
+  /// side.
   static void press(ParticleSet& p, const GroundColumns& ground, double gravity, double kick,
                     std::size_t begin, std::size_t end, double& off) {
     const double *east = ground.component[0], *north = ground.component[1];
@@ -96,21 +97,22 @@ class PackPass final : public Pass {
     const double* k = k_field ? k_field->component[0].data() : nullptr;
     ColumnCells& cells = flow_->cells;
     ColumnRecord* records = cells.records();
-    parallel_ranges(cells.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) {
-        const std::size_t i = cells.source(c);
-        ColumnRecord& r = records[c];
-        const double lateral = k ? k[i] * g_n[i] : g_n[i];
-        r.volume = static_cast<float>(p.mass[i] / flow_->settings.density);
-        r.vx = static_cast<float>(p.vx[i]);
-        r.vy = static_cast<float>(p.vy[i]);
-        r.vz = static_cast<float>(p.vz[i]);
-        r.inverse_reach = static_cast<float>(1 / reach[i]);
-        r.thickness = static_cast<float>(thickness[i]);
-        r.lateral = static_cast<float>(lateral);
-        r.wave_speed = static_cast<float>(std::sqrt(lateral * thickness[i]));
-      }
-    });
+    parallel_ranges(cells.size(), reduction_block, s.threads,
+                    [&](std::size_t begin, std::size_t end) {
+                      for (std::size_t c = begin; c < end; ++c) {
+                        const std::size_t i = cells.source(c);
+                        ColumnRecord& r = records[c];
+                        const double lateral = k ? k[i] * g_n[i] : g_n[i];
+                        r.volume = static_cast<float>(p.mass[i] / flow_->settings.density);
+                        r.vx = static_cast<float>(p.vx[i]);
+                        r.vy = static_cast<float>(p.vy[i]);
+                        r.vz = static_cast<float>(p.vz[i]);
+                        r.inverse_reach = static_cast<float>(1 / reach[i]);
+                        r.thickness = static_cast<float>(thickness[i]);
+                        r.lateral = static_cast<float>(lateral);
+                        r.wave_speed = static_cast<float>(std::sqrt(lateral * thickness[i]));
+                      }
+                    });
   }
 
   std::shared_ptr<ColumnFlow> flow_;

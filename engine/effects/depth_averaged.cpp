@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/depth_averaged.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/core/error.hpp"
 #include "engine/effects/terms/column_flow.hpp"
 #include "engine/effects/terms/wrapping.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace sturz {
 namespace {
@@ -30,19 +30,18 @@ void start_columns(State& s, ColumnFlow& flow, std::span<const double> vertical_
     const Vec3 n = ground[i].normal();
     // A map lattice on a slope stands 1/n_z farther apart along it.
     reach[i] = set.reach_per_spacing * set.spacing * std::min(set.most_reach, std::sqrt(1 / n.z()));
-    thickness[i] = std::max(vertical_thickness[i] * n.z(),
-                            lone_thickness(p.mass[i] / set.density, reach[i]));
+    thickness[i] =
+        std::max(vertical_thickness[i] * n.z(), lone_thickness(p.mass[i] / set.density, reach[i]));
     g_n[i] = s.gravity * n.z();
     if (k) {
       const EarthPressure& e = set.earth_pressure[flow.zone_of(s, i)];
       k->component[0][i] = std::clamp(1.0, e.active, e.passive);
     }
     const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
-    rate = std::max(rate, set.base[flow.zone_of(s, i)].rate(v0.norm(), thickness[i], set.density,
-                                                            s.gravity));
+    rate = std::max(
+        rate, set.base[flow.zone_of(s, i)].rate(v0.norm(), thickness[i], set.density, s.gravity));
     wave2 = std::max(wave2, g_n[i] * thickness[i] * 4 / (reach[i] * reach[i]));
-    const Velocity v =
-        Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
+    const Velocity v = Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
     p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
   }
   flow.fastest_wave = std::sqrt(wave2);

@@ -11,9 +11,12 @@ extern const Sweeps sweeps_avx512;
 
 std::string_view to_string(InstructionSet set) {
   switch (set) {
-    case InstructionSet::avx512: return "avx512";
-    case InstructionSet::avx2: return "avx2";
-    case InstructionSet::plain: break;
+    case InstructionSet::avx512:
+      return "avx512";
+    case InstructionSet::avx2:
+      return "avx2";
+    case InstructionSet::plain:
+      break;
   }
   return "plain";
 }
@@ -21,10 +24,12 @@ std::string_view to_string(InstructionSet set) {
 bool supports(InstructionSet set) {
 #if defined(__x86_64__)
   switch (set) {
-    case InstructionSet::avx512: return __builtin_cpu_supports("avx512f");
+    case InstructionSet::avx512:
+      return __builtin_cpu_supports("avx512f");
     case InstructionSet::avx2:
       return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    case InstructionSet::plain: break;
+    case InstructionSet::plain:
+      break;
   }
   return true;
 #else

@@ -2,11 +2,11 @@
 /// The pair loop of a step, chosen once by instruction set and active terms.
 #pragma once
 
-#include <cstddef>
-#include <string_view>
-
 #include "engine/neighbors/column_records.hpp"
 #include "engine/neighbors/packed.hpp"
+
+#include <cstddef>
+#include <string_view>
 
 namespace sturz {
 
@@ -21,14 +21,12 @@ InstructionSet best_instruction_set();
 struct Sweeps {
   /// One fused pass over groups [first, last): dense stress force, velocity gradient, density
   /// diffusion (terms/dense_sums.hpp).
-  void (*dense)(const PackedView&, const SweepConstants&, const BoundaryView&,
-                const SweepOutput&,
+  void (*dense)(const PackedView&, const SweepConstants&, const BoundaryView&, const SweepOutput&,
                 std::size_t first_group, std::size_t last_group);
   /// The same where grains may part: kinetic stresses, conduction of granular temperature, how full
   /// each support is (terms/kinetic_sums.hpp). Groups that nobody flies in or near take `dense`.
-  void (*kinetic)(const PackedView&, const KineticView&, const SweepConstants&,
-                  const BoundaryView&, const SweepOutput&, std::size_t first_group,
-                  std::size_t last_group);
+  void (*kinetic)(const PackedView&, const KineticView&, const SweepConstants&, const BoundaryView&,
+                  const SweepOutput&, std::size_t first_group, std::size_t last_group);
   /// Appends to `out` those of `candidates` that lie within `reach_units` of any particle of the
   /// group that starts at record `first`, in the given order. Returns how many.
   std::size_t (*tight_list)(const PackedRecord* records, std::size_t first, int n_in_group,

@@ -7,8 +7,7 @@
 namespace sturz {
 
 extern const Sweeps sweeps_avx2;
-const Sweeps sweeps_avx2{&STURZ_ISA::dense_sweep, &STURZ_ISA::kinetic_sweep,
-                          &STURZ_ISA::tight_list,
-                          &STURZ_ISA::column_sweep};
+const Sweeps sweeps_avx2{&STURZ_ISA::dense_sweep, &STURZ_ISA::kinetic_sweep, &STURZ_ISA::tight_list,
+                         &STURZ_ISA::column_sweep};
 
 }  // namespace sturz

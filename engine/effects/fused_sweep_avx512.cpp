@@ -8,7 +8,6 @@ namespace sturz {
 
 extern const Sweeps sweeps_avx512;
 const Sweeps sweeps_avx512{&STURZ_ISA::dense_sweep, &STURZ_ISA::kinetic_sweep,
-                          &STURZ_ISA::tight_list,
-                          &STURZ_ISA::column_sweep};
+                           &STURZ_ISA::tight_list, &STURZ_ISA::column_sweep};
 
 }  // namespace sturz

@@ -9,7 +9,6 @@ namespace sturz {
 
 extern const Sweeps sweeps_plain;
 const Sweeps sweeps_plain{&STURZ_ISA::dense_sweep, &STURZ_ISA::kinetic_sweep,
-                          &STURZ_ISA::tight_list,
-                          &STURZ_ISA::column_sweep};
+                          &STURZ_ISA::tight_list, &STURZ_ISA::column_sweep};
 
 }  // namespace sturz

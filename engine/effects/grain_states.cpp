@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grains that part and meet again: kinetic records before the sweep, granular temperature and the
 // states after it. Those that are left alone fly on as parcels: terms/lone_parcels.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/grain_stress_shared.hpp"
 #include "engine/effects/terms/kinetic_update.hpp"
 #include "engine/effects/terms/lone_parcels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace sturz {
 namespace {
@@ -70,7 +70,8 @@ class KineticPack final : public Pass {
         float* columns[] = {&k.xx, &k.yy, &k.zz, &k.xy, &k.yz, &k.zx};
         for (int n = 0; n < 6; ++n) *columns[n] = static_cast<float>(stress->component[n][i]);
       }
-      // Artificial viscosity belongs to sound: that of contacts, or of the collisions in their place.
+      // Artificial viscosity belongs to sound: that of contacts, or of the collisions in their
+      // place.
       const double apart = kinetic_share(fraction, states.switched);
       k.viscosity *= static_cast<float>(
           1 - apart + apart * std::min(1.0, wave / g.settings.sound_speed) / growth);
@@ -152,21 +153,19 @@ class StatePass final : public Pass {
     Field* alone = s.grains.find_field("steps_alone");
     const double touching = shared_->settings.touching_distance();
     const SweepOutput out = shared_->output();
-    parallel_ranges(s.n_listed, reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t i = begin; i < end; ++i) {
-                        const double fraction =
-                            states.reference_fraction * (1 + compression[i]);
-                        state[i] = named(fraction, state[i]);
-                        fill[i] = out.fill[i];
-                        if (!alone) continue;
-                        double& steps = alone->component[0][i];
-                        const bool lone = (fraction < detach_fraction ||
-                                           out.neighbors[i] < detach_neighbors) &&
-                                          s.boundary.distance[i] >= touching;
-                        steps = lone ? std::min<double>(steps + 1, detach_steps) : 0;
-                      }
-                    });
+    parallel_ranges(
+        s.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const double fraction = states.reference_fraction * (1 + compression[i]);
+            state[i] = named(fraction, state[i]);
+            fill[i] = out.fill[i];
+            if (!alone) continue;
+            double& steps = alone->component[0][i];
+            const bool lone = (fraction < detach_fraction || out.neighbors[i] < detach_neighbors) &&
+                              s.boundary.distance[i] >= touching;
+            steps = lone ? std::min<double>(steps + 1, detach_steps) : 0;
+          }
+        });
     if (alone) land(s, alone->component[0], touching);
   }
 
@@ -183,8 +182,8 @@ class StatePass final : public Pass {
   }
 
   static double named(double fraction, double before) {
-    const bool stays = before == static_cast<double>(GrainState::dense) &&
-                       fraction >= leave_dense_fraction;
+    const bool stays =
+        before == static_cast<double>(GrainState::dense) && fraction >= leave_dense_fraction;
     return static_cast<double>(stays ? GrainState::dense : grain_state(fraction));
   }
 

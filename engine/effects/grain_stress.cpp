@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/grain_stress.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cmath>
-
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/effects/terms/grain_stress_shared.hpp"
@@ -14,6 +9,11 @@
 #include "engine/effects/terms/viscous_share.hpp"
 #include "engine/effects/terms/wrapping.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
 
 namespace sturz {
 namespace {
@@ -37,8 +37,8 @@ class NeighborPass final : public Pass {
   void apply(State& s, double) override {
     NeighborLists& lists = shared_->lists;
     const double* range = s.motion.velocity_range;
-    lists.add_relative_motion(s.previous_dt * std::sqrt(range[0] * range[0] + range[1] * range[1] +
-                                                        range[2] * range[2]));
+    lists.add_relative_motion(
+        s.previous_dt * std::sqrt(range[0] * range[0] + range[1] * range[1] + range[2] * range[2]));
     if (s.order_changed) lists.invalidate();
     s.order_changed = false;
     parcels_ns_ = all_ns_ = 0;
@@ -118,33 +118,34 @@ class PackPass final : public Pass {
     const auto& compression = p.find_field("compression")->component[0];
     const auto& stress = p.find_field("stress")->component;
     const auto& viscous = p.find_field("viscous_ratio")->component[0];
-    parallel_ranges(s.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
-      lists.pack_positions(p, begin, end);
-      PackedRecord* records = lists.records();
-      for (std::size_t i = begin; i < end; ++i) {
-        PackedRecord& r = records[i];
-        const double e = std::max(compression[i], GrainStressSettings::separation);
-        r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
-        r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
-        r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
-        r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
-        r.compression = static_cast<float>(e);
-        const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
-        const ViscousShare v = viscous_share(viscous[i]);
-        const double share = 1 - v.carried, mean = -v.carried * pressure;
-        r.viscosity = static_cast<float>(v.acting);
-        r.sxx = static_cast<float>(share * stress[0][i] + mean);
-        r.syy = static_cast<float>(share * stress[1][i] + mean);
-        r.szz = static_cast<float>(share * stress[2][i] + mean);
-        r.sxy = static_cast<float>(share * stress[3][i]);
-        r.syz = static_cast<float>(share * stress[4][i]);
-        r.szx = static_cast<float>(share * stress[5][i]);
-        if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
-        before[0][i] = p.vx[i];
-        before[1][i] = p.vy[i];
-        before[2][i] = p.vz[i];
-      }
-    });
+    parallel_ranges(s.n_listed, reduction_block, s.threads,
+                    [&](std::size_t begin, std::size_t end) {
+                      lists.pack_positions(p, begin, end);
+                      PackedRecord* records = lists.records();
+                      for (std::size_t i = begin; i < end; ++i) {
+                        PackedRecord& r = records[i];
+                        const double e = std::max(compression[i], GrainStressSettings::separation);
+                        r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
+                        r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
+                        r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
+                        r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
+                        r.compression = static_cast<float>(e);
+                        const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
+                        const ViscousShare v = viscous_share(viscous[i]);
+                        const double share = 1 - v.carried, mean = -v.carried * pressure;
+                        r.viscosity = static_cast<float>(v.acting);
+                        r.sxx = static_cast<float>(share * stress[0][i] + mean);
+                        r.syy = static_cast<float>(share * stress[1][i] + mean);
+                        r.szz = static_cast<float>(share * stress[2][i] + mean);
+                        r.sxy = static_cast<float>(share * stress[3][i]);
+                        r.syz = static_cast<float>(share * stress[4][i]);
+                        r.szx = static_cast<float>(share * stress[5][i]);
+                        if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
+                        before[0][i] = p.vx[i];
+                        before[1][i] = p.vy[i];
+                        before[2][i] = p.vz[i];
+                      }
+                    });
     lists.copy_images();
     for (std::size_t i = s.n_listed; i < p.size(); ++i)
       before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
@@ -171,8 +172,8 @@ class SweepPass final : public Pass {
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
     const GrainStressSettings& g = shared_->settings;
-    out.push_back({"acoustic", g.courant * g.smoothing_length /
-                                   (g.sound_speed + s.motion.max_speed)});
+    out.push_back(
+        {"acoustic", g.courant * g.smoothing_length / (g.sound_speed + s.motion.max_speed)});
   }
 
   void apply(State& s, double) override {

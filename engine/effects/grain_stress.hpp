@@ -6,10 +6,10 @@
 ///   neighbors: lists   pack: records   force: pair sweep   stress: density and stress n -> n+1
 #pragma once
 
-#include <span>
-
 #include "engine/effects/step.hpp"
 #include "engine/effects/terms/grain_stress_settings.hpp"
+
+#include <span>
 
 namespace sturz {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/motion.hpp"
 
+#include "engine/core/parallel.hpp"
+#include "engine/effects/terms/losses.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "engine/core/parallel.hpp"
-#include "engine/effects/terms/losses.hpp"
 
 namespace sturz {
 namespace {

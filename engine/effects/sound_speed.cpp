@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numerical sound speed follows the flow: a slide that starts, spreads and stops needs the
 // stiffness of its fastest moment only then.
+#include "engine/effects/terms/grain_stress_shared.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "engine/effects/terms/grain_stress_shared.hpp"
 
 namespace sturz {
 namespace {
@@ -50,7 +50,8 @@ class SoundSpeedPass final : public Pass {
     for (std::size_t i = 0; i < compression.size(); ++i) {
       double& e = compression[i];
       if (e <= 0) continue;
-      e = g.states ? g.compression_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3) : e * ratio;
+      e = g.states ? g.compression_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3)
+                   : e * ratio;
     }
     const double gained = (ratio - 1) * s.ledger.elastic;
     s.ledger.elastic += gained;

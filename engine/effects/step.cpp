@@ -33,9 +33,9 @@ NamedSeconds by_effect(std::span<const PassTime> passes) {
 }
 
 void Step::add(std::unique_ptr<Pass> pass) {
-  auto after = std::upper_bound(
-      passes_.begin(), passes_.end(), pass->stage(),
-      [](Stage s, const std::unique_ptr<Pass>& p) { return s < p->stage(); });
+  auto after =
+      std::upper_bound(passes_.begin(), passes_.end(), pass->stage(),
+                       [](Stage s, const std::unique_ptr<Pass>& p) { return s < p->stage(); });
   timings_.insert(timings_.begin() + (after - passes_.begin()),
                   {std::string(pass->name()), 0.0, std::string(pass->effect()), pass->part(), 0.0});
   passes_.insert(after, std::move(pass));

@@ -2,35 +2,35 @@
 /// A time step as an ordered list of passes. What a scene does not call for is not in the list.
 #pragma once
 
+#include "engine/core/named_seconds.hpp"
+#include "engine/effects/state.hpp"
+#include "engine/effects/terms/effect_names.hpp"
+
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/core/named_seconds.hpp"
-#include "engine/effects/state.hpp"
-#include "engine/effects/terms/effect_names.hpp"
-
 namespace sturz {
 
 /// Fixed places in a step, in order.
 enum class Stage {
-  neighbors,   ///< sort and list
-  boundary,    ///< what ground and walls are to each particle at x_n
-  pack,        ///< records for the pair sweep
-  force,       ///< accelerations, velocity gradients at x_n
-  kick,        ///< v_{n-1/2} -> v_{n+1/2} by acceleration
-  contact,     ///< impulses of ground and walls, friction last
-  stress,      ///< stress and density n -> n+1
-  move,        ///< x_n -> x_{n+1}, losses, bounds
+  neighbors,  ///< sort and list
+  boundary,   ///< what ground and walls are to each particle at x_n
+  pack,       ///< records for the pair sweep
+  force,      ///< accelerations, velocity gradients at x_n
+  kick,       ///< v_{n-1/2} -> v_{n+1/2} by acceleration
+  contact,    ///< impulses of ground and walls, friction last
+  stress,     ///< stress and density n -> n+1
+  move,       ///< x_n -> x_{n+1}, losses, bounds
 };
 std::string_view to_string(Stage);
 
 /// A limit that a pass sets on the step.
 struct StepLimit {
-  const char* name;   ///< e.g. "acoustic"
-  double dt;          ///< [s], infinity when it does not bind
+  const char* name;  ///< e.g. "acoustic"
+  double dt;         ///< [s], infinity when it does not bind
 };
 
 /// A part of a pass that works for another effect than the pass itself.
@@ -44,13 +44,13 @@ struct EffectPart {
 class Pass {
  public:
   virtual ~Pass() = default;
-  virtual std::string_view name() const = 0;   ///< lower-case noun, for `describe` and timings
+  virtual std::string_view name() const = 0;  ///< lower-case noun, for `describe` and timings
   virtual Stage stage() const = 0;
   virtual std::string_view effect() const = 0;  ///< EffectName that its time counts to
   virtual EffectPart part() const { return {}; }
   /// Appends this pass's limits; none by default.
   virtual void limits(const State&, std::vector<StepLimit>&) const {}
-  virtual void apply(State&, double dt) = 0;   ///< dt in [s]
+  virtual void apply(State&, double dt) = 0;  ///< dt in [s]
   /// Memory beyond the particle set's own fields [bytes].
   virtual std::size_t bytes() const { return 0; }
 };

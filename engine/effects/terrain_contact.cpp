@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/terrain_contact.hpp"
 
+#include "engine/core/parallel.hpp"
+#include "engine/laws/contact_impulse.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-
-#include "engine/core/parallel.hpp"
-#include "engine/laws/contact_impulse.hpp"
 
 namespace sturz {
 namespace {
@@ -76,7 +76,8 @@ class WallPressure {
 /// Velocities at the start of the step, as the pack pass left them.
 class StartVelocity {
  public:
-  explicit StartVelocity(const State& s) : set_(s.grains), before_(set_.find_field("velocity_before")) {}
+  explicit StartVelocity(const State& s)
+      : set_(s.grains), before_(set_.find_field("velocity_before")) {}
   std::array<double, 3> operator()(std::size_t i) const {
     if (!before_) return {set_.vx[i], set_.vy[i], set_.vz[i]};
     return {before_->component[0][i], before_->component[1][i], before_->component[2][i]};
@@ -299,9 +300,8 @@ class WallContact final : public Pass {
           for (std::size_t i = begin; i < end; ++i) {
             const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
             if (d >= reach) continue;
-            const double support =
-                pressure.acceleration(i, plane_integral(d, settings_.smoothing_length), n.x(),
-                                      n.y(), n.z());
+            const double support = pressure.acceleration(
+                i, plane_integral(d, settings_.smoothing_length), n.x(), n.y(), n.z());
             out.add(apply_contact(law, d, n.x(), n.y(), n.z(), support, dt, start(i).data(),
                                   p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);

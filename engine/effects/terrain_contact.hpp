@@ -2,25 +2,25 @@
 /// The ground and analytic walls: pressure support, contact, Coulomb friction with pore pressure.
 #pragma once
 
-#include <vector>
-
 #include "engine/effects/step.hpp"
 #include "engine/terrain/zone_map.hpp"
+
+#include <vector>
 
 namespace sturz {
 
 struct GroundFriction {
-  double friction_coefficient = 0.4;///< mu_b [-]
-  double pore_pressure_ratio = 0;   ///< r_u [-]
-  double cohesion_pa = 0;           ///< c_b [Pa]
+  double friction_coefficient = 0.4;  ///< mu_b [-]
+  double pore_pressure_ratio = 0;     ///< r_u [-]
+  double cohesion_pa = 0;             ///< c_b [Pa]
 };
 
 struct ContactSettings {
-  double spacing = 1;               ///< dx [m]
-  double smoothing_length = 1.3;    ///< h [m]; the pressure field reaches 2h
-  double reference_density = 1500;  ///< rho_ref [kg/m^3]
-  double stiffness = 1;             ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
-  double restitution = 0.2;         ///< e_b [-]
+  double spacing = 1;                   ///< dx [m]
+  double smoothing_length = 1.3;        ///< h [m]; the pressure field reaches 2h
+  double reference_density = 1500;      ///< rho_ref [kg/m^3]
+  double stiffness = 1;                 ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
+  double restitution = 0.2;             ///< e_b [-]
   std::vector<GroundFriction> base{1};  ///< by zone, [0] where there is none
   ZoneMap zones;
 };

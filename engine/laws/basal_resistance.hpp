@@ -16,12 +16,12 @@ namespace sturz {
 ///   Bingham    tau_b / (rho h) with 2 tau_b^3 - 3 (tau_y + 2 eta v/h) tau_b^2 + tau_y^3 = 0, the
 ///              depth-averaged velocity of a Bingham film (Laigle & Coussot 1997 [M])
 struct BasalResistance {
-  double friction_coefficient = 0.4;   ///< mu [-]
-  double pore_pressure_ratio = 0;      ///< r_u [-]
-  double cohesion_pa = 0;              ///< c [Pa]
-  double turbulent_coefficient = 0;    ///< xi [m/s^2]; 0: none
-  double viscosity_pa_s = 0;           ///< eta [Pa s]; 0: none
-  double yield_stress_pa = 0;          ///< tau_y [Pa]
+  double friction_coefficient = 0.4;  ///< mu [-]
+  double pore_pressure_ratio = 0;     ///< r_u [-]
+  double cohesion_pa = 0;             ///< c [Pa]
+  double turbulent_coefficient = 0;   ///< xi [m/s^2]; 0: none
+  double viscosity_pa_s = 0;          ///< eta [Pa s]; 0: none
+  double yield_stress_pa = 0;         ///< tau_y [Pa]
 
   double effective_friction() const { return friction_coefficient * (1 - pore_pressure_ratio); }
 

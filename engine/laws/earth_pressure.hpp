@@ -16,8 +16,7 @@ struct EarthPressure {
   /// \param internal_friction tan phi; \param basal_friction tan delta, at most tan phi counts
   EarthPressure(double internal_friction, double basal_friction) {
     const double cos2 = 1 / (1 + internal_friction * internal_friction);
-    const double root =
-        std::sqrt(std::max(0.0, 1 - cos2 * (1 + basal_friction * basal_friction)));
+    const double root = std::sqrt(std::max(0.0, 1 - cos2 * (1 + basal_friction * basal_friction)));
     active = 2 * (1 - root) / cos2 - 1;
     passive = 2 * (1 + root) / cos2 - 1;
   }

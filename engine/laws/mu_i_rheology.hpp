@@ -9,12 +9,12 @@ namespace sturz {
 /// tau_y = c + mu(I) p, mu(I) = mu_s + (mu_2 - mu_s) / (I_0/I + 1), I = gamma d / sqrt(p/rho_p).
 /// Gao et al. Eqs. (11)-(13) with the corrections of physics.md A.3; Jop et al. (2006).
 struct MuIRheology {
-  double static_friction = 0.38;        ///< mu_s [-]
-  double dynamic_friction = 0.64;       ///< mu_2 [-]
-  double inertial_number_scale = 0.3;   ///< I_0 [-]
-  double grain_diameter = 0.1;          ///< d_p [m]
-  double grain_density = 2600;          ///< rho_p [kg/m^3]
-  double cohesion = 0;                  ///< c [Pa]
+  double static_friction = 0.38;       ///< mu_s [-]
+  double dynamic_friction = 0.64;      ///< mu_2 [-]
+  double inertial_number_scale = 0.3;  ///< I_0 [-]
+  double grain_diameter = 0.1;         ///< d_p [m]
+  double grain_density = 2600;         ///< rho_p [kg/m^3]
+  double cohesion = 0;                 ///< c [Pa]
 };
 
 /// Equivalent shear stress after the return [Pa].
@@ -26,8 +26,7 @@ struct MuIRheology {
 /// \param trial    tau of the elastic predictor, >= 0                [Pa]
 /// \param pressure p >= 0                                            [Pa]
 /// \param slowness G dt I_0 / (d_p sqrt(rho_p)), >= 0                [Pa^(1/2)]
-inline double yield_return(const MuIRheology& law, double trial, double pressure,
-                           double slowness) {
+inline double yield_return(const MuIRheology& law, double trial, double pressure, double slowness) {
   const double s0 = law.cohesion + law.static_friction * pressure;
   const double s2 = law.cohesion + law.dynamic_friction * pressure;
   const double a = slowness * std::sqrt(pressure);

@@ -44,7 +44,9 @@ void ColumnCells::choose_frame(const ParticleSet& set, double longest, double me
   // Room for periodic images around the columns.
   west_ = x.min - longest, south_ = y.min - longest;
   origin_z_ = 0.5 * (z.min + z.max);
-  auto count = [&](const Extent& e, double edge) { return (e.max - e.min + 2 * longest) / edge + 1; };
+  auto count = [&](const Extent& e, double edge) {
+    return (e.max - e.min + 2 * longest) / edge + 1;
+  };
   // A few stray columns must not cost a table of empty cells.
   while (count(x, width_) * count(y, height_) > 16.0 * set.size() + 4096) width_ *= 2, height_ *= 2;
   n_cols_ = static_cast<std::int32_t>(count(x, width_));
@@ -66,8 +68,8 @@ std::int32_t ColumnCells::row_of(double y) const {
 void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double reach) {
   items_.clear();
   auto add = [&](std::size_t i, double dx, double dy, double dz) {
-    const auto cell = static_cast<std::uint32_t>(row_of(set.y[i] + dy) * n_cols_ +
-                                                 col_of(set.x[i] + dx));
+    const auto cell =
+        static_cast<std::uint32_t>(row_of(set.y[i] + dy) * n_cols_ + col_of(set.x[i] + dx));
     items_.push_back({static_cast<std::uint32_t>(i), cell, dx, dy, dz});
   };
   for (std::size_t i = 0; i < set.size(); ++i) add(i, 0, 0, 0);
@@ -136,8 +138,7 @@ void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>&
     std::uint32_t end = begin;
     for (; end < row_end && end - begin < group_size; ++end) {
       const Item& item = sorted_[end];
-      if (end > begin &&
-          static_cast<std::int32_t>(item.cell - sorted_[end - 1].cell) > widest_gap)
+      if (end > begin && static_cast<std::int32_t>(item.cell - sorted_[end - 1].cell) > widest_gap)
         break;
       box.x.add(set.x[item.source] + item.dx), box.y.add(set.y[item.source] + item.dy);
       longest = std::max(longest, reach[item.source]);
@@ -149,7 +150,8 @@ void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>&
   }
 }
 
-/// In each row what lies within `reach` of the box, no farther along than the row's distance leaves.
+/// In each row what lies within `reach` of the box, no farther along than the row's distance
+/// leaves.
 void ColumnCells::add_runs(const Box& box, double reach) {
   for (std::int32_t row = row_of(box.y.min - reach); row <= row_of(box.y.max + reach); ++row) {
     const double south = south_ + row * height_, north = south + height_;

@@ -5,13 +5,13 @@
 /// worn out after a step or two. Nothing is stored per pair.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
 #include "engine/core/domain.hpp"
 #include "engine/neighbors/column_records.hpp"
 #include "engine/particles/particle_set.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace sturz {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/neighbors/neighbor_lists.hpp"
 
+#include "engine/core/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "engine/core/parallel.hpp"
 
 namespace sturz {
 namespace {
@@ -162,8 +162,8 @@ void NeighborLists::sort_records() {
     const std::size_t r = k < n_particles_ ? k : padded_size() + k - n_particles_;
     const PackedRecord& p = records_[r];
     const auto column = column_of(origin_[0] + p.x * unit_, origin_[1] + p.y * unit_);
-    keys_[k] = (std::uint64_t{column} << 32) |
-               std::uint64_t(std::int64_t{p.z} + (std::int64_t{1} << 31));
+    keys_[k] =
+        (std::uint64_t{column} << 32) | std::uint64_t(std::int64_t{p.z} + (std::int64_t{1} << 31));
     ++column_begin_[column + 1];
     sorted_[k] = static_cast<std::uint32_t>(k);
   }
@@ -204,9 +204,8 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
       const std::size_t column = row * n_cols_ + (row % 2 ? n_cols_ - 1 - col : col);
       auto it = sorted_.begin() + column_begin_[column];
       const auto last = sorted_.begin() + column_begin_[column + 1];
-      it = std::lower_bound(it, last, lo[2] - reach_units, [&](std::uint32_t r, std::int64_t z) {
-        return records_[r].z < z;
-      });
+      it = std::lower_bound(it, last, lo[2] - reach_units,
+                            [&](std::uint32_t r, std::int64_t z) { return records_[r].z < z; });
       for (; it != last && records_[*it].z <= hi[2] + reach_units; ++it) {
         const PackedRecord& p = records_[*it];
         if (p.x >= lo[0] - reach_units && p.x <= hi[0] + reach_units &&
@@ -216,9 +215,8 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
     }
   const std::size_t start = out.size();
   out.resize(start + candidates.size());
-  const std::size_t found =
-      tight_(records_.data(), first, n, candidates.data(), candidates.size(),
-             static_cast<float>(reach / unit_), out.data() + start);
+  const std::size_t found = tight_(records_.data(), first, n, candidates.data(), candidates.size(),
+                                   static_cast<float>(reach / unit_), out.data() + start);
   out.resize(start + found);
   return found;
 }

@@ -2,15 +2,15 @@
 /// Sorting particles into columns and listing, per group of 16, the neighbours they share.
 #pragma once
 
+#include "engine/core/domain.hpp"
+#include "engine/neighbors/packed.hpp"
+#include "engine/particles/particle_set.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "engine/neighbors/packed.hpp"
-#include "engine/particles/particle_set.hpp"
-#include "engine/core/domain.hpp"
 
 namespace sturz {
 
@@ -88,19 +88,19 @@ class NeighborLists {
   double moved_ = 0;
   std::size_t n_rebuilds_ = 0;
 
-  double origin_[3] = {0, 0, 0};   // of the fixed-point frame [m]
-  double unit_ = 1;                // metres per position unit
+  double origin_[3] = {0, 0, 0};             // of the fixed-point frame [m]
+  double unit_ = 1;                          // metres per position unit
   double west_ = 0, south_ = 0, width_ = 1;  // column grid
   std::uint32_t n_cols_ = 1, n_rows_ = 1;
 
   std::size_t n_particles_ = 0, n_groups_ = 0;
   std::vector<PeriodicImage> images_;
-  std::vector<PackedRecord> records_;   // particles, padding to whole groups, images
-  std::vector<std::uint64_t> keys_;     // column and height of what is being sorted
+  std::vector<PackedRecord> records_;  // particles, padding to whole groups, images
+  std::vector<std::uint64_t> keys_;    // column and height of what is being sorted
   std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> sorted_;   // record numbers in column order
+  std::vector<std::uint32_t> sorted_;  // record numbers in column order
   std::vector<std::uint32_t> column_begin_;
-  std::vector<std::uint32_t> list_end_;                  // see PackedView
+  std::vector<std::uint32_t> list_end_;  // see PackedView
   std::vector<std::vector<std::uint32_t>> block_lists_;
   std::vector<const std::uint32_t*> blocks_;
 };

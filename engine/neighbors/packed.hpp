@@ -17,12 +17,12 @@ inline constexpr std::size_t groups_per_block = 32;
 /// scene's origin is); the unit is PackedView::unit_m.
 struct alignas(64) PackedRecord {
   std::int32_t x, y, z;
-  float volume;                 ///< m / rho [m^3]
-  float vx, vy, vz;             ///< [m/s]
-  float compression;            ///< rho / rho_ref - 1 [-]
+  float volume;                        ///< m / rho [m^3]
+  float vx, vy, vz;                    ///< [m/s]
+  float compression;                   ///< rho / rho_ref - 1 [-]
   float sxx, syy, szz, sxy, syz, szx;  ///< stress, tension positive [Pa]
-  float viscosity;              ///< share of the artificial viscosity that acts [-]
-  float tension;                ///< artificial pressure against clumps in tension [Pa], see TensionSums
+  float viscosity;                     ///< share of the artificial viscosity that acts [-]
+  float tension;  ///< artificial pressure against clumps in tension [Pa], see TensionSums
 };
 static_assert(sizeof(PackedRecord) == 64);
 
@@ -30,14 +30,14 @@ static_assert(sizeof(PackedRecord) == 64);
 /// record's volume and stress are those of enduring contacts, which grains that have parted no
 /// longer feel; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
-  float growth = 1;           ///< true volume over PackedRecord::volume [-]
+  float growth = 1;  ///< true volume over PackedRecord::volume [-]
   /// Takes the place of `growth` in pairs: sqrt(growth/fill) makes the sums over a cloud's few
   /// neighbours complete, and keeps pairs symmetric.
   float weight = 1;
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
-  float theta = 0;            ///< granular temperature [m^2/s^2]
-  float resistance = 1e30f;   ///< 1/k_theta; huge: no conduction [m s/kg]
-  float viscosity = 1;        ///< takes the place of PackedRecord::viscosity [-]
+  float theta = 0;                                       ///< granular temperature [m^2/s^2]
+  float resistance = 1e30f;  ///< 1/k_theta; huge: no conduction [m s/kg]
+  float viscosity = 1;       ///< takes the place of PackedRecord::viscosity [-]
   float spare = 0;
 };
 static_assert(sizeof(KineticRecord) == 48);
@@ -47,15 +47,13 @@ static_assert(sizeof(KineticRecord) == 48);
 struct PackedView {
   const PackedRecord* records = nullptr;
   std::size_t n_particles = 0;
-  /// Record numbers near group g: from list(g) to list(g) + list_size(g). Lists are kept in blocks of
-  /// `groups_per_block` groups; list_end[g] counts from the start of g's block.
+  /// Record numbers near group g: from list(g) to list(g) + list_size(g). Lists are kept in blocks
+  /// of `groups_per_block` groups; list_end[g] counts from the start of g's block.
   const std::uint32_t* const* block = nullptr;
   const std::uint32_t* list_end = nullptr;
-  double unit_m = 1;                          ///< metres per position unit
+  double unit_m = 1;  ///< metres per position unit
 
-  std::size_t list_start(std::size_t g) const {
-    return g % groups_per_block ? list_end[g - 1] : 0;
-  }
+  std::size_t list_start(std::size_t g) const { return g % groups_per_block ? list_end[g - 1] : 0; }
   const std::uint32_t* list(std::size_t g) const {
     return block[g / groups_per_block] + list_start(g);
   }
@@ -64,28 +62,28 @@ struct PackedView {
 
 /// Constants of the dense pair terms.
 struct SweepConstants {
-  double h = 1;                  ///< smoothing length [m]
-  double gradient_factor = 1;    ///< C of SmoothingKernel
-  double reference_density = 1;  ///< [kg/m^3]
-  double sound_speed = 1;        ///< c0 [m/s]
-  double viscosity = 0.1;        ///< alpha_v
-  double density_diffusion = 0.1;///< delta
-  bool tension = false;          ///< whether PackedRecord::tension is in this sweep
-  double spacing = 1;            ///< dx [m]; read where tension is
-  double stress_smoothing = 0;   ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
-  double ratio_floor = 0;        ///< p_c [Pa]; read where the ratio is smoothed
+  double h = 1;                    ///< smoothing length [m]
+  double gradient_factor = 1;      ///< C of SmoothingKernel
+  double reference_density = 1;    ///< [kg/m^3]
+  double sound_speed = 1;          ///< c0 [m/s]
+  double viscosity = 0.1;          ///< alpha_v
+  double density_diffusion = 0.1;  ///< delta
+  bool tension = false;            ///< whether PackedRecord::tension is in this sweep
+  double spacing = 1;              ///< dx [m]; read where tension is
+  double stress_smoothing = 0;     ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
+  double ratio_floor = 0;          ///< p_c [Pa]; read where the ratio is smoothed
 };
 
-/// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep takes
-/// their mirror image in the share n.M.n / 0.25 (at most 1) of the support that neighbours give
-/// along the normal: a grain with nothing above it has no pressure field to be mirrored, and would
-/// bounce off its own image without loss.
+/// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep
+/// takes their mirror image in the share n.M.n / 0.25 (at most 1) of the support that neighbours
+/// give along the normal: a grain with nothing above it has no pressure field to be mirrored, and
+/// would bounce off its own image without loss.
 struct BoundaryView {
-  const float* distance;       ///< to the ground [m]; 2h and more: not felt
-  const float *nx, *ny, *nz;   ///< the ground's normal, finite everywhere
+  const float* distance;      ///< to the ground [m]; 2h and more: not felt
+  const float *nx, *ny, *nz;  ///< the ground's normal, finite everywhere
   /// What analytic walls add, order xx yy zz xy yz zx; null where there are none.
-  const float* moment[6];      ///< to the moment matrix [-]
-  const float* gradient[6];    ///< to the velocity gradient before correction [1/s]
+  const float* moment[6];    ///< to the moment matrix [-]
+  const float* gradient[6];  ///< to the velocity gradient before correction [1/s]
 };
 
 /// How long a sweep spends on groups in which some grain flies or meets one that does. A function
@@ -104,21 +102,29 @@ struct KineticView {
 
 /// Results per particle, each [n_particles rounded up to whole groups].
 struct SweepOutput {
-  float* ax;  float* ay;  float* az;   ///< acceleration by stress and artificial viscosity [m/s^2]
-  float* lxx; float* lxy; float* lxz;  ///< corrected velocity gradient dv_a/dx_b [1/s]
-  float* lyx; float* lyy; float* lyz;
-  float* lzx; float* lzy; float* lzz;
-  float* diffusion;                    ///< d(compression)/dt by delta-SPH [1/s]
-  float* wall_share;                   ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
-  /// Written where a KineticView is given: how full the support is of neighbours and ground (1 inside
-  /// a dense mass, about a half at its surface), how many neighbours there are, and the heat
+  float* ax;
+  float* ay;
+  float* az;  ///< acceleration by stress and artificial viscosity [m/s^2]
+  float* lxx;
+  float* lxy;
+  float* lxz;  ///< corrected velocity gradient dv_a/dx_b [1/s]
+  float* lyx;
+  float* lyy;
+  float* lyz;
+  float* lzx;
+  float* lzy;
+  float* lzz;
+  float* diffusion;   ///< d(compression)/dt by delta-SPH [1/s]
+  float* wall_share;  ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
+  /// Written where a KineticView is given: how full the support is of neighbours and ground (1
+  /// inside a dense mass, about a half at its surface), how many neighbours there are, and the heat
   /// that granular temperature conducts per volume of the record [W/m^3].
   float *fill, *neighbors, *heat;
   /// Symmetric velocity gradient as the pair forces of kinetic stresses feel it, xx yy zz xy yz zx:
   /// their work on the motion is V sigma_k : this, exactly [1/s].
   float* felt[6];
   static constexpr float uncounted = 1000;  ///< neighbours of a grain that nobody flies near
-  float* smooth[6];                    ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
+  float* smooth[6];  ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
 };
 
 }  // namespace sturz

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/particles/particle_set.hpp"
 
-#include <array>
-
 #include "engine/core/error.hpp"
+
+#include <array>
 
 namespace sturz {
 namespace {
 
 using Columns = std::array<std::vector<double> ParticleSet::*, 7>;
-constexpr Columns fixed_columns{&ParticleSet::x,  &ParticleSet::y,  &ParticleSet::z,
-                                &ParticleSet::vx, &ParticleSet::vy, &ParticleSet::vz,
+constexpr Columns fixed_columns{&ParticleSet::x,   &ParticleSet::y,  &ParticleSet::z,
+                                &ParticleSet::vx,  &ParticleSet::vy, &ParticleSet::vz,
                                 &ParticleSet::mass};
 
 }  // namespace

@@ -20,10 +20,10 @@ struct Field {
 
 /// Particles in storage order, which changes when neighbours are sorted; `id` never does.
 struct ParticleSet {
-  std::vector<double> x, y, z;          ///< position [m], map coordinates
-  std::vector<double> vx, vy, vz;       ///< velocity at the last half step [m/s]
-  std::vector<double> mass;             ///< [kg], constant
-  std::vector<std::uint32_t> id;        ///< stable number of a particle, 0..n_created-1
+  std::vector<double> x, y, z;     ///< position [m], map coordinates
+  std::vector<double> vx, vy, vz;  ///< velocity at the last half step [m/s]
+  std::vector<double> mass;        ///< [kg], constant
+  std::vector<std::uint32_t> id;   ///< stable number of a particle, 0..n_created-1
 
   std::size_t size() const { return x.size(); }
   /// Room for n particles at rest, numbered 0..n-1. Existing fields grow along.

@@ -20,13 +20,14 @@ struct ReleaseSettings {
 
 /// Particles of a release; all arrays [n].
 struct Release {
-  std::vector<double> x, y, z;    ///< [m]
-  std::vector<double> mass;       ///< [kg]
-  std::vector<double> depth;      ///< vertical distance below the free surface [m]
-  std::vector<double> thickness;  ///< vertical, of the lattice cell that the particle belongs to [m]
-  double volume_m3 = 0;           ///< bulk volume of the pattern on its raster
-  double area_m2 = 0;             ///< plan area with thickness > 0
-  double layers = 0;              ///< volume-weighted median of vertical thickness / spacing
+  std::vector<double> x, y, z;  ///< [m]
+  std::vector<double> mass;     ///< [kg]
+  std::vector<double> depth;    ///< vertical distance below the free surface [m]
+  std::vector<double>
+      thickness;         ///< vertical, of the lattice cell that the particle belongs to [m]
+  double volume_m3 = 0;  ///< bulk volume of the pattern on its raster
+  double area_m2 = 0;    ///< plan area with thickness > 0
+  double layers = 0;     ///< volume-weighted median of vertical thickness / spacing
   double median_thickness_m = 0;  ///< volume-weighted
   double max_thickness_m = 0;
   /// Of the volume, in lattice cells too thin for a particle (0.2 dx; columns: 1 % of the median

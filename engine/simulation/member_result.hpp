@@ -2,17 +2,17 @@
 /// What one finished member leaves behind: scalars, peak maps over the window it touched.
 #pragma once
 
+#include "engine/core/named_seconds.hpp"
+#include "engine/simulation/history.hpp"
+#include "engine/simulation/outcome.hpp"
+#include "engine/terrain/raster.hpp"
+
 #include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "engine/core/named_seconds.hpp"
-#include "engine/simulation/history.hpp"
-#include "engine/simulation/outcome.hpp"
-#include "engine/terrain/raster.hpp"
 
 namespace sturz {
 
@@ -22,50 +22,52 @@ enum class PeakLayer { thickness, speed, energy, pressure, arrival, deposit };
 inline constexpr int n_peak_layers = 6;
 
 struct PeakLayerInfo {
-  const char* name;       ///< variable name, e.g. "peak_thickness"
+  const char* name;  ///< variable name, e.g. "peak_thickness"
   const char* long_name;
-  const char* units;      ///< SI: m, m s-1, J m-2, Pa, s, m
-  float untouched;        ///< value of a cell that the flow never reached: 0, arrival NaN
+  const char* units;  ///< SI: m, m s-1, J m-2, Pa, s, m
+  float untouched;    ///< value of a cell that the flow never reached: 0, arrival NaN
 };
 const PeakLayerInfo& info(PeakLayer);
 
 /// One number per member. Units are in the names; see scalar_table() for descriptions.
 struct MemberScalars {
-  double runout_m = 0;               ///< horizontal distance, release's centre of mass to farthest reached cell
-  double front_travel_m = 0;         ///< farthest horizontal displacement of a particle from its start
-  double com_travel_m = 0;           ///< horizontal displacement of the centre of mass
-  double drop_m = 0;                 ///< highest release elevation minus lowest deposit elevation
-  double reached_area_m2 = 0;        ///< cells with smoothed thickness above the reach limit at any time
-  double deposit_area_m2 = 0;        ///< the same at the end
-  double max_speed_m_s = 0;          ///< fastest particle (99.9 % quantile of mass when > 1000 particles)
-  double max_mean_speed_m_s = 0;     ///< largest mass-averaged speed
-  double max_thickness_m = 0;        ///< largest cell value of peak thickness
+  double runout_m = 0;  ///< horizontal distance, release's centre of mass to farthest reached cell
+  double front_travel_m = 0;   ///< farthest horizontal displacement of a particle from its start
+  double com_travel_m = 0;     ///< horizontal displacement of the centre of mass
+  double drop_m = 0;           ///< highest release elevation minus lowest deposit elevation
+  double reached_area_m2 = 0;  ///< cells with smoothed thickness above the reach limit at any time
+  double deposit_area_m2 = 0;  ///< the same at the end
+  double max_speed_m_s = 0;    ///< fastest particle (99.9 % quantile of mass when > 1000 particles)
+  double max_mean_speed_m_s = 0;  ///< largest mass-averaged speed
+  double max_thickness_m = 0;     ///< largest cell value of peak thickness
   double max_deposit_m = 0;
   double max_energy_j_m2 = 0;
   double max_pressure_pa = 0;
-  double release_volume_m3 = 0;      ///< bulk
+  double release_volume_m3 = 0;  ///< bulk
   double released_mass_kg = 0;
-  double lost_mass_kg = 0;           ///< left through the rim or removed, booked
-  double mass_error = 0;             ///< (kept + lost - released) / released; exactly 0 expected
-  double energy_residual = 0;        ///< unexplained energy / released energy (see Ledger)
-  double release_layers = 0;         ///< volume-weighted median vertical thickness / spacing at release
-  double thin_fraction = 0;          ///< mass fraction below 4 layers, time average while moving
-  double layers_median = 0;          ///< cell thickness / spacing that half of the mass exceeds, time average
-  double layers_p10 = 0;             ///< the same for 90 % of the mass
-  double take_off_fraction = 0;      ///< mass and time on ground that bends away faster than it falls; depth_averaged
-  double max_mach = 0;               ///< fastest particle / sound speed
-  double max_density_error = 0;      ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
-  double end_time_s = 0;             ///< simulated
+  double lost_mass_kg = 0;     ///< left through the rim or removed, booked
+  double mass_error = 0;       ///< (kept + lost - released) / released; exactly 0 expected
+  double energy_residual = 0;  ///< unexplained energy / released energy (see Ledger)
+  double release_layers = 0;   ///< volume-weighted median vertical thickness / spacing at release
+  double thin_fraction = 0;    ///< mass fraction below 4 layers, time average while moving
+  double layers_median =
+      0;                  ///< cell thickness / spacing that half of the mass exceeds, time average
+  double layers_p10 = 0;  ///< the same for 90 % of the mass
+  double take_off_fraction =
+      0;  ///< mass and time on ground that bends away faster than it falls; depth_averaged
+  double max_mach = 0;           ///< fastest particle / sound speed
+  double max_density_error = 0;  ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
+  double end_time_s = 0;         ///< simulated
   double n_particles = 0;
   double n_steps = 0;
   double mean_dt_s = 0;
-  double wall_s = 0;                 ///< computing time; not part of any hash
-  double parted_fraction = 0;        ///< mass x time under 0.98 of its packing; NaN: depth_averaged
-  double transition_fraction = 0;    ///< mass x time in that state; 0 without grains.states
-  double dilute_fraction = 0;        ///< the same
-  double ultradilute_fraction = 0;   ///< the same
+  double wall_s = 0;                ///< computing time; not part of any hash
+  double parted_fraction = 0;       ///< mass x time under 0.98 of its packing; NaN: depth_averaged
+  double transition_fraction = 0;   ///< mass x time in that state; 0 without grains.states
+  double dilute_fraction = 0;       ///< the same
+  double ultradilute_fraction = 0;  ///< the same
   double max_granular_temperature_m2_s2 = 0;
-  double granular_ratio = 0;         ///< that over max_speed_m_s squared
+  double granular_ratio = 0;  ///< that over max_speed_m_s squared
 };
 
 struct ScalarInfo {
@@ -86,20 +88,20 @@ struct Window {
 struct MemberResult {
   std::int64_t member = 0;
   Outcome outcome = Outcome::failed;
-  std::string reason;                 ///< one sentence for diverged, failed, cancelled, left_terrain
+  std::string reason;  ///< one sentence for diverged, failed, cancelled, left_terrain
   std::string formulation = "full_stress";
-  std::string binding_limit;          ///< the time-step limit that bound most steps
-  std::string warnings;               ///< '; '-separated, e.g. thin flow
-  std::uint64_t state_hash = 0;       ///< of the final particle state, bitwise
+  std::string binding_limit;     ///< the time-step limit that bound most steps
+  std::string warnings;          ///< '; '-separated, e.g. thin flow
+  std::uint64_t state_hash = 0;  ///< of the final particle state, bitwise
   MemberScalars scalars;
-  MemberHistory history;              ///< not part of any hash
+  MemberHistory history;  ///< not part of any hash
   /// Computing time of each pass, and of what lies between steps; adds up to wall_s. Not part of
   /// any hash.
   NamedSeconds pass_seconds;
   /// The same by effect, in the words of `describe`; the same sum.
   NamedSeconds effect_seconds;
-  Grid grid;                          ///< the whole hazard grid
-  Window window;                      ///< the part that was touched
+  Grid grid;                                             ///< the whole hazard grid
+  Window window;                                         ///< the part that was touched
   std::array<std::vector<float>, n_peak_layers> layers;  ///< each [window.n_rows][window.n_cols]
 
   std::vector<float>& layer(PeakLayer p) { return layers[static_cast<int>(p)]; }

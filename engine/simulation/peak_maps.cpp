@@ -40,9 +40,7 @@ int spread(double place, double width_cells, int n_cells, double* weight) {
 constexpr double bins_per_decade = 24;
 constexpr double first_exponent = -2.5;
 
-double layers_at(double bin) {
-  return 4 * std::pow(10, first_exponent + bin / bins_per_decade);
-}
+double layers_at(double bin) { return 4 * std::pow(10, first_exponent + bin / bins_per_decade); }
 
 int layer_bin(double layers) {
   const double bin = (std::log10(layers / 4) - first_exponent) * bins_per_decade;
@@ -146,7 +144,8 @@ template <bool with_motion, int n_fixed>
 inline void PeakMaps::add_one(const Room& room, double x, double y, double width, int n_cells,
                               double particle_mass, const Motion& motion) {
   const int n = n_fixed > 0 ? n_fixed : n_cells;
-  const int col = spread<n_fixed>(x, width, n, room.wx), row = spread<n_fixed>(y, width, n, room.wy);
+  const int col = spread<n_fixed>(x, width, n, room.wx),
+            row = spread<n_fixed>(y, width, n, room.wy);
   const int j0 = std::max(0, -col), j1 = std::min(n, room.n_cols - col);
   const int i0 = std::max(0, -row), i1 = std::min(n, room.n_rows - row);
   for (int k = i0; k < i1; ++k) {
@@ -168,8 +167,8 @@ void PeakMaps::scatter(const ParticleSet& p) {
   const double width_per_reach = settings_.width_per_reach, cell = g.cell_m;
   const double* const reach = reach_;
   // Copies, because the compiler must assume that writing a double may change any member.
-  const Room room{weights_x_.data(), weights_y_.data(), mass_.data(), motion_.data(),
-                  room_.n_rows, room_.n_cols};
+  const Room room{weights_x_.data(), weights_y_.data(), mass_.data(),
+                  motion_.data(),    room_.n_rows,      room_.n_cols};
   const double col0 = room_.col0, row0 = room_.row0;
   double width = width_cells_;
   int n = n_weights_;
@@ -187,11 +186,20 @@ void PeakMaps::scatter(const ParticleSet& p) {
       n = static_cast<int>(std::ceil(3 * width));
     }
     switch (n) {
-      case 3: add_one<with_motion, 3>(room, x, y, width, n, p.mass[i], motion); break;
-      case 4: add_one<with_motion, 4>(room, x, y, width, n, p.mass[i], motion); break;
-      case 5: add_one<with_motion, 5>(room, x, y, width, n, p.mass[i], motion); break;
-      case 6: add_one<with_motion, 6>(room, x, y, width, n, p.mass[i], motion); break;
-      default: add_one<with_motion, 0>(room, x, y, width, n, p.mass[i], motion);
+      case 3:
+        add_one<with_motion, 3>(room, x, y, width, n, p.mass[i], motion);
+        break;
+      case 4:
+        add_one<with_motion, 4>(room, x, y, width, n, p.mass[i], motion);
+        break;
+      case 5:
+        add_one<with_motion, 5>(room, x, y, width, n, p.mass[i], motion);
+        break;
+      case 6:
+        add_one<with_motion, 6>(room, x, y, width, n, p.mass[i], motion);
+        break;
+      default:
+        add_one<with_motion, 0>(room, x, y, width, n, p.mass[i], motion);
     }
   }
 }
@@ -233,7 +241,8 @@ void PeakMaps::count_layers(double total_mass) {
   double below = 0;
   bool half = false, tenth = false;
   for (int bin = 0; bin < n_bins; ++bin) {
-    if (layers_at(bin + 1) <= 4 * (1 + 1e-12)) layers_.thin_fraction += mass_by_layers_[bin] / total_mass;
+    if (layers_at(bin + 1) <= 4 * (1 + 1e-12))
+      layers_.thin_fraction += mass_by_layers_[bin] / total_mass;
     below += mass_by_layers_[bin];
     const double middle = layers_at(bin + 0.5);
     if (!tenth && below >= 0.1 * total_mass) tenth = true, layers_.p10 = middle;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/simulation.hpp"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <map>
-
 #include "engine/core/hash.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "engine/simulation/travel.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
 
 namespace sturz {
 namespace {
@@ -95,8 +95,7 @@ class Run {
     const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
     if (travelled_ >= half_cell) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
-    if (s.time - looked_at_ > look_interval(parts_.spacing_m) &&
-        s.n_steps - looked_at_step_ >= 4)
+    if (s.time - looked_at_ > look_interval(parts_.spacing_m) && s.n_steps - looked_at_step_ >= 4)
       look_at_motion();
     frame(false);
     if (s.n_steps % 16 == 0) watch();
@@ -124,8 +123,8 @@ class Run {
     looked_at_ = s.time;
     looked_at_step_ = s.n_steps;
     MemberScalars& m = result_.scalars;
-    m.max_speed_m_s = std::max(
-        m.max_speed_m_s, s.grains.size() > 1000 ? now_.high_speed : s.motion.max_speed);
+    m.max_speed_m_s =
+        std::max(m.max_speed_m_s, s.grains.size() > 1000 ? now_.high_speed : s.motion.max_speed);
     m.max_mean_speed_m_s = std::max(m.max_mean_speed_m_s, now_.mean_speed);
     m.front_travel_m = std::max(m.front_travel_m, now_.front);
     if (const Field* c = s.grains.find_field("compression"))
@@ -183,8 +182,9 @@ class Run {
 
   Progress progress(double wall) const {
     const State& s = parts_.state;
-    return {s.time,        parts_.stop.end_time_s(), now_.front, s.ledger.kinetic,
-            s.motion.max_speed, s.previous_dt,       s.n_steps,  s.grains.size(), wall};
+    return {s.time,           parts_.stop.end_time_s(), now_.front,
+            s.ledger.kinetic, s.motion.max_speed,       s.previous_dt,
+            s.n_steps,        s.grains.size(),          wall};
   }
 
   void frame(bool force) {
@@ -298,7 +298,8 @@ class Run {
   std::size_t most_ = 0;
   bool ended_ = false;
   std::size_t looked_at_step_ = 0;
-  double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0, p10_time_ = 0, progress_at_ = 0, next_frame_ = 0;
+  double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
+         p10_time_ = 0, progress_at_ = 0, next_frame_ = 0;
   std::vector<ParticleTravel> each_;
   std::vector<double> loaded_;
   StateTimes state_times_;
@@ -315,8 +316,6 @@ Simulation::~Simulation() = default;
 
 MemberResult Simulation::run(const RunControl& control) { return Run(*parts_, control)(); }
 
-void Simulation::step() {
-  parts_->step.apply(parts_->state, parts_->step.limit(parts_->state).dt);
-}
+void Simulation::step() { parts_->step.apply(parts_->state, parts_->step.limit(parts_->state).dt); }
 
 }  // namespace sturz

@@ -2,12 +2,12 @@
 /// One member from t = 0 to its stop.
 #pragma once
 
+#include "engine/simulation/member_result.hpp"
+
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
-
-#include "engine/simulation/member_result.hpp"
 
 namespace sturz {
 
@@ -16,7 +16,7 @@ struct SimulationParts;  // what assemble puts together; engine/simulation/parts
 /// A running member's state in a few numbers.
 struct Progress {
   double time_s = 0, end_time_s = 0;
-  double front_travel_m = 0;       ///< farthest horizontal displacement of a particle
+  double front_travel_m = 0;  ///< farthest horizontal displacement of a particle
   double kinetic_energy_j = 0;
   double max_speed_m_s = 0;
   double dt_s = 0;
@@ -27,12 +27,12 @@ struct Progress {
 /// One instant of the particles for visualisation; spans are valid during the callback only.
 struct ParticleFrame {
   double time_s = 0;
-  std::span<const double> x, y, z, vx, vy, vz;   ///< [n] m, m/s
+  std::span<const double> x, y, z, vx, vy, vz;      ///< [n] m, m/s
   std::span<const double> mass, density, pressure;  ///< [n] kg, kg/m3, Pa
-  std::span<const std::uint32_t> id;             ///< [n] stable across the run
-  std::span<const double> solid_fraction;        ///< [n] -; empty for columns
-  std::span<const double> state;                 ///< [n] 0 dense .. 3 ultradilute; may be empty
-  std::span<const double> granular_temperature;  ///< [n] m2/s2; may be empty
+  std::span<const std::uint32_t> id;                ///< [n] stable across the run
+  std::span<const double> solid_fraction;           ///< [n] -; empty for columns
+  std::span<const double> state;                    ///< [n] 0 dense .. 3 ultradilute; may be empty
+  std::span<const double> granular_temperature;     ///< [n] m2/s2; may be empty
 };
 
 struct RunControl {
@@ -41,8 +41,8 @@ struct RunControl {
   double progress_every_s = 0.2;
   /// Called at t = 0, every `frame_every_s` of simulated time, and at the end.
   std::function<void(const ParticleFrame&)> on_frame;
-  double frame_every_s = 1;        ///< 0: every step
-  double max_wall_s = 0;           ///< 0 = none; beyond it the member fails with a reason
+  double frame_every_s = 1;  ///< 0: every step
+  double max_wall_s = 0;     ///< 0 = none; beyond it the member fails with a reason
 };
 
 class Simulation {

@@ -8,16 +8,17 @@ namespace sturz {
 
 StopRule::StopRule(const StopSettings& settings)
     : settings_(settings),
-      window_s_(std::max(settings.spacing_m < 0.2 ? 0.0 : 1.0,
-                         5 * std::sqrt(settings.spacing_m / 9.81))),
+      window_s_(
+          std::max(settings.spacing_m < 0.2 ? 0.0 : 1.0, 5 * std::sqrt(settings.spacing_m / 9.81))),
       arming_time_s_(5 * std::sqrt(settings.release_height_m / 9.81)) {}
 
 bool StopRule::at_rest(const MotionSummary& now) {
   if (!settings_.stop_at_rest) return false;
   peak_energy_ = std::max(peak_energy_, now.kinetic_energy_j);
-  armed_ |= now.time_s > arming_time_s_ ||
-            now.kinetic_energy_j > 1e-4 * settings_.available_energy_j;
-  if (!armed_ || now.kinetic_energy_j > 1e-3 * std::max(peak_energy_, 1e-4 * settings_.available_energy_j)) {
+  armed_ |=
+      now.time_s > arming_time_s_ || now.kinetic_energy_j > 1e-4 * settings_.available_energy_j;
+  if (!armed_ ||
+      now.kinetic_energy_j > 1e-3 * std::max(peak_energy_, 1e-4 * settings_.available_energy_j)) {
     window_open_ = false;
     return false;
   }

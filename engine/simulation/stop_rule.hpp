@@ -7,22 +7,23 @@ namespace sturz {
 struct StopSettings {
   double end_time_s = 120;
   bool stop_at_rest = true;
-  double spacing_m = 1;            ///< dx
-  double release_height_m = 1;     ///< H: arms after 5 sqrt(H/g)
-  double available_energy_j = 1;   ///< arms when kinetic energy has passed 1e-4 of it
+  double spacing_m = 1;           ///< dx
+  double release_height_m = 1;    ///< H: arms after 5 sqrt(H/g)
+  double available_energy_j = 1;  ///< arms when kinetic energy has passed 1e-4 of it
 };
 
 /// What the rule looks at.
 struct MotionSummary {
   double time_s = 0;
   double kinetic_energy_j = 0;
-  double front_m = 0;              ///< farthest horizontal displacement of a particle
-  double com_m = 0;                ///< horizontal displacement of the centre of mass
+  double front_m = 0;  ///< farthest horizontal displacement of a particle
+  double com_m = 0;    ///< horizontal displacement of the centre of mass
 };
 
 /// At rest: kinetic energy below 1e-3 of its peak, and over a window of
-/// 5 sqrt(dx/g) (at least 1 s at field scale, dx >= 0.2 m) the front moved less than dx/10 and the centre of mass less than dx/50.
-/// Particle solvers creep at millimetres per second (thin.md), so speed alone never says rest.
+/// 5 sqrt(dx/g) (at least 1 s at field scale, dx >= 0.2 m) the front moved less than dx/10 and the
+/// centre of mass less than dx/50. Particle solvers creep at millimetres per second (thin.md), so
+/// speed alone never says rest.
 class StopRule {
  public:
   explicit StopRule(const StopSettings&);

@@ -15,19 +15,17 @@ namespace sturz {
 struct Grid {
   int n_cols = 0;
   int n_rows = 0;
-  double west_m = 0;       ///< western edge of column 0 [m]
-  double north_m = 0;      ///< northern edge of row 0 [m]
-  double cell_m = 1;       ///< edge of a cell [m]
-  std::string crs_wkt;     ///< WKT2 text of the coordinate system; empty for a bare synthetic scene
+  double west_m = 0;    ///< western edge of column 0 [m]
+  double north_m = 0;   ///< northern edge of row 0 [m]
+  double cell_m = 1;    ///< edge of a cell [m]
+  std::string crs_wkt;  ///< WKT2 text of the coordinate system; empty for a bare synthetic scene
 
   double x_center(int col) const { return west_m + (col + 0.5) * cell_m; }
   double y_center(int row) const { return north_m - (row + 0.5) * cell_m; }
   double east_m() const { return west_m + n_cols * cell_m; }
   double south_m() const { return north_m - n_rows * cell_m; }
   std::size_t n_cells() const { return static_cast<std::size_t>(n_cols) * n_rows; }
-  std::size_t index(int row, int col) const {
-    return static_cast<std::size_t>(row) * n_cols + col;
-  }
+  std::size_t index(int row, int col) const { return static_cast<std::size_t>(row) * n_cols + col; }
   /// Column of the cell that holds x (may lie outside 0..n_cols-1).
   int col_of(double x) const { return static_cast<int>(std::floor((x - west_m) / cell_m)); }
   /// Row of the cell that holds y (may lie outside 0..n_rows-1).
@@ -36,8 +34,8 @@ struct Grid {
     return row >= 0 && row < n_rows && col >= 0 && col < n_cols;
   }
   bool same_place(const Grid& o) const {
-    return n_cols == o.n_cols && n_rows == o.n_rows && west_m == o.west_m &&
-           north_m == o.north_m && cell_m == o.cell_m;
+    return n_cols == o.n_cols && n_rows == o.n_rows && west_m == o.west_m && north_m == o.north_m &&
+           cell_m == o.cell_m;
   }
 };
 
@@ -63,7 +61,7 @@ struct LayerAxis {
 
 /// One named field of results: [axis.values.size() or 1][n_rows][n_cols], NaN where undefined.
 struct Layer {
-  std::string name;           ///< variable name, e.g. "probability_of_peak_thickness_above_threshold"
+  std::string name;  ///< variable name, e.g. "probability_of_peak_thickness_above_threshold"
   std::string long_name;
   std::string standard_name;  ///< CF standard name or empty
   std::string units;          ///< UDUNITS text

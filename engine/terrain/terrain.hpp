@@ -30,10 +30,10 @@ struct SurfacePoint {
 /// The ground rounded over about two cells: one smooth surface with its first and second
 /// derivatives, for what slides on it as a depth-averaged column.
 struct CurvedSurface {
-  double z = 0;                          ///< [m]
-  double east = 0, north = 0;            ///< slope [-]
+  double z = 0;                                  ///< [m]
+  double east = 0, north = 0;                    ///< slope [-]
   double bend_ee = 0, bend_en = 0, bend_nn = 0;  ///< second derivatives [1/m]
-  bool known = true;                     ///< false off the known ground (level there)
+  bool known = true;                             ///< false off the known ground (level there)
 
   /// d2z/ds2 times speed squared, for a horizontal velocity [m/s^2].
   double bend(double vx, double vy) const {
@@ -92,8 +92,8 @@ class Terrain {
   SurfaceDistance distance(const Vec3& p, double reach) const;
   /// The same where the ground is known; false off it, and `out` untouched.
   bool distance_inside(const Vec3& p, double reach, SurfaceDistance& out) const;
-  /// No point of the ground and no rim of the known ground is nearer than this [m]: the height above
-  /// ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
+  /// No point of the ground and no rim of the known ground is nearer than this [m]: the height
+  /// above ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
   double clearance(const Vec3& p) const;
   /// Steepest slope (rise over run) between neighbouring nodes along a row or a column [-], for
   /// `describe`. Reads every node.
@@ -132,7 +132,7 @@ class Terrain {
   NodataRule rule_;
   double west_node_m_ = 0, north_node_m_ = 0, cell_m_ = 1, per_cell_ = 1;
   double lowest_m_ = 0;
-  bool all_known_ = true;                                    ///< no unknown node anywhere
+  bool all_known_ = true;  ///< no unknown node anywhere
   int patch_row_ = 0, patch_col_ = 0, patch_rows_ = 0,
       patch_cols_ = 0;  ///< with a rim of base nodes
   std::vector<double> patch_;

@@ -2,10 +2,10 @@
 /// Which zone of the base a map point lies in.
 #pragma once
 
+#include "engine/terrain/raster.hpp"
+
 #include <cstdint>
 #include <memory>
-
-#include "engine/terrain/raster.hpp"
 
 namespace sturz {
 

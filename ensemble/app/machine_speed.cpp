@@ -89,8 +89,7 @@ double stored(const fs::path& file, const std::string& key, const std::string& f
 
 double updates_per_second(const std::string& formulation, bool measure_again) {
   const fs::path file = cache_file();
-  const std::string key = processor() + ", sturz " + version + " " + git_commit + " " +
-                          build_type;
+  const std::string key = processor() + ", sturz " + version + " " + git_commit + " " + build_type;
   if (!measure_again && !file.empty())
     if (const double speed = stored(file, key, formulation); speed > 0) return speed;
   const double speed = measure(formulation);

@@ -9,9 +9,9 @@
 
 namespace sturz::app {
 
-/// Members still to do, the one with the most predicted particle-updates first, where a member takes
-/// long enough (a second) for the order to matter; else as they are numbered. A member that cannot
-/// be described starts last: it will fail with its reason.
+/// Members still to do, the one with the most predicted particle-updates first, where a member
+/// takes long enough (a second) for the order to matter; else as they are numbered. A member that
+/// cannot be described starts last: it will fail with its reason.
 std::vector<std::int64_t> start_order(const EnsembleJob&);
 
 }  // namespace sturz::app

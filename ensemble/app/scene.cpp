@@ -41,8 +41,9 @@ std::vector<std::string> description_lines(const Scene& scene) {
                               columns ? "columns" : "particles", d.n_particles, d.spacing_m,
                               d.layers));
   if (columns)
-    lines.emplace_back("not in columns: vertical structure, dilute states, a resolved pore fluid "
-                       "(pore_pressure_ratio stands for it)");
+    lines.emplace_back(
+        "not in columns: vertical structure, dilute states, a resolved pore fluid "
+        "(pore_pressure_ratio stands for it)");
   lines.push_back(
       fmt::format("memory: {:.1f} MB a member", static_cast<double>(d.memory_bytes) / 1e6));
   if (d.sound_speed_m_s > 0)

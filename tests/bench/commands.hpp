@@ -9,15 +9,15 @@
 namespace sturz::bench {
 
 struct Options {
-  int pairs = 21;          ///< slices or pairs of each measurement
-  bool quick = false;      ///< fewer pairs and smaller scenes
-  double most = 200'000;   ///< particles of the largest scene of `scaling`
-  int threads = 0;         ///< of `threads` and `ensemble`; 0: all processors
-  int members = 6;         ///< of each ensemble
-  double end_time_s = 60;  ///< simulated time of an ensemble's member
-  bool full = false;       ///< of `hard`: all random members instead of 20
+  int pairs = 21;               ///< slices or pairs of each measurement
+  bool quick = false;           ///< fewer pairs and smaller scenes
+  double most = 200'000;        ///< particles of the largest scene of `scaling`
+  int threads = 0;              ///< of `threads` and `ensemble`; 0: all processors
+  int members = 6;              ///< of each ensemble
+  double end_time_s = 60;       ///< simulated time of an ensemble's member
+  bool full = false;            ///< of `hard`: all random members instead of 20
   std::string states = "both";  ///< of `hard`: dense | all | both
-  double fail_below = 0;   ///< least throughput of the dense slide over the reference loop
+  double fail_below = 0;        ///< least throughput of the dense slide over the reference loop
 };
 
 /// How fast is one core, and where does the time go?

@@ -52,7 +52,7 @@ class Table {
 
 /// What one sub-command found, in the order in which it was found.
 struct Report {
-  std::string title, summary;      ///< of a page made from it
+  std::string title, summary;  ///< of a page made from it
   std::vector<Table> tables;
   std::vector<std::string> notes;  ///< how the figures are to be read
   bool failed = false;             ///< a limit that was asked for does not hold

@@ -32,8 +32,7 @@ Scenario short_cliff() {
   return s;
 }
 
-Simulation made(const Scenario& s, int threads = 1,
-                InstructionSet set = best_instruction_set()) {
+Simulation made(const Scenario& s, int threads = 1, InstructionSet set = best_instruction_set()) {
   return assemble(s, load_scene_inputs(s), 0, threads, set);
 }
 
@@ -145,8 +144,8 @@ TEST(GrainStates, ALoneParcelFliesItsParabola) {
   EXPECT_NEAR(state.grains.x[i], x0 + vx * (state.time - t0), 1e-12);
 }
 
-/// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others far
-/// apart from everybody; all as lone parcels. \return how many are taken back as grains
+/// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others
+/// far apart from everybody; all as lone parcels. \return how many are taken back as grains
 std::size_t taken_back(const std::vector<Vec3>& places) {
   Simulation simulation = explosion("none");
   State& state = simulation.parts().state;

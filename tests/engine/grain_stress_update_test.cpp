@@ -115,8 +115,7 @@ TEST(GrainStressUpdate, ViscosityIsComparedWithTheFrictionWhereGrainsYield) {
   grain.set_stress(g, 2e4, Matrix3d::Zero());
   grain.set_gradient(simple_shear(5));
   for (int n = 0; n < 4000; ++n) grain.update(g, 1e-3);
-  const double eta =
-      0.1 * g.viscosity * g.smoothing_length * g.sound_speed * g.reference_density;
+  const double eta = 0.1 * g.viscosity * g.smoothing_length * g.sound_speed * g.reference_density;
   EXPECT_NEAR(grain.viscous_ratio, eta * 5 / grain.tau(), 1e-3 * grain.viscous_ratio);
   grain.set_gradient(simple_shear(-0.5));
   for (int n = 0; n < 3; ++n) grain.update(g, 1e-3);

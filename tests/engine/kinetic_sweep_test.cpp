@@ -88,7 +88,8 @@ TEST(KineticSweep, ArtificialStressEqualsTheSlowTwinInBothSweeps) {
   }
   for (SlowParticle& p : cloud) p.kinetic_stress.setZero(), p.viscosity_share = 1;
   const auto dense = test::fast_sweep(cloud, constants, best_instruction_set()).rates;
-  EXPECT_LT(test::relative_error(dense, test::slow_sweep(cloud, {}, constants), acceleration), 1e-5);
+  EXPECT_LT(test::relative_error(dense, test::slow_sweep(cloud, {}, constants), acceleration),
+            1e-5);
   constants.tension = false;
   const auto without = test::slow_sweep(cloud, {}, constants);
   EXPECT_GT(test::relative_error(dense, without, acceleration), 0.01);
@@ -101,8 +102,7 @@ TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
   Vec3 force(0, 0, 0);
   double scale = 0, heat = 0, heat_scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double mass =
-        cloud[i].volume * constants.reference_density * (1 + cloud[i].compression);
+    const double mass = cloud[i].volume * constants.reference_density * (1 + cloud[i].compression);
     force += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
     heat += cloud[i].volume * cloud[i].growth * fast[i].heat;

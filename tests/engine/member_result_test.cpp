@@ -50,7 +50,7 @@ TEST(MemberResult, TheScalarTableNamesEveryFieldOnceInOrder) {
 TEST(MemberResult, UnitsAgreeWithTheNames) {
   const std::pair<const char*, const char*> endings[] = {
       {"_m2_s2", "m2 s-2"}, {"_m_s", "m s-1"}, {"_j_m2", "J m-2"}, {"_m2", "m2"}, {"_m3", "m3"},
-      {"_kg", "kg"},     {"_pa", "Pa"},      {"_s", "s"},   {"_m", "m"}};
+      {"_kg", "kg"},        {"_pa", "Pa"},     {"_s", "s"},        {"_m", "m"}};
   for (const ScalarInfo& scalar : scalar_table()) {
     const std::string name = scalar.name;
     std::string_view unit = "1";

@@ -30,7 +30,8 @@ TEST(PartingPacking, ExpansionNeverEmptiesAGrain) {
   for (const double e : {-0.9, -0.3, 0.0, 0.01})
     for (const double strain : {-0.5, -0.01, 0.0, 0.01, 0.5, 10.0}) {
       EXPECT_GT(PartingPacking::carried(e, strain), -1);
-      EXPECT_NEAR(PartingPacking::carried(e, strain), e - strain * (1 + e), 1.1 * strain * strain + 1e-15);
+      EXPECT_NEAR(PartingPacking::carried(e, strain), e - strain * (1 + e),
+                  1.1 * strain * strain + 1e-15);
     }
 }
 
@@ -41,7 +42,8 @@ TEST(PartingPacking, DensityStaysWhatTheSurroundingsAllow) {
   EXPECT_LE(PartingPacking::bounded(-0.9, 1.5, false), separation);
   // Loaded or surface grains are left alone.
   for (const double e : {-0.05, 0.0, 0.02})
-    for (const double fill : {0.45, 0.7, 1.0}) EXPECT_EQ(PartingPacking::bounded(e, fill, false), e);
+    for (const double fill : {0.45, 0.7, 1.0})
+      EXPECT_EQ(PartingPacking::bounded(e, fill, false), e);
   // Without neighbours nobody is dense, but on the ground.
   EXPECT_NEAR(PartingPacking::bounded(0.01, 0.1 * PartingPacking::sparse, false), -0.9, 1e-12);
   EXPECT_EQ(PartingPacking::bounded(-0.9, 0.03, true), separation);

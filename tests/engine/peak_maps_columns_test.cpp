@@ -68,8 +68,9 @@ void expect_same_maps(const MemberResult& a, const MemberResult& b) {
 
 TEST(ColumnMaps, AFootprintFollowsItsReach) {
   for (const double reach : {20.0, 28.0, 47.3, 90.0, 160.0})
-    expect_same_maps(column_of_reach(301.7, 252.2, 800, reach),
-                     particle_of_width(301.7, 252.2, 800, PeakMapSettings{}.width_per_reach * reach));
+    expect_same_maps(
+        column_of_reach(301.7, 252.2, 800, reach),
+        particle_of_width(301.7, 252.2, 800, PeakMapSettings{}.width_per_reach * reach));
 }
 
 TEST(ColumnMaps, AFootprintIsAtLeastACellWide) {

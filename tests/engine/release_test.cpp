@@ -20,9 +20,7 @@ namespace {
 using test::Height;
 using test::raster_of;
 
-Terrain bed_of(const Height& f) {
-  return test::ground_of(f, Grid{100, 100, 0, 500, 5, ""});
-}
+Terrain bed_of(const Height& f) { return test::ground_of(f, Grid{100, 100, 0, 500, 5, ""}); }
 
 double total(const std::vector<double>& v) {
   Sum s;

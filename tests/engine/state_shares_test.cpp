@@ -18,10 +18,9 @@ ParticleSet four_grains() {
   p.resize(4);
   p.mass = {1, 2, 3, 4};
   p.add_field("compression", 1).component[0] = {0.01, -0.019, -0.5, -0.99};
-  p.add_field("state", 1).component[0] = {static_cast<double>(GrainState::dense),
-                                          static_cast<double>(GrainState::transition),
-                                          static_cast<double>(GrainState::dilute),
-                                          static_cast<double>(GrainState::ultradilute)};
+  p.add_field("state", 1).component[0] = {
+      static_cast<double>(GrainState::dense), static_cast<double>(GrainState::transition),
+      static_cast<double>(GrainState::dilute), static_cast<double>(GrainState::ultradilute)};
   p.add_field("granular_temperature", 1).component[0] = {0, 0.5, 2, 0};
   return p;
 }

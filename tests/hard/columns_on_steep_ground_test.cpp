@@ -41,7 +41,8 @@ TEST(SteepGround, ColumnsSurviveEveryCorner) {
     SCOPED_TRACE(fmt::format("member {}", k));
     const HardMember m = hard_member(static_cast<std::uint64_t>(k));
     Simulation simulation = assemble(m.scenario, m.inputs, k, 1);
-    const double most = std::sqrt(2 * 9.81 * head(m.scenario, simulation.parts(), *m.inputs.elevation));
+    const double most =
+        std::sqrt(2 * 9.81 * head(m.scenario, simulation.parts(), *m.inputs.elevation));
     const MemberResult r = simulation.run();
     ++outcomes[std::string(to_string(r.outcome))];
     const MemberScalars& s = r.scalars;
@@ -62,9 +63,10 @@ TEST(SteepGround, ColumnsSurviveEveryCorner) {
   }
   std::string text;
   for (const auto& [name, count] : outcomes) text += fmt::format(" {} {},", name, count);
-  fmt::print("{} members in {:.0f} s:{} energy residual <= {:.1e}, mass error <= {:.1e}, speed <= "
-             "{:.2f} of free fall, mean step >= {:.3f} sqrt(dx/g)\n",
-             n, seconds, text, worst_residual, worst_mass, worst_speed, worst_dt);
+  fmt::print(
+      "{} members in {:.0f} s:{} energy residual <= {:.1e}, mass error <= {:.1e}, speed <= "
+      "{:.2f} of free fall, mean step >= {:.3f} sqrt(dx/g)\n",
+      n, seconds, text, worst_residual, worst_mass, worst_speed, worst_dt);
 }
 
 }  // namespace

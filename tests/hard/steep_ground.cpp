@@ -19,8 +19,7 @@ class Dice {
  public:
   explicit Dice(std::uint64_t member) : member_(member) {}
   double operator()() {
-    const RandomWords w =
-        random_words(7, {static_cast<std::uint32_t>(member_), n_++, 0, 0});
+    const RandomWords w = random_words(7, {static_cast<std::uint32_t>(member_), n_++, 0, 0});
     return unit_from(w[0]);
   }
   double between(double a, double b) { return a + (b - a) * (*this)(); }
@@ -41,11 +40,11 @@ double height(double x, double y) {
   const double slope = std::tan(50 * 0.017453292519943295);
   // Steep upper half, a terrace, then ground that rolls gently.
   double z = x < 500 ? slope * (500 - x) + 80 : x < 650 ? 80 : 80 - 0.12 * (x - 650);
-  if (x < 300) z += 60;                                             // a cliff of 60 m
-  z += 25 * std::abs(std::sin(y / 60)) * std::exp(-x / 900);        // sharp gullies between ridges
-  if (x > 650) z += 12 * std::sin(x / 70) * std::cos(y / 90);       // saddles and hollows
+  if (x < 300) z += 60;                                        // a cliff of 60 m
+  z += 25 * std::abs(std::sin(y / 60)) * std::exp(-x / 900);   // sharp gullies between ridges
+  if (x > 650) z += 12 * std::sin(x / 70) * std::cos(y / 90);  // saddles and hollows
   z += pit(x, y, 420, 300, 60, 50) + pit(x, y, 800, 450, 90, 40) + pit(x, y, 580, 520, 40, 60);
-  if (std::abs(x - 720) < 12) z += 15;                              // a wall-like sharp ridge
+  if (std::abs(x - 720) < 12) z += 15;  // a wall-like sharp ridge
   return z;
 }
 

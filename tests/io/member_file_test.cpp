@@ -108,9 +108,9 @@ TEST_F(MemberFile, PassesTheCfLint) {
     GTEST_SKIP() << "python3 with netCDF4 is not installed";
   write_member(members(), made_up_member(1));
   write_member(members(), made_up_member(2));  // with states
-  const ShellResult lint = shell("/usr/bin/python3 " STURZ_SOURCE_DIR "/tests/support/cf_lint.py " +
-                                 (members() / "000001.nc").string() + " " +
-                                 (members() / "000002.nc").string());
+  const ShellResult lint =
+      shell("/usr/bin/python3 " STURZ_SOURCE_DIR "/tests/support/cf_lint.py " +
+            (members() / "000001.nc").string() + " " + (members() / "000002.nc").string());
   EXPECT_EQ(lint.exit_code, 0) << lint.output;
 }
 

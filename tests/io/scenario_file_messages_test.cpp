@@ -64,8 +64,9 @@ TEST(ScenarioMessages, StatesOfGrains) {
   EXPECT_THAT(states("dilute: {}, ultradilute: {}"), ElementsAre());
   EXPECT_THAT(states("dilute: {restitution: 1.5}"),
               ElementsAre(HasSubstr("grains.states.dilute.restitution = 1.5")));
-  EXPECT_THAT(states("max_fraction: 0.6"),
-              ElementsAre(HasSubstr("grains.states.max_fraction = 0.6 (must be at least 0.02 above")));
+  EXPECT_THAT(
+      states("max_fraction: 0.6"),
+      ElementsAre(HasSubstr("grains.states.max_fraction = 0.6 (must be at least 0.02 above")));
   EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  states: {dilute: {}}\n") +
                        "formulation: depth_averaged\n"),
               ElementsAre(HasSubstr("grains.states (formulation is depth_averaged")));

@@ -39,8 +39,8 @@ Deposit deposit_of(const SimulationParts& parts) {
   return out;
 }
 
-/// One friction at all rates, the repose angle of the sands of Lube et al. 2005. Grains of 1 mm where
-/// L0 is 10 cm.
+/// One friction at all rates, the repose angle of the sands of Lube et al. 2005. Grains of 1 mm
+/// where L0 is 10 cm.
 Scenario sand(double aspect, int particles_along) {
   Scenario s = column_collapse(aspect, particles_along);
   s.grains->friction.reset();
@@ -70,10 +70,8 @@ struct Case {
 };
 void PrintTo(const Case& c, std::ostream* out) { *out << "aspect " << c.aspect; }
 // Taller columns have more particles and fall for longer: coarser, for the same time.
-const std::vector<Case> cases{{0.5, {10, 14, 20}, 0.2},
-                              {1, {10, 14, 20}, 0.2},
-                              {2, {8, 10, 14}, 0.2},
-                              {5, {6, 8, 10}, 0.35}};
+const std::vector<Case> cases{
+    {0.5, {10, 14, 20}, 0.2}, {1, {10, 14, 20}, 0.2}, {2, {8, 10, 14}, 0.2}, {5, {6, 8, 10}, 0.35}};
 
 class ColumnCollapse : public testing::TestWithParam<Case> {};
 

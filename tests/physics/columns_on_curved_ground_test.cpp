@@ -28,8 +28,8 @@ TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
                   d.finished);
     expect_within({name + ", energy height", "rms m", drop_m * d.rmse(line), 0, d.rmse(line), 0.02},
                   d.finished);
-    record({name + ", angle against the straight line", "deg", d.angle_deg(),
-            straight.angle_deg(), d.angle_deg() - straight.angle_deg()},
+    record({name + ", angle against the straight line", "deg", d.angle_deg(), straight.angle_deg(),
+            d.angle_deg() - straight.angle_deg()},
            d.finished);
     expect_conserved(d.finished);
   }
@@ -93,9 +93,9 @@ TEST(RampStop, FrontAgreesWithFullStress) {
   for (const double spacing : {4.0, 2.0, 1.0}) {
     const Finished f = run(mound("depth_averaged", spacing));
     const std::string name = fmt::format("ramp stop, columns of {:.0f} m", spacing);
-    const Line line = relative(name + ", front against six layers", "m",
-                               f.result.scalars.front_travel_m, front,
-                               spacing == 1 ? 0.03 : reported_only);
+    const Line line =
+        relative(name + ", front against six layers", "m", f.result.scalars.front_travel_m, front,
+                 spacing == 1 ? 0.03 : reported_only);
     spacing == 1 ? expect_within(line, f) : record(line, f);
     record(relative(name + ", centre of mass", "m", f.result.scalars.com_travel_m,
                     full.result.scalars.com_travel_m),

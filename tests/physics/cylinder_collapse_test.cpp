@@ -24,7 +24,9 @@ struct Material {
   const char* name;
   double angle_deg;
   double short_run_out, tall_run_out;  ///< (r - r0)/r0 = s a up to a = 1.7, t sqrt(a) beyond
-  double run_out(double a) const { return a < 1.7 ? short_run_out * a : tall_run_out * std::sqrt(a); }
+  double run_out(double a) const {
+    return a < 1.7 ? short_run_out * a : tall_run_out * std::sqrt(a);
+  }
   double height(double a) const { return std::min(a, 0.74); }
 };
 /// Repose angle of the sands of Lube et al. 2004.
@@ -114,10 +116,10 @@ void report(const std::string& name, const Material& m, double a, const Collapse
 void report_orders(double aspect, const std::map<int, Collapse>& all) {
   for (auto a = all.begin(); std::distance(a, all.end()) >= 3; ++a) {
     const auto b = std::next(a), e = std::next(b);
-    const Convergence o = observed_convergence(
-        {1.0 / a->first, 1.0 / b->first, 1.0 / e->first},
-        {a->second.deposit.run_out.toe, b->second.deposit.run_out.toe,
-         e->second.deposit.run_out.toe});
+    const Convergence o =
+        observed_convergence({1.0 / a->first, 1.0 / b->first, 1.0 / e->first},
+                             {a->second.deposit.run_out.toe, b->second.deposit.run_out.toe,
+                              e->second.deposit.run_out.toe});
     fmt::print("V8 collapse, a {}, {}-{}-{}: observed order {:.2f}, Richardson limit {:.3f}\n",
                aspect, a->first, b->first, e->first, o.order, o.limit);
     testing::Test::RecordProperty(fmt::format("observed_order_to_{}", e->first),
@@ -161,7 +163,8 @@ TEST(CylinderCollapse, FlatColumnOfSandRunsOutAsExperimentsDo) {
 
 /// Run-out over aspect as a power: 1/2 in the experiments beyond a = 1.7.
 TEST(CylinderCollapse, TallColumnOfSandRunsOutAsExperimentsDo) {
-  const std::map<int, Collapse> at_two = refine({2, true, true}), at_five = refine({5, true, false});
+  const std::map<int, Collapse> at_two = refine({2, true, true}),
+                                at_five = refine({5, true, false});
   for (const auto& [n, c] : at_five) {
     if (!at_two.contains(n)) continue;
     const double exponent =

@@ -39,11 +39,11 @@ INSTANTIATE_TEST_SUITE_P(Layers, Sheet, testing::Values(0.5, 1.0, 2.0, 3.0, 5.0)
 TEST_P(Sheet, SlidesAsAMassPoint) {
   Simulation simulation = build(sheet(GetParam()));
   std::vector<double> t, v;
-  const Finished f = run(std::move(simulation), {0.1, [&](double time, const SimulationParts& p) {
-                                                   t.push_back(time);
-                                                   v.push_back(along_slope(
-                                                       mean_motion(p.state.grains).vx, 30));
-                                                 }});
+  const Finished f =
+      run(std::move(simulation), {0.1, [&](double time, const SimulationParts& p) {
+                                    t.push_back(time);
+                                    v.push_back(along_slope(mean_motion(p.state.grains).vx, 30));
+                                  }});
   const double expected =
       gravity_m_s2 * (std::sin(30 * degree) - std::tan(25 * degree) * std::cos(30 * degree));
   // Velocities stand half a step before the time of a look: compare distances.
@@ -77,8 +77,8 @@ TEST(OneColumn, SticksWhereFrictionHolds) {
   Scenario s = one_column(20, 0, std::tan(25 * degree), 0);
   s.numerics.stop_at_rest = false;
   const Finished f = run(s);
-  record({"V1b column sticks", "m", f.result.scalars.com_travel_m, 0,
-          f.result.scalars.com_travel_m, 0},
+  record({"V1b column sticks", "m", f.result.scalars.com_travel_m, 0, f.result.scalars.com_travel_m,
+          0},
          f);
   EXPECT_EQ(f.result.scalars.com_travel_m, 0);
 }
@@ -115,8 +115,8 @@ TEST(Similarity, CapSpreadsAsSavageAndHutterFound) {
     // thin.md asks this at 4 m; the coarser one is reported.
     const bool asked = spacing <= 4;
     auto line = [&](const char* what, double measured, double exact, double tolerance) {
-      const Line l = relative(name + ", " + what, "m", measured, exact,
-                              asked ? tolerance : reported_only);
+      const Line l =
+          relative(name + ", " + what, "m", measured, exact, asked ? tolerance : reported_only);
       asked ? expect_within(l, f) : record(l, f);
     };
     line("centre", cap.x, 93.980, 0.01);
@@ -158,8 +158,7 @@ TEST(DamBreak, FrontAndProfileFollowTheClosedForm) {
   };
   // The exact tip is infinitely thin; the front is where a twentieth of the depth is left.
   const double thin = depth / 20;
-  const double thin_front =
-      t * (2 * c0 + 0.5 * m0 * t - std::sqrt(9 * gravity_m_s2 * c * thin));
+  const double thin_front = t * (2 * c0 + 0.5 * m0 * t - std::sqrt(9 * gravity_m_s2 * c * thin));
   std::vector<double> dx = {2, 1, 0.5}, miss;
   for (const double spacing : dx) {
     const Finished f = run(dam_break(depth, spacing));
@@ -175,9 +174,8 @@ TEST(DamBreak, FrontAndProfileFollowTheClosedForm) {
     miss.push_back(error / scale);
     const std::string name = fmt::format("V4b columns, dx = {:.1f} m", spacing);
     expect_within(relative(name + ", front", "m at 5 s", farthest, thin_front, 0.1), f);
-    expect_within({name + ", thickness", "mean |error| / mean", error / scale, 0, error / scale,
-                   0.1},
-                  f);
+    expect_within(
+        {name + ", thickness", "mean |error| / mean", error / scale, 0, error / scale, 0.1}, f);
     expect_conserved(f);
   }
   const Convergence order = observed_convergence(dx, miss);
@@ -194,8 +192,7 @@ void PrintTo(const Steady& s, std::ostream* out) { *out << s.name; }
 INSTANTIATE_TEST_SUITE_P(Bases, SteadySheet,
                          // Slow enough that no roll waves grow: Froude number under 1/2 where
                          // drag is viscous, under 2 where it is turbulent.
-                         testing::Values(Steady{"Voellmy", 20, 0, 0},
-                                         Steady{"Laminar", 0, 4000, 0},
+                         testing::Values(Steady{"Voellmy", 20, 0, 0}, Steady{"Laminar", 0, 4000, 0},
                                          Steady{"Bingham", 0, 4000, 4000}),
                          [](const auto& i) { return std::string(i.param.name); });
 

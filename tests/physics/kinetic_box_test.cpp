@@ -133,9 +133,10 @@ Cooling cool(const Cloud& c) {
   out.stirred = made.state.ledger.kinetic / heat;
   EXPECT_LT(std::abs(made.state.ledger.conducted), 1e-5 * heat);
   EXPECT_EQ(made.state.n_listed, made.state.grains.size());
-  fmt::print("V10 box, jitter {}: {} steps to 3 tau = {:.2f} s, worst error {:.3f} %, stirred "
-             "{:.2f} % of the heat\n",
-             c.jitter, made.state.n_steps, made.state.time, 100 * out.worst, 100 * out.stirred);
+  fmt::print(
+      "V10 box, jitter {}: {} steps to 3 tau = {:.2f} s, worst error {:.3f} %, stirred "
+      "{:.2f} % of the heat\n",
+      c.jitter, made.state.n_steps, made.state.time, 100 * out.worst, 100 * out.stirred);
   return out;
 }
 
@@ -179,14 +180,11 @@ struct Shear {
 };
 
 class UniformShear : public testing::TestWithParam<Shear> {};
-INSTANTIATE_TEST_SUITE_P(Fractions, UniformShear,
-                         testing::Values(Shear{0.1, 3.4827, 0.6369, 0.286},
-                                         Shear{0.2, 1.3969, 0.9475, 0.282},
-                                         Shear{0.3, 1.0492, 1.9525, 0.291},
-                                         Shear{0.4, 0.93119, 4.4018, 0.299}),
-                         [](const auto& i) {
-                           return fmt::format("{:.0f}Percent", 100 * i.param.fraction);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Fractions, UniformShear,
+    testing::Values(Shear{0.1, 3.4827, 0.6369, 0.286}, Shear{0.2, 1.3969, 0.9475, 0.282},
+                    Shear{0.3, 1.0492, 1.9525, 0.291}, Shear{0.4, 0.93119, 4.4018, 0.299}),
+    [](const auto& i) { return fmt::format("{:.0f}Percent", 100 * i.param.fraction); });
 
 /// V11 with particles held in uniform shear: gradient, heating, conduction and stress of the
 /// sweep, against the closed form, with a jittered cloud of free top and bottom.
@@ -218,10 +216,11 @@ TEST_P(UniformShear, ReachesTheClosedForm) {
     const double unit = 2600 * scale * scale;
     const double theta = inner.theta / (scale * scale), pressure = inner.pressure / unit;
     const double ratio = inner.shear / inner.pressure;
-    fmt::print("V11 box, alpha {}, {} layers: theta* {:.4f} ({:+.2f} %), P* {:.4f} ({:+.2f} %), "
-               "tau/P {:.4f}\n",
-               c.fraction, layers, theta, 100 * (theta / GetParam().theta - 1), pressure,
-               100 * (pressure / GetParam().pressure - 1), ratio);
+    fmt::print(
+        "V11 box, alpha {}, {} layers: theta* {:.4f} ({:+.2f} %), P* {:.4f} ({:+.2f} %), "
+        "tau/P {:.4f}\n",
+        c.fraction, layers, theta, 100 * (theta / GetParam().theta - 1), pressure,
+        100 * (pressure / GetParam().pressure - 1), ratio);
     EXPECT_NEAR(theta / GetParam().theta, 1, 0.03);
     EXPECT_NEAR(pressure / GetParam().pressure, 1, 0.03);
     EXPECT_NEAR(ratio / GetParam().ratio, 1, 0.03);

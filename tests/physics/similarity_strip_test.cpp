@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// V18 in three dimensions: a parabolic ridge, one periodic slice of it, spreads down a 35 degree slope
-// over a base of tan 25 degrees. Full stress at four and more layers, columns beside it.
+// V18 in three dimensions: a parabolic ridge, one periodic slice of it, spreads down a 35 degree
+// slope over a base of tan 25 degrees. Full stress at four and more layers, columns beside it.
 #include "io/scene_inputs.hpp"
 #include "scenarios/assemble.hpp"
 #include "scenarios/catalogue.hpp"
@@ -50,8 +50,8 @@ Simulation ridge(const char* formulation, double spacing, int wide,
   s.formulation = formulation;
   s.grains->friction.reset();
   s.grains->friction_angle_deg = Uncertain(friction_angle_deg);
-  s.terrain.synthetic = SyntheticTerrain{
-      "plane", cell, {{"slope_deg", 35}, {"length_m", 560}, {"width_m", width}}};
+  s.terrain.synthetic =
+      SyntheticTerrain{"plane", cell, {{"slope_deg", 35}, {"length_m", 560}, {"width_m", width}}};
   s.release.paraboloid.reset();
   s.release.box = ReleaseBox{{start - half_length, start + half_length}, {-width / 2, width / 2}};
   s.domain.periodic = {"y"};
@@ -112,12 +112,12 @@ void compare(const std::string& name, Simulation simulation, double half_toleran
   expect_conserved(f);
 }
 
-/// The closed form has K = 1. A mass that is rougher inside than its base spreads less (active K under
-/// one); one that is much smoother shears inside, and its centre outruns the plug's.
+/// The closed form has K = 1. A mass that is rougher inside than its base spreads less (active K
+/// under one); one that is much smoother shears inside, and its centre outruns the plug's.
 TEST(SimilarityStrip, FullStressSpreadsWithinATenthFromFourLayersOn) {
   for (const int layers : {4, 5})
-    compare(fmt::format("V18 strip, {} layers", layers),
-            ridge("full_stress", depth / layers, 6), 0.10, 0.06);
+    compare(fmt::format("V18 strip, {} layers", layers), ridge("full_stress", depth / layers, 6),
+            0.10, 0.06);
   for (const double angle : {15.0, 25.0, 30.0})
     compare(fmt::format("V18 strip, 4 layers, {} deg inside", angle),
             ridge("full_stress", depth / 4, 6, angle), reported_only, reported_only);

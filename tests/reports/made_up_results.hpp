@@ -21,8 +21,8 @@ struct MadeUpScene {
 struct MadeUpResults {
   Raster<double> elevation;
   std::unique_ptr<MemberSource> source;
-  LayerStack hazard;  ///< empty layers without members
-  LayerStack peaks;   ///< of the first member
+  LayerStack hazard;      ///< empty layers without members
+  LayerStack peaks;       ///< of the first member
   MemberHistory history;  ///< of the first member, with states
   DesignTable design;
 

@@ -49,8 +49,8 @@ Matrix3d correction_in_a_cloud(const Matrix3d& moment, double growth, bool& corr
 }  // namespace
 
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
-                                  const std::vector<SlowParticle>& images,
-                                  const SweepConstants& c, bool clouds) {
+                                  const std::vector<SlowParticle>& images, const SweepConstants& c,
+                                  bool clouds) {
   std::vector<SlowRates> out(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const SlowParticle& a = particles[i];
@@ -72,8 +72,8 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       // Bilateral viscosity; the mean density of a pair is taken as rho_a rho_b / rho_ref.
       const double phi = c.h * u.dot(r) / (r.squaredNorm() + 0.01 * c.h * c.h);
       const double share = 0.5 * (a.viscosity_share + b.viscosity_share);
-      const double pi =
-          -share * c.viscosity * c.sound_speed * phi * c.reference_density / (density_a * density_b);
+      const double pi = -share * c.viscosity * c.sound_speed * phi * c.reference_density /
+                        (density_a * density_b);
       force += mass_b *
                ((a.stress + b.stress) / (density_a * density_b) - pi * Matrix3d::Identity()) * grad;
       force += b.volume * a.weight * b.weight / density_a *

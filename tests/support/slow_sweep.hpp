@@ -14,11 +14,11 @@ namespace sturz::test {
 /// A particle as the sweep sees it, positions in metres.
 struct SlowParticle {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};
-  double volume = 1;                                        ///< m/rho [m^3]
-  double compression = 0;                                   ///< rho/rho_ref - 1
-  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();         ///< [Pa], tension positive
-  double viscosity_share = 1;                               ///< of the artificial viscosity that acts
-  Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();    ///< what walls add [-]
+  double volume = 1;                                      ///< m/rho [m^3]
+  double compression = 0;                                 ///< rho/rho_ref - 1
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();       ///< [Pa], tension positive
+  double viscosity_share = 1;                             ///< of the artificial viscosity that acts
+  Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();  ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
   double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
   Vec3 ground_normal{0, 0, 1};
@@ -35,8 +35,8 @@ struct SlowRates {
   double wall_share = 0;  ///< of the mirror image
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d felt = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
-  double heat = 0;        ///< conducted, per volume that the grain takes up [W/m^3]
-  double fill = 0;        ///< a third of the moment's trace
+  double heat = 0;  ///< conducted, per volume that the grain takes up [W/m^3]
+  double fill = 0;  ///< a third of the moment's trace
   int neighbors = 0;
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I
 };

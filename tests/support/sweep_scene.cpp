@@ -67,7 +67,8 @@ struct Rooms {
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
       r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
-      r.felt(entries[k][0], entries[k][1]) = r.felt(entries[k][1], entries[k][0]) = results[23 + k][i];
+      r.felt(entries[k][0], entries[k][1]) = r.felt(entries[k][1], entries[k][0]) =
+          results[23 + k][i];
     }
     return r;
   }
@@ -77,7 +78,9 @@ struct Rooms {
 
 SweepConstants usual_constants(double spacing) {
   const double h = 1.3 * spacing;
-  return {h, SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, false, spacing, 0.16, 300};
+  return {
+      h,  SmoothingKernel{h}.discrete_gradient_factor(), 1560, 100, 0.1, 0.1, false, spacing, 0.16,
+      300};
 }
 
 namespace {

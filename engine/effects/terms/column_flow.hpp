@@ -2,14 +2,14 @@
 /// What the passes of depth-averaged flow share. For depth_averaged and column_*.cpp only.
 #pragma once
 
-#include <cmath>
-#include <memory>
-#include <vector>
-
 #include "engine/effects/step.hpp"
 #include "engine/effects/terms/column_walls.hpp"
 #include "engine/effects/terms/depth_averaged_settings.hpp"
 #include "engine/neighbors/column_cells.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
 
 namespace sturz {
 
@@ -17,10 +17,10 @@ struct ColumnFlow {
   DepthAveragedSettings settings;
   ColumnCells cells;
   ColumnWalls walls;
-  std::vector<float> results[7];   ///< of the sweep, by record
-  double start_dt = 1e-3;          ///< of the first step [s]
-  double fastest_wave = 0;         ///< largest sqrt(K g_n h) / h_s [1/s]
-  double fastest_approach = 0;     ///< largest relative speed of neighbours / h_s [1/s]
+  std::vector<float> results[7];  ///< of the sweep, by record
+  double start_dt = 1e-3;         ///< of the first step [s]
+  double fastest_wave = 0;        ///< largest sqrt(K g_n h) / h_s [1/s]
+  double fastest_approach = 0;    ///< largest relative speed of neighbours / h_s [1/s]
 
   /// Column i beside a wall.
   ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;

@@ -18,8 +18,8 @@ namespace sturz::STURZ_ISA {
 
 /// Constants in the units of the loop: positions in fixed-point units.
 struct ColumnScale {
-  float unit;        ///< metres per position unit
-  float viscosity;   ///< alpha
+  float unit;       ///< metres per position unit
+  float viscosity;  ///< alpha
   explicit ColumnScale(const ColumnConstants& c, double unit_m)
       : unit(static_cast<float>(unit_m)), viscosity(static_cast<float>(c.viscosity)) {}
 };
@@ -45,20 +45,22 @@ struct ColumnSelf {
   IntLanes x, y, z;
   Lanes vx, vy, vz, inverse_reach, thickness, lateral, wave_speed;
   ColumnSelf(const ColumnRows& r, int lane)
-      : x(IntLanes::load(r.x + lane)), y(IntLanes::load(r.y + lane)),
-        z(IntLanes::load(r.z + lane)), vx(Lanes::load(r.vx + lane)),
-        vy(Lanes::load(r.vy + lane)), vz(Lanes::load(r.vz + lane)),
+      : x(IntLanes::load(r.x + lane)),
+        y(IntLanes::load(r.y + lane)),
+        z(IntLanes::load(r.z + lane)),
+        vx(Lanes::load(r.vx + lane)),
+        vy(Lanes::load(r.vy + lane)),
+        vz(Lanes::load(r.vz + lane)),
         inverse_reach(Lanes::load(r.inverse_reach + lane)),
-        thickness(Lanes::load(r.thickness + lane)), lateral(Lanes::load(r.lateral + lane)),
+        thickness(Lanes::load(r.thickness + lane)),
+        lateral(Lanes::load(r.lateral + lane)),
         wave_speed(Lanes::load(r.wave_speed + lane)) {}
 };
 
 struct ColumnSums {
   Lanes thickness, density, ax, ay, az, divergence, approach;
 
-  void clear() {
-    thickness = density = ax = ay = az = divergence = approach = Lanes::all(0);
-  }
+  void clear() { thickness = density = ax = ay = az = divergence = approach = Lanes::all(0); }
 
   /// Adds one neighbour to all lanes; beyond the support it adds zero, a lane itself only to
   /// thickness and density.

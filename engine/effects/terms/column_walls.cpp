@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/terms/column_walls.hpp"
 
+#include "engine/neighbors/column_smoothing.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "engine/neighbors/column_smoothing.hpp"
 
 namespace sturz {
 namespace {
 
-double distance(const Wall& wall, const Vec3& place) { return (place - wall.point).dot(wall.normal); }
+double distance(const Wall& wall, const Vec3& place) {
+  return (place - wall.point).dot(wall.normal);
+}
 
 /// The wall's normal as far as the ground lets a column move along it; not unit.
 Vec3 along_ground(const Wall& wall, const Vec3& ground_normal) {
@@ -27,7 +29,8 @@ HalfSupport::HalfSupport() {
     for (int i = 0; i < n_points; ++i)
       line_[k] += 2 * step * unit.value(std::hypot(d, (i + 0.5) * step));
   }
-  for (int k = n - 1; k >= 0; --k) beyond_[k] = beyond_[k + 1] + 0.5 * (line_[k] + line_[k + 1]) / n;
+  for (int k = n - 1; k >= 0; --k)
+    beyond_[k] = beyond_[k + 1] + 0.5 * (line_[k] + line_[k + 1]) / n;
 }
 
 double HalfSupport::between(const std::array<double, n + 1>& table, double d) {

@@ -7,9 +7,9 @@
 /// rest. No column passes the wall; both impulses count for the wall's friction.
 #pragma once
 
-#include <array>
-
 #include "engine/core/domain.hpp"
+
+#include <array>
 
 namespace sturz {
 

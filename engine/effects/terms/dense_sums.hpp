@@ -19,27 +19,26 @@ namespace sturz::STURZ_ISA {
 
 /// Constants in the units of the loop: positions in fixed-point units.
 struct DenseScale {
-  float to_s;        ///< position units -> r/2h
-  float eta2;        ///< 0.01 h^2 in units^2
-  float viscosity;   ///< k: alpha_v c0 h rho_ref / unit
-  float gradient;    ///< C unit: sums of u (x) d -> 1/s
-  float moment;      ///< C unit^2
-  float diffusion;   ///< 2 delta h c0 C
-  float density;     ///< rho_ref
-  float smoothing;   ///< 2 zeta h c0 C
-  float inv_reach;   ///< 1/(2h) [1/m]
-  float ratio_floor; ///< p_c of the smoothed ratio [Pa]
-  float laplacian;   ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
+  float to_s;           ///< position units -> r/2h
+  float eta2;           ///< 0.01 h^2 in units^2
+  float viscosity;      ///< k: alpha_v c0 h rho_ref / unit
+  float gradient;       ///< C unit: sums of u (x) d -> 1/s
+  float moment;         ///< C unit^2
+  float diffusion;      ///< 2 delta h c0 C
+  float density;        ///< rho_ref
+  float smoothing;      ///< 2 zeta h c0 C
+  float inv_reach;      ///< 1/(2h) [1/m]
+  float ratio_floor;    ///< p_c of the smoothed ratio [Pa]
+  float laplacian;      ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
   float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
-  float plane;       ///< 2 * 10.5/h: twice the integral of W over a plane through the particle [1/m]
+  float plane;  ///< 2 * 10.5/h: twice the integral of W over a plane through the particle [1/m]
 };
 
 inline DenseScale dense_scale(const SweepConstants& c, double unit) {
   DenseScale s;
   s.to_s = static_cast<float>(unit / (2 * c.h));
   s.eta2 = static_cast<float>(0.01 * c.h * c.h / (unit * unit));
-  s.viscosity =
-      static_cast<float>(c.viscosity * c.sound_speed * c.h * c.reference_density / unit);
+  s.viscosity = static_cast<float>(c.viscosity * c.sound_speed * c.h * c.reference_density / unit);
   s.gradient = static_cast<float>(c.gradient_factor * unit);
   s.moment = static_cast<float>(c.gradient_factor * unit * unit);
   s.diffusion =
@@ -100,8 +99,7 @@ struct DenseSums {
   Lanes add(const DenseSelf& i, const PackedRecord& j, const DenseScale& k, Lanes viscosity) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes r2 = fma(rx, rx, fma(ry, ry, rz * rz));
-    const Lanes t =
-        max(Lanes::all(0), fnma(sqrt(r2), Lanes::all(k.to_s), Lanes::all(1)));
+    const Lanes t = max(Lanes::all(0), fnma(sqrt(r2), Lanes::all(k.to_s), Lanes::all(1)));
     const Lanes w = t * t * t * Lanes::all(j.volume);
     const Lanes dx = w * rx, dy = w * ry, dz = w * rz;
     const Lanes ux = i.vx - Lanes::all(j.vx);
@@ -170,14 +168,12 @@ struct Correction {
     yy = fnma(mzx, mzx, mxx * mzz) * inv;
     yz = fnma(mxx, myz, mxy * mzx) * inv;
     zz = fnma(mxy, mxy, mxx * myy) * inv;
-    const Lanes norm2 = fma(xx, xx, fma(yy, yy, zz * zz)) +
-                        Lanes::all(2) * fma(xy, xy, fma(yz, yz, zx * zx));
+    const Lanes norm2 =
+        fma(xx, xx, fma(yy, yy, zz * zz)) + Lanes::all(2) * fma(xy, xy, fma(yz, yz, zx * zx));
     const Lanes limit = Lanes::all(25);
     const Lanes poor =
         max(select_less(det, least, one, zero), select_less(limit, norm2, one, zero));
-    auto pick = [&](Lanes good, Lanes identity) {
-      return select_less(zero, poor, identity, good);
-    };
+    auto pick = [&](Lanes good, Lanes identity) { return select_less(zero, poor, identity, good); };
     xx = pick(xx, one), yy = pick(yy, one), zz = pick(zz, one);
     xy = pick(xy, zero), yz = pick(yz, zero), zx = pick(zx, zero);
   }

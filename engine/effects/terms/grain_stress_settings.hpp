@@ -2,32 +2,31 @@
 /// The numbers of the dense grain stress: law, resolution, stiffness, noise control.
 #pragma once
 
-#include <cmath>
-
-#include <optional>
-
 #include "engine/effects/fused_sweep.hpp"
 #include "engine/effects/terms/grain_states_settings.hpp"
 #include "engine/laws/mu_i_rheology.hpp"
+
+#include <cmath>
+#include <optional>
 
 namespace sturz {
 
 struct GrainStressSettings {
   MuIRheology law;
   std::optional<GrainStatesSettings> states;  ///< absent: every grain is dense
-  double spacing = 1;               ///< dx [m]
-  double smoothing_length = 1.3;    ///< h [m]
-  double reference_density = 1560;  ///< rho_ref = alpha_init rho_p [kg/m^3]
-  double sound_speed = 100;         ///< c0 of compressional waves, sqrt((K + 4G/3)/rho) [m/s]
+  double spacing = 1;                         ///< dx [m]
+  double smoothing_length = 1.3;              ///< h [m]
+  double reference_density = 1560;            ///< rho_ref = alpha_init rho_p [kg/m^3]
+  double sound_speed = 100;  ///< c0 of compressional waves, sqrt((K + 4G/3)/rho) [m/s]
   /// Where c0 may fall to while the mass is slow; equal to `sound_speed`: it stays fixed [m/s].
   double least_sound_speed = 1e300;
-  double speed_factor = 10;         ///< c0 over the present largest speed where it follows the flow
-  double poisson_ratio = 0.3;       ///< nu, sets G/K [-]
-  double viscosity = 0.1;           ///< artificial viscosity alpha_v [-]
-  double density_diffusion = 0.1;   ///< delta [-]
-  double stress_smoothing = 0.01;      ///< zeta [-]
-  double courant = 0.25;            ///< dt <= courant h/(c0 + |v|)
-  double skin = 0.15;               ///< of the lists, in smoothing lengths
+  double speed_factor = 10;        ///< c0 over the present largest speed where it follows the flow
+  double poisson_ratio = 0.3;      ///< nu, sets G/K [-]
+  double viscosity = 0.1;          ///< artificial viscosity alpha_v [-]
+  double density_diffusion = 0.1;  ///< delta [-]
+  double stress_smoothing = 0.01;  ///< zeta [-]
+  double courant = 0.25;           ///< dt <= courant h/(c0 + |v|)
+  double skin = 0.15;              ///< of the lists, in smoothing lengths
   InstructionSet instruction_set = InstructionSet::plain;  ///< chosen by assemble
 
   /// Grains whose density fell this far below the reference have parted: they carry no shear, and

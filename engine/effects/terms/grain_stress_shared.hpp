@@ -2,13 +2,13 @@
 /// What the passes of the grain stress share. For grain_stress.cpp and sound_speed.cpp only.
 #pragma once
 
-#include <memory>
-#include <vector>
-
 #include "engine/effects/step.hpp"
 #include "engine/effects/terms/grain_stress_settings.hpp"
 #include "engine/effects/terms/parcel_search.hpp"
 #include "engine/neighbors/neighbor_lists.hpp"
+
+#include <memory>
+#include <vector>
 
 namespace sturz {
 
@@ -22,7 +22,7 @@ struct GrainStress {
   std::vector<float> parted[9];  // fill, neighbours, heat, gradient felt; see SweepOutput
   std::vector<KineticRecord> kinetic;
   std::vector<std::uint8_t> calm;
-  ParcelSearch parcels;  // lone ones that meet again
+  ParcelSearch parcels;      // lone ones that meet again
   double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
 
   explicit GrainStress(const GrainStressSettings& s)

@@ -2,14 +2,14 @@
 /// Density and stress of one dense particle from n to n+1 (physics.md B.5), with its energies.
 #pragma once
 
-#include <cmath>
-
 #include "engine/effects/fused_sweep.hpp"
 #include "engine/effects/terms/grain_stress_settings.hpp"
 #include "engine/effects/terms/packing.hpp"
 #include "engine/effects/terms/stored_energy.hpp"
 #include "engine/effects/terms/symmetric_tensor.hpp"
 #include "engine/effects/terms/viscous_share.hpp"
+
+#include <cmath>
 
 namespace sturz {
 
@@ -18,21 +18,21 @@ struct StressColumns {
   const double* mass = nullptr;
   double *vx = nullptr, *vy = nullptr, *vz = nullptr;
   double* compression = nullptr;
-  double* stress[6] = {};   ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
+  double* stress[6] = {};  ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
   /// What the artificial viscosity would carry, over the friction of yielding grains [-]
   double* viscous_ratio = nullptr;
   const float* distance = nullptr;  ///< to the ground [m]; where grains may part
-  const double* state = nullptr;  ///< GrainState at n; read by the switched law only
+  const double* state = nullptr;    ///< GrainState at n; read by the switched law only
 };
 
 /// Sums over particles [J].
 struct StressEnergies {
-  double elastic = 0;    ///< stored after the step
-  double frictional = 0; ///< added to what the frictional pressure stores
-  double power = 0;      ///< V sigma : D dt
-  double plastic = 0;    ///< dissipated by the return
-  double diffusion = 0;  ///< added by density diffusion and stress smoothing
-  double rest = 0;       ///< taken by the drag at rest
+  double elastic = 0;     ///< stored after the step
+  double frictional = 0;  ///< added to what the frictional pressure stores
+  double power = 0;       ///< V sigma : D dt
+  double plastic = 0;     ///< dissipated by the return
+  double diffusion = 0;   ///< added by density diffusion and stress smoothing
+  double rest = 0;        ///< taken by the drag at rest
 
   StressEnergies& operator+=(const StressEnergies& o) {
     elastic += o.elastic;
@@ -83,8 +83,8 @@ class StressUpdate {
 
  private:
   template <bool smooth, class Packing>
-  void range(const Packing packing, const StressColumns& c, const SweepOutput& r,
-             std::size_t begin, std::size_t end, StressEnergies& out) const {
+  void range(const Packing packing, const StressColumns& c, const SweepOutput& r, std::size_t begin,
+             std::size_t end, StressEnergies& out) const {
     double elastic = 0, frictional = 0, power = 0, plastic = 0, diffusion = 0, resting = 0;
     // Pointers in locals: the vectoriser does not look through the structs.
     const float *r_lxx = r.lxx, *r_lxy = r.lxy, *r_lxz = r.lxz;
@@ -115,9 +115,9 @@ class StressUpdate {
       // Density on the continuity equation, cut at zero pressure in tension.
       const double e0 = compression[i];
       double diffused = dt * r_diffusion[i], e1;
-      double squeezed_by;                              // de by the continuity equation alone
-      double p0, p1;                                   // of contacts
-      double q0 = 0, q1 = 0;                           // the frictional part of it
+      double squeezed_by;     // de by the continuity equation alone
+      double p0, p1;          // of contacts
+      double q0 = 0, q1 = 0;  // the frictional part of it
       if constexpr (Packing::parts) {
         const double carried = packing.carried(e0, dt * trace);
         e1 = packing.bounded(carried + diffused, r_fill[i], c_distance[i] < touching);
@@ -141,18 +141,15 @@ class StressUpdate {
       c_vx[i] = keep * vx, c_vy[i] = keep * vy, c_vz[i] = keep * vz;
       resting += 0.5 * mass[i] * v2 * (1 - keep * keep);
 
-      Symmetric s{s_xx[i] + p0, s_yy[i] + p0, s_zz[i] + p0,
-                  s_xy[i],      s_yz[i],      s_zx[i]};
+      Symmetric s{s_xx[i] + p0, s_yy[i] + p0, s_zz[i] + p0, s_xy[i], s_yz[i], s_zx[i]};
       double smoothed = 0;
       if constexpr (smooth) {
         const double before = s.norm2();
         const double weight = packing.smooths(e0, p0, law) ? dt * (p0 + floor) * motion : 0;
-        s = s.plus(weight, {r_xx[i], r_yy[i], r_zz[i], r_xy[i],
-                            r_yz[i], r_zx[i]});
+        s = s.plus(weight, {r_xx[i], r_yy[i], r_zz[i], r_xy[i], r_yz[i], r_zx[i]});
         smoothed = s.norm2() - before;
       }
-      s = rotated(s, 0.25 * dt * (lzy - lyz), 0.25 * dt * (lxz - lzx),
-                  0.25 * dt * (lyx - lxy));
+      s = rotated(s, 0.25 * dt * (lzy - lyz), 0.25 * dt * (lxz - lzx), 0.25 * dt * (lyx - lxy));
 
       // Elastic trial, then the closed-form return to the yield surface.
       const double third = trace / 3;
@@ -178,8 +175,7 @@ class StressUpdate {
       const double replaced = carried * dt * work;  // the viscosity takes it instead
       const double squeezed = p1 - q1;
       elastic += volume * (squeezed * squeezed * half_inv_bulk + tau * tau * half_inv_shear);
-      if constexpr (Packing::parts)
-        frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
+      if constexpr (Packing::parts) frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
       // As the law stores it: per reference volume.
       power += volume * (dt * work - replaced + mean_p * squeezed_by);
       plastic += volume * (dt * work - replaced - (tau * tau - s.norm2()) * half_inv_shear);

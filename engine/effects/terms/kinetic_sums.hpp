@@ -8,7 +8,8 @@
 ///   neighbours        N += 1 inside the support
 /// Every sum takes the product of both weights, so that momentum, energy and heat of a pair cancel.
 /// Heating by the corrected gradient instead would make energy: where neighbours are few it is up
-/// to twice what the force feels. Contact stresses stay with the record's volumes: see KineticRecord.
+/// to twice what the force feels. Contact stresses stay with the record's volumes: see
+/// KineticRecord.
 #pragma once
 
 #include "engine/effects/terms/tension_sums.hpp"

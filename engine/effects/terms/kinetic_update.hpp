@@ -2,12 +2,12 @@
 /// Granular temperature and kinetic stress of one grain from n to n+1 (physics.md A.4, B.6, B.9).
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
 #include "engine/effects/terms/grain_stress_settings.hpp"
 #include "engine/effects/terms/symmetric_tensor.hpp"
 #include "engine/laws/grain_states.hpp"
+
+#include <algorithm>
+#include <cmath>
 
 namespace sturz {
 
@@ -21,14 +21,14 @@ struct KineticColumns {
 
 /// Sums and extremes over particles.
 struct KineticTotals {
-  double power = 0;       ///< V sigma_k : D dt [J]
-  double granular = 0;    ///< 3/2 m theta, now [J]
-  double conducted = 0;   ///< gained by conduction: zero but for rounding [J]
-  double collisions = 0;  ///< put in by the stress or conduction and not there any more [J]
-  double wave = 0;        ///< fastest sound of the colliding grains [m/s]
-  double viscosity = 0;   ///< largest (2 mu + lambda)/rho [m^2/s]
-  double diffusivity = 0; ///< largest k_theta/(3/2 rho) [m^2/s]
-  double theta = 0;       ///< largest [m^2/s^2]
+  double power = 0;        ///< V sigma_k : D dt [J]
+  double granular = 0;     ///< 3/2 m theta, now [J]
+  double conducted = 0;    ///< gained by conduction: zero but for rounding [J]
+  double collisions = 0;   ///< put in by the stress or conduction and not there any more [J]
+  double wave = 0;         ///< fastest sound of the colliding grains [m/s]
+  double viscosity = 0;    ///< largest (2 mu + lambda)/rho [m^2/s]
+  double diffusivity = 0;  ///< largest k_theta/(3/2 rho) [m^2/s]
+  double theta = 0;        ///< largest [m^2/s^2]
 
   KineticTotals& operator+=(const KineticTotals& o) {
     power += o.power, granular += o.granular;
@@ -49,10 +49,10 @@ inline double kinetic_share(double fraction, bool switched) {
 }
 
 /// KineticRecord::weight: sums are completed to the whole, but not from less than 0.4 of it. One
-/// neighbour fills at most 1/23 of a support, so grains that have parted further than `most` have no
-/// sum to complete. Without this bound the first neighbour of such a grain would count hundreds of
-/// times over: the fill is that of the step before, and was empty.
-/// \param growth  volume over that of the record; \param fill  of the support
+/// neighbour fills at most 1/23 of a support, so grains that have parted further than `most` have
+/// no sum to complete. Without this bound the first neighbour of such a grain would count hundreds
+/// of times over: the fill is that of the step before, and was empty. \param growth  volume over
+/// that of the record; \param fill  of the support
 inline double pair_weight(double growth, double fill) {
   constexpr double most = 30;
   const double told = std::fmin(growth, most);
@@ -61,7 +61,8 @@ inline double pair_weight(double growth, double fill) {
 
 /// Speed of sound in colliding grains: c^2 = dp/drho at theta, and what compression heats
 /// (2/3 p^2/(rho^2 theta)), over theta.
-inline double kinetic_wave2(const KineticTheory& law, const KineticCoefficients& k, double fraction) {
+inline double kinetic_wave2(const KineticTheory& law, const KineticCoefficients& k,
+                            double fraction) {
   const double g0 = k.radial, e1 = 1 + law.restitution;
   const double filled = std::cbrt(std::min(fraction / law.max_fraction, 0.99));
   const double g0_slope = g0 * g0 * filled / (3 * std::max(fraction, 1e-12));
@@ -141,8 +142,8 @@ class KineticUpdate {
     if (share == 0) return;
     out.theta = std::max(out.theta, theta1);
     out.wave = std::max(out.wave, root * std::sqrt(kinetic_wave2(law_, k, fraction)));
-    out.viscosity = std::max(
-        out.viscosity, share * root * (2 * k.shear_viscosity + k.bulk_viscosity) / density);
+    out.viscosity = std::max(out.viscosity,
+                             share * root * (2 * k.shear_viscosity + k.bulk_viscosity) / density);
     out.diffusivity = std::max(out.diffusivity, root * k.conductivity / (1.5 * density));
   }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/terms/lone_parcels.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "engine/effects/terms/stored_energy.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -39,7 +39,7 @@ struct GrainFields {
 /// What a parcel finds around it.
 struct Surroundings {
   int neighbors = 0;
-  double fill = 0;    ///< of its support, 1 inside a dense mass
+  double fill = 0;              ///< of its support, 1 inside a dense mass
   double weight = 0, warm = 0;  ///< of the grains among them: sum of weights, and times theta
 
   double theta() const { return weight > 0 ? warm / weight : 0; }
@@ -128,8 +128,8 @@ bool detach_lone(State& s, const GrainStressSettings& g) {
       s.ledger.granular_lost += heat;
     }
     f.clear_stress(i);
-    f.compression[i] = std::fmin(f.compression[i],
-                                 detach_fraction / g.states->reference_fraction - 1);
+    f.compression[i] =
+        std::fmin(f.compression[i], detach_fraction / g.states->reference_fraction - 1);
     f.state[i] = static_cast<double>(GrainState::ultradilute);
     f.alone[i] = in_flight;
     any = true;

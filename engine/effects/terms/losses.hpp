@@ -2,9 +2,9 @@
 /// What leaves the scene over the rim of the known ground, and what the rim stops.
 #pragma once
 
-#include <vector>
-
 #include "engine/effects/state.hpp"
+
+#include <vector>
 
 namespace sturz {
 

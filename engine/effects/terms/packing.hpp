@@ -3,10 +3,10 @@
 /// those whose grains may part and meet again.
 #pragma once
 
-#include <cmath>
-
 #include "engine/effects/terms/grain_stress_settings.hpp"
 #include "engine/laws/grain_states.hpp"
+
+#include <cmath>
 
 namespace sturz {
 
@@ -35,17 +35,17 @@ struct DensePacking {
 /// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make the fill too
 /// uneven to correct by.
 /// Few neighbours do not hold a grain under pressure either: see held().
-/// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing, not
-/// a cloud: it stays dense, without load, so that it carries at once when others run up on it.
+/// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing,
+/// not a cloud: it stays dense, without load, so that it carries at once when others run up on it.
 struct PartingPacking {
   static constexpr bool parts = true;
   static constexpr double sparse = 0.12;   ///< fill under which nobody is dense
   static constexpr double surface = 0.45;  ///< fill from which a grain holds whatever presses it
-  double bulk;                 ///< K [Pa]
-  double reference_fraction;   ///< alpha where e = 0
+  double bulk;                             ///< K [Pa]
+  double reference_fraction;               ///< alpha where e = 0
   FrictionalPressure friction;
-  bool switched;               ///< the paper's switch between laws instead of the sum
-  double kept;                 ///< exp(-dt/tau_r) of the switch's relaxation
+  bool switched;  ///< the paper's switch between laws instead of the sum
+  double kept;    ///< exp(-dt/tau_r) of the switch's relaxation
 
   double fraction(double e) const { return reference_fraction * (1 + e); }
   /// e after dt of the continuity equation; never -1. \param strain  dt tr L
@@ -76,9 +76,9 @@ struct PartingPacking {
     const double target = dense ? squeezed : friction.at(fraction(e));
     return target + (before - target) * kept;
   }
-  /// Cohesion ends where grains part, over the two percent after it ends in a mass that stays dense.
-  /// Held on to through the transition it would be shear without pressure, that is tension, and pull
-  /// grains into clumps (physics.md B.13, I1).
+  /// Cohesion ends where grains part, over the two percent after it ends in a mass that stays
+  /// dense. Held on to through the transition it would be shear without pressure, that is tension,
+  /// and pull grains into clumps (physics.md B.13, I1).
   static MuIRheology yielding(const MuIRheology& law, double e) {
     MuIRheology faded = law;
     faded.cohesion *= smoothstep((e - GrainStressSettings::separation + 0.02) / 0.02);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/terms/step_books.hpp"
 
+#include "engine/core/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "engine/core/parallel.hpp"
 
 namespace sturz {
 namespace {
@@ -33,7 +33,8 @@ void combine(MotionSums& total, const MotionSums& block) {
 
 /// Works are taken with the mean velocity of the step: then a particle that is held at rest works
 /// on nothing, and the sum of all works is the change of kinetic energy.
-void book_step(const State& s, const double* const before[3], std::size_t i, double dt, MotionSums& out) {
+void book_step(const State& s, const double* const before[3], std::size_t i, double dt,
+               MotionSums& out) {
   const ParticleSet& p = s.grains;
   const double bx = before[0][i], by = before[1][i], bz = before[2][i];
   const double dx = p.vx[i] - bx, dy = p.vy[i] - by, dz = p.vz[i] - bz;
@@ -74,8 +75,7 @@ void refresh_motion(State& s, double dt) {
       combine);
   s.motion.max_speed = std::sqrt(sums.speed2);
   s.motion.max_acceleration = dt > 0 ? std::sqrt(sums.change2) / dt : 0;
-  for (int k = 0; k < 3; ++k)
-    s.motion.velocity_range[k] = p.size() ? sums.hi[k] - sums.lo[k] : 0;
+  for (int k = 0; k < 3; ++k) s.motion.velocity_range[k] = p.size() ? sums.hi[k] - sums.lo[k] : 0;
   s.motion.finite = std::isfinite(sums.check) && !s.corrupt;
   Ledger& book = s.ledger;
   book.kinetic = sums.kinetic;

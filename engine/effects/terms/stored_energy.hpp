@@ -2,10 +2,10 @@
 /// What one grain's stress stores.
 #pragma once
 
-#include <cmath>
-
 #include "engine/effects/terms/grain_stress_settings.hpp"
 #include "engine/particles/particle_set.hpp"
+
+#include <cmath>
 
 namespace sturz {
 
@@ -13,8 +13,8 @@ namespace sturz {
 inline double elastic_energy(const GrainStressSettings& g, double volume, double compression,
                              double shear_stress) {
   const double p = g.bulk_modulus() * std::fmax(0.0, compression);
-  return volume * (p * p / (2 * g.bulk_modulus()) +
-                   shear_stress * shear_stress / (2 * g.shear_modulus()));
+  return volume *
+         (p * p / (2 * g.bulk_modulus()) + shear_stress * shear_stress / (2 * g.shear_modulus()));
 }
 
 /// That of particle i, from its fields "compression" and "stress" [J].

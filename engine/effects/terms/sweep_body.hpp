@@ -38,7 +38,8 @@ inline Lanes wall_share(const DenseSums& s, const Lanes w[6], Lanes scale) {
 }
 
 /// What ground and walls add to the moment matrix and, before correction, to the velocity gradient:
-/// 2 W_plane(d) d n n and 2 W_plane(d) v_n n n (SmoothingKernel::plane_integral), xx yy zz xy yz zx.
+/// 2 W_plane(d) d n n and 2 W_plane(d) v_n n n (SmoothingKernel::plane_integral), xx yy zz xy yz
+/// zx.
 struct Image {
   Lanes moment[6], gradient[6];
 
@@ -67,14 +68,15 @@ struct Image {
 };
 
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
-/// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours that
+/// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours
+/// that
 ///                parted alike are too small by it
 /// \tparam flying  whether the group may be a cloud
 /// \return trace of the moment that ground and walls add
 template <bool flying>
-inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
-                          const DenseScale& k, const BoundaryView& wall, const SweepOutput& out,
-                          std::size_t at, Lanes growth) {
+inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, const DenseScale& k,
+                          const BoundaryView& wall, const SweepOutput& out, std::size_t at,
+                          Lanes growth) {
   const Lanes sxx = Lanes::load(rows.sxx + lane), syy = Lanes::load(rows.syy + lane);
   const Lanes szz = Lanes::load(rows.szz + lane), sxy = Lanes::load(rows.sxy + lane);
   const Lanes syz = Lanes::load(rows.syz + lane), szx = Lanes::load(rows.szx + lane);
@@ -101,12 +103,12 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane,
     fma(x, b.xy, fma(y, b.yy, z * b.yz)).store(oy + at);
     fma(x, b.zx, fma(y, b.yz, z * b.zz)).store(oz + at);
   };
-  row(fma(scale, s.lxx, w[0]), fma(scale, s.lxy, w[3]), fma(scale, s.lxz, w[5]), out.lxx,
-      out.lxy, out.lxz);
-  row(fma(scale, s.lyx, w[3]), fma(scale, s.lyy, w[1]), fma(scale, s.lyz, w[4]), out.lyx,
-      out.lyy, out.lyz);
-  row(fma(scale, s.lzx, w[5]), fma(scale, s.lzy, w[4]), fma(scale, s.lzz, w[2]), out.lzx,
-      out.lzy, out.lzz);
+  row(fma(scale, s.lxx, w[0]), fma(scale, s.lxy, w[3]), fma(scale, s.lxz, w[5]), out.lxx, out.lxy,
+      out.lxz);
+  row(fma(scale, s.lyx, w[3]), fma(scale, s.lyy, w[1]), fma(scale, s.lyz, w[4]), out.lyx, out.lyy,
+      out.lyz);
+  row(fma(scale, s.lzx, w[5]), fma(scale, s.lzy, w[4]), fma(scale, s.lzz, w[2]), out.lzx, out.lzy,
+      out.lzz);
 
   // Density has no mirror image (it goes on rising towards the bed): its gradient is taken from
   // the neighbours alone.
@@ -186,8 +188,8 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
 inline void finish_ratio(const RatioSums& r, const GroupRows& rows, int lane, const DenseScale& k,
                          const SweepOutput& out, std::size_t at) {
   const Lanes third = Lanes::all(RatioSums::third), scale = Lanes::all(k.smoothing);
-  const Lanes trace = Lanes::load(rows.sxx + lane) + Lanes::load(rows.syy + lane) +
-                      Lanes::load(rows.szz + lane);
+  const Lanes trace =
+      Lanes::load(rows.sxx + lane) + Lanes::load(rows.syy + lane) + Lanes::load(rows.szz + lane);
   const Lanes v = r.weight * (Lanes::all(1) / (Lanes::all(k.ratio_floor) - third * trace));
   const Lanes xx = fnma(v, Lanes::load(rows.sxx + lane), r.xx);
   const Lanes yy = fnma(v, Lanes::load(rows.syy + lane), r.yy);
@@ -203,9 +205,9 @@ inline void finish_ratio(const RatioSums& r, const GroupRows& rows, int lane, co
 
 /// The lanes' own values of a group.
 inline DenseSelf self_of(const GroupRows& rows, int lane) {
-  return {IntLanes::load(rows.x + lane), IntLanes::load(rows.y + lane),
-          IntLanes::load(rows.z + lane), Lanes::load(rows.vx + lane),
-          Lanes::load(rows.vy + lane),   Lanes::load(rows.vz + lane),
+  return {IntLanes::load(rows.x + lane),       IntLanes::load(rows.y + lane),
+          IntLanes::load(rows.z + lane),       Lanes::load(rows.vx + lane),
+          Lanes::load(rows.vy + lane),         Lanes::load(rows.vz + lane),
           Lanes::load(rows.compression + lane)};
 }
 
@@ -251,8 +253,8 @@ inline auto pick_dense(const SweepConstants& c) {
 }
 
 inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
-                        const BoundaryView& wall, const SweepOutput& out,
-                        std::size_t first_group, std::size_t last_group) {
+                        const BoundaryView& wall, const SweepOutput& out, std::size_t first_group,
+                        std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
   const auto group = pick_dense<false>(constants);
   for (std::size_t g = first_group; g < last_group; ++g) group(view, scale, wall, out, g);
@@ -261,8 +263,8 @@ inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
 /// A group in which some grain flies, or meets one that does.
 template <bool smooth, bool tension>
 inline void kinetic_group(const PackedView& view, const KineticView& flying,
-                          const DenseScale& scale, const BoundaryView& wall,
-                          const SweepOutput& out, std::size_t group) {
+                          const DenseScale& scale, const BoundaryView& wall, const SweepOutput& out,
+                          std::size_t group) {
   const std::size_t first = group * group_size;
   const GroupRows rows(view.records + first);
   const KineticRows own(flying.records + first);
@@ -290,8 +292,8 @@ inline void kinetic_group(const PackedView& view, const KineticView& flying,
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const std::size_t at = first + lane;
-    const Lanes imaged = finish_dense<true>(sums, rows, lane, scale, wall, out, at,
-                                      Lanes::load(own.growth + lane));
+    const Lanes imaged =
+        finish_dense<true>(sums, rows, lane, scale, wall, out, at, Lanes::load(own.growth + lane));
     finish_kinetic(more, sums, rows, own, lane, scale, imaged, out, at);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, at);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, at);
@@ -325,8 +327,7 @@ inline void leave_calm(const SweepOutput& out, std::size_t group) {
 
 inline void kinetic_sweep(const PackedView& view, const KineticView& flying,
                           const SweepConstants& constants, const BoundaryView& wall,
-                          const SweepOutput& out, std::size_t first_group,
-                          std::size_t last_group) {
+                          const SweepOutput& out, std::size_t first_group, std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
   const auto calm = pick_dense<true>(constants);
   const auto stirred = pick_kinetic(constants);

@@ -9,9 +9,7 @@ struct Symmetric {
 
   double trace() const { return xx + yy + zz; }
   /// Half its double contraction: tau^2 of a deviator.
-  double norm2() const {
-    return 0.5 * (xx * xx + yy * yy + zz * zz) + xy * xy + yz * yz + zx * zx;
-  }
+  double norm2() const { return 0.5 * (xx * xx + yy * yy + zz * zz) + xy * xy + yz * yz + zx * zx; }
   double dot(const Symmetric& o) const {
     return xx * o.xx + yy * o.yy + zz * o.zz + 2 * (xy * o.xy + yz * o.yz + zx * o.zx);
   }

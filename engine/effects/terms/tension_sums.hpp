@@ -2,8 +2,8 @@
 /// Artificial stress of cohesive grains (Monaghan 2000, Gray et al. 2001; physics.md B.4, I1).
 ///
 /// In tension, neighbours that come closer pull each other more: pairs would collapse. A pressure
-/// epsilon T (f_i + f_j) f^4, f = W(r)/W(dx), pushes them apart below one spacing only. T is a bound
-/// of the largest principal tension, 2 tau/sqrt(3) - p.
+/// epsilon T (f_i + f_j) f^4, f = W(r)/W(dx), pushes them apart below one spacing only. T is a
+/// bound of the largest principal tension, 2 tau/sqrt(3) - p.
 #pragma once
 
 #include "engine/effects/terms/dense_sums.hpp"

@@ -2,9 +2,9 @@
 /// How much of the artificial viscosity acts on a grain, and how much of its stress that replaces.
 ///
 /// The viscosity is there for noise and sound, but in uniform shear it is a Newtonian fluid of
-/// eta = alpha_v h c0 rho/10: more than mu(I) leaves in a slow slope or in a thin and fast front. So it
-/// is held to a tenth of the friction where grains yield, and what it carries there is taken off
-/// the stress, so that their sum is the friction law's. Where nothing yields it acts in full.
+/// eta = alpha_v h c0 rho/10: more than mu(I) leaves in a slow slope or in a thin and fast front.
+/// So it is held to a tenth of the friction where grains yield, and what it carries there is taken
+/// off the stress, so that their sum is the friction law's. Where nothing yields it acts in full.
 #pragma once
 
 #include <algorithm>
