@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/layer_meaning.hpp"
 
-#include "reports/text.hpp"
+#include "reports/page/text.hpp"
 
 #include <algorithm>
 #include <cmath>

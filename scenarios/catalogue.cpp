@@ -2,7 +2,7 @@
 #include "scenarios/catalogue.hpp"
 
 #include "engine/core/error.hpp"
-#include "scenarios/suggest.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -13,7 +13,7 @@
 
 namespace sturz {
 
-/// Ground written as a formula instead of a raster; see scenarios/synthetic_terrain.hpp.
+/// Ground written as a formula instead of a raster; see scenarios/shapes/synthetic_terrain.hpp.
 struct SyntheticTerrain {
   std::string shape;  ///< plane, bowl, step, flume, ramp, zhangjiawan, shuicheng
   double cell_size_m = 5;
@@ -134,9 +134,10 @@ struct BasalSpec {
 struct NumericsSpec {
   double spacing_m = 0;  ///< particle spacing dx; 0 = not given (an error)
   double end_time_s = 120;
-  double courant = 0.25;              ///< dt <= courant h / (c0 + |v|)
-  double sound_speed_factor = 10;     ///< c0 = factor * expected flow speed
-  bool adaptive_sound_speed = true;   ///< c0 follows the flow, see engine/effects/sound_speed.cpp
+  double courant = 0.25;           ///< dt <= courant h / (c0 + |v|)
+  double sound_speed_factor = 10;  ///< c0 = factor * expected flow speed
+  bool adaptive_sound_speed =
+      true;  ///< c0 follows the flow, see engine/effects/dense/sound_speed.cpp
   double artificial_viscosity = 0.1;  ///< alpha_v of B.4
   double density_diffusion = 0.1;     ///< delta of B.2
   double jitter = 0.05;               ///< of the release lattice, in spacings

@@ -25,7 +25,7 @@ struct SceneInputs {
       release;  ///< pattern on the same grid, zeros outside the source
   ReleasePattern pattern = ReleasePattern::cover;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
-  /// coarser; null: each member makes its own. See scenarios/ground.hpp.
+  /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.
   std::shared_ptr<const Terrain> ground, column_ground;
   /// Zone of the base per cell of the same grid: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;

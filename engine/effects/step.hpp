@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/core/named_seconds.hpp"
+#include "engine/effects/effect_names.hpp"
 #include "engine/effects/state.hpp"
-#include "engine/effects/terms/effect_names.hpp"
 
 #include <memory>
 #include <span>

@@ -4,8 +4,8 @@
 #include "ensemble/app/cores.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/scene.hpp"
-#include "scenarios/schema.hpp"
-#include "scenarios/value_text.hpp"
+#include "scenarios/schema/schema.hpp"
+#include "scenarios/schema/value_text.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -7,8 +7,8 @@
 #include "ensemble/app/maps.hpp"
 #include "ensemble/app/member_order.hpp"
 #include "ensemble/app/progress_bar.hpp"
-#include "ensemble/runner.hpp"
-#include "io/member_file.hpp"
+#include "ensemble/members/runner.hpp"
+#include "io/members/member_file.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

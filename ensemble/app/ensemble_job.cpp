@@ -4,12 +4,12 @@
 #include "engine/core/error.hpp"
 #include "ensemble/app/cores.hpp"
 #include "ensemble/app/saved_design.hpp"
-#include "ensemble/shards.hpp"
-#include "io/atomic_file.hpp"
-#include "io/member_store.hpp"
-#include "io/scenario_file.hpp"
-#include "io/text_files.hpp"
-#include "scenarios/number_text.hpp"
+#include "ensemble/members/shards.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/text_files.hpp"
+#include "io/members/member_store.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "scenarios/schema/number_text.hpp"
 
 #include <fmt/core.h>
 

@@ -6,7 +6,7 @@
 #include "ensemble/app/console.hpp"
 #include "ensemble/app/output_folder.hpp"
 #include "ensemble/app/scene.hpp"
-#include "ensemble/design.hpp"
+#include "ensemble/sampling/design.hpp"
 
 #include <cstdint>
 #include <string>

@@ -2,8 +2,8 @@
 #include "ensemble/app/finished_folder.hpp"
 
 #include "engine/core/error.hpp"
-#include "io/scenario_file.hpp"
-#include "io/scene_inputs.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/site/scene_inputs.hpp"
 
 #include <fmt/core.h>
 

@@ -3,9 +3,9 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/app/version.hpp"
-#include "io/scene_inputs.hpp"
-#include "io/text_files.hpp"
-#include "scenarios/assemble.hpp"
+#include "io/files/text_files.hpp"
+#include "io/site/scene_inputs.hpp"
+#include "scenarios/assembly/assemble.hpp"
 
 #include <nlohmann/json.hpp>
 #include <time.h>

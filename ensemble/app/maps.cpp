@@ -4,13 +4,13 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/report_page.hpp"
 #include "ensemble/app/version.hpp"
-#include "ensemble/hazard_map.hpp"
-#include "ensemble/members_table.hpp"
-#include "ensemble/stack_hash.hpp"
-#include "io/cog.hpp"
-#include "io/member_store.hpp"
-#include "io/netcdf_layers.hpp"
-#include "io/text_files.hpp"
+#include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/stack_hash.hpp"
+#include "ensemble/members/members_table.hpp"
+#include "io/files/text_files.hpp"
+#include "io/gdal/cog.hpp"
+#include "io/members/member_store.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

@@ -5,7 +5,7 @@
 #include "engine/terrain/raster.hpp"
 #include "ensemble/app/console.hpp"
 #include "ensemble/app/output_folder.hpp"
-#include "ensemble/design.hpp"
+#include "ensemble/sampling/design.hpp"
 
 #include <cstdint>
 #include <vector>

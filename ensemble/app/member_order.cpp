@@ -2,8 +2,8 @@
 #include "ensemble/app/member_order.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/shards.hpp"
-#include "scenarios/assemble.hpp"
+#include "ensemble/members/shards.hpp"
+#include "scenarios/assembly/assemble.hpp"
 
 namespace sturz::app {
 namespace {

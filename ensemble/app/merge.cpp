@@ -5,7 +5,7 @@
 #include "ensemble/app/finished_folder.hpp"
 #include "ensemble/app/maps.hpp"
 #include "ensemble/app/saved_design.hpp"
-#include "io/member_store.hpp"
+#include "io/members/member_store.hpp"
 
 #include <fmt/core.h>
 

@@ -3,9 +3,9 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/app/version.hpp"
-#include "io/text_files.hpp"
-#include "scenarios/schema.hpp"
-#include "scenarios/value_text.hpp"
+#include "io/files/text_files.hpp"
+#include "scenarios/schema/schema.hpp"
+#include "scenarios/schema/value_text.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>

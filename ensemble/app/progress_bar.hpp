@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/simulation/simulation.hpp"
-#include "ensemble/runner.hpp"
+#include "ensemble/members/runner.hpp"
 
 #include <cstdint>
 #include <string>

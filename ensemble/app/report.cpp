@@ -6,9 +6,9 @@
 #include "ensemble/app/finished_folder.hpp"
 #include "ensemble/app/report_page.hpp"
 #include "ensemble/app/saved_design.hpp"
-#include "io/member_file.hpp"
-#include "io/member_store.hpp"
-#include "io/netcdf_layers.hpp"
+#include "io/members/member_file.hpp"
+#include "io/members/member_store.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
 
 #include <fmt/core.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/report_page.hpp"
 
-#include "io/text_files.hpp"
-#include "reports/report.hpp"
+#include "io/files/text_files.hpp"
+#include "reports/page/report.hpp"
 
 #include <fmt/core.h>
 

@@ -4,8 +4,8 @@
 
 #include "engine/simulation/member_result.hpp"
 #include "ensemble/app/output_folder.hpp"
-#include "ensemble/convergence.hpp"
-#include "ensemble/design.hpp"
+#include "ensemble/hazard/convergence.hpp"
+#include "ensemble/sampling/design.hpp"
 
 #include <span>
 

@@ -10,10 +10,10 @@
 #include "ensemble/app/report_page.hpp"
 #include "ensemble/app/scene.hpp"
 #include "ensemble/app/version.hpp"
-#include "io/atomic_file.hpp"
-#include "io/member_file.hpp"
-#include "io/netcdf_layers.hpp"
-#include "io/particle_frames.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/members/member_file.hpp"
+#include "io/members/particle_frames.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

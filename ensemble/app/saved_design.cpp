@@ -2,7 +2,7 @@
 #include "ensemble/app/saved_design.hpp"
 
 #include "engine/core/error.hpp"
-#include "io/text_files.hpp"
+#include "io/files/text_files.hpp"
 
 #include <fmt/core.h>
 

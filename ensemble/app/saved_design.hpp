@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ensemble/app/output_folder.hpp"
-#include "ensemble/design.hpp"
+#include "ensemble/sampling/design.hpp"
 
 namespace sturz::app {
 

@@ -2,10 +2,10 @@
 #include "ensemble/app/scene.hpp"
 
 #include "ensemble/app/machine_speed.hpp"
-#include "ensemble/design.hpp"
-#include "io/scenario_file.hpp"
-#include "io/scene_inputs.hpp"
-#include "io/text_files.hpp"
+#include "ensemble/sampling/design.hpp"
+#include "io/files/text_files.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/site/scene_inputs.hpp"
 
 #include <fmt/core.h>
 

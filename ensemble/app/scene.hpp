@@ -4,7 +4,7 @@
 
 #include "ensemble/app/console.hpp"
 #include "ensemble/app/output_folder.hpp"
-#include "scenarios/assemble.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "scenarios/scene_inputs.hpp"
 
 #include <string>

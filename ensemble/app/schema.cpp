@@ -2,8 +2,8 @@
 // sturz schema: the JSON Schema of scenario files, from the table that also validates them.
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
-#include "io/json_schema.hpp"
-#include "io/text_files.hpp"
+#include "io/files/text_files.hpp"
+#include "io/scenario/json_schema.hpp"
 
 #include <fmt/core.h>
 

@@ -4,14 +4,14 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/output_folder.hpp"
-#include "ensemble/design.hpp"
-#include "io/atomic_file.hpp"
-#include "io/cog.hpp"
-#include "io/scenario_file.hpp"
-#include "io/scene_inputs.hpp"
-#include "scenarios/number_text.hpp"
-#include "scenarios/suggest.hpp"
-#include "scenarios/synthetic_terrain.hpp"
+#include "ensemble/sampling/design.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/gdal/cog.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/site/scene_inputs.hpp"
+#include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/suggest.hpp"
+#include "scenarios/shapes/synthetic_terrain.hpp"
 
 #include <fmt/core.h>
 

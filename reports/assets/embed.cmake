@@ -12,7 +12,7 @@ foreach(text IN ITEMS script style)
   string(SHA256 ${text}_hash "${${text}_text}")
 endforeach()
 file(WRITE ${OUT} "// Generated from reports/assets; do not edit.
-#include \"reports/bundle.hpp\"
+#include \"reports/page/bundle.hpp\"
 
 namespace sturz {
 

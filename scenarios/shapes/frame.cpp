@@ -2,7 +2,7 @@
 #include "scenarios/shapes/frame.hpp"
 
 #include "engine/core/error.hpp"
-#include "scenarios/number_text.hpp"
+#include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "scenarios/shapes/profile.hpp"
 
 #include "engine/core/error.hpp"
-#include "scenarios/number_text.hpp"
+#include "scenarios/schema/number_text.hpp"
 #include "scenarios/shapes/frame.hpp"
 #include "scenarios/shapes/utm_48n.hpp"
 

@@ -2,7 +2,7 @@
 /// One shape of synthetic ground: its parameters and the function that builds it.
 #pragma once
 
-#include "scenarios/synthetic_terrain.hpp"
+#include "scenarios/shapes/synthetic_terrain.hpp"
 
 #include <map>
 #include <string>

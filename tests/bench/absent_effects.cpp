@@ -2,11 +2,11 @@
 // Pairs of members that differ by one effect which moves nothing.
 #include "engine/core/error.hpp"
 #include "engine/simulation/parts.hpp"
-#include "scenarios/assemble.hpp"
-#include "tests/bench/by_hand.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/bench/commands.hpp"
-#include "tests/bench/memory.hpp"
-#include "tests/bench/pairs.hpp"
+#include "tests/bench/measure/memory.hpp"
+#include "tests/bench/measure/pairs.hpp"
+#include "tests/bench/reference/by_hand.hpp"
 #include "tests/bench/scenes.hpp"
 #include "tests/bench/slices.hpp"
 

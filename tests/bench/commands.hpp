@@ -2,7 +2,7 @@
 /// The sub-commands of sturz_bench; each answers one question with tables.
 #pragma once
 
-#include "tests/bench/table.hpp"
+#include "tests/bench/measure/table.hpp"
 
 #include <string>
 
@@ -30,6 +30,8 @@ Report threads(const Options&);
 Report ensemble(const Options&);
 /// What does an effect cost that a scene does not call for?
 Report absent_effects(const Options&);
+/// Are the bits of every shipped scene still the same, on every instruction set and thread count?
+Report hashes(const Options&);
 /// Does it survive what wants to break it, and by which margin?
 Report hard(const Options&);
 

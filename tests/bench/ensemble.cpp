@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole small members by the runner that `sturz ensemble` uses, on one and on all workers.
 #include "engine/core/error.hpp"
-#include "ensemble/runner.hpp"
-#include "scenarios/assemble.hpp"
-#include "tests/bench/clocks.hpp"
+#include "ensemble/members/runner.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/bench/commands.hpp"
-#include "tests/bench/machine.hpp"
+#include "tests/bench/measure/clocks.hpp"
+#include "tests/bench/measure/machine.hpp"
 #include "tests/bench/scenes.hpp"
 
 #include <fmt/core.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every hard case and every random member of tests/hard, with the margin to each bound.
-#include "tests/bench/clocks.hpp"
 #include "tests/bench/commands.hpp"
 #include "tests/bench/hard_members.hpp"
-#include "tests/bench/machine.hpp"
+#include "tests/bench/measure/clocks.hpp"
+#include "tests/bench/measure/machine.hpp"
 #include "tests/hard/hard_case.hpp"
 #include "tests/hard/priors.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/hard_members.hpp"
 
-#include "ensemble/runner.hpp"
+#include "ensemble/members/runner.hpp"
 #include "tests/hard/priors.hpp"
 
 #include <fmt/core.h>

@@ -2,7 +2,7 @@
 /// The random members of the hard suite, run side by side and summed up.
 #pragma once
 
-#include "tests/bench/table.hpp"
+#include "tests/bench/measure/table.hpp"
 #include "tests/hard/random_members.hpp"
 
 #include <vector>

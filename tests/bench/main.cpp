@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a step costs, what an absent effect costs, how members scale.
 #include "tests/bench/commands.hpp"
-#include "tests/bench/machine.hpp"
-#include "tests/bench/markdown.hpp"
+#include "tests/bench/measure/machine.hpp"
+#include "tests/bench/measure/markdown.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -30,6 +30,7 @@ constexpr Command commands[] = {
     {"threads", "One member on one and on all processors", sturz::bench::threads},
     {"ensemble", "Members per hour and what the runner costs", sturz::bench::ensemble},
     {"absent-effects", "What effects cost that are not there", sturz::bench::absent_effects},
+    {"hashes", "State hash of every shipped scene: what must not change", sturz::bench::hashes},
     {"hard", "Hard cases and random members against their bounds", sturz::bench::hard}};
 
 /// Where the figures go besides the screen; empty: nowhere.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same box of grains in ever finer particles.
 #include "engine/simulation/parts.hpp"
-#include "scenarios/assemble.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/bench/commands.hpp"
-#include "tests/bench/memory.hpp"
+#include "tests/bench/measure/memory.hpp"
 #include "tests/bench/scenes.hpp"
 #include "tests/bench/slices.hpp"
 

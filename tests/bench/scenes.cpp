@@ -2,9 +2,9 @@
 #include "tests/bench/scenes.hpp"
 
 #include "engine/core/random.hpp"
-#include "io/scene_inputs.hpp"
+#include "io/site/scene_inputs.hpp"
+#include "scenarios/assembly/ground.hpp"
 #include "scenarios/catalogue.hpp"
-#include "scenarios/ground.hpp"
 
 #include <fmt/core.h>
 

@@ -3,8 +3,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/simulation/parts.hpp"
-#include "tests/bench/clocks.hpp"
-#include "tests/bench/statistics.hpp"
+#include "tests/bench/measure/clocks.hpp"
+#include "tests/bench/measure/statistics.hpp"
 
 #include <algorithm>
 #include <numeric>

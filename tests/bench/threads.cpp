@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // One big member on one and on all processors.
 #include "engine/simulation/parts.hpp"
-#include "scenarios/assemble.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/bench/commands.hpp"
-#include "tests/bench/machine.hpp"
-#include "tests/bench/pairs.hpp"
+#include "tests/bench/measure/machine.hpp"
+#include "tests/bench/measure/pairs.hpp"
 #include "tests/bench/scenes.hpp"
 #include "tests/bench/slices.hpp"
 

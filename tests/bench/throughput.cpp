@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // End to end through assemble and Simulation::run, pass by pass, and against the reference step.
-#include "scenarios/assemble.hpp"
-#include "tests/bench/clocks.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/bench/commands.hpp"
-#include "tests/bench/fma_peak.hpp"
-#include "tests/bench/machine.hpp"
-#include "tests/bench/memory.hpp"
-#include "tests/bench/pairs.hpp"
-#include "tests/bench/reference_slide.hpp"
+#include "tests/bench/measure/clocks.hpp"
+#include "tests/bench/measure/fma_peak.hpp"
+#include "tests/bench/measure/machine.hpp"
+#include "tests/bench/measure/memory.hpp"
+#include "tests/bench/measure/pairs.hpp"
+#include "tests/bench/reference/reference_slide.hpp"
+#include "tests/bench/reference/sweep_alone.hpp"
 #include "tests/bench/scenes.hpp"
 #include "tests/bench/slices.hpp"
-#include "tests/bench/sweep_alone.hpp"
 
 #include <fmt/core.h>
 
@@ -213,9 +213,10 @@ void Throughput::sweep(const Scene& scene, const SimulationParts& parts, const S
 
 void Throughput::add_notes() {
   report_.notes = {
-      fmt::format("Useful operations: {:.0f} per directed pair within 2h (a fused multiply-add "
-                  "counts two), as counted in tests/bench/sweep_alone.hpp; executed: all lanes.",
-                  flops_per_pair),
+      fmt::format(
+          "Useful operations: {:.0f} per directed pair within 2h (a fused multiply-add "
+          "counts two), as counted in tests/bench/reference/sweep_alone.hpp; executed: all lanes.",
+          flops_per_pair),
       "FMA peak: twelve independent chains of fused multiply-adds in float, as wide as the best "
       "instruction set, taken in turn with the sweep.",
       "Reference step: float, one list per particle with the engine's skin, one pass over the "

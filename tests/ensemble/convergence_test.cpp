@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/convergence.hpp"
+#include "ensemble/hazard/convergence.hpp"
 
-#include "ensemble/wilson.hpp"
+#include "ensemble/hazard/wilson.hpp"
 #include "tests/support/memory_members.hpp"
 
 #include <gtest/gtest.h>

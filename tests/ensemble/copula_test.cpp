@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/copula.hpp"
+#include "ensemble/sampling/copula.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/marginal.hpp"
-#include "ensemble/unit_cube.hpp"
+#include "ensemble/sampling/marginal.hpp"
+#include "ensemble/sampling/unit_cube.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/core/error.hpp"
-#include "ensemble/design.hpp"
+#include "ensemble/sampling/design.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

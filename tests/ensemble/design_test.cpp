@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/design.hpp"
+#include "ensemble/sampling/design.hpp"
 
 #include "engine/core/error.hpp"
 

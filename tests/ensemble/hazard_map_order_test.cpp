@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Order of members, shards, tile size: nothing of it may show in a single bit of the map.
 #include "engine/core/error.hpp"
-#include "ensemble/convergence.hpp"
-#include "ensemble/hazard_map.hpp"
-#include "ensemble/member_tiles.hpp"
-#include "ensemble/stack_hash.hpp"
+#include "ensemble/hazard/convergence.hpp"
+#include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/member_tiles.hpp"
+#include "ensemble/hazard/stack_hash.hpp"
 #include "tests/support/memory_members.hpp"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/hazard_map.hpp"
+#include "ensemble/hazard/hazard_map.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/wilson.hpp"
+#include "ensemble/hazard/wilson.hpp"
 #include "tests/support/memory_members.hpp"
 
 #include <gmock/gmock.h>

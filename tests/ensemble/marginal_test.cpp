@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/marginal.hpp"
+#include "ensemble/sampling/marginal.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/unit_cube.hpp"
+#include "ensemble/sampling/unit_cube.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

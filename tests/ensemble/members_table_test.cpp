@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/members_table.hpp"
+#include "ensemble/members/members_table.hpp"
 
 #include "engine/core/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/runner.hpp"
+#include "ensemble/members/runner.hpp"
 
 #include "engine/core/error.hpp"
 #include "tests/support/thread_sanitizer.hpp"

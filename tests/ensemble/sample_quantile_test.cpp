@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/sample_quantile.hpp"
+#include "ensemble/hazard/sample_quantile.hpp"
 
 #include <gtest/gtest.h>
 

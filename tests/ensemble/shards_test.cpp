@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/shards.hpp"
+#include "ensemble/members/shards.hpp"
 
 #include "engine/core/error.hpp"
 

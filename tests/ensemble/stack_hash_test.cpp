@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/stack_hash.hpp"
+#include "ensemble/hazard/stack_hash.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/unit_cube.hpp"
+#include "ensemble/sampling/unit_cube.hpp"
 
 #include "engine/core/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/wilson.hpp"
+#include "ensemble/hazard/wilson.hpp"
 
 #include <gtest/gtest.h>
 

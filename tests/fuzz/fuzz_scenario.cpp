@@ -2,7 +2,7 @@
 // Any bytes into the scenario reader: it answers with a scenario or with ScenarioError, never with
 // anything else; and what it accepted it must write and read back unchanged. Bytes after a NUL are
 // an override.
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 #include <cstdint>
 #include <cstdlib>

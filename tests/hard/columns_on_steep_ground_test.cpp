@@ -3,7 +3,7 @@
 // NaN, no column lost but over the rim, the ledger closed, no speed from nowhere.
 // STURZ_HARD_MEMBERS=500 runs as many; the usual number is for every change.
 #include "engine/simulation/parts.hpp"
-#include "scenarios/assemble.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/hard/steep_ground.hpp"
 
 #include <fmt/core.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // I18: whatever becomes NaN, infinite or absurd in the middle of a run, the member ends with a name
 // and a reason, the last frame is the last good one, and the others of the ensemble go on.
-#include "ensemble/runner.hpp"
-#include "scenarios/assemble.hpp"
+#include "ensemble/members/runner.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/hard/random_members.hpp"
 
 #include <gmock/gmock.h>

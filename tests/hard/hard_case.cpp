@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/hard/hard_case.hpp"
 
-#include "tests/hard/cases.hpp"
+#include "tests/hard/cases/cases.hpp"
 
 #include <algorithm>
 #include <cmath>

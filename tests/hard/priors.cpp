@@ -2,7 +2,7 @@
 #include "tests/hard/priors.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/marginal.hpp"
+#include "ensemble/sampling/marginal.hpp"
 
 #include <cmath>
 #include <numbers>

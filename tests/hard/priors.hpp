@@ -2,7 +2,7 @@
 /// The default priors of a dry rock avalanche (physics.md D.2) as a design of hard members.
 #pragma once
 
-#include "ensemble/design.hpp"
+#include "ensemble/sampling/design.hpp"
 
 namespace sturz::test {
 

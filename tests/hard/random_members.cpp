@@ -2,8 +2,8 @@
 #include "tests/hard/random_members.hpp"
 
 #include "engine/core/random.hpp"
-#include "io/scene_inputs.hpp"
-#include "scenarios/assemble.hpp"
+#include "io/site/scene_inputs.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/hard/priors.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/gdal_raster.hpp"
+#include "io/gdal/gdal_raster.hpp"
 
 #include "tests/io/io_fixture.hpp"
 

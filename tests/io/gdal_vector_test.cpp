@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/gdal_vector.hpp"
+#include "io/gdal/gdal_vector.hpp"
 
-#include "io/polygon_cover.hpp"
+#include "io/site/polygon_cover.hpp"
 #include "tests/io/io_fixture.hpp"
 
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/json_schema.hpp"
+#include "io/scenario/json_schema.hpp"
 
-#include "io/scenario_file.hpp"
-#include "scenarios/schema.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "scenarios/schema/schema.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/member_file.hpp"
+#include "io/members/member_file.hpp"
 
-#include "io/atomic_file.hpp"
-#include "io/io_error.hpp"
-#include "io/member_store.hpp"
-#include "io/text_files.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/io_error.hpp"
+#include "io/files/text_files.hpp"
+#include "io/members/member_store.hpp"
 #include "tests/io/io_fixture.hpp"
 
 #include <sys/wait.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/netcdf_layers.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
 
-#include "io/gdal_raster.hpp"
-#include "io/history_netcdf.hpp"
-#include "io/io_error.hpp"
-#include "io/netcdf_file.hpp"
-#include "io/text_files.hpp"
+#include "io/files/io_error.hpp"
+#include "io/files/text_files.hpp"
+#include "io/gdal/gdal_raster.hpp"
+#include "io/netcdf/history_netcdf.hpp"
+#include "io/netcdf/netcdf_file.hpp"
 #include "tests/io/io_fixture.hpp"
 
 #include <bit>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Atomic files, text, checksums, GeoTIFF, particle frames.
-#include "io/atomic_file.hpp"
-#include "io/checksum.hpp"
-#include "io/cog.hpp"
-#include "io/gdal_raster.hpp"
-#include "io/io_error.hpp"
-#include "io/particle_frames.hpp"
-#include "io/text_files.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/files/checksum.hpp"
+#include "io/files/io_error.hpp"
+#include "io/files/text_files.hpp"
+#include "io/gdal/cog.hpp"
+#include "io/gdal/gdal_raster.hpp"
+#include "io/members/particle_frames.hpp"
 #include "tests/io/io_fixture.hpp"
 
 #include <gdal_priv.h>

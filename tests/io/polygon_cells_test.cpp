@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/polygon_cells.hpp"
+#include "io/site/polygon_cells.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that want to hang, crash or mislead the reader.
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a user reads when a scenario file is wrong, word for word.
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

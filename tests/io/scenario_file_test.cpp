@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scenario_file.hpp"
+#include "io/scenario/scenario_file.hpp"
 
-#include "io/io_error.hpp"
+#include "io/files/io_error.hpp"
 #include "scenarios/catalogue.hpp"
-#include "scenarios/schema.hpp"
+#include "scenarios/schema/schema.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

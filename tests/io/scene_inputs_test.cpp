@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/scene_inputs.hpp"
+#include "io/site/scene_inputs.hpp"
 
-#include "io/cog.hpp"
+#include "io/gdal/cog.hpp"
 #include "tests/io/io_fixture.hpp"
 
 #include <cmath>

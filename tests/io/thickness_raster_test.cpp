@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/thickness_raster.hpp"
+#include "io/site/thickness_raster.hpp"
 
 #include "tests/io/io_fixture.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Zones of the base from their files to the terrain's cells.
-#include "io/cog.hpp"
-#include "io/scenario_file.hpp"
-#include "io/scene_inputs.hpp"
+#include "io/gdal/cog.hpp"
+#include "io/scenario/scenario_file.hpp"
+#include "io/site/scene_inputs.hpp"
 #include "tests/io/io_fixture.hpp"
 
 #include <algorithm>

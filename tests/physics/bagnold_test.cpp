@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // V7: a slab of mu(I) grains flows steadily down an even slope with Bagnold's profile; on a flatter
 // one it stops, on a steeper one it accelerates.
-#include "engine/effects/terms/step_books.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/verification.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // V19 and V20 far from any ground: parcels fly parabolas, pair forces do not move the whole.
-#include "engine/effects/motion.hpp"
+#include "engine/effects/motion/effect.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/verification.hpp"
 

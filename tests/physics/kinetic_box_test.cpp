@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // V10 and V11 as flows of particles: colliding grains in a box without gravity.
-#include "engine/effects/grain_stress.hpp"
-#include "engine/effects/gravity.hpp"
-#include "engine/effects/motion.hpp"
-#include "engine/effects/terrain_contact.hpp"
+#include "engine/effects/bed/effect.hpp"
+#include "engine/effects/dense/effect.hpp"
+#include "engine/effects/motion/effect.hpp"
+#include "engine/effects/motion/gravity.hpp"
 #include "tests/support/hand_made.hpp"
 
 #include <fmt/core.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // V18 in three dimensions: a parabolic ridge, one periodic slice of it, spreads down a 35 degree
 // slope over a base of tan 25 degrees. Full stress at four and more layers, columns beside it.
-#include "io/scene_inputs.hpp"
-#include "scenarios/assemble.hpp"
+#include "io/site/scene_inputs.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/verification.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/physics/verification.hpp"
 
-#include "io/scene_inputs.hpp"
-#include "scenarios/assemble.hpp"
+#include "io/site/scene_inputs.hpp"
+#include "scenarios/assembly/assemble.hpp"
 #include "tests/physics/results_file.hpp"
 
 #include <fmt/core.h>

@@ -3,7 +3,7 @@
 /// must conserve, and write one line of the accuracy-versus-time table.
 #pragma once
 
-#include "engine/effects/fused_sweep.hpp"
+#include "engine/effects/sweep/fused_sweep.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/simulation.hpp"
 #include "scenarios/scenario.hpp"

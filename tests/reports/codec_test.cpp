@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/codec.hpp"
+#include "reports/figures/codec.hpp"
 
-#include "reports/payload.hpp"
-#include "reports/png.hpp"
+#include "reports/figures/png.hpp"
+#include "reports/page/payload.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/headline.hpp"
+#include "reports/page/headline.hpp"
 
 #include "tests/reports/made_up_results.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/legend.hpp"
+#include "reports/figures/legend.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/reports/made_up_results.hpp"
 
-#include "ensemble/hazard_map.hpp"
+#include "ensemble/hazard/hazard_map.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 /// as their made-up friction lets them. Maps come from the real make_hazard_map.
 #pragma once
 
-#include "ensemble/design.hpp"
-#include "reports/report.hpp"
+#include "ensemble/sampling/design.hpp"
+#include "reports/page/report.hpp"
 
 #include <memory>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The part of a run's page that follows it through time.
-#include "reports/motion_charts.hpp"
-#include "reports/report.hpp"
-#include "reports/sections.hpp"
+#include "reports/figures/motion_charts.hpp"
+#include "reports/page/report.hpp"
+#include "reports/page/sections.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <gmock/gmock.h>

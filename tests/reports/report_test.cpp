@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/report.hpp"
+#include "reports/page/report.hpp"
 
-#include "reports/figures.hpp"
+#include "reports/figures/figures.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <gtest/gtest.h>

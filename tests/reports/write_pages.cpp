@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Writes the pages that the browser test opens: write_pages DIRECTORY [COLUMNS ROWS MEMBERS].
-#include "reports/figures.hpp"
+#include "reports/figures/figures.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <cstdio>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/distribution_check.hpp"
+#include "scenarios/checks/distribution_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/formulation.hpp"
+#include "scenarios/assembly/formulation.hpp"
 
 #include "engine/core/error.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The ground that members share: averaged for columns, prepared once, laid over by excavations.
-#include "scenarios/ground.hpp"
+#include "scenarios/assembly/ground.hpp"
 
 #include "engine/core/error.hpp"
-#include "scenarios/scene_plan.hpp"
+#include "scenarios/assembly/scene_plan.hpp"
 #include "tests/support/formula_ground.hpp"
 
 #include <gmock/gmock.h>

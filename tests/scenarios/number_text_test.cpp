@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/number_text.hpp"
+#include "scenarios/schema/number_text.hpp"
 
-#include "scenarios/suggest.hpp"
-#include "scenarios/value_text.hpp"
+#include "scenarios/schema/suggest.hpp"
+#include "scenarios/schema/value_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/schema.hpp"
+#include "scenarios/schema/schema.hpp"
 
 #include "engine/core/error.hpp"
-#include "scenarios/validate.hpp"
-#include "scenarios/zone_fields.hpp"
+#include "scenarios/checks/validate.hpp"
+#include "scenarios/schema/zone_fields.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/synthetic_terrain.hpp"
+#include "scenarios/shapes/synthetic_terrain.hpp"
 
 #include "engine/core/error.hpp"
 

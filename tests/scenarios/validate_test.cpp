@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/validate.hpp"
+#include "scenarios/checks/validate.hpp"
 
 #include "engine/core/error.hpp"
 #include "scenarios/catalogue.hpp"

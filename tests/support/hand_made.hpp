@@ -2,13 +2,13 @@
 /// States and steps built by hand: the engine's own effects on a small even ground.
 #pragma once
 
-#include "engine/effects/depth_averaged.hpp"
-#include "engine/effects/grain_stress.hpp"
-#include "engine/effects/gravity.hpp"
-#include "engine/effects/motion.hpp"
+#include "engine/effects/bed/effect.hpp"
+#include "engine/effects/columns/effect.hpp"
+#include "engine/effects/dense/effect.hpp"
+#include "engine/effects/motion/effect.hpp"
+#include "engine/effects/motion/gravity.hpp"
 #include "engine/effects/state.hpp"
 #include "engine/effects/step.hpp"
-#include "engine/effects/terrain_contact.hpp"
 
 #include <array>
 #include <vector>

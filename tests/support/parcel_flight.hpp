@@ -2,7 +2,7 @@
 /// Lone parcels thrown by hand: only gravity, their contacts and motion.
 #pragma once
 
-#include "engine/effects/parcel_contacts.hpp"
+#include "engine/effects/isolated/effect.hpp"
 #include "tests/support/hand_made.hpp"
 
 #include <Eigen/Geometry>

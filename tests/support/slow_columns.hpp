@@ -4,7 +4,7 @@
 
 #include "engine/core/domain.hpp"
 #include "engine/core/vec.hpp"
-#include "engine/effects/fused_sweep.hpp"
+#include "engine/effects/sweep/fused_sweep.hpp"
 
 #include <vector>
 

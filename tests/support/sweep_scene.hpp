@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/domain.hpp"
-#include "engine/effects/fused_sweep.hpp"
+#include "engine/effects/sweep/fused_sweep.hpp"
 #include "tests/support/slow_sweep.hpp"
 
 #include <array>

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/effects/bed/effect.hpp"
+
+#include "engine/core/parallel.hpp"
+#include "engine/laws/contact_impulse.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace sturz {
+namespace {
+
+struct ContactSums {
+  double pressure_work = 0, contact_work = 0, friction = 0, spring = 0;
+
+  void add(const ContactEnergy& e, double mass) {
+    pressure_work += mass * e.pressure_work;
+    contact_work += mass * e.contact_work;
+    friction += mass * e.friction;
+    spring += mass * e.spring;
+  }
+};
+
+void combine(ContactSums& total, const ContactSums& block) {
+  total.pressure_work += block.pressure_work;
+  total.contact_work += block.contact_work;
+  total.friction += block.friction;
+  total.spring += block.spring;
+}
+
+/// Integral of the smoothing kernel over a plane at distance d (SmoothingKernel::plane_integral),
+/// once per step and particle in the hot path.
+double plane_integral(double d, double h) {
+  const double y = 1 - std::fmax(d, 0.0) / (2 * h), y2 = y * y, y5 = y2 * y2 * y;
+  return y > 0 ? 10.5 / h * y5 * (1 + y * (-1.5 + y * (4.0 / 7.0))) : 0;
+}
+
+/// The mirrored half's share of the pressure force: a = 2 p_n W_plane(d) / rho along n. With it
+/// the bottom layers carry the pressure of the column above, and the spring only guards the gap.
+class WallPressure {
+ public:
+  WallPressure(const State& s, const ContactSettings& c) {
+    const Field* stress = s.grains.find_field("stress");
+    if (!stress) return;
+    for (int k = 0; k < 6; ++k) stress_[k] = stress->component[k].data();
+    if (const Field* kinetic = s.grains.find_field("kinetic_stress"))
+      for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
+    compression_ = s.grains.find_field("compression")->component[0].data();
+    density_ = c.reference_density;
+    share_ = s.boundary.share.data();
+  }
+  /// \param plane  plane_integral at the particle's distance [1/m]
+  double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
+    if (!compression_) return 0;
+    double snn = normal(stress_, i, nx, ny, nz);
+    if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
+    if (snn >= 0) return 0;
+    return -2 * snn * plane * share_[i] / (density_ * (1 + compression_[i]));
+  }
+
+ private:
+  static double normal(const double* const s[6], std::size_t i, double nx, double ny, double nz) {
+    return nx * nx * s[0][i] + ny * ny * s[1][i] + nz * nz * s[2][i] +
+           2 * (nx * ny * s[3][i] + ny * nz * s[4][i] + nz * nx * s[5][i]);
+  }
+
+  double density_ = 1;
+  const float* share_ = nullptr;
+  const double* stress_[6] = {};
+  const double* kinetic_[6] = {};  ///< of grains that fly, see grain_states.cpp
+  const double* compression_ = nullptr;
+};
+
+/// Velocities at the start of the step, as the pack pass left them.
+class StartVelocity {
+ public:
+  explicit StartVelocity(const State& s)
+      : set_(s.grains), before_(set_.find_field("velocity_before")) {}
+  std::array<double, 3> operator()(std::size_t i) const {
+    if (!before_) return {set_.vx[i], set_.vy[i], set_.vz[i]};
+    return {before_->component[0][i], before_->component[1][i], before_->component[2][i]};
+  }
+
+ private:
+  const ParticleSet& set_;
+  const Field* before_;
+};
+
+/// Looks up the ground under every particle and what the mirrored halves add to its gradients.
+class BoundaryPass final : public Pass {
+ public:
+  explicit BoundaryPass(const ContactSettings& c) : settings_(c) {}
+  std::string_view name() const override { return "ground and wall support"; }
+  std::string_view effect() const override { return EffectName::base; }
+  Stage stage() const override { return Stage::boundary; }
+
+  void limits(const State& s, std::vector<StepLimit>& out) const override {
+    const double v = s.motion.max_speed, cell = s.terrain.grid().cell_m;
+    out.push_back(
+        {"terrain cell", v > 0 ? 0.5 * cell / v : std::numeric_limits<double>::infinity()});
+  }
+
+  void apply(State& s, double dt) override {
+    make_room(s);
+    // Where nothing moved in storage, what was far from the ground has come no nearer than it went.
+    const bool known = s.n_sorts == sorts_ && s.grains.size() == n_;
+    sorts_ = s.n_sorts;
+    n_ = s.grains.size();
+    const auto travel = static_cast<float>(1.0001 * s.motion.max_speed * s.previous_dt);
+    const auto far = static_cast<float>(2 * settings_.smoothing_length);
+    float* distance = s.boundary.distance.data();
+    const Found found = ordered_reduce(
+        n_, s.threads, Found{},
+        [&](std::size_t begin, std::size_t end, Found& out) {
+          for (std::size_t i = begin; i < end; ++i) {
+            if (known && distance[i] - travel > far)
+              distance[i] -= travel;
+            else
+              locate(s, i, out);
+          }
+          if (!s.domain.walls.empty()) add_walls(s, dt, begin, end);
+        },
+        [](Found& total, const Found& block) {
+          total.any_outside |= block.any_outside;
+          total.leaked += block.leaked;
+        });
+    s.any_outside = found.any_outside;
+    s.ledger.leaked_mass += found.leaked;
+  }
+
+ private:
+  struct Found {
+    bool any_outside = false;
+    double leaked = 0;
+  };
+
+  /// Whole groups, because the sweep reads lanes.
+  static void make_room(State& s) {
+    const std::size_t padded = (s.grains.size() + 15) / 16 * 16;
+    BoundarySupport& b = s.boundary;
+    for (auto* column : {&b.distance, &b.nx, &b.ny, &b.nz}) column->resize(padded);
+    s.outside.resize(s.grains.size());
+    if (s.domain.walls.empty()) return;
+    for (int c = 0; c < 6; ++c) b.moment[c].resize(padded), b.gradient[c].resize(padded);
+  }
+
+  void locate(State& s, std::size_t i, Found& out) const {
+    BoundarySupport& b = s.boundary;
+    Vec3 at(s.grains.x[i], s.grains.y[i], s.grains.z[i]);
+    s.domain.wrap(at.x(), at.y(), at.z());
+    SurfaceDistance gap;
+    s.outside[i] = !s.terrain.distance_inside(at, 0.5 * settings_.spacing, gap);
+    b.distance[i] = static_cast<float>(gap.distance);
+    b.nx[i] = static_cast<float>(gap.normal.x());
+    b.ny[i] = static_cast<float>(gap.normal.y());
+    b.nz[i] = static_cast<float>(gap.normal.z());
+    const double reach = 2 * settings_.smoothing_length;
+    if (gap.distance > reach)  // how long it need not be looked at again
+      b.distance[i] = static_cast<float>(std::fmax(reach, s.terrain.clearance(at)));
+    if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
+      s.outside[i] = 2;
+      out.leaked += s.grains.mass[i];
+    }
+    out.any_outside |= s.outside[i] != 0;
+  }
+
+  /// What the mirrored halves beside analytic walls add to moment and gradient of [begin, end).
+  void add_walls(State& s, double dt, std::size_t begin, std::size_t end) const {
+    BoundarySupport& b = s.boundary;
+    const ParticleSet& p = s.grains;
+    const Field* before = p.find_field("velocity_before");
+    if (!before) return;  // nobody sums gradients
+    const double ahead = s.extrapolation(dt);
+    for (int c = 0; c < 6; ++c) {
+      std::fill(b.moment[c].begin() + begin, b.moment[c].begin() + end, 0.0f);
+      std::fill(b.gradient[c].begin() + begin, b.gradient[c].begin() + end, 0.0f);
+    }
+    for (const Wall& wall : s.domain.walls) {
+      if (s.time >= wall.remove_at_s) continue;
+      const Vec3& n = wall.normal;
+      const double nn[6] = {n.x() * n.x(), n.y() * n.y(), n.z() * n.z(),
+                            n.x() * n.y(), n.y() * n.z(), n.z() * n.x()};
+      for (std::size_t i = begin; i < end; ++i) {
+        const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
+        const double plane = plane_integral(d, settings_.smoothing_length);
+        if (plane <= 0) continue;
+        const Vec3 v(p.vx[i], p.vy[i], p.vz[i]);
+        const Vec3 last(before->component[0][i], before->component[1][i], before->component[2][i]);
+        const double moment = 2 * plane * std::fmax(0.0, d);
+        const double gradient = 2 * plane * (v + ahead * (v - last)).dot(n);
+        for (int c = 0; c < 6; ++c) {
+          b.moment[c][i] += static_cast<float>(moment * nn[c]);
+          b.gradient[c][i] += static_cast<float>(gradient * nn[c]);
+        }
+      }
+    }
+  }
+
+  ContactSettings settings_;
+  std::size_t sorts_ = 0, n_ = 0;  // of the step before
+};
+
+void book(State& s, const ContactSums& sums) {
+  s.ledger.stress_work += sums.pressure_work;
+  s.ledger.contact_work += sums.contact_work;
+  s.ledger.friction += sums.friction;
+}
+
+class GroundContact final : public Pass {
+ public:
+  explicit GroundContact(const ContactSettings& c) : settings_(c) {
+    for (const GroundFriction& zone : c.base) {
+      ContactLaw& law = laws_.emplace_back();
+      law.stiffness = c.stiffness;
+      law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
+      law.reach = 0.5 * c.spacing;
+      law.friction = zone.friction_coefficient * (1 - zone.pore_pressure_ratio);
+      // A particle in the first layer stands on an area of V/dx.
+      law.cohesion_rate = zone.cohesion_pa / (c.reference_density * c.spacing);
+      law.cohesion_reach = zone.cohesion_pa > 0 ? c.spacing : -1;
+    }
+  }
+  std::string_view name() const override { return "terrain contact"; }
+  std::string_view effect() const override { return EffectName::base; }
+  Stage stage() const override { return Stage::contact; }
+
+  void limits(const State&, std::vector<StepLimit>& out) const override {
+    out.push_back({"terrain spring", 0.2 / std::sqrt(settings_.stiffness)});
+  }
+
+  void apply(State& s, double dt) override {
+    ParticleSet& p = s.grains;
+    const BoundarySupport& b = s.boundary;
+    const WallPressure pressure(s, settings_);
+    const StartVelocity start(s);
+    const double reach = 2 * settings_.smoothing_length;
+    const bool zoned = settings_.zones.any();
+    const ContactSums sums = ordered_reduce(
+        p.size(), s.threads, ContactSums{},
+        [&](std::size_t begin, std::size_t end, ContactSums& out) {
+          for (std::size_t i = begin; i < end; ++i) {
+            if (s.outside[i] || b.distance[i] >= reach) continue;
+            const double plane = plane_integral(b.distance[i], settings_.smoothing_length);
+            const double support = pressure.acceleration(i, plane, b.nx[i], b.ny[i], b.nz[i]);
+            const ContactLaw& law = laws_[zoned ? zone_of(s, i) : 0];
+            out.add(apply_contact(law, b.distance[i], b.nx[i], b.ny[i], b.nz[i], support, dt,
+                                  start(i).data(), p.vx[i], p.vy[i], p.vz[i]),
+                    p.mass[i]);
+          }
+        },
+        combine);
+    book(s, sums);
+    s.ledger.spring = sums.spring;
+  }
+
+ private:
+  std::size_t zone_of(const State& s, std::size_t i) const {
+    double x = s.grains.x[i], y = s.grains.y[i], z = 0;
+    s.domain.wrap(x, y, z);
+    return static_cast<std::size_t>(settings_.zones.at(x, y));
+  }
+
+  ContactSettings settings_;
+  std::vector<ContactLaw> laws_;  // by zone
+};
+
+/// The domain's analytic planes, each until it is removed.
+class WallContact final : public Pass {
+ public:
+  explicit WallContact(const ContactSettings& c) : settings_(c) {}
+  std::string_view name() const override { return "wall contact"; }
+  std::string_view effect() const override { return EffectName::walls; }
+  Stage stage() const override { return Stage::contact; }
+
+  void apply(State& s, double dt) override {
+    for (const Wall& wall : s.domain.walls) {
+      if (s.time >= wall.remove_at_s) continue;
+      ContactLaw law;
+      law.stiffness = settings_.stiffness;
+      law.damping = 2 * damping_ratio(settings_.restitution) * std::sqrt(settings_.stiffness);
+      law.reach = 0.5 * settings_.spacing;
+      law.friction = wall.friction_coefficient;
+      law.cohesion_reach = -1;
+      press(s, wall, law, dt);
+    }
+  }
+
+ private:
+  void press(State& s, const Wall& wall, const ContactLaw& law, double dt) const {
+    ParticleSet& p = s.grains;
+    const WallPressure pressure(s, settings_);
+    const StartVelocity start(s);
+    const double reach = 2 * settings_.smoothing_length;
+    const Vec3 n = wall.normal;
+    const ContactSums sums = ordered_reduce(
+        p.size(), s.threads, ContactSums{},
+        [&](std::size_t begin, std::size_t end, ContactSums& out) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
+            if (d >= reach) continue;
+            const double support = pressure.acceleration(
+                i, plane_integral(d, settings_.smoothing_length), n.x(), n.y(), n.z());
+            out.add(apply_contact(law, d, n.x(), n.y(), n.z(), support, dt, start(i).data(),
+                                  p.vx[i], p.vy[i], p.vz[i]),
+                    p.mass[i]);
+          }
+        },
+        combine);
+    book(s, sums);
+    s.ledger.spring += sums.spring;
+  }
+
+  ContactSettings settings_;
+};
+
+}  // namespace
+
+void add_terrain_contact(Step& step, State& state, const ContactSettings& settings) {
+  step.add(std::make_unique<BoundaryPass>(settings));
+  step.add(std::make_unique<GroundContact>(settings));
+  if (!state.domain.walls.empty()) step.add(std::make_unique<WallContact>(settings));
+}
+
+}  // namespace sturz

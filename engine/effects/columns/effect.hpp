@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Depth-averaged flow (DAN3D family: McDougall & Hungr 2004; AvaFrame com1DFA): each particle is
+/// a column of constant volume that slides on the ground. No stress, no layers, no sound waves.
+#pragma once
+
+#include "engine/effects/columns/settings.hpp"
+#include "engine/effects/step.hpp"
+
+#include <span>
+
+namespace sturz {
+
+/// Fields "thickness" (along the ground's normal [m]), "reach" [m], "normal_gravity" [m/s^2],
+/// "turning" (momentum of bends not yet taken by the ground, per mass [m/s]), "ground",
+/// "velocity_before" and, where K varies, "earth_pressure". Adds cells, pack, sweep, base and
+/// motion; the columns are put on the ground and their velocities made tangent. \param thickness of
+/// each column along the vertical at release [m]
+void add_depth_averaged(Step&, State&, const DepthAveragedSettings&,
+                        std::span<const double> thickness);
+
+}  // namespace sturz

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// What gravity, lateral pressure and the base do to a column, and where it goes.
+#include "engine/core/parallel.hpp"
+#include "engine/effects/columns/shared.hpp"
+#include "engine/effects/motion/accounts.hpp"
+#include "engine/effects/motion/losses.hpp"
+
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+/// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the base acts last and can stop it.
+class BasePass final : public Pass {
+ public:
+  explicit BasePass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "gravity and base"; }
+  std::string_view effect() const override { return EffectName::base; }
+  Stage stage() const override { return Stage::contact; }
+
+  void apply(State& s, double dt) override {
+    const double kick = kick_length(s, dt);
+    ParticleSet& p = s.grains;
+    const GroundColumns ground(p);
+    const auto& g_n = p.find_field("normal_gravity")->component[0];
+    const auto& thickness = p.find_field("thickness")->component[0];
+    const Works sums = ordered_reduce(
+        p.size(), s.threads, Works{},
+        [&](std::size_t begin, std::size_t end, Works& out) {
+          for (std::size_t i = begin; i < end; ++i) {
+            if (s.leaves(i)) continue;  // the books take it as it was at the start of the step
+            const Works w = push(s, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
+            out.friction += p.mass[i] * w.friction;
+            out.contact += p.mass[i] * w.contact;
+          }
+        },
+        [](Works& total, const Works& block) {
+          total.friction += block.friction;
+          total.contact += block.contact;
+        });
+    s.ledger.friction += sums.friction;
+    s.ledger.contact_work += sums.contact;
+  }
+
+ private:
+  struct Works {
+    double friction = 0, contact = 0;  // taken by base and walls; done by walls [J/kg], [J]
+  };
+
+  /// \return works with the mean velocity of the step
+  Works push(State& s, std::size_t i, const Vec3& n, double normal_gravity, double thickness,
+             double kick, double drift) const {
+    ParticleSet& p = s.grains;
+    const Vec3 before(p.vx[i], p.vy[i], p.vz[i]);
+    Vec3 pull(s.ax[i], s.ay[i], s.az[i] - s.gravity);
+    pull -= pull.dot(n) * n;
+    const DepthAveragedSettings& set = flow_->settings;
+    const BasalResistance& base = set.base[flow_->zone_of(s, i)];
+    const double plastic = base.plastic(normal_gravity, thickness, set.density);
+    Vec3 after = braked(before, pull, plastic, 0, kick);
+    if (base.has_rate()) {
+      // The rate at the mean speed of the step, found from the rate at its start: a steady flow
+      // keeps its exact speed at any length of step.
+      auto rate = [&](double v) { return base.rate(v, thickness, set.density, s.gravity); };
+      const double v0 = before.norm();
+      const double v1 = braked(before, pull, plastic, rate(v0), kick).norm();
+      after = braked(before, pull, plastic, rate(0.5 * (v0 + v1)), kick);
+    }
+    Vec3 taken = before + kick * pull - after, held(0, 0, 0);
+    for (const Wall& wall : s.domain.walls) {
+      if (s.time >= wall.remove_at_s) continue;
+      const ColumnAtWall column = flow_->at_wall(p, i);
+      const double pressed = kick * flow_->walls.pressure(s.domain, s.time, wall, column).norm();
+      const auto impulse = flow_->walls.impulse(wall, column, after, pressed, drift);
+      after += impulse.normal + impulse.friction;
+      taken -= impulse.friction;
+      held += impulse.normal;
+    }
+    p.vx[i] = after.x(), p.vy[i] = after.y(), p.vz[i] = after.z();
+    const Vec3 mean = 0.5 * (before + after);
+    return {taken.dot(mean), held.dot(mean)};
+  }
+
+  /// Exact solution of dv/dt = pull - plastic v/|v| - rate v with the direction frozen; the
+  /// plastic part stops the column and never turns it.
+  static Vec3 braked(const Vec3& v, const Vec3& pull, double plastic, double rate, double dt) {
+    const double x = rate * dt, decay = x > 0 ? std::exp(-x) : 1;
+    const double mean = x > 1e-8 ? (1 - decay) / x : 1;
+    const Vec3 trial = decay * v + (mean * dt) * pull;
+    const double speed = trial.norm(), stop = plastic * mean * dt;
+    return speed > stop ? Vec3((1 - stop / speed) * trial) : Vec3(0, 0, 0);
+  }
+
+  std::shared_ptr<ColumnFlow> flow_;
+};
+
+struct DriftSums {
+  double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a rim that is a wall
+  double settled = 0;                    // what the kicks had left out of gravity's work
+  double later = 0;                      // sum of m dz of the second half of the step
+  bool any_outside = false;
+};
+
+class ColumnMotion final : public Pass {
+ public:
+  explicit ColumnMotion(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "column motion"; }
+  std::string_view effect() const override { return EffectName::motion; }
+  Stage stage() const override { return Stage::move; }
+
+  void limits(const State& s, std::vector<StepLimit>& out) const override {
+    // Half a cell at this speed, also where gravity adds to it all the way.
+    const double v = s.motion.max_speed, g = s.gravity, cell = s.terrain.grid().cell_m;
+    out.push_back({"terrain cell", cell / (v + std::sqrt(v * v + g * cell))});
+    // From rest with short steps that may grow: where the step changes fast, kicks and ways do not
+    // fit together, and energy is lost or found.
+    if (s.n_steps == 0) out.push_back({"start", flow_->start_dt});
+  }
+
+  void apply(State& s, double dt) override {
+    if (s.any_outside) remove_outside(s, keep_);
+    refresh_motion(s, kick_length(s, dt));
+    drift(s, dt);
+  }
+
+ private:
+  /// In separate loops: the arithmetic four columns side by side, the look-ups one by one.
+  void drift(State& s, double dt) {
+    ParticleSet& p = s.grains;
+    const GroundColumns ground(p);
+    s.outside.resize(p.size());
+    climb_.resize(p.size());
+    rise_.resize(p.size());
+    const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
+    const DriftSums sums = ordered_reduce(
+        p.size(), s.threads, DriftSums{},
+        [&](std::size_t begin, std::size_t end, DriftSums& out) {
+          turn_to_mid_step(p, ground, dt, begin, end);
+          if (rim) hold_at_rim(s, ground, dt, begin, end, out);
+          go(s, ground, dt, begin, end, out);
+          settle(p, ground, s.gravity, dt, begin, end, out);
+        },
+        [](DriftSums& total, const DriftSums& block) {
+          total.risen += block.risen;
+          total.stopped_energy += block.stopped_energy;
+          total.settled += block.settled;
+          total.later += block.later;
+          total.any_outside |= block.any_outside;
+        });
+    s.any_outside = sums.any_outside;
+    // The next kick counts the second half of the way: until then the books leave it out too.
+    s.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
+    later_rise_ = sums.later;
+    s.ledger.lost_energy += sums.stopped_energy;
+    s.ledger.gravity_work -= sums.settled;
+    // Both were taken after the step's works were summed up.
+    s.ledger.kinetic -= sums.stopped_energy + sums.settled;
+  }
+
+  /// The slopes at the middle of the step make the way second order.
+  void turn_to_mid_step(ParticleSet& p, const GroundColumns& ground, double dt, std::size_t begin,
+                        std::size_t end) {
+    const double *east = ground.component[0], *north = ground.component[1];
+    const double *ee = ground.component[2], *en = ground.component[3], *nn = ground.component[4];
+    double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data(), *climb = climb_.data();
+    const double half = 0.5 * dt;
+#pragma omp simd
+    for (std::size_t i = begin; i < end; ++i) {
+      const Velocity v{vx[i], vy[i], vz[i]};
+      climb[i] = v.z;
+      const double x = half * v.x, y = half * v.y;
+      const Velocity mid =
+          v.turned(east[i] + ee[i] * x + en[i] * y, north[i] + en[i] * x + nn[i] * y);
+      vx[i] = mid.x, vy[i] = mid.y, vz[i] = mid.z;
+    }
+  }
+
+  /// Takes the velocity that would lead off the known ground.
+  void hold_at_rim(State& s, const GroundColumns& ground, double dt, std::size_t begin,
+                   std::size_t end, DriftSums& out) const {
+    ParticleSet& p = s.grains;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Velocity v{p.vx[i], p.vy[i], p.vz[i]};
+      stop_at_rim(s, i, dt);
+      if (p.vx[i] == v.x && p.vy[i] == v.y) continue;
+      const ColumnGround mid = ground[i].ahead(0.5 * dt * v.x, 0.5 * dt * v.y);
+      p.vz[i] = mid.east * p.vx[i] + mid.north * p.vy[i];
+      out.stopped_energy +=
+          0.5 * p.mass[i] * (v.norm2() - Velocity{p.vx[i], p.vy[i], p.vz[i]}.norm2());
+    }
+  }
+
+  void go(State& s, const GroundColumns& ground, double dt, std::size_t begin, std::size_t end,
+          DriftSums& out) {
+    ParticleSet& p = s.grains;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double z = p.z[i];
+      p.x[i] += dt * p.vx[i];
+      p.y[i] += dt * p.vy[i];
+      s.outside[i] = !look_up_ground(s, ground, i);
+      out.any_outside |= s.outside[i] != 0;
+      rise_[i] = p.z[i] - z;
+    }
+  }
+
+  /// Turns to the slopes at the end of the step. Kicks count gravity's work by the slopes at both
+  /// ends of a step; over a kink or a cliff the ground fell or rose by something else. The speed
+  /// pays the difference, so a column never has more energy than its fall gave it.
+  void settle(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
+              std::size_t begin, std::size_t end, DriftSums& out) const {
+    const double *east = ground.component[0], *north = ground.component[1];
+    const double *climb = climb_.data(), *rise = rise_.data(), *mass = p.mass.data();
+    double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data();
+    double settled = 0, later = 0, risen = 0;
+    const double half = 0.5 * dt;
+#pragma omp simd reduction(+ : settled, later, risen)
+    for (std::size_t i = begin; i < end; ++i) {
+      const Velocity v = Velocity{vx[i], vy[i], vz[i]}.turned(east[i], north[i]);
+      const double v2 = v.norm2(), missed = gravity * (rise[i] - half * (climb[i] + v.z));
+      const double paid = v2 - 2 * missed, left = v2 > 0 && paid > 0 ? paid : 0;
+      const double share = v2 > 0 ? left / v2 : 0, factor = std::sqrt(share);
+      vx[i] = v.x * factor, vy[i] = v.y * factor, vz[i] = v.z * factor;
+      settled += 0.5 * mass[i] * (v2 - left);
+      later += mass[i] * half * vz[i];
+      risen += mass[i] * rise[i];
+    }
+    out.settled += settled;
+    out.later += later;
+    out.risen += risen;
+  }
+
+  std::shared_ptr<ColumnFlow> flow_;
+  std::vector<std::uint8_t> keep_;
+  std::vector<double> climb_, rise_;  // of each column: v_z at the step's start [m/s], dz [m]
+  double later_rise_ = 0;             // sum of m dz that the next kick counts [kg m]
+};
+
+}  // namespace
+
+void add_column_motion(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
+  step.add(std::make_unique<BasePass>(flow));
+  step.add(std::make_unique<ColumnMotion>(flow));
+}
+
+}  // namespace sturz

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cells, records and the sweep over neighbouring columns.
+#include "engine/core/parallel.hpp"
+#include "engine/effects/columns/shared.hpp"
+#include "engine/effects/motion/wrapping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sturz {
+namespace {
+
+class CellPass final : public Pass {
+ public:
+  explicit CellPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "column cells"; }
+  std::string_view effect() const override { return EffectName::column_pressure; }
+  Stage stage() const override { return Stage::neighbors; }
+
+  void apply(State& s, double) override {
+    wrap_particles(s);
+    flow_->cells.build(s.grains, s.domain, s.grains.find_field("reach")->component[0]);
+    for (auto& r : flow_->results) r.resize(flow_->cells.size());
+    s.order_changed = false;
+  }
+  std::size_t bytes() const override { return flow_->cells.bytes(); }
+
+ private:
+  std::shared_ptr<ColumnFlow> flow_;
+};
+
+/// Fills the records and finds how hard the ground presses.
+///
+/// The reaction of the ground is g cos + v.kappa.v, spread along the way over the column's own
+/// thickness or the smoothing length: a flow thicker than a corner's radius goes round it, and
+/// still takes the whole momentum of the turn, q' = v.kappa.v - q |v|/l.
+class PackPass final : public Pass {
+ public:
+  explicit PackPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "column pack"; }
+  std::string_view effect() const override { return EffectName::column_pressure; }
+  Stage stage() const override { return Stage::pack; }
+
+  void apply(State& s, double dt) override {
+    ParticleSet& p = s.grains;
+    const GroundColumns ground(p);
+    const double kick = kick_length(s, dt);
+    s.ledger.take_off += ordered_reduce(
+        p.size(), s.threads, 0.0,
+        [&](std::size_t begin, std::size_t end, double& off) {
+          press(p, ground, s.gravity, kick, begin, end, off);
+        },
+        [](double& total, double block) { total += block; });
+    fill_records(s);
+  }
+
+ private:
+  /// How hard the ground presses on columns [begin, end); adds mass times time of those that it
+  /// lets go of. Plain loops over plain arrays, so that the compiler puts four columns side by
+  /// side.
+  static void press(ParticleSet& p, const GroundColumns& ground, double gravity, double kick,
+                    std::size_t begin, std::size_t end, double& off) {
+    const double *east = ground.component[0], *north = ground.component[1];
+    const double *ee = ground.component[2], *en = ground.component[3], *nn = ground.component[4];
+    const double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data(), *mass = p.mass.data();
+    auto& before = p.find_field("velocity_before")->component;
+    double *bx = before[0].data(), *by = before[1].data(), *bz = before[2].data();
+    double* normal_gravity = p.find_field("normal_gravity")->component[0].data();
+    double* turning = p.find_field("turning")->component[0].data();
+    const double* reach = p.find_field("reach")->component[0].data();
+    const double* thickness = p.find_field("thickness")->component[0].data();
+    double airborne = 0;
+#pragma omp simd reduction(+ : airborne)
+    for (std::size_t i = begin; i < end; ++i) {
+      const double x = vx[i], y = vy[i], z = vz[i];
+      bx[i] = x, by[i] = y, bz[i] = z;
+      const double upright = 1 / std::sqrt(1 + east[i] * east[i] + north[i] * north[i]);
+      const double half_reach = 0.5 * reach[i], h = thickness[i];
+      const double per_s = std::sqrt(x * x + y * y + z * z) / (h > half_reach ? h : half_reach);
+      const double bend = ee[i] * x * x + 2 * en[i] * x * y + nn[i] * y * y;
+      const double turned = (turning[i] + kick * upright * bend) / (1 + kick * per_s);
+      turning[i] = turned;
+      const double reaction = upright * gravity + per_s * turned;
+      normal_gravity[i] = reaction > 0 ? reaction : 0;
+      airborne += reaction < 0 ? mass[i] * kick : 0;
+    }
+    off += airborne;
+  }
+
+  void fill_records(const State& s) {
+    const ParticleSet& p = s.grains;
+    const auto& reach = p.find_field("reach")->component[0];
+    const auto& thickness = p.find_field("thickness")->component[0];
+    const auto& g_n = p.find_field("normal_gravity")->component[0];
+    const Field* k_field = p.find_field("earth_pressure");
+    const double* k = k_field ? k_field->component[0].data() : nullptr;
+    ColumnCells& cells = flow_->cells;
+    ColumnRecord* records = cells.records();
+    parallel_ranges(cells.size(), reduction_block, s.threads,
+                    [&](std::size_t begin, std::size_t end) {
+                      for (std::size_t c = begin; c < end; ++c) {
+                        const std::size_t i = cells.source(c);
+                        ColumnRecord& r = records[c];
+                        const double lateral = k ? k[i] * g_n[i] : g_n[i];
+                        r.volume = static_cast<float>(p.mass[i] / flow_->settings.density);
+                        r.vx = static_cast<float>(p.vx[i]);
+                        r.vy = static_cast<float>(p.vy[i]);
+                        r.vz = static_cast<float>(p.vz[i]);
+                        r.inverse_reach = static_cast<float>(1 / reach[i]);
+                        r.thickness = static_cast<float>(thickness[i]);
+                        r.lateral = static_cast<float>(lateral);
+                        r.wave_speed = static_cast<float>(std::sqrt(lateral * thickness[i]));
+                      }
+                    });
+  }
+
+  std::shared_ptr<ColumnFlow> flow_;
+};
+
+struct Fastest {
+  double wave = 0, approach2 = 0;
+};
+
+class SweepPass final : public Pass {
+ public:
+  explicit SweepPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "column sweep"; }
+  std::string_view effect() const override { return EffectName::column_pressure; }
+  Stage stage() const override { return Stage::force; }
+
+  void limits(const State&, std::vector<StepLimit>& out) const override {
+    const double none = std::numeric_limits<double>::infinity();
+    const double wave = flow_->fastest_wave, approach = flow_->fastest_approach;
+    const double c = flow_->settings.courant;
+    out.push_back({"thickness wave", wave > 0 ? c / wave : none});
+    out.push_back({"approach", approach > 0 ? c / approach : none});
+  }
+
+  void apply(State& s, double dt) override {
+    const ColumnView view = flow_->cells.view();
+    const ColumnSweepOutput out = flow_->output();
+    const ColumnConstants constants{flow_->settings.viscosity};
+    const Sweeps& loops = sweeps(flow_->settings.instruction_set);
+    constexpr std::size_t groups_per_range = 16;
+    parallel_ranges(flow_->cells.n_groups(), groups_per_range, s.threads,
+                    [&](std::size_t begin, std::size_t end) {
+                      loops.columns(view, constants, out, begin, end);
+                    });
+    take_in(s, out, dt);
+    if (!s.domain.walls.empty()) mirror_at_walls(s);
+  }
+  std::size_t bytes() const override { return 7 * sizeof(float) * flow_->cells.size(); }
+
+ private:
+  /// Sums back to the columns: accelerations, thickness, reach, earth pressure, limits.
+  void take_in(State& s, const ColumnSweepOutput& out, double dt) {
+    ParticleSet& p = s.grains;
+    const ColumnCells& cells = flow_->cells;
+    const DepthAveragedSettings& set = flow_->settings;
+    auto& thickness = p.find_field("thickness")->component[0];
+    auto& reach = p.find_field("reach")->component[0];
+    const auto& g_n = p.find_field("normal_gravity")->component[0];
+    Field* k_field = p.find_field("earth_pressure");
+    double* k = k_field ? k_field->component[0].data() : nullptr;
+    const double first = set.reach_per_spacing * set.spacing;
+    const bool walls = !s.domain.walls.empty();
+    const Fastest fastest = ordered_reduce(
+        cells.size(), s.threads, Fastest{},
+        [&](std::size_t begin, std::size_t end, Fastest& most) {
+          for (std::size_t c = begin; c < end; ++c) {
+            if (cells.is_image(c)) continue;
+            const std::size_t i = cells.source(c);
+            s.ax[i] = out.ax[c], s.ay[i] = out.ay[c], s.az[i] = out.az[c];
+            const double whole = walls ? flow_->walls.thickness_factor(
+                                             s.domain, s.time, {p.x[i], p.y[i], p.z[i]}, reach[i])
+                                       : 1;
+            thickness[i] = whole * out.thickness[c];
+            if (k) k[i] = strained(s, i, k[i], out.divergence[c] / thickness[i] * dt, thickness[i]);
+            const double per_h = 2 / reach[i];
+            const double wave2 = (k ? k[i] : 1.0) * g_n[i] * thickness[i] * per_h * per_h;
+            most.wave = std::max(most.wave, wave2);
+            most.approach2 = std::max(most.approach2, out.approach[c] * per_h * per_h);
+            reach[i] = adapted(reach[i], whole * out.density[c], first);
+          }
+        },
+        [](Fastest& total, const Fastest& block) {
+          total.wave = std::max(total.wave, block.wave);
+          total.approach2 = std::max(total.approach2, block.approach2);
+        });
+    flow_->fastest_wave = std::sqrt(fastest.wave);
+    flow_->fastest_approach = std::sqrt(fastest.approach2);
+  }
+
+  void mirror_at_walls(State& s) const {
+    ParticleSet& p = s.grains;
+    parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const ColumnAtWall column = flow_->at_wall(p, i);
+        Vec3 a(s.ax[i], s.ay[i], s.az[i]);
+        for (const Wall& wall : s.domain.walls)
+          if (s.time < wall.remove_at_s) a += flow_->walls.pressure(s.domain, s.time, wall, column);
+        s.ax[i] = a.x(), s.ay[i] = a.y(), s.az[i] = a.z();
+      }
+    });
+  }
+
+  /// Follows the mean distance of columns, by at most a tenth a step.
+  double adapted(double reach, double density, double first) const {
+    const DepthAveragedSettings& set = flow_->settings;
+    const double wanted = set.reach_per_spacing / std::sqrt(density);
+    const double next = std::clamp(wanted, 0.9 * reach, 1.1 * reach);
+    return std::clamp(next, set.least_reach * first, set.most_reach * first);
+  }
+
+  double strained(const State& s, std::size_t i, double k, double strain, double thickness) const {
+    const ParticleSet& p = s.grains;
+    const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
+    if (v2 < 1e-6 * 9.81 * thickness) return k;  // at rest K stays as it came
+    const EarthPressure& e = flow_->settings.earth_pressure[flow_->zone_of(s, i)];
+    return e.strained(k, strain, flow_->settings.earth_pressure_stiffness);
+  }
+
+  std::shared_ptr<ColumnFlow> flow_;
+};
+
+}  // namespace
+
+void add_column_pressure(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
+  step.add(std::make_unique<CellPass>(flow));
+  step.add(std::make_unique<PackPass>(flow));
+  step.add(std::make_unique<SweepPass>(flow));
+}
+
+}  // namespace sturz

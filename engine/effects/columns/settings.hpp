@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers of a depth-averaged flow.
+#pragma once
+
+#include "engine/effects/sweep/fused_sweep.hpp"
+#include "engine/laws/basal_resistance.hpp"
+#include "engine/laws/earth_pressure.hpp"
+#include "engine/terrain/zone_map.hpp"
+
+#include <vector>
+
+namespace sturz {
+
+struct DepthAveragedSettings {
+  double spacing = 1;      ///< of the columns at release, in the map [m]
+  double density = 1500;   ///< bulk [kg/m^3]
+  double viscosity = 0.5;  ///< Monaghan's alpha between approaching columns
+  double courant = 0.25;   ///< of the wave limit and the approach limit
+  /// Support radius over the mean distance of columns: about 50 neighbours.
+  double reach_per_spacing = 4;
+  double least_reach = 0.5, most_reach = 2;  ///< bounds of the adaptive reach over its first value
+  /// K's change per strain [M]: active to passive within about a hundredth of strain (Hungr 1995).
+  double earth_pressure_stiffness = 200;
+  std::vector<BasalResistance> base{1};          ///< by zone, [0] where there is none
+  std::vector<EarthPressure> earth_pressure{1};  ///< by zone, as `base`
+  ZoneMap zones;
+  InstructionSet instruction_set = InstructionSet::plain;
+};
+
+}  // namespace sturz

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the passes of depth-averaged flow share. For depth_averaged and column_*.cpp only.
+#pragma once
+
+#include "engine/effects/columns/settings.hpp"
+#include "engine/effects/columns/walls.hpp"
+#include "engine/effects/step.hpp"
+#include "engine/neighbors/column_cells.hpp"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace sturz {
+
+struct ColumnFlow {
+  DepthAveragedSettings settings;
+  ColumnCells cells;
+  ColumnWalls walls;
+  std::vector<float> results[7];  ///< of the sweep, by record
+  double start_dt = 1e-3;         ///< of the first step [s]
+  double fastest_wave = 0;        ///< largest sqrt(K g_n h) / h_s [1/s]
+  double fastest_approach = 0;    ///< largest relative speed of neighbours / h_s [1/s]
+
+  /// Column i beside a wall.
+  ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;
+
+  explicit ColumnFlow(const DepthAveragedSettings& s) : settings(s) {}
+
+  ColumnSweepOutput output() {
+    return {results[0].data(), results[1].data(), results[2].data(), results[3].data(),
+            results[4].data(), results[5].data(), results[6].data()};
+  }
+  int zone_of(const State& s, std::size_t i) const {
+    if (!settings.zones.any()) return 0;
+    double x = s.grains.x[i], y = s.grains.y[i], z = 0;
+    s.domain.wrap(x, y, z);
+    return settings.zones.at(x, y);
+  }
+};
+
+/// The ground under a column, as its field "ground" keeps it.
+struct ColumnGround {
+  double east, north, bend_ee, bend_en, bend_nn;
+
+  Vec3 normal() const { return upward_normal(east, north); }
+  /// The slopes a horizontal way (x, y) farther on.
+  ColumnGround ahead(double x, double y) const {
+    return {east + bend_ee * x + bend_en * y, north + bend_en * x + bend_nn * y, bend_ee, bend_en,
+            bend_nn};
+  }
+};
+
+/// The arrays of field "ground", looked up once per pass.
+struct GroundColumns {
+  double* component[5];
+
+  explicit GroundColumns(ParticleSet& p) {
+    Field& ground = *p.find_field("ground");
+    for (int k = 0; k < 5; ++k) component[k] = ground.component[k].data();
+  }
+  ColumnGround operator[](std::size_t i) const {
+    return {component[0][i], component[1][i], component[2][i], component[3][i], component[4][i]};
+  }
+  void set(std::size_t i, const CurvedSurface& g) const {
+    component[0][i] = g.east, component[1][i] = g.north;
+    component[2][i] = g.bend_ee, component[3][i] = g.bend_en, component[4][i] = g.bend_nn;
+  }
+};
+
+/// A velocity in plain numbers, for loops that the compiler puts side by side.
+struct Velocity {
+  double x, y, z;
+
+  double norm2() const { return x * x + y * y + z * z; }
+  /// Turned into the plane with these slopes, its length kept: the ground's reaction does no work.
+  Velocity turned(double east, double north) const {
+    const double off = (z - east * x - north * y) / (1 + east * east + north * north);
+    const Velocity in_plane{x + east * off, y + north * off, z - off};
+    const double length2 = in_plane.norm2(), factor = length2 > 0 ? norm2() / length2 : 0;
+    const double scale = std::sqrt(factor);
+    return {in_plane.x * scale, in_plane.y * scale, in_plane.z * scale};
+  }
+};
+
+/// Puts column i on the ground and keeps what lies below it.
+/// \return false off the known ground
+bool look_up_ground(State&, const GroundColumns&, std::size_t i);
+
+/// A kick at t_n leads from the middle of the last step to the middle of this one.
+inline double kick_length(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }
+
+void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, pack, sweep
+void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< base, drift
+
+}  // namespace sturz

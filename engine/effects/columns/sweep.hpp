@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The loop over groups of columns, compiled once per instruction set.
+#pragma once
+
+#include "engine/effects/columns/sums.hpp"
+
+namespace sturz::STURZ_ISA {
+
+/// Writes the valid lanes of one result.
+inline void keep(Lanes value, float* out, int n) {
+  alignas(64) float lanes[Lanes::width];
+  value.store(lanes);
+  for (int k = 0; k < n && k < Lanes::width; ++k) out[k] = lanes[k];
+}
+
+inline void column_sweep(const ColumnView& view, const ColumnConstants& constants,
+                         const ColumnSweepOutput& out, std::size_t first_group,
+                         std::size_t last_group) {
+  const ColumnScale scale(constants, view.unit_m);
+  for (std::size_t g = first_group; g < last_group; ++g) {
+    const ColumnGroup& group = view.groups[g];
+    const int n = static_cast<int>(group.end - group.begin);
+    const ColumnRows rows(view.records + group.begin, n);
+    for (int lane = 0; lane < n; lane += Lanes::width) {
+      const ColumnSelf self(rows, lane);
+      ColumnSums sums;
+      sums.clear();
+      for (std::uint32_t r = group.first_run; r < group.last_run; ++r) {
+        const ColumnRecord* end = view.records + view.runs[r].end;
+        for (const ColumnRecord* j = view.records + view.runs[r].begin; j != end; ++j)
+          sums.add(self, *j, scale);
+      }
+      const std::size_t at = group.begin + lane;
+      keep(sums.thickness, out.thickness + at, n - lane);
+      keep(sums.density, out.density + at, n - lane);
+      keep(sums.ax, out.ax + at, n - lane);
+      keep(sums.ay, out.ay + at, n - lane);
+      keep(sums.az, out.az + at, n - lane);
+      keep(sums.divergence, out.divergence + at, n - lane);
+      keep(sums.approach, out.approach + at, n - lane);
+    }
+  }
+}
+
+}  // namespace sturz::STURZ_ISA

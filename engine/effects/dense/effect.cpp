@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/effects/dense/effect.hpp"
+
+#include "engine/core/error.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/effects/dense/shared.hpp"
+#include "engine/effects/dense/update.hpp"
+#include "engine/effects/dense/viscous_share.hpp"
+#include "engine/effects/isolated/flight.hpp"
+#include "engine/effects/motion/wrapping.hpp"
+#include "engine/neighbors/smoothing_kernel.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+std::int64_t now_ns() {
+  using namespace std::chrono;
+  return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+double ratio(std::int64_t part_ns, std::int64_t all_ns) {
+  return all_ns > 0 ? static_cast<double>(part_ns) / static_cast<double>(all_ns) : 0;
+}
+
+class NeighborPass final : public Pass {
+ public:
+  explicit NeighborPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "neighbor lists"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
+  Stage stage() const override { return Stage::neighbors; }
+
+  void apply(State& s, double) override {
+    NeighborLists& lists = shared_->lists;
+    const double* range = s.motion.velocity_range;
+    lists.add_relative_motion(
+        s.previous_dt * std::sqrt(range[0] * range[0] + range[1] * range[1] + range[2] * range[2]));
+    if (s.order_changed) lists.invalidate();
+    s.order_changed = false;
+    parcels_ns_ = all_ns_ = 0;
+    if (!lists.needs_rebuild()) return;
+    const std::int64_t start = now_ns();
+    wrap_particles(s);
+    rebuild(s, lists);
+    make_room(s, lists.padded_size());
+    ++s.n_sorts;
+    all_ns_ = now_ns() - start;
+  }
+  EffectPart part() const override {
+    if (!flights()) return {};
+    return {EffectName::lone_parcels, "who leaves and comes back", ratio(parcels_ns_, all_ns_)};
+  }
+  std::size_t bytes() const override { return shared_->lists.bytes(); }
+
+ private:
+  bool flights() const {
+    const GrainStressSettings& g = shared_->settings;
+    return g.states && g.states->ultradilute;
+  }
+
+  void rebuild(State& s, NeighborLists& lists) {
+    s.n_listed = s.grains.size();
+    if (flights()) let_go(s);
+    lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
+    if (flights()) take_back(s, lists);
+  }
+
+  void let_go(State& s) {
+    const std::int64_t start = now_ns();
+    attach_landed(s);
+    detach_lone(s, shared_->settings);
+    put_listed_first(s);
+    parcels_ns_ += now_ns() - start;
+  }
+
+  void take_back(State& s, NeighborLists& lists) {
+    const std::int64_t start = now_ns();
+    if (attach_near(s, shared_->settings, lists, shared_->parcels)) {
+      put_listed_first(s);
+      lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
+    }
+    parcels_ns_ += now_ns() - start;
+  }
+
+  void make_room(State& s, std::size_t padded) const {
+    for (auto& r : shared_->results) r.resize(padded);
+    for (auto& r : shared_->smooth) r.resize(padded);
+    if (shared_->settings.states)
+      for (auto& r : shared_->parted) r.resize(padded);
+    const std::size_t all = std::max(padded, s.grains.size());
+    for (auto* a : {&s.ax, &s.ay, &s.az, &s.boundary.share}) a->resize(all);
+  }
+
+  std::shared_ptr<GrainStress> shared_;
+  std::int64_t parcels_ns_ = 0, all_ns_ = 0;  // of this step
+};
+
+/// Fills the records of the pair sweep. Velocities go in extrapolated by half a step to v_{n+1/2}:
+/// stress rates taken from v_{n-1/2} would feed energy into sound waves (forward Euler).
+class PackPass final : public Pass {
+ public:
+  explicit PackPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "pack"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
+  Stage stage() const override { return Stage::pack; }
+
+  void apply(State& s, double dt) override {
+    NeighborLists& lists = shared_->lists;
+    ParticleSet& p = s.grains;
+    const double ahead = s.extrapolation(dt);
+    const double reference = shared_->settings.reference_density;
+    const bool cohesive = shared_->settings.law.cohesion > 0;
+    auto& before = p.find_field("velocity_before")->component;
+    const auto& compression = p.find_field("compression")->component[0];
+    const auto& stress = p.find_field("stress")->component;
+    const auto& viscous = p.find_field("viscous_ratio")->component[0];
+    parallel_ranges(s.n_listed, reduction_block, s.threads,
+                    [&](std::size_t begin, std::size_t end) {
+                      lists.pack_positions(p, begin, end);
+                      PackedRecord* records = lists.records();
+                      for (std::size_t i = begin; i < end; ++i) {
+                        PackedRecord& r = records[i];
+                        const double e = std::max(compression[i], GrainStressSettings::separation);
+                        r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
+                        r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
+                        r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
+                        r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
+                        r.compression = static_cast<float>(e);
+                        const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
+                        const ViscousShare v = viscous_share(viscous[i]);
+                        const double share = 1 - v.carried, mean = -v.carried * pressure;
+                        r.viscosity = static_cast<float>(v.acting);
+                        r.sxx = static_cast<float>(share * stress[0][i] + mean);
+                        r.syy = static_cast<float>(share * stress[1][i] + mean);
+                        r.szz = static_cast<float>(share * stress[2][i] + mean);
+                        r.sxy = static_cast<float>(share * stress[3][i]);
+                        r.syz = static_cast<float>(share * stress[4][i]);
+                        r.szx = static_cast<float>(share * stress[5][i]);
+                        if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
+                        before[0][i] = p.vx[i];
+                        before[1][i] = p.vy[i];
+                        before[2][i] = p.vz[i];
+                      }
+                    });
+    lists.copy_images();
+    for (std::size_t i = s.n_listed; i < p.size(); ++i)
+      before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
+  }
+
+ private:
+  /// epsilon = 0.3 of the largest principal tension there can be: 2 tau/sqrt(3) - p.
+  static float artificial_pressure(const std::vector<std::vector<double>>& s, std::size_t i,
+                                   double p) {
+    const Symmetric d{s[0][i] + p, s[1][i] + p, s[2][i] + p, s[3][i], s[4][i], s[5][i]};
+    const double tension = 2 * std::sqrt(d.norm2() / 3) - p;
+    return static_cast<float>(0.3 * std::fmax(0.0, tension));
+  }
+
+  std::shared_ptr<GrainStress> shared_;
+};
+
+class SweepPass final : public Pass {
+ public:
+  explicit SweepPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "pair sweep"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
+  Stage stage() const override { return Stage::force; }
+
+  void limits(const State& s, std::vector<StepLimit>& out) const override {
+    const GrainStressSettings& g = shared_->settings;
+    out.push_back(
+        {"acoustic", g.courant * g.smoothing_length / (g.sound_speed + s.motion.max_speed)});
+  }
+
+  void apply(State& s, double) override {
+    const GrainStressSettings& g = shared_->settings;
+    const bool smooth = s.n_steps % GrainStressSettings::smoothing_interval == 0;
+    shared_->smoothing_now =
+        smooth ? g.stress_smoothing * GrainStressSettings::smoothing_interval : 0;
+    const SweepConstants constants{g.smoothing_length,
+                                   SmoothingKernel{g.smoothing_length}.discrete_gradient_factor(),
+                                   g.reference_density,
+                                   g.sound_speed,
+                                   g.viscosity,
+                                   g.density_diffusion,
+                                   g.law.cohesion > 0,
+                                   g.spacing,
+                                   shared_->smoothing_now,
+                                   g.ratio_floor()};
+    const PackedView view = shared_->lists.view();
+    SweepOutput out = shared_->output();
+    out.ax = s.ax.data(), out.ay = s.ay.data(), out.az = s.az.data();
+    out.wall_share = s.boundary.share.data();
+    const BoundaryView wall = boundary_view(s);
+    const Sweeps& loops = sweeps(g.instruction_set);
+    constexpr std::size_t groups_per_range = 16;
+    flying_ns_ = all_ns_ = 0;
+    parallel_ranges(shared_->lists.n_groups(), groups_per_range, s.threads,
+                    [&](std::size_t begin, std::size_t end) {
+                      if (g.states)
+                        timed_kinetic(view, constants, wall, out, begin, end);
+                      else
+                        loops.dense(view, constants, wall, out, begin, end);
+                    });
+    for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) s.ax[i] = s.ay[i] = s.az[i] = 0;
+  }
+  EffectPart part() const override {
+    if (!shared_->settings.states) return {};
+    return {flying_effect(shared_->settings), "groups that fly", ratio(flying_ns_, all_ns_)};
+  }
+  std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
+
+ private:
+  /// The sweep of a mass whose grains may part, and which part of its time those take that do: two
+  /// looks at the clock for 16 groups, and one where the kind of group changes.
+  void timed_kinetic(const PackedView& view, const SweepConstants& constants,
+                     const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
+                     std::size_t end) {
+    FlyingClock clock{&now_ns};
+    const std::int64_t start = now_ns();
+    sweeps(shared_->settings.instruction_set)
+        .kinetic(view, {shared_->kinetic.data(), shared_->calm.data(), &clock}, constants, wall,
+                 out, begin, end);
+    all_ns_.fetch_add(now_ns() - start, std::memory_order_relaxed);
+    flying_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
+  }
+
+  static BoundaryView boundary_view(const State& s) {
+    const BoundarySupport& b = s.boundary;
+    BoundaryView view{b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
+    for (int c = 0; c < 6 && !s.domain.walls.empty(); ++c) {
+      view.moment[c] = b.moment[c].data();
+      view.gradient[c] = b.gradient[c].data();
+    }
+    return view;
+  }
+
+  std::shared_ptr<GrainStress> shared_;
+  std::atomic<std::int64_t> flying_ns_ = 0, all_ns_ = 0;  // of this step, all threads
+};
+
+class StressPass final : public Pass {
+ public:
+  explicit StressPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "stress update"; }
+  std::string_view effect() const override { return EffectName::grain_stress; }
+  Stage stage() const override { return Stage::stress; }
+
+  void apply(State& s, double dt) override {
+    ParticleSet& p = s.grains;
+    StressColumns columns;
+    columns.mass = p.mass.data();
+    columns.vx = p.vx.data(), columns.vy = p.vy.data(), columns.vz = p.vz.data();
+    columns.compression = p.find_field("compression")->component[0].data();
+    for (int k = 0; k < 6; ++k) columns.stress[k] = p.find_field("stress")->component[k].data();
+    columns.viscous_ratio = p.find_field("viscous_ratio")->component[0].data();
+    const SweepOutput rates = shared_->output();
+    const GrainStressSettings& g = shared_->settings;
+    columns.distance = s.boundary.distance.data();
+    const StressUpdate update(g, dt, shared_->smoothing_now > 0);
+    if (g.states && g.states->switched) columns.state = p.find_field("state")->component[0].data();
+    const StressEnergies sums = ordered_reduce(
+        s.n_listed, s.threads, StressEnergies{},
+        [&](std::size_t begin, std::size_t end, StressEnergies& out) {
+          if (g.states)
+            update.apply(parting(g, dt), columns, rates, begin, end, out);
+          else
+            update.apply(columns, rates, begin, end, out);
+        },
+        [](StressEnergies& total, const StressEnergies& block) { total += block; });
+    s.ledger.elastic = sums.elastic;
+    s.ledger.frictional += sums.frictional;
+    s.ledger.stress_power += sums.power;
+    s.ledger.plastic += sums.plastic;
+    s.ledger.diffusion += sums.diffusion;
+    s.ledger.rest_damping += sums.rest;
+    if (s.any_outside) release_elastic(s);
+  }
+
+ private:
+  static PartingPacking parting(const GrainStressSettings& g, double dt) {
+    const GrainStatesSettings& s = *g.states;
+    const double relaxation = 10 * g.smoothing_length / g.sound_speed;
+    return {g.bulk_modulus(), s.reference_fraction, s.friction, s.switched,
+            std::exp(-dt / relaxation)};
+  }
+
+  /// What a particle that is about to leave has stored goes with it.
+  void release_elastic(State& s) const {
+    for (std::size_t i = 0; i < s.n_listed; ++i) {
+      if (!s.leaves(i)) continue;
+      const double stored = stored_energy(shared_->settings, s.grains, i);
+      s.ledger.elastic -= stored;
+      s.ledger.lost_energy += stored;
+    }
+  }
+
+  std::shared_ptr<GrainStress> shared_;
+};
+
+void start_geostatic(State& s, const GrainStressSettings& g, std::span<const double> depth) {
+  auto& compression = s.grains.find_field("compression")->component[0];
+  auto& stress = s.grains.find_field("stress")->component;
+  const double mu = g.law.static_friction;
+  const double k0 = 1 - mu / std::sqrt(1 + mu * mu);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double vertical = g.reference_density * s.gravity * depth[i];
+    const double mean = vertical * (1 + 2 * k0) / 3;
+    compression[i] = g.compression_at(mean);
+    // Near the surface the frictional pressure may ask for more than the depth gives.
+    const double excess = g.pressure_at(compression[i]) - mean;
+    stress[0][i] = stress[1][i] = -k0 * vertical - excess;
+    stress[2][i] = -vertical - excess;
+    s.ledger.elastic += elastic_energy(g, s.grains.mass[i] / g.reference_density, compression[i],
+                                       vertical * (1 - k0) / std::sqrt(3.0));
+  }
+  s.ledger.elastic_0 = s.ledger.elastic;
+}
+
+}  // namespace
+
+void add_grain_stress(Step& step, State& state, const GrainStressSettings& settings,
+                      std::span<const double> depth) {
+  expect(depth.size() == state.grains.size(), "one depth per particle");
+  state.grains.add_field("compression", 1);
+  state.grains.add_field("stress", 6);
+  state.grains.add_field("viscous_ratio", 1);
+  Field& before = state.grains.add_field("velocity_before", 3);
+  before.component[0] = state.grains.vx;
+  before.component[1] = state.grains.vy;
+  before.component[2] = state.grains.vz;
+  prepare_wrapping(state);
+  GrainStressSettings first = settings;
+  const bool follows = settings.least_sound_speed < settings.sound_speed;
+  if (follows) first.sound_speed = sound_speed_at_start(state, settings);
+  start_geostatic(state, first, depth);
+  auto shared = std::make_shared<GrainStress>(first);
+  state.sound_speed = first.sound_speed;
+  if (follows) add_sound_speed(step, shared, settings.sound_speed);
+  step.add(std::make_unique<NeighborPass>(shared));
+  step.add(std::make_unique<PackPass>(shared));
+  step.add(std::make_unique<SweepPass>(shared));
+  step.add(std::make_unique<StressPass>(shared));
+  if (first.states) add_grain_states(step, state, shared);
+}
+
+}  // namespace sturz

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the passes of the grain stress share. For grain_stress.cpp and sound_speed.cpp only.
+#pragma once
+
+#include "engine/effects/dense/settings.hpp"
+#include "engine/effects/isolated/search.hpp"
+#include "engine/effects/step.hpp"
+#include "engine/neighbors/neighbor_lists.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace sturz {
+
+/// What the three passes share: lists, and the sweep's results in storage order.
+struct GrainStress {
+  GrainStressSettings settings;
+  NeighborLists lists;
+  std::vector<float> results[10];  // velocity gradient, density diffusion
+  std::vector<float> smooth[6];
+  // Only where grains may part:
+  std::vector<float> parted[9];  // fill, neighbours, heat, gradient felt; see SweepOutput
+  std::vector<KineticRecord> kinetic;
+  std::vector<std::uint8_t> calm;
+  ParcelSearch parcels;      // lone ones that meet again
+  double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
+
+  explicit GrainStress(const GrainStressSettings& s)
+      : settings(s),
+        lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
+              sweeps(s.instruction_set).tight_list) {}
+
+  /// Without accelerations and the image's share, which live in the state.
+  SweepOutput output() {
+    SweepOutput out{};
+    float** slots[] = {&out.lxx, &out.lxy, &out.lxz, &out.lyx, &out.lyy,
+                       &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
+    for (int k = 0; k < 10; ++k) *slots[k] = results[k].data();
+    for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
+    out.fill = parted[0].data(), out.neighbors = parted[1].data(), out.heat = parted[2].data();
+    for (int k = 0; k < 6; ++k) out.felt[k] = parted[3 + k].data();
+    return out;
+  }
+};
+
+/// What the passes that only grains in flight call for count to.
+inline std::string_view flying_effect(const GrainStressSettings& g) {
+  return g.states->dilute ? EffectName::kinetic_theory : EffectName::states;
+}
+
+/// c0 of a mass that starts with the velocities it has, where it follows the flow [m/s].
+double sound_speed_at_start(const State&, const GrainStressSettings&);
+/// Adds fields and passes of grains that may part, see grain_states.cpp.
+void add_grain_states(Step&, State&, const std::shared_ptr<GrainStress>&);
+/// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole way down [m/s]
+void add_sound_speed(Step&, const std::shared_ptr<GrainStress>&, double planned);
+
+}  // namespace sturz

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/effects/motion/accounts.hpp"
+
+#include "engine/core/parallel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+struct MotionSums {
+  double speed2 = 0, change2 = 0, kinetic = 0;
+  double gravity_work = 0, stress_work = 0, impulse[3] = {0, 0, 0}, scale = 0;
+  double lo[3] = {1e300, 1e300, 1e300}, hi[3] = {-1e300, -1e300, -1e300};
+  double check = 0;  // becomes NaN or infinite when anything does
+};
+
+void combine(MotionSums& total, const MotionSums& block) {
+  total.speed2 = std::max(total.speed2, block.speed2);
+  total.change2 = std::max(total.change2, block.change2);
+  total.kinetic += block.kinetic;
+  total.gravity_work += block.gravity_work;
+  total.stress_work += block.stress_work;
+  total.scale += block.scale;
+  for (int k = 0; k < 3; ++k) {
+    total.impulse[k] += block.impulse[k];
+    total.lo[k] = std::min(total.lo[k], block.lo[k]);
+    total.hi[k] = std::max(total.hi[k], block.hi[k]);
+  }
+  total.check += block.check;
+}
+
+/// Works are taken with the mean velocity of the step: then a particle that is held at rest works
+/// on nothing, and the sum of all works is the change of kinetic energy.
+void book_step(const State& s, const double* const before[3], std::size_t i, double dt,
+               MotionSums& out) {
+  const ParticleSet& p = s.grains;
+  const double bx = before[0][i], by = before[1][i], bz = before[2][i];
+  const double dx = p.vx[i] - bx, dy = p.vy[i] - by, dz = p.vz[i] - bz;
+  const double mx = bx + 0.5 * dx, my = by + 0.5 * dy, mz = bz + 0.5 * dz;
+  const double m = p.mass[i] * dt, ax = s.ax[i], ay = s.ay[i], az = s.az[i];
+  out.change2 = std::max(out.change2, dx * dx + dy * dy + dz * dz);
+  out.gravity_work -= m * s.gravity * mz;
+  out.stress_work += m * (ax * mx + ay * my + az * mz);
+  out.impulse[0] += m * ax;
+  out.impulse[1] += m * ay;
+  out.impulse[2] += m * az;
+  out.scale += m * std::sqrt(ax * ax + ay * ay + az * az);
+}
+
+}  // namespace
+
+void refresh_motion(State& s, double dt) {
+  const ParticleSet& p = s.grains;
+  const Field* field = p.find_field("velocity_before");
+  const double* before[3] = {};
+  for (int k = 0; field && k < 3; ++k) before[k] = field->component[k].data();
+  const MotionSums sums = ordered_reduce(
+      p.size(), s.threads, MotionSums{},
+      [&](std::size_t begin, std::size_t end, MotionSums& out) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const double v[3] = {p.vx[i], p.vy[i], p.vz[i]};
+          const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+          out.speed2 = std::max(out.speed2, v2);
+          out.kinetic += 0.5 * p.mass[i] * v2;
+          out.check += v2 + p.x[i] + p.y[i] + p.z[i];
+          for (int k = 0; k < 3; ++k) {
+            out.lo[k] = std::min(out.lo[k], v[k]);
+            out.hi[k] = std::max(out.hi[k], v[k]);
+          }
+          if (field && dt > 0) book_step(s, before, i, dt, out);
+        }
+      },
+      combine);
+  s.motion.max_speed = std::sqrt(sums.speed2);
+  s.motion.max_acceleration = dt > 0 ? std::sqrt(sums.change2) / dt : 0;
+  for (int k = 0; k < 3; ++k) s.motion.velocity_range[k] = p.size() ? sums.hi[k] - sums.lo[k] : 0;
+  s.motion.finite = std::isfinite(sums.check) && !s.corrupt;
+  Ledger& book = s.ledger;
+  book.kinetic = sums.kinetic;
+  book.gravity_work += sums.gravity_work;
+  book.stress_work += sums.stress_work;
+  for (int k = 0; k < 3; ++k) book.stress_impulse[k] += sums.impulse[k];
+  book.stress_impulse_scale += sums.scale;
+}
+
+}  // namespace sturz

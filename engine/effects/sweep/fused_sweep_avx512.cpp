@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#define STURZ_ISA isa_avx512
+#include "engine/effects/columns/sweep.hpp"
+#include "engine/effects/sweep/body.hpp"
+#include "engine/effects/sweep/fused_sweep.hpp"
+
+namespace sturz {
+
+extern const Sweeps sweeps_avx512;
+const Sweeps sweeps_avx512{&STURZ_ISA::dense_sweep, &STURZ_ISA::kinetic_sweep,
+                           &STURZ_ISA::tight_list, &STURZ_ISA::column_sweep};
+
+}  // namespace sturz

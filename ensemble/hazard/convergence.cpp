@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/hazard/convergence.hpp"
+
+#include "ensemble/hazard/member_tiles.hpp"
+#include "ensemble/hazard/wilson.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+constexpr double likely = 0.5, possible = 0.05;
+
+std::vector<std::int64_t> sizes_up_to(std::int64_t n, int max_points) {
+  const std::int64_t n_points = std::min<std::int64_t>(n, std::max(max_points, 1));
+  std::vector<std::int64_t> sizes;
+  for (std::int64_t i = 1; i <= n_points; ++i) sizes.push_back((n * i + n_points - 1) / n_points);
+  return sizes;
+}
+
+/// Cells by how many of the first N members reached them: whole numbers, so no order of cells or
+/// tiles can change what follows from them.
+using Histogram = std::vector<std::int64_t>;
+
+std::vector<Histogram> count_cells(const MemberTiles& members,
+                                   const std::vector<std::int64_t>& sizes) {
+  std::vector<Histogram> histograms;
+  for (const std::int64_t n : sizes) histograms.emplace_back(n + 1, 0);
+  CellBlock arrival;
+  for (const Window& tile : members.tiles()) {
+    members.read(PeakLayer::arrival, tile, arrival);
+    for (std::size_t cell = 0; cell < tile.n_cells(); ++cell) {
+      const std::span<const float> times = arrival.cell(cell);
+      if (std::all_of(times.begin(), times.end(), [](float t) { return std::isnan(t); })) continue;
+      std::size_t hits = 0, member = 0;
+      for (std::size_t point = 0; point < sizes.size(); ++point) {
+        for (; member < static_cast<std::size_t>(sizes[point]); ++member)
+          hits += !std::isnan(times[member]);
+        ++histograms[point][hits];
+      }
+    }
+  }
+  return histograms;
+}
+
+ConvergencePoint summary(const Histogram& cells, std::int64_t n, double cell_area_m2) {
+  ConvergencePoint point;
+  point.n_members = n;
+  std::int64_t n_cells = 0, n_likely = 0, n_possible = 0, hits_in_all = 0;
+  double half_widths = 0;
+  for (std::int64_t hits = 0; hits <= n; ++hits) {
+    const std::int64_t count = cells[static_cast<std::size_t>(hits)];
+    const ProbabilityBounds bounds = wilson_interval(hits, n);
+    const double probability = static_cast<double>(hits) / static_cast<double>(n);
+    n_cells += count;
+    hits_in_all += count * hits;
+    n_likely += probability >= likely ? count : 0;
+    n_possible += probability >= possible ? count : 0;
+    half_widths += static_cast<double>(count) * (bounds.upper - bounds.lower) / 2;
+  }
+  if (n_cells == 0) return point;
+  const auto all = static_cast<double>(n_cells);
+  point.mean_probability_reached =
+      static_cast<double>(hits_in_all) / (all * static_cast<double>(n));
+  point.area_likely_m2 = static_cast<double>(n_likely) * cell_area_m2;
+  point.area_possible_m2 = static_cast<double>(n_possible) * cell_area_m2;
+  point.mean_half_width = half_widths / all;
+  return point;
+}
+
+}  // namespace
+
+std::vector<ConvergencePoint> probability_convergence(const MemberSource& source,
+                                                      std::size_t memory_limit_bytes,
+                                                      int max_points) {
+  const MemberTiles members(source, memory_limit_bytes, 1);
+  const double cell_area_m2 = source.grid().cell_m * source.grid().cell_m;
+  const auto sizes = sizes_up_to(static_cast<std::int64_t>(members.n_members()), max_points);
+  const std::vector<Histogram> histograms = count_cells(members, sizes);
+  std::vector<ConvergencePoint> points;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    points.push_back(summary(histograms[i], sizes[i], cell_area_m2));
+  return points;
+}
+
+}  // namespace sturz

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The table of an ensemble's members as CSV text.
+#pragma once
+
+#include "engine/simulation/member_result.hpp"
+#include "ensemble/sampling/design.hpp"
+
+#include <span>
+#include <string>
+
+namespace sturz {
+
+/// One line per finished member in ascending order (RFC 4180 quoting, lines end with \n):
+///   member, outcome, reason, formulation, <key>..., <scalar>..., binding_limit, warnings,
+///   state_hash (16 hexadecimal digits)
+/// Numbers are written in the shortest form that reads back to the same bits. A failed or
+/// cancelled member has no scalars and no hash: those cells are empty, like a NaN.
+/// \throws SetupError if a member is not in the design
+std::string members_csv(const DesignTable& design, std::span<const MemberSummary> members);
+
+}  // namespace sturz

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/files/atomic_file.hpp"
+
+#include "io/files/checksum.hpp"
+#include "io/files/io_error.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <string>
+
+namespace sturz {
+namespace fs = std::filesystem;
+namespace {
+
+/// Host, process, time and a counter: two writers of one target never share a part file.
+std::string unique_part_suffix() {
+  static std::atomic<std::uint64_t> counter{0};
+  char host[256] = {};
+  gethostname(host, sizeof host - 1);
+  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+  const std::string text = fmt::format("{}/{}/{}/{}", host, getpid(), now, ++counter);
+  return fmt::format(".{:016x}.part", fnv1a64(std::as_bytes(std::span(text.data(), text.size()))));
+}
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// A link stays a link: what it points to is replaced.
+fs::path follow_links(const fs::path& target) {
+  std::error_code ignored;
+  if (!fs::is_symlink(target, ignored)) return target;
+  const fs::path resolved = fs::weakly_canonical(target, ignored);
+  return ignored ? target : resolved;
+}
+
+std::string free_space_text(const fs::path& folder) {
+  std::error_code error;
+  const auto space = fs::space(folder, error);
+  if (error) return "";
+  return fmt::format("; {:.1f} MB free in {}", static_cast<double>(space.available) / 1e6,
+                     folder.string());
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(fs::path target) : target_(follow_links(target)) {
+  std::error_code ignored;
+  if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored))
+    throw IoError(
+        fmt::format("cannot write {} (a folder or device has this name). Choose another name.",
+                    target_.string()));
+  part_ = target_;
+  part_ += unique_part_suffix();
+  descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (descriptor_ < 0) fail("cannot create", errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ < 0) return;
+  ::close(descriptor_);
+  ::unlink(part_.c_str());
+}
+
+void AtomicFile::write(std::span<const std::byte> bytes) {
+  constexpr std::size_t largest = std::size_t{1} << 26;
+  while (!bytes.empty()) {
+    const ssize_t done = ::write(descriptor_, bytes.data(), std::min(bytes.size(), largest));
+    if (done < 0 && errno == EINTR) continue;
+    if (done < 0) fail("cannot write", errno);
+    bytes = bytes.subspan(static_cast<std::size_t>(done));
+  }
+}
+
+void AtomicFile::commit() {
+  if (::fsync(descriptor_) != 0) fail("cannot write", errno);
+  if (::rename(part_.c_str(), target_.c_str()) != 0) fail("cannot rename the part file to", errno);
+  // A late error of close() would come too late to matter: fsync has passed.
+  ::close(descriptor_);
+  descriptor_ = -1;
+  const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;  // some network folders cannot be opened; the rename stands
+  ::fsync(folder);
+  ::close(folder);
+}
+
+void AtomicFile::fail(const char* what, int code) const {
+  const fs::path folder = folder_of(target_);
+  if (code == ENOENT)
+    throw IoError(fmt::format("{} {} (there is no folder {}). Make it first.", what,
+                              target_.string(), folder.string()));
+  throw IoError(fmt::format(
+      "{} {} ({}{}). Make room or choose another folder; files already there are unharmed.", what,
+      target_.string(), std::strerror(code), free_space_text(folder)));
+}
+
+void write_bytes_atomic(const fs::path& target, std::span<const std::byte> bytes) {
+  AtomicFile file(target);
+  file.write(bytes);
+  file.commit();
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error && !fs::is_directory(folder))
+    throw IoError(fmt::format("cannot make the folder {} ({}). Choose another output folder.",
+                              folder.string(), error.message()));
+}
+
+bool is_part_file(const fs::path& path) { return path.extension() == ".part"; }
+
+}  // namespace sturz

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/gdal/gdal_vector.hpp"
+
+#include "engine/core/error.hpp"
+#include "io/site/polygon_layer.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+/// Everything that the steps below share.
+struct Reading {
+  const PolygonRequest& request;
+  PolygonLayer layer;
+  int thickness_field = -1;
+  PolygonRelease result;
+};
+
+int find_thickness_field(const Reading& reading) {
+  const std::string& name = reading.request.thickness_attribute;
+  if (name.empty()) return -1;
+  const std::string& label = reading.layer.label;
+  OGRFeatureDefn& fields = *reading.layer.layer->GetLayerDefn();
+  const int index = fields.GetFieldIndex(name.c_str());
+  if (index >= 0) {
+    const OGRFieldType type = fields.GetFieldDefn(index)->GetType();
+    require(type == OFTReal || type == OFTInteger || type == OFTInteger64,
+            fmt::format("{}: field '{}' (release.thickness_attribute) holds no numbers but {}. "
+                        "Store the thickness in metres as a number.",
+                        label, name, OGRFieldDefn::GetFieldTypeName(type)));
+    return index;
+  }
+  std::vector<std::string> names;
+  for (int i = 0; i < fields.GetFieldCount(); ++i)
+    names.emplace_back(fields.GetFieldDefn(i)->GetNameRef());
+  throw SetupError(fmt::format("{}: has no field '{}' (release.thickness_attribute). It has: {}.",
+                               label, name, names.empty() ? "none" : comma_separated(names)));
+}
+
+double thickness_of(const Reading& reading, OGRFeature& feature, const std::string& name) {
+  const std::string& field = reading.request.thickness_attribute;
+  require(feature.IsFieldSetAndNotNull(reading.thickness_field),
+          fmt::format("{}: {} has no value in '{}'. Give its thickness in metres.",
+                      reading.layer.label, name, field));
+  const double thickness = feature.GetFieldAsDouble(reading.thickness_field);
+  require(std::isfinite(thickness) && thickness > 0,
+          fmt::format("{}: {} has {} = {:g} (a thickness must be positive). Give metres.",
+                      reading.layer.label, name, field, thickness));
+  return thickness;
+}
+
+std::vector<PolygonFeature> read_sources(Reading& reading, const Grid& terrain) {
+  if (reading.thickness_field < 0) return read_features(reading.layer, reading.request, terrain);
+  const auto read_thickness = [&](OGRFeature& read, PolygonFeature& feature) {
+    feature.thickness_m = thickness_of(reading, read, feature.name);
+  };
+  return read_features(reading.layer, reading.request, terrain, read_thickness);
+}
+
+/// Without thicknesses the features are one source; what two of them cover counts once.
+void merge(Reading& reading, std::vector<PolygonFeature>& sources) {
+  if (sources.size() < 2) return;
+  std::vector<const OGRMultiPolygon*> all;
+  double sum = 0;
+  for (const auto& source : sources) {
+    sum += source.polygons->get_Area();
+    all.push_back(source.polygons.get());
+  }
+  PolygonsPtr polygons = united(all, reading.layer.label);
+  const double area = polygons->get_Area();
+  if (sum - area > 1e-6 * sum)
+    reading.layer.notes.push_back(
+        fmt::format("{}: its {} features overlap by {:.6g} m2, which counts once",
+                    reading.layer.label, sources.size(), sum - area));
+  sources.resize(1);
+  sources[0].name = "all features together";
+  sources[0].polygons = std::move(polygons);
+}
+
+void refuse_overlaps(const Reading& reading, const std::vector<PolygonFeature>& sources) {
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    for (std::size_t j = i + 1; j < sources.size(); ++j) {
+      const auto &a = *sources[i].polygons, &b = *sources[j].polygons;
+      const double area = shared_area(a, b);
+      require(area <= 1e-6 * std::min(a.get_Area(), b.get_Area()),
+              fmt::format("{}: {} and {} overlap by {:.6g} m2 (which '{}' holds there?). Cut one "
+                          "of them back.",
+                          reading.layer.label, sources[i].name, sources[j].name, area,
+                          reading.request.thickness_attribute));
+    }
+}
+
+void require_inside(const Reading& reading, const PolygonFeature& source, const Grid& terrain) {
+  const auto& polygons = *source.polygons;
+  const OGRPolygon known = rectangle(terrain, 1e-6 * terrain.cell_m);
+  if (known.Contains(&polygons)) return;
+  OGREnvelope box;
+  polygons.getEnvelope(&box);
+  const std::string places = places_text(box, terrain);
+  if (!known.Intersects(&polygons)) {
+    const double gap = known.Distance(&polygons);
+    throw SetupError(fmt::format(
+        "{}: the release polygon ({}) lies {} outside the terrain ({}). Is its coordinate system "
+        "right?",
+        reading.layer.label, source.name,
+        gap >= 1000 ? fmt::format("{:.1f} km", gap / 1000) : fmt::format("{:.1f} m", gap), places));
+  }
+  const double outside = area_outside(polygons, known);
+  throw SetupError(fmt::format(
+      "{}: {:.6g} m2 ({:.3g} %) of the release polygon ({}) lie outside the terrain ({}). Use a "
+      "larger terrain or cut the polygon.",
+      reading.layer.label, outside, 100 * outside / polygons.get_Area(), source.name, places));
+}
+
+}  // namespace
+
+PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& terrain) {
+  const GdalScope scope;
+  Reading reading{request, open_polygon_layer(request), -1, {}};
+  reading.thickness_field = find_thickness_field(reading);
+  reading.result.is_thickness = reading.thickness_field >= 0;
+  std::vector<PolygonFeature> sources = read_sources(reading, terrain);
+  if (reading.result.is_thickness) {
+    refuse_overlaps(reading, sources);
+  } else {
+    merge(reading, sources);
+  }
+  for (const auto& source : sources) require_inside(reading, source, terrain);
+  PolygonCover cover(terrain);
+  for (const auto& source : sources) {
+    const double area = lay_down(*source.polygons, source.thickness_m, cover);
+    reading.result.area_m2 += area;
+    if (reading.result.is_thickness) reading.result.volume_m3 += area * source.thickness_m;
+  }
+  reading.result.pattern = cover.finish();
+  reading.result.notes = std::move(reading.layer.notes);
+  reading.result.files = std::move(reading.layer.files);
+  return std::move(reading.result);
+}
+
+}  // namespace sturz

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Release polygons from any vector layer that OGR reads, laid exactly onto the terrain's cells.
+#pragma once
+
+#include "engine/terrain/raster.hpp"
+#include "io/site/polygon_request.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+struct PolygonRelease {
+  Raster<double> pattern;     ///< on the terrain's grid: share 0..1, or thickness [m]
+  bool is_thickness = false;  ///< a thickness attribute was read
+  double area_m2 = 0;         ///< exact, of all polygons together
+  double volume_m3 = 0;       ///< exact, 0 without a thickness attribute
+  std::vector<std::string> notes;
+  std::vector<std::string> files;  ///< the file and its companions, for checksums
+};
+
+/// Polygons and multi-polygons with holes, any number of features. Overlapping features count once
+/// when only shares are wanted. Shares are exact: their sum times the cell area is the area.
+///
+/// \param terrain grid to fill; without a system of its own the coordinates are taken as they are
+/// \throws SetupError naming key and file: missing file, layer or field; empty layer or polygon;
+///   points or lines; no coordinate system; (partly) outside the terrain, by how much and where;
+///   thickness that is missing or not positive; overlapping features with thicknesses
+PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& terrain);
+
+}  // namespace sturz

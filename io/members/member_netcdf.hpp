@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Reading parts of a member's file; shared by read_member and MemberStore.
+#pragma once
+
+#include "engine/simulation/member_result.hpp"
+#include "io/netcdf/netcdf_file.hpp"
+
+namespace sturz {
+
+/// Everything but the maps. \throws IoError for a file that is not a member's or is damaged
+MemberSummary read_member_summary(const NetcdfReader& file);
+/// Rows first..first+n-1 of one map, counted within the window. \throws IoError
+void read_member_rows(const NetcdfReader& file, const Window& window, PeakLayer layer, int first,
+                      int n, std::span<float> out);
+
+}  // namespace sturz

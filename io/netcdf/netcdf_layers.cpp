@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/netcdf/netcdf_layers.hpp"
+
+#include "engine/core/error.hpp"
+#include "io/files/io_error.hpp"
+#include "io/netcdf/grid_netcdf.hpp"
+#include "io/netcdf/history_netcdf.hpp"
+#include "io/netcdf/netcdf_file.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace sturz {
+namespace {
+
+constexpr std::size_t chunk_edge = 256;
+constexpr std::int32_t no_count = std::numeric_limits<std::int32_t>::min();
+
+constexpr const char* order_attribute = "layer_order";
+
+struct WrittenAxis {
+  int dimension = -1;
+  std::vector<double> values;
+};
+
+std::string spoken(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+bool is_threshold(const std::string& name) {
+  constexpr std::string_view ending = "threshold";
+  return name.size() >= ending.size() &&
+         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+void text_if_any(NetcdfWriter& file, int variable, const char* name, const std::string& value) {
+  if (!value.empty()) file.text(variable, name, value);
+}
+
+int write_axis(NetcdfWriter& file, const LayerAxis& axis,
+               std::map<std::string, WrittenAxis>& done) {
+  if (const auto known = done.find(axis.name); known != done.end()) {
+    require(known->second.values == axis.values,
+            fmt::format("axis '{}' has different values in two layers (one file, one axis). Give "
+                        "the axes different names.",
+                        axis.name));
+    return known->second.dimension;
+  }
+  require(std::adjacent_find(axis.values.begin(), axis.values.end(), std::greater_equal<>()) ==
+              axis.values.end(),
+          fmt::format("axis '{}' does not increase strictly (CF asks for it). Sort its values and "
+                      "remove doubles.",
+                      axis.name));
+  const int dimension = file.dimension(axis.name, axis.values.size());
+  const int variable = file.variable(axis.name, NcType::float64, {dimension});
+  text_if_any(file, variable, "standard_name", axis.standard_name);
+  file.text(variable, "long_name", spoken(axis.name));
+  file.text(variable, "units", axis.units);
+  if (is_threshold(axis.name)) file.text(variable, "spp__relative_to_threshold", "greater_than");
+  file.put(variable, axis.values);
+  done[axis.name] = {dimension, axis.values};
+  return dimension;
+}
+
+void put_counts(NetcdfWriter& file, int variable, const Layer& layer) {
+  std::vector<std::int32_t> counts(layer.values.size());
+  std::transform(layer.values.begin(), layer.values.end(), counts.begin(), [](float v) {
+    return std::isnan(v) ? no_count : static_cast<std::int32_t>(std::lround(v));
+  });
+  file.put(variable, counts);
+}
+
+void write_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
+                 const GridDimensions& place, std::map<std::string, WrittenAxis>& axes) {
+  require(layer.values.size() == layer.n_planes() * grid.n_cells(),
+          fmt::format("layer '{}' has {} values, not {} planes of {} cells. Fill every plane.",
+                      layer.name, layer.values.size(), layer.n_planes(), grid.n_cells()));
+  std::vector<int> dimensions{place.y, place.x};
+  std::vector<std::size_t> chunk{std::min(chunk_edge, static_cast<std::size_t>(grid.n_rows)),
+                                 std::min(chunk_edge, static_cast<std::size_t>(grid.n_cols))};
+  if (!layer.axis.values.empty()) {
+    dimensions.insert(dimensions.begin(), write_axis(file, layer.axis, axes));
+    chunk.insert(chunk.begin(), 1);
+  }
+  const int variable =
+      file.variable(layer.name, layer.is_count ? NcType::int32 : NcType::float32, dimensions);
+  file.compress(variable, chunk);
+  if (layer.is_count) {
+    file.fill_value(variable, no_count);
+  } else {
+    file.fill_value(variable, nan_f);
+  }
+  text_if_any(file, variable, "standard_name", layer.standard_name);
+  file.text(variable, "long_name", layer.long_name.empty() ? spoken(layer.name) : layer.long_name);
+  file.text(variable, "units", layer.units);
+  text_if_any(file, variable, "cell_methods", layer.cell_methods);
+  text_if_any(file, variable, "comment", layer.comment);
+  link_grid(file, variable, grid);
+  if (layer.is_count) {
+    put_counts(file, variable, layer);
+  } else {
+    file.put(variable, layer.values);
+  }
+}
+
+void write_attributes(NetcdfWriter& file, const LayerStack& stack) {
+  file.text(NetcdfWriter::global, "Conventions", "CF-1.10");
+  std::vector<std::pair<std::string, std::string>> all = stack.attributes;
+  const auto add_missing = [&](const char* name, const char* value) {
+    const auto same = [&](const auto& a) { return a.first == name; };
+    if (std::none_of(all.begin(), all.end(), same)) all.emplace_back(name, value);
+  };
+  add_missing("title", "Landslide hazard maps");
+  add_missing("source", "sturz, landslide ensemble runner");
+  add_missing("history", "written by sturz");
+  for (const auto& [name, value] : all)
+    if (name != "Conventions") file.text(NetcdfWriter::global, name, value);
+  // Files that were built in memory list their variables by name; people want ours.
+  std::string order;
+  for (const auto& layer : stack.layers) order += (order.empty() ? "" : " ") + layer.name;
+  file.text(NetcdfWriter::global, order_attribute, order);
+  write_grid_attributes(file, stack.grid);
+}
+
+Layer read_layer(const NetcdfReader& file, const std::string& name,
+                 const std::vector<std::string>& dimensions) {
+  Layer layer;
+  layer.name = name;
+  const auto text = [&](const std::string& of, const char* attribute) {
+    return file.text(of, attribute).value_or("");
+  };
+  layer.long_name = text(name, "long_name");
+  layer.standard_name = text(name, "standard_name");
+  layer.units = text(name, "units");
+  layer.cell_methods = text(name, "cell_methods");
+  layer.comment = text(name, "comment");
+  layer.is_count = file.is_integer(name);
+  if (dimensions.size() == 3)
+    layer.axis = {dimensions[0], text(dimensions[0], "standard_name"), text(dimensions[0], "units"),
+                  file.doubles(dimensions[0])};
+  std::vector<std::size_t> start(dimensions.size(), 0), count;
+  std::size_t size = 1;
+  for (const auto& dimension : dimensions) {
+    count.push_back(file.length(dimension));
+    size *= count.back();
+  }
+  layer.values.resize(size);
+  if (!layer.is_count) {
+    file.floats(name, start, count, layer.values);
+    return layer;
+  }
+  const std::vector<std::int32_t> counts = file.integers(name);
+  std::transform(counts.begin(), counts.end(), layer.values.begin(),
+                 [](std::int32_t v) { return v == no_count ? nan_f : static_cast<float>(v); });
+  return layer;
+}
+
+/// Layers as listed in `order`, others behind them.
+void restore_order(std::vector<Layer>& layers, const std::string& order) {
+  const std::string list = " " + order + " ";
+  std::stable_sort(layers.begin(), layers.end(), [&](const Layer& a, const Layer& b) {
+    return list.find(" " + a.name + " ") < list.find(" " + b.name + " ");
+  });
+}
+
+}  // namespace
+
+void write_layers(const std::filesystem::path& path, const LayerStack& stack,
+                  const MemberHistory& history) {
+  NetcdfWriter file(path);
+  write_attributes(file, stack);
+  const GridDimensions place = write_grid(file, stack.grid);
+  std::map<std::string, WrittenAxis> axes;
+  for (const auto& layer : stack.layers) write_layer(file, layer, stack.grid, place, axes);
+  write_history(file, history);
+  file.commit();
+}
+
+LayerStack read_layers(const std::filesystem::path& path) {
+  const NetcdfReader file(path);
+  LayerStack stack;
+  stack.grid = read_grid(file);
+  for (const auto& name : file.attributes(""))
+    if (const auto value = file.text("", name);
+        value && name != "Conventions" && name != order_attribute)
+      stack.attributes.emplace_back(name, *value);
+  for (const auto& name : file.variables()) {
+    const auto dimensions = file.dimensions(name);
+    if (dimensions.size() < 2) continue;  // coordinates, crs and history
+    if (dimensions.size() > 3 || dimensions.back() != "x" ||
+        dimensions[dimensions.size() - 2] != "y")
+      throw IoError(
+          fmt::format("{}: variable '{}' is not a map over y, x. Remove it.", path.string(), name));
+    stack.layers.push_back(read_layer(file, name, dimensions));
+  }
+  restore_order(stack.layers, file.text("", order_attribute).value_or(""));
+  return stack;
+}
+
+}  // namespace sturz

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/site/polygon_layer.hpp"
+
+#include "engine/core/error.hpp"
+#include "io/gdal/crs.hpp"
+#include "io/gdal/input_files.hpp"
+
+#include <fmt/core.h>
+
+#include <memory>
+
+namespace sturz {
+namespace {
+
+using GeometryPtr = std::unique_ptr<OGRGeometry>;
+
+OGRLayer& choose_layer(PolygonLayer& layer, const PolygonRequest& request) {
+  GDALDataset& dataset = *layer.dataset.dataset;
+  std::vector<std::string> names;
+  for (int i = 0; i < dataset.GetLayerCount(); ++i)
+    names.emplace_back(dataset.GetLayer(i)->GetName());
+  require(!names.empty(), layer.label + ": holds no layer. Export the polygons again.");
+  if (request.layer.empty()) {
+    if (names.size() > 1)
+      layer.notes.push_back(fmt::format("{}: layer '{}' is used, the first of {}", layer.label,
+                                        names[0], comma_separated(names)));
+    return *dataset.GetLayer(0);
+  }
+  OGRLayer* chosen = dataset.GetLayerByName(request.layer.c_str());
+  if (chosen == nullptr)
+    throw SetupError(fmt::format("{}: has no layer '{}' ({}). It has: {}.", layer.label,
+                                 request.layer, request.layer_key, comma_separated(names)));
+  return *chosen;
+}
+
+/// nullptr where the coordinates stay as they are.
+TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request,
+                              const Grid& terrain) {
+  OGREnvelope box;
+  if (layer.layer->GetExtent(&box, true) != OGRERR_NONE) box = {};  // an empty layer has none
+  const OGRSpatialReference* own = layer.layer->GetSpatialRef();
+  if (terrain.crs_wkt.empty()) {
+    if (own != nullptr || !request.crs.empty())
+      layer.notes.push_back(layer.label +
+                            ": its coordinates are taken as they are, because the terrain "
+                            "has no coordinate system");
+    return nullptr;
+  }
+  std::string note;
+  const OGRSpatialReference from =
+      settle_crs(own, {layer.label, request.crs_key, request.crs, "", ""},
+                 {box.MinX, box.MaxX, box.MinY, box.MaxY, 0}, note);
+  if (!note.empty()) layer.notes.push_back(note);
+  const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
+  TransformPtr to_terrain = transform_between(from, to, layer.label);
+  if (to_terrain)
+    layer.notes.push_back(
+        fmt::format("{}: reprojected from {} to {}", layer.label, crs_name(from), crs_name(to)));
+  return to_terrain;
+}
+
+/// What the steps below share.
+struct Reading {
+  PolygonLayer& layer;
+  const PolygonRequest& request;
+  TransformPtr to_terrain;
+};
+
+PolygonsPtr mended(PolygonLayer& layer, const OGRMultiPolygon& polygons, const std::string& name) {
+  const std::string reason = gdal_reason("it crosses itself");
+  const GeometryPtr valid(polygons.MakeValid());
+  std::string ignored;
+  PolygonsPtr clean = valid ? polygons_in(*valid, ignored) : std::make_unique<OGRMultiPolygon>();
+  layer.notes.push_back(fmt::format("{}: {} was not a valid polygon ({}); mended, area {:.6g} m2",
+                                    layer.label, name, reason, clean->get_Area()));
+  return clean;
+}
+
+PolygonsPtr polygons_of(Reading& reading, const OGRGeometry& geometry, const std::string& name) {
+  PolygonLayer& layer = reading.layer;
+  GeometryPtr linear(geometry.hasCurveGeometry() ? geometry.getLinearGeometry() : geometry.clone());
+  if (geometry.hasCurveGeometry())
+    layer.notes.push_back(
+        fmt::format("{}: the curves of {} were replaced by short lines", layer.label, name));
+  linear->flattenTo2D();
+  std::string other;
+  PolygonsPtr polygons = polygons_in(*linear, other);
+  if (!other.empty())
+    throw SetupError(fmt::format("{}: {} is a {}, not a polygon. Draw the {} as polygons.",
+                                 layer.label, name, other, reading.request.what));
+  if (reading.to_terrain && polygons->transform(reading.to_terrain.get()) != OGRERR_NONE)
+    throw SetupError(fmt::format(
+        "{}: {} cannot be moved to the terrain's system ({}). Check {}.", layer.label, name,
+        gdal_reason(),
+        reading.request.crs_key.empty() ? "the file's own system" : reading.request.crs_key));
+  if (polygons->IsValid()) return polygons;
+  return mended(layer, *polygons, name);
+}
+
+}  // namespace
+
+PolygonLayer open_polygon_layer(const PolygonRequest& request) {
+  const InputFile file = find_input(request.key, request.path, request.directory);
+  PolygonLayer layer;
+  layer.label = file.label;
+  layer.dataset = open_dataset(file.path, file.label, GDAL_OF_VECTOR);
+  layer.files = files_of(*layer.dataset.dataset);
+  layer.layer = &choose_layer(layer, request);
+  return layer;
+}
+
+std::vector<PolygonFeature> read_features(
+    PolygonLayer& layer, const PolygonRequest& request, const Grid& terrain,
+    const std::function<void(OGRFeature&, PolygonFeature&)>& read_fields) {
+  Reading reading{layer, request, settle_transform(layer, request, terrain)};
+  std::vector<PolygonFeature> features;
+  layer.layer->ResetReading();
+  while (const auto read = OGRFeatureUniquePtr(layer.layer->GetNextFeature())) {
+    PolygonFeature feature;
+    feature.name = fmt::format("feature {}", read->GetFID());
+    const OGRGeometry* geometry = read->GetGeometryRef();
+    require(geometry != nullptr && !geometry->IsEmpty(),
+            fmt::format("{}: {} is empty (no polygon drawn). Draw it or delete it.", layer.label,
+                        feature.name));
+    feature.polygons = polygons_of(reading, *geometry, feature.name);
+    require(feature.polygons->get_Area() > 0,
+            fmt::format("{}: {} has no area. Draw it again.", layer.label, feature.name));
+    if (read_fields) read_fields(*read, feature);
+    features.push_back(std::move(feature));
+  }
+  require(!features.empty(),
+          fmt::format("{}: layer '{}' has no features (an empty {}). Draw the "
+                      "{} polygon.",
+                      layer.label, layer.layer->GetName(), request.what, request.what));
+  return features;
+}
+
+std::string places_text(const OGREnvelope& polygon, const Grid& terrain) {
+  return fmt::format(
+      "polygon x {:.10g} to {:.10g}, y {:.10g} to {:.10g}; terrain x {:.10g} to {:.10g}, y {:.10g} "
+      "to {:.10g}",
+      polygon.MinX, polygon.MaxX, polygon.MinY, polygon.MaxY, terrain.west_m, terrain.east_m(),
+      terrain.south_m(), terrain.north_m);
+}
+
+std::string comma_separated(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace sturz

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The features of any polygon layer that OGR reads, valid and in the terrain's coordinate system.
+/// Included by .cpp files only.
+#pragma once
+
+#include "io/gdal/gdal_handles.hpp"
+#include "io/gdal/ogr_polygons.hpp"
+#include "io/site/polygon_request.hpp"
+
+#include <ogrsf_frmts.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// A layer open for reading.
+struct PolygonLayer {
+  std::string label;  ///< for messages: "release.polygon = source.gpkg"
+  std::vector<std::string> notes;
+  std::vector<std::string> files;  ///< the file and its companions, for checksums
+  OpenDataset dataset;
+  OGRLayer* layer = nullptr;
+};
+
+/// One feature: all its polygons in the terrain's system.
+struct PolygonFeature {
+  std::string name;  ///< "feature 3"
+  PolygonsPtr polygons;
+  double thickness_m = 1;
+};
+
+/// "layer 'a' is used ..." goes to the notes. \throws SetupError naming key and file: missing file
+///   or layer
+PolygonLayer open_polygon_layer(const PolygonRequest& request);
+
+/// All features, in file order. What was reprojected, mended or taken as it is goes to the notes.
+/// \param read_fields called for each feature to fill in what its fields say
+/// \throws SetupError naming key and file: no coordinate system; empty layer or polygon; points or
+///   lines
+std::vector<PolygonFeature> read_features(
+    PolygonLayer& layer, const PolygonRequest& request, const Grid& terrain,
+    const std::function<void(OGRFeature&, PolygonFeature&)>& read_fields = {});
+
+/// "polygon x 1 to 2, y 1 to 2; terrain x 0 to 5, y 0 to 5"
+std::string places_text(const OGREnvelope& polygon, const Grid& terrain);
+
+/// "feature, layer, field"
+std::string comma_separated(const std::vector<std::string>& words);
+
+}  // namespace sturz

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/site/thickness_raster.hpp"
+
+#include "engine/core/error.hpp"
+#include "engine/core/vec.hpp"
+#include "io/gdal/crs.hpp"
+#include "io/gdal/gdal_handles.hpp"
+#include "io/gdal/raster_source.hpp"
+#include "io/site/polygon_cover.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+/// Volumes below this share of the whole are round-off, not a part that lies outside.
+constexpr double volume_round_off = 1e-9;
+
+/// A convex polygon of few corners; a quadrilateral cut by two strips has at most eight.
+struct Patch {
+  std::array<Vec2, 12> corner;
+  int n = 0;
+  void add(const Vec2& p) { corner[static_cast<std::size_t>(n++)] = p; }
+  double area() const { return std::abs(ring_area({corner.data(), static_cast<std::size_t>(n)})); }
+};
+
+/// The part of `patch` where sign * (coordinate - limit) >= 0 (Sutherland-Hodgman).
+Patch cut(const Patch& patch, int axis, double limit, double sign) {
+  Patch kept;
+  for (int i = 0; i < patch.n; ++i) {
+    const Vec2& a = patch.corner[static_cast<std::size_t>(i)];
+    const Vec2& b = patch.corner[static_cast<std::size_t>((i + 1) % patch.n)];
+    const double da = sign * (a[axis] - limit), db = sign * (b[axis] - limit);
+    if (da >= 0) kept.add(a);
+    if ((da > 0 && db < 0) || (da < 0 && db > 0)) kept.add(a + (b - a) * (da / (da - db)));
+  }
+  return kept;
+}
+
+/// Source cells that found no place on the terrain.
+struct Lost {
+  double volume = 0;
+  double min_x = INFINITY, max_x = -INFINITY, min_y = INFINITY, max_y = -INFINITY;
+
+  void add(double v, const Patch& where) {
+    volume += v;
+    for (int i = 0; i < where.n; ++i) {
+      const Vec2& p = where.corner[static_cast<std::size_t>(i)];
+      min_x = std::min(min_x, p.x());
+      max_x = std::max(max_x, p.x());
+      min_y = std::min(min_y, p.y());
+      max_y = std::max(max_y, p.y());
+    }
+  }
+};
+
+/// Spreads `volume` over the cells under `patch`, given in cells of the grid (u east, v south).
+/// \return the volume that fell inside
+double spread(const Patch& patch, double volume, Raster<double>& volumes) {
+  double lo[2]{INFINITY, INFINITY}, hi[2]{-INFINITY, -INFINITY};
+  for (int i = 0; i < patch.n; ++i)
+    for (int axis = 0; axis < 2; ++axis) {
+      lo[axis] = std::min(lo[axis], patch.corner[static_cast<std::size_t>(i)][axis]);
+      hi[axis] = std::max(hi[axis], patch.corner[static_cast<std::size_t>(i)][axis]);
+    }
+  const Grid& g = volumes.grid;
+  const auto first = [](double v) { return static_cast<int>(std::floor(std::max(v, 0.0))); };
+  const auto end = [](double v, int n) {
+    return static_cast<int>(std::ceil(std::clamp(v, 0.0, static_cast<double>(n))));
+  };
+  const double per_area = volume / patch.area();
+  double inside = 0;
+  for (int r = first(lo[1]); r < end(hi[1], g.n_rows); ++r) {
+    const Patch strip = cut(cut(patch, 1, r, 1), 1, r + 1.0, -1);
+    for (int c = first(lo[0]); c < end(hi[0], g.n_cols); ++c) {
+      const double part = per_area * cut(cut(strip, 0, c, 1), 0, c + 1.0, -1).area();
+      volumes.at(r, c) += part;
+      inside += part;
+    }
+  }
+  return inside;
+}
+
+void refuse_negative(const RasterSource& s) {
+  const auto is_negative = [](double v) { return v < 0; };
+  const auto negative = std::find_if(s.values.begin(), s.values.end(), is_negative);
+  if (negative == s.values.end()) return;
+  const auto index = negative - s.values.begin();
+  const auto row = index / s.n_cols, col = index % s.n_cols;
+  const bool counts_down =
+      std::none_of(s.values.begin(), s.values.end(), [](double v) { return v > 0; });
+  throw SetupError(fmt::format(
+      "{}: thickness {:g} m at row {}, column {} (x {:.10g}, y {:.10g}; rows from the north, from "
+      "0)"
+      " is negative{}",
+      s.label, *negative, row, col, s.x_of(col + 0.5, row + 0.5), s.y_of(col + 0.5, row + 0.5),
+      counts_down ? fmt::format(", like all its {} values. If these are depths counted downwards, "
+                                "set `release.thickness_factor: -1`.",
+                                std::count_if(s.values.begin(), s.values.end(), is_negative))
+                  : ". Set such cells to nodata or zero."));
+}
+
+/// Square metres of a source cell, 0 if its system has no metres (degrees).
+double own_cell_area(const RasterSource& s) {
+  if (s.crs.IsGeographic()) return 0;
+  const double unit = s.crs.IsEmpty() ? 1 : s.crs.GetLinearUnits();
+  return std::abs(s.affine[1] * s.affine[5] - s.affine[2] * s.affine[4]) * unit * unit;
+}
+
+/// A source cell in cells of the grid (u east, v south).
+Patch cell_on_grid(const RasterSource& s, int col, int row, OGRCoordinateTransformation* transform,
+                   const Grid& g) {
+  std::array<double, 4> x{}, y{};
+  for (int k = 0; k < 4; ++k) {
+    const double c = col + (k == 1 || k == 2), r = row + (k > 1);
+    x[static_cast<std::size_t>(k)] = s.x_of(c, r);
+    y[static_cast<std::size_t>(k)] = s.y_of(c, r);
+  }
+  require(transform == nullptr || transform->Transform(4, x.data(), y.data()) != 0,
+          fmt::format("{}: the cell at row {}, column {} cannot be moved to the terrain's system. "
+                      "Check release.crs.",
+                      s.label, row, col));
+  Patch patch;
+  for (std::size_t k = 0; k < 4; ++k)
+    patch.add({(x[k] - g.west_m) / g.cell_m, (g.north_m - y[k]) / g.cell_m});
+  return patch;
+}
+
+void refuse_lost(const Lost& lost, double total, const Grid& g, const std::string& label) {
+  if (lost.volume <= volume_round_off * total) return;
+  throw SetupError(fmt::format(
+      "{}: {:.6g} of {:.6g} m3 ({:.3g} %) lie outside the terrain, in cells within x {:.10g} to "
+      "{:.10g}, y {:.10g} to {:.10g} (terrain x {:.10g} to {:.10g}, y {:.10g} to {:.10g}). Use a "
+      "larger terrain or cut the raster.",
+      label, lost.volume, total, 100 * lost.volume / total, g.west_m + lost.min_x * g.cell_m,
+      g.west_m + lost.max_x * g.cell_m, g.north_m - lost.max_y * g.cell_m,
+      g.north_m - lost.min_y * g.cell_m, g.west_m, g.east_m(), g.south_m(), g.north_m));
+}
+
+bool is_same_grid(const RasterSource& s, const Grid& g, bool moved) {
+  return !moved && s.is_axis_aligned() && s.n_cols == g.n_cols && s.n_rows == g.n_rows &&
+         s.affine[0] == g.west_m && s.affine[3] == g.north_m && s.affine[1] == g.cell_m &&
+         s.affine[5] == -g.cell_m;
+}
+
+/// Volumes per terrain cell, and the totals in `result`.
+void carry_over(const RasterSource& s, OGRCoordinateTransformation* transform,
+                ThicknessRead& result) {
+  Raster<double>& volumes = result.thickness;
+  const Grid& g = volumes.grid;
+  const double own_area = own_cell_area(s);
+  Lost lost;
+  double placed = 0;
+  for (int row = 0; row < s.n_rows; ++row)
+    for (int col = 0; col < s.n_cols; ++col) {
+      const double thickness = s.values[static_cast<std::size_t>(row) * s.n_cols + col];
+      if (!(thickness > 0)) continue;
+      const Patch patch = cell_on_grid(s, col, row, transform, g);
+      const double area = own_area > 0 ? own_area : patch.area() * g.cell_m * g.cell_m;
+      const double volume = thickness * area, inside = spread(patch, volume, volumes);
+      result.volume_m3 += volume;
+      result.area_m2 += area;
+      placed += inside;
+      if (volume - inside > volume_round_off * volume) lost.add(volume - inside, patch);
+    }
+  require(result.volume_m3 > 0,
+          s.label + ": holds no thickness above zero (an empty release). Check band and nodata.");
+  refuse_lost(lost, result.volume_m3, g, s.label);
+  const double correction = result.volume_m3 / placed, cell_area = g.cell_m * g.cell_m;
+  for (double& v : volumes.values) v *= correction / cell_area;
+  result.notes.push_back(fmt::format(
+      "{}: carried over by overlapping areas; {:.9g} m3 over {:.9g} m2, volume corrected by "
+      "{:+.2g} %",
+      s.label, result.volume_m3, result.area_m2, (correction - 1) * 100));
+}
+
+}  // namespace
+
+ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) {
+  const GdalScope scope;
+  RasterSource source =
+      read_source(request, RasterQuantity::thickness, /*crs_optional=*/terrain.crs_wkt.empty());
+  if (request.factor != 1)
+    for (double& v : source.values) v *= request.factor;
+  refuse_negative(source);
+  ThicknessRead result;
+  result.notes = std::move(source.notes);
+  result.files = std::move(source.files);
+  result.thickness = Raster<double>(terrain, 0.0);
+  const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
+  const TransformPtr transform = transform_between(source.crs, to, source.label);
+  if (transform)
+    result.notes.push_back(fmt::format("{}: reprojected from {} to {}", source.label,
+                                       crs_name(source.crs), crs_name(to)));
+  if (!is_same_grid(source, terrain, transform != nullptr)) {
+    carry_over(source, transform.get(), result);
+    return result;
+  }
+  const double cell_area = terrain.cell_m * terrain.cell_m;
+  for (std::size_t i = 0; i < source.values.size(); ++i) {
+    if (!(source.values[i] > 0)) continue;
+    result.thickness.values[i] = source.values[i];
+    result.volume_m3 += source.values[i] * cell_area;
+    result.area_m2 += cell_area;
+  }
+  require(
+      result.volume_m3 > 0,
+      source.label + ": holds no thickness above zero (an empty release). Check band and nodata.");
+  return result;
+}
+
+}  // namespace sturz

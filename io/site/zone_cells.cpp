@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/site/zone_cells.hpp"
+
+#include "engine/core/error.hpp"
+#include "io/site/polygon_cells.hpp"
+#include "io/site/polygon_layer.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace sturz {
+namespace {
+
+/// Feature by feature: where two of them overlap, both would count as a hole of the other.
+std::vector<std::size_t> cells_of(const OGRMultiPolygon& polygons, const Grid& terrain) {
+  PolygonCells cells(terrain);
+  for (const OGRPolygon* polygon : polygons)
+    for (const OGRLinearRing* ring : *polygon) cells.add_ring(points_of(*ring));
+  return cells.finish();
+}
+
+}  // namespace
+
+ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain) {
+  const GdalScope scope;
+  PolygonLayer layer = open_polygon_layer(request);
+  ZoneCells zone;
+  OGREnvelope extent;
+  for (const auto& feature : read_features(layer, request, terrain)) {
+    OGREnvelope own;
+    feature.polygons->getEnvelope(&own);
+    extent.Merge(own);
+    const auto cells = cells_of(*feature.polygons, terrain);
+    zone.cells.insert(zone.cells.end(), cells.begin(), cells.end());
+  }
+  std::sort(zone.cells.begin(), zone.cells.end());
+  zone.cells.erase(std::unique(zone.cells.begin(), zone.cells.end()), zone.cells.end());
+  if (zone.cells.empty())
+    throw SetupError(
+        fmt::format("{}: holds the centre of no cell of the terrain ({}; cells of {:g} m). Is its "
+                    "coordinate system right?",
+                    layer.label, places_text(extent, terrain), terrain.cell_m));
+  zone.notes = std::move(layer.notes);
+  zone.files = std::move(layer.files);
+  return zone;
+}
+
+}  // namespace sturz

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Polygons of a zone of the base, as the terrain's cells whose centre they hold.
+#pragma once
+
+#include "engine/terrain/raster.hpp"
+#include "io/site/polygon_request.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+struct ZoneCells {
+  std::vector<std::size_t> cells;  ///< indices on the terrain's grid, rising, each once
+  std::vector<std::string> notes;
+  std::vector<std::string> files;  ///< the file and its companions, for checksums
+};
+
+/// All features of the layer together; what lies beyond the terrain is left out.
+///
+/// \param terrain without a system of its own the coordinates are taken as they are
+/// \throws SetupError naming key and file: missing file or layer; empty layer or polygon; points or
+///   lines; no coordinate system; no cell covered
+ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain);
+
+}  // namespace sturz

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/figures/figures.hpp"
+
+#include "reports/figures/png.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace sturz {
+namespace {
+
+constexpr double map_width = 640;  // SVG units; text sizes are in the same units
+constexpr double opacity = 0.78;
+constexpr const char* font =
+    "font-family=\"system-ui, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif\"";
+
+/// Where map coordinates fall in a figure whose map starts at (left, top).
+struct Frame {
+  const Grid& ground;
+  double left = 0, top = 0;
+  double scale() const { return map_width / (ground.east_m() - ground.west_m); }
+  double height() const { return (ground.north_m - ground.south_m()) * scale(); }
+  double x(double east) const { return left + (east - ground.west_m) * scale(); }
+  double y(double north) const { return top + (ground.north_m - north) * scale(); }
+};
+
+double nice_length(double longest) {
+  const double power = std::pow(10, std::floor(std::log10(longest)));
+  for (const double step : {5.0, 2.0, 1.0})
+    if (step * power <= longest) return step * power;
+  return power;
+}
+
+std::string length_text(double metres) {
+  return metres >= 1000 ? number_text(metres / 1000) + " km" : number_text(metres) + " m";
+}
+
+/// Classes as palette indices (0 clear), and the palette.
+struct Indexed {
+  std::vector<std::uint8_t> index;
+  std::vector<Rgb> palette;
+};
+
+Indexed indexed_classes(const std::vector<float>& values, const Legend& legend) {
+  Indexed out;
+  out.palette.push_back({255, 255, 255});
+  for (const auto& c : legend.classes) out.palette.push_back(c.colour);
+  for (const float v : values)
+    out.index.push_back(static_cast<std::uint8_t>(legend.class_of(v) + 1));
+  return out;
+}
+
+std::string scale_bar(const Frame& frame) {
+  const double length = nice_length((frame.ground.east_m() - frame.ground.west_m) / 4);
+  const double width = length * frame.scale();
+  const double x = frame.left + 14, y = frame.top + frame.height() - 16;
+  return fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"30\" rx=\"4\" fill=\"#fff\" "
+      "fill-opacity=\"0.82\"/>"
+      "<path d=\"M{:.1f} {:.1f}v5h{:.1f}v-5\" fill=\"none\" stroke=\"#1b2228\" "
+      "stroke-width=\"1.5\"/>"
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12\" fill=\"#1b2228\" "
+      "text-anchor=\"middle\">{}</text>",
+      x - 8, y - 17, width + 16, x, y, width, x + width / 2, y - 3, length_text(length));
+}
+
+/// Ticks with coordinates along the lower and left rim, inside the map.
+std::string coordinate_ticks(const Frame& frame) {
+  const Grid& g = frame.ground;
+  const double step = nice_length((g.east_m() - g.west_m) / 3);
+  std::string out = "<g stroke=\"#1b2228\" stroke-opacity=\"0.45\" stroke-width=\"1\">";
+  std::string labels = "<g font-size=\"10.5\" fill=\"#3c464e\">";
+  for (double x = std::ceil(g.west_m / step) * step; x < g.east_m(); x += step) {
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}v-7\"/>", frame.x(x), frame.top + frame.height());
+    if (std::abs(frame.x(x) - frame.left - map_width / 2) > map_width / 2 - 30) continue;
+    labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
+                          frame.x(x), frame.top + frame.height() + 14, number_text(x, 9));
+  }
+  for (double y = std::ceil(g.south_m() / step) * step; y < g.north_m; y += step) {
+    out += fmt::format("<path d=\"M{:.1f} {:.1f}h7\"/>", frame.left, frame.y(y));
+    if (std::abs(frame.y(y) - frame.top - frame.height() / 2) > frame.height() / 2 - 30) continue;
+    labels += fmt::format(
+        "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+        frame.left - 5, frame.y(y), number_text(y, 9));
+  }
+  return out + "</g>" + labels + "</g>";
+}
+
+std::string hillshade_uri(const MapScene& scene) {
+  const Grid& g = scene.ground.grid;
+  return data_uri(grey_png(scene.shade, g.n_cols, g.n_rows));
+}
+
+/// Colours, frame, ticks and scale bar; the hillshade lies below already.
+std::string overlay_svg(const Frame& frame, const MapScene& scene, const LayerStack& maps,
+                        const Layer& layer, std::size_t plane) {
+  const Legend legend = legend_for(layer);
+  const Indexed colours = indexed_classes(scene_plane(scene, layer, plane, maps.grid), legend);
+  const Grid& c = scene.cells;
+  std::string svg = fmt::format(
+      "<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+      "preserveAspectRatio=\"none\" image-rendering=\"pixelated\" opacity=\"{}\" href=\"{}\"/>",
+      frame.x(c.west_m), frame.y(c.north_m), c.n_cols * c.cell_m * frame.scale(),
+      c.n_rows * c.cell_m * frame.scale(), opacity,
+      data_uri(palette_png(colours.index, c.n_cols, c.n_rows, colours.palette)));
+  svg += fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
+      "stroke=\"#1b2228\" stroke-opacity=\"0.35\"/>",
+      frame.left, frame.top, map_width, frame.height());
+  return svg + coordinate_ticks(frame) + scale_bar(frame);
+}
+
+std::string legend_svg(const Legend& legend, double x, double y) {
+  std::string svg = "<g font-size=\"12.5\" fill=\"#1b2228\">";
+  if (!legend.unit.label.empty())
+    svg += fmt::format("<text x=\"{}\" y=\"{}\" font-weight=\"600\">{}</text>", x, y + 10,
+                       html_escape(legend.unit.label));
+  y += 20;
+  for (auto it = legend.classes.rbegin(); it != legend.classes.rend(); ++it, y += 23)
+    svg += fmt::format(
+        "<rect x=\"{0}\" y=\"{1}\" width=\"24\" height=\"16\" rx=\"2\" fill=\"{2}\"/>"
+        "<text x=\"{3}\" y=\"{4}\">{5}</text>",
+        x, y, hex_text(it->colour), x + 33, y + 12.5, html_escape(it->label));
+  return svg + "</g>";
+}
+
+}  // namespace
+
+std::string hillshade_defs(const MapScene& scene) {
+  const Frame frame{scene.ground.grid};
+  return fmt::format(
+      "<svg class=\"defs\" width=\"0\" height=\"0\" aria-hidden=\"true\"><defs>"
+      "<image id=\"hillshade\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
+      "href=\"{}\"/></defs></svg>",
+      map_width, frame.height(), hillshade_uri(scene));
+}
+
+std::string map_figure_svg(const MapScene& scene, const LayerStack& maps, const Layer& layer,
+                           std::size_t plane) {
+  const Frame frame{scene.ground.grid, 18, 0};
+  return fmt::format(
+             "<svg class=\"map-figure\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
+             "aria-label=\"{}\" {}><use href=\"#hillshade\" x=\"{}\" y=\"{}\"/>",
+             frame.left + map_width + 1, frame.height() + 18,
+             html_escape(plane_title(layer, plane)), font, frame.left, frame.top) +
+         overlay_svg(frame, scene, maps, layer, plane) + "</svg>";
+}
+
+std::string map_figure_file(const MapScene& scene, const LayerStack& maps, const Layer& layer,
+                            std::size_t plane, const std::string& title) {
+  const Frame frame{scene.ground.grid, 36, 62};
+  const Legend legend = legend_for(layer);
+  const double width = frame.left + map_width + 150;
+  const double height = std::max(frame.top + frame.height() + 30,
+                                 frame.top + 40 + 23 * static_cast<double>(legend.classes.size()));
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+             "width=\"{0:.0f}\" height=\"{1:.0f}\" {2}>"
+             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>"
+             "<text x=\"{3}\" y=\"26\" font-size=\"18\" font-weight=\"600\" "
+             "fill=\"#1b2228\">{4}</text>"
+             "<text x=\"{3}\" y=\"47\" font-size=\"13.5\" fill=\"#3c464e\">{5}</text>"
+             "<image x=\"{3}\" y=\"{6}\" width=\"{7:.2f}\" height=\"{8:.2f}\" "
+             "preserveAspectRatio=\"none\" href=\"{9}\"/>",
+             width, height, font, frame.left, html_escape(title),
+             html_escape(plane_title(layer, plane)), frame.top, map_width, frame.height(),
+             hillshade_uri(scene)) +
+         overlay_svg(frame, scene, maps, layer, plane) +
+         legend_svg(legend, frame.left + map_width + 20, frame.top) + "</svg>\n";
+}
+
+std::string legend_html(const Legend& legend) {
+  std::string html = "<ul class=\"legend\">";
+  if (!legend.unit.label.empty())
+    html += "<li class=\"unit\">" + html_escape(legend.unit.label) + "</li>";
+  for (const auto& c : legend.classes)
+    html += fmt::format(
+        "<li><svg width=\"22\" height=\"14\" aria-hidden=\"true\"><rect width=\"22\" height=\"14\" "
+        "rx=\"2\" fill=\"{}\"/></svg>{}</li>",
+        hex_text(c.colour), html_escape(c.label));
+  return html + "</ul>";
+}
+
+std::vector<std::uint8_t> map_picture_png(const MapScene& scene, const LayerStack& maps,
+                                          const Layer& layer, std::size_t plane,
+                                          int pixels_across) {
+  const Legend legend = legend_for(layer);
+  const std::vector<float> values = scene_plane(scene, layer, plane, maps.grid);
+  const Grid& g = scene.ground.grid;
+  const int zoom = std::max(1, pixels_across / std::max(1, g.n_cols));
+  const int width = g.n_cols * zoom, height = g.n_rows * zoom;
+  std::vector<Rgb> pixels(static_cast<std::size_t>(width) * height);
+  for (int py = 0; py < height; ++py)
+    for (int px = 0; px < width; ++px) {
+      const std::uint8_t grey = scene.shade[g.index(py / zoom, px / zoom)];
+      Rgb colour{grey, grey, grey};
+      const int row = scene.cells.row_of(g.north_m - (py + 0.5) * g.cell_m / zoom);
+      const int col = scene.cells.col_of(g.west_m + (px + 0.5) * g.cell_m / zoom);
+      if (scene.cells.contains(row, col)) {
+        const int k = legend.class_of(values[scene.cells.index(row, col)]);
+        if (k >= 0)
+          colour = blend(legend.classes[static_cast<std::size_t>(k)].colour, colour, opacity);
+      }
+      pixels[static_cast<std::size_t>(py) * width + px] = colour;
+    }
+  return rgb_png(pixels, width, height);
+}
+
+std::vector<std::uint8_t> overview_png(const LayerStack& maps, const Raster<double>* elevation) {
+  const Layer* layer = default_layer(maps);
+  if (layer == nullptr) return {};
+  return map_picture_png(make_map_scene(maps, elevation), maps, *layer, 0);
+}
+
+std::string overview_svg(const LayerStack& maps, const Raster<double>* elevation,
+                         const std::string& title) {
+  const Layer* layer = default_layer(maps);
+  if (layer == nullptr) return {};
+  return map_figure_file(make_map_scene(maps, elevation), maps, *layer, 0, title);
+}
+
+}  // namespace sturz

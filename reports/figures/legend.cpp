@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/figures/legend.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace sturz {
+namespace {
+
+std::string range_label(double lower, double upper) {
+  return number_text(lower) + "\u2013" + number_text(upper);
+}
+
+/// Fills in labels and colours for classes that start at `lowers`.
+void dress(Legend& legend, const std::vector<double>& lowers, Ramp ramp) {
+  const auto colours = ramp_colours(ramp, static_cast<int>(lowers.size()));
+  const double factor = legend.probability ? 100 : 1;
+  for (std::size_t i = 0; i < lowers.size(); ++i) {
+    LegendClass c{lowers[i], "", colours[i]};
+    const bool last = i + 1 == lowers.size();
+    if (last)
+      c.label = "\u2265\u00A0" + number_text(factor * lowers[i]);
+    else if (i == 0 && legend.clear_zero)
+      c.label = "<\u00A0" + number_text(factor * lowers[1]);
+    else
+      c.label = range_label(factor * lowers[i], factor * lowers[i + 1]);
+    if (legend.probability) c.label += "\u00A0%";
+    legend.classes.push_back(std::move(c));
+  }
+}
+
+/// Largest number of the series ..., 0.1, 0.2, 0.5, 1, 2, 5, ... that is <= value (value > 0).
+double nice_below(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value) + 1e-12));
+  for (const double step : {5.0, 2.0, 1.0})
+    if (step * power <= value * (1 + 1e-9)) return step * power;
+  return power;
+}
+
+std::vector<double> series_classes(double largest) {
+  std::vector<double> lowers;
+  double at = nice_below(largest);
+  for (int i = 0; i < 6; ++i) {
+    lowers.push_back(at);
+    at = nice_below(at * 0.999);
+  }
+  lowers.push_back(0);
+  std::reverse(lowers.begin(), lowers.end());
+  return lowers;
+}
+
+std::vector<double> even_classes(double largest) {
+  const double step = nice_below(std::max(largest, 1e-9) / 3);
+  std::vector<double> lowers;
+  for (double at = 0; at <= largest && lowers.size() < 9; at += step) lowers.push_back(at);
+  return lowers;
+}
+
+Ramp ramp_of(const LayerMeaning& meaning) {
+  if (meaning.statistic == Statistic::probability) return Ramp::hazard;
+  switch (meaning.quantity) {
+    case Quantity::arrival:
+      return Ramp::arrival;
+    case Quantity::deposit:
+      return Ramp::deposit;
+    case Quantity::intensity:
+      return Ramp::hazard;
+    case Quantity::count:
+    case Quantity::other:
+      return Ramp::neutral;
+    default:
+      return Ramp::magnitude;
+  }
+}
+
+}  // namespace
+
+int Legend::class_of(float stored) const {
+  if (std::isnan(stored) || (clear_zero && stored <= 0)) return -1;
+  const double shown = unit.factor * static_cast<double>(stored);
+  int found = 0;
+  for (std::size_t i = 1; i < classes.size(); ++i)
+    if (shown >= classes[i].lower - 1e-6 * std::abs(classes[i].lower)) found = static_cast<int>(i);
+  return found;
+}
+
+Legend legend_for(const Layer& layer) {
+  const LayerMeaning meaning = meaning_of(layer);
+  Legend legend;
+  legend.unit = display_unit(layer.units);
+  legend.probability = meaning.statistic == Statistic::probability && layer.units == "1";
+  legend.clear_zero = meaning.quantity != Quantity::arrival;
+  double largest = 0;
+  for (const float v : layer.values)
+    if (std::isfinite(v)) largest = std::max(largest, legend.unit.factor * v);
+  if (legend.probability)
+    dress(legend, {0, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9}, Ramp::hazard);
+  else if (meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::intensity ||
+           largest <= 0)
+    dress(legend, even_classes(largest), ramp_of(meaning));
+  else
+    dress(legend, series_classes(largest), ramp_of(meaning));
+  return legend;
+}
+
+}  // namespace sturz

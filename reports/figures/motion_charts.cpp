@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/figures/motion_charts.hpp"
+
+#include "engine/laws/grain_states.hpp"
+#include "reports/page/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace sturz {
+namespace {
+
+std::vector<double> column(const MemberHistory& history, float HistoryRow::*field) {
+  std::vector<double> values;
+  for (const HistoryRow& row : history.rows) values.push_back(row.*field);
+  return values;
+}
+
+double largest(const MotionChart& chart) {
+  double most = 0;
+  for (const MotionLine& line : chart.lines)
+    for (const double v : line.values) most = std::max(most, v);
+  return most;
+}
+
+/// Smallest step times a power of ten that is not below `value` > 0.
+double round_up(double value, std::span<const double> steps) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double step : steps)
+    if (step * power >= value * (1 - 1e-12)) return step * power;
+  return 10 * power;
+}
+
+/// Between ticks.
+double round_step(double least) { return round_up(least, std::array{1.0, 2.0, 2.5, 5.0}); }
+
+/// End of an axis that holds `most`; finer than the ticks, so that little room is wasted.
+double round_top(double most) {
+  return round_up(std::max(most, 1e-3),
+                  std::array{1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0});
+}
+
+MotionChart travel(const MemberHistory& h) {
+  MotionChart chart{
+      .name = "travel", .title = "How far the mass has come", .unit = "m", .lines = {}};
+  chart.lines = {
+      {"front: farthest particle", "front", column(h, &HistoryRow::front_travel_m)},
+      {"centre of mass", "centre", column(h, &HistoryRow::com_travel_m)},
+      {"rear: 5 % of the mass are behind", "rear", column(h, &HistoryRow::tail_travel_m)}};
+  chart.top = round_top(largest(chart));
+  return chart;
+}
+
+MotionChart speed(const MemberHistory& h) {
+  MotionChart chart{.name = "speed", .title = "How fast it is", .unit = "m/s", .lines = {}};
+  chart.lines = {
+      {"fastest particle", "fastest", column(h, &HistoryRow::max_speed_m_s)},
+      {"front: foremost 1 % of the mass", "front", column(h, &HistoryRow::front_speed_m_s)},
+      {"mean of the mass", "centre", column(h, &HistoryRow::mean_speed_m_s)},
+      {"rear: last 1 % of the mass", "rear", column(h, &HistoryRow::tail_speed_m_s)}};
+  chart.top = round_top(largest(chart));
+  return chart;
+}
+
+std::string fraction_text(double value) { return fmt::format("{:.2f}", value); }
+
+/// Loosest at the bottom; where little is loose the axis ends above it, and dense is the rest.
+MotionChart states(const MemberHistory& h) {
+  MotionChart chart{.name = "states",
+                    .title = "Share of the mass by state",
+                    .unit = "%",
+                    .stacked = true,
+                    .lines = {}};
+  const std::string d = fraction_text(dense_fraction), t = fraction_text(transition_fraction),
+                    u = fraction_text(ultradilute_fraction);
+  chart.lines = {{"ultradilute: under " + u, "ultradilute", {}},
+                 {"dilute: " + u + " to " + t, "dilute", {}},
+                 {"transition: " + t + " to " + d, "transition", {}},
+                 {"dense: solid fraction over " + d, "dense", {}}};
+  double loose = 0;
+  for (const HistoryRow& row : h.rows) {
+    double sum = 0;
+    const float shares[] = {row.ultradilute, row.dilute, row.transition, row.dense};
+    for (std::size_t k = 0; k < chart.lines.size(); ++k) {
+      sum += 100 * shares[k];
+      chart.lines[k].values.push_back(sum);
+    }
+    loose = std::max(loose, chart.lines[2].values.back());
+  }
+  chart.top = std::min(100.0, round_top(std::max(4.0, 1.15 * loose)));
+  if (chart.top < 100) chart.lines[3].label += " (the rest)";
+  return chart;
+}
+
+constexpr double width = 420, height = 240, left = 44, right = 8, top = 10, bottom = 34;
+
+/// Where numbers fall in the still picture.
+struct Axes {
+  double end, most;
+  double x(double t) const { return left + (width - left - right) * t / end; }
+  double y(double v) const {
+    return height - bottom - (height - top - bottom) * std::clamp(v / most, 0.0, 1.0);
+  }
+};
+
+std::string grid_svg(const Axes& axes, const std::string& unit) {
+  std::string svg = "<g class=\"grid\">", labels = "<g class=\"ticks\">";
+  const double step_y = round_step(axes.most / 6), step_x = round_step(axes.end / 7);
+  for (double v = 0; v <= axes.most * (1 + 1e-9); v += step_y) {
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\"/>", left, axes.y(v), width - right);
+    labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", left - 5,
+                          axes.y(v) + 4, number_text(v));
+  }
+  for (double t = 0; t <= axes.end * (1 + 1e-9); t += step_x)
+    labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
+                          axes.x(t), height - bottom + 14, number_text(t));
+  labels += fmt::format(
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">time [s]</text>"
+      "<text transform=\"translate(11 {:.1f}) rotate(-90)\" text-anchor=\"middle\">[{}]</text>",
+      (left + width - right) / 2, height - 4, (top + height - bottom) / 2, html_escape(unit));
+  return svg + "</g>" + labels + "</g>";
+}
+
+std::string path_of(const Axes& axes, const std::vector<double>& times,
+                    const std::vector<double>& values) {
+  std::string d;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    d += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", axes.x(times[i]), axes.y(values[i]));
+  return d;
+}
+
+}  // namespace
+
+std::vector<double> motion_times(const MemberHistory& history) {
+  return column(history, &HistoryRow::time_s);
+}
+
+std::vector<MotionChart> motion_charts(const MemberHistory& history) {
+  if (history.rows.size() < 2) return {};
+  std::vector<MotionChart> charts{travel(history), speed(history)};
+  if (history.has_states) charts.push_back(states(history));
+  return charts;
+}
+
+std::string motion_chart_svg(const MotionChart& chart, const std::vector<double>& times) {
+  const Axes axes{times.back(), chart.top};
+  std::string svg = fmt::format(
+      "<svg class=\"still-chart\" viewBox=\"0 0 {} {}\" role=\"img\" "
+      "aria-label=\"{}\">",
+      width, height, html_escape(chart.title));
+  if (chart.stacked) {  // the uppermost first: each covers what is not its own
+    for (auto line = chart.lines.rbegin(); line != chart.lines.rend(); ++line)
+      svg += fmt::format("<path class=\"area paint-{}\" d=\"{}V{:.1f}H{:.1f}Z\"/>", line->paint,
+                         path_of(axes, times, line->values), axes.y(0), axes.x(times.front()));
+    return svg + grid_svg(axes, chart.unit) + "</svg>";
+  }
+  svg += grid_svg(axes, chart.unit);
+  for (const MotionLine& line : chart.lines)
+    svg += fmt::format("<path class=\"line paint-{}\" d=\"{}\"/>", line.paint,
+                       path_of(axes, times, line.values));
+  return svg + "</svg>";
+}
+
+}  // namespace sturz

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/page/payload.hpp"
+
+#include "reports/figures/codec.hpp"
+#include "reports/figures/legend.hpp"
+#include "reports/figures/motion_charts.hpp"
+#include "reports/page/headline.hpp"
+#include "reports/page/sections.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t max_scatter_members = 2000;
+constexpr int steps = 4000;
+
+/// Rounded to five significant digits: what a plot can show, and short in JSON. NaN becomes null.
+Json rounded(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  if (value == 0) return 0;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(value))) - 4);
+  const double short_value = std::round(value / unit) * unit;
+  return std::stod(plain_number(short_value, 5));
+}
+
+Json grid_json(const Grid& g) {
+  return {{"cols", g.n_cols},
+          {"rows", g.n_rows},
+          {"west", g.west_m},
+          {"north", g.north_m},
+          {"cell", g.cell_m}};
+}
+
+Json plane_json(const std::vector<float>& values, int n_cols, int n_members) {
+  const Quantised q = quantise(values, n_members);
+  PackedCodes packed = pack_codes(q.codes, n_cols);
+  return {{"square", q.square}, {"offset", q.offset},  {"factor", q.factor},
+          {"nodata", q.nodata}, {"bits", packed.bits}, {"data", std::move(packed.data)}};
+}
+
+Json ground_json(const Raster<double>& ground) {
+  std::vector<float> heights(ground.values.size(), nan_f);
+  double lowest = INFINITY, highest = -INFINITY;
+  for (const double z : ground.values)
+    if (std::isfinite(z)) lowest = std::min(lowest, z), highest = std::max(highest, z);
+  if (!(lowest <= highest)) return nullptr;
+  // Steps of a quarter metre (finer on low relief): contours and hover need no more.
+  const double factor =
+      std::max(std::min(0.25, (highest - lowest) / 2000), (highest - lowest) / 65000);
+  std::vector<std::uint16_t> codes;
+  for (const double z : ground.values)
+    codes.push_back(std::isfinite(z) && factor > 0
+                        ? static_cast<std::uint16_t>(std::lround((z - lowest) / factor))
+                        : static_cast<std::uint16_t>(std::isfinite(z) ? 0 : 65535));
+  PackedCodes packed = pack_codes(codes, ground.grid.n_cols);
+  return {{"grid", grid_json(ground.grid)},
+          {"square", false},
+          {"offset", lowest},
+          {"factor", factor},
+          {"nodata", 65535},
+          {"bits", packed.bits},
+          {"data", std::move(packed.data)}};
+}
+
+Json legend_json(const Legend& legend) {
+  Json classes = Json::array();
+  for (const auto& c : legend.classes)
+    classes.push_back({{"lower", c.lower}, {"label", c.label}, {"colour", hex_text(c.colour)}});
+  return {{"unit", legend.unit.label},
+          {"unitFactor", legend.unit.factor},
+          {"probability", legend.probability},
+          {"clearZero", legend.clear_zero},
+          {"classes", classes}};
+}
+
+Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& layer,
+                const ReportInput& input, int n_valid) {
+  const LayerMeaning meaning = meaning_of(layer);
+  Json planes = Json::array();
+  for (std::size_t k = 0; k < layer.n_planes(); ++k) {
+    Json plane = plane_json(scene_plane(scene, layer, k, maps.grid), scene.cells.n_cols, n_valid);
+    plane["label"] = plane_label(layer, k);
+    plane["title"] = plane_title(layer, k);
+    if (!layer.axis.values.empty()) {
+      const double value = layer.axis.values[k];
+      plane["axis"] = display_unit(layer.axis.units).factor * value;
+      plane["resolved"] = !(meaning.statistic == Statistic::probability &&
+                            layer.axis.units == "m" && value < input.resolved_thickness_m);
+    }
+    planes.push_back(std::move(plane));
+  }
+  return {{"name", layer.name},
+          {"quantity", word(meaning.quantity)},
+          {"quantityTitle", title(meaning.quantity)},
+          {"statistic", word(meaning.statistic)},
+          {"longName", layer.long_name},
+          {"comment", layer.comment},
+          {"axisUnit", display_unit(layer.axis.units).label},
+          {"legend", legend_json(legend_for(layer))},
+          {"planes", std::move(planes)}};
+}
+
+Json maps_json(const ReportInput& input, const MapScene& scene, const LayerStack& maps,
+               int n_valid) {
+  Json layers = Json::array();
+  const Layer* first = default_layer(maps);
+  int start = 0;
+  for (const Layer* layer : shown_layers(maps)) {
+    if (layer == first) start = static_cast<int>(layers.size());
+    layers.push_back(layer_json(scene, maps, *layer, input, n_valid));
+  }
+  return {{"cells", grid_json(scene.cells)},
+          {"ground", ground_json(scene.ground)},
+          {"view", grid_json(scene.ground.grid)},
+          {"start", start},
+          {"layers", std::move(layers)}};
+}
+
+/// Columns of the scatter plots and the histogram: evenly thinned when there are very many.
+Json members_json(const ReportInput& input) {
+  const std::size_t n = input.members.size();
+  const std::size_t stride = (n + max_scatter_members - 1) / max_scatter_members;
+  Json numbers = Json::array(), outcomes = Json::array(), valid = Json::array();
+  Json scalars = Json::object(), samples = Json::array();
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < n; i += std::max<std::size_t>(1, stride)) rows.push_back(i);
+  for (const std::size_t i : rows) {
+    numbers.push_back(input.members[i].member);
+    outcomes.push_back(to_string(input.members[i].outcome));
+    valid.push_back(is_valid(input.members[i].outcome));
+  }
+  const auto column = [&](double MemberScalars::*field) {
+    Json values = Json::array();
+    for (const std::size_t i : rows) values.push_back(rounded(input.members[i].scalars.*field));
+    return values;
+  };
+  scalars["runout"] = column(&MemberScalars::runout_m);
+  scalars["area"] = column(&MemberScalars::reached_area_m2);
+  if (!input.samples.rows.empty())
+    for (std::size_t k = 0; k < input.samples.columns.size(); ++k) {
+      Json values = Json::array();
+      for (const std::size_t i : rows) values.push_back(rounded(input.samples.rows[i][k]));
+      const std::string unit =
+          k < input.samples.units.size() ? display_unit(input.samples.units[k]).label : "";
+      const double factor =
+          k < input.samples.units.size() ? display_unit(input.samples.units[k]).factor : 1;
+      samples.push_back({{"key", input.samples.columns[k]},
+                         {"label", key_label(input.samples, k)},
+                         {"unit", unit},
+                         {"factor", factor},
+                         {"values", std::move(values)}});
+    }
+  return {{"total", n},     {"member", numbers},  {"outcome", outcomes},
+          {"valid", valid}, {"scalars", scalars}, {"samples", samples}};
+}
+
+/// What the convergence chart can follow, each with the number of members.
+Json convergence_json(const std::vector<ConvergencePoint>& points) {
+  struct Column {
+    const char* label;
+    const char* unit;
+    double factor;
+    double ConvergencePoint::*field;
+  };
+  static constexpr Column columns[] = {
+      {"area with P \u2265 50 %", "ha", 1e-4, &ConvergencePoint::area_likely_m2},
+      {"area with P \u2265 5 %", "ha", 1e-4, &ConvergencePoint::area_possible_m2},
+      {"mean P(reached) of touched cells", "%", 100, &ConvergencePoint::mean_probability_reached},
+      {"mean half-width of the 95 % interval of P", "%", 100, &ConvergencePoint::mean_half_width}};
+  Json n = Json::array(), series = Json::array();
+  for (const auto& p : points) n.push_back(p.n_members);
+  for (const auto& c : columns) {
+    Json values = Json::array();
+    for (const auto& p : points) values.push_back(rounded(c.factor * p.*c.field));
+    series.push_back({{"label", c.label}, {"unit", c.unit}, {"values", values}});
+  }
+  return {{"n", n}, {"series", series}};
+}
+
+Json motion_json(const MemberHistory& history) {
+  const auto numbers = [](const std::vector<double>& values) {
+    Json all = Json::array();
+    for (const double v : values) all.push_back(rounded(v));
+    return all;
+  };
+  Json charts = Json::array();
+  for (const MotionChart& chart : motion_charts(history)) {
+    Json lines = Json::array();
+    for (const MotionLine& line : chart.lines)
+      lines.push_back({{"label", line.label.substr(0, line.label.find(':'))},
+                       {"paint", line.paint},
+                       {"values", numbers(line.values)}});
+    charts.push_back({{"name", chart.name},
+                      {"unit", chart.unit},
+                      {"top", chart.top},
+                      {"stacked", chart.stacked},
+                      {"lines", lines}});
+  }
+  return {{"time", numbers(motion_times(history))}, {"charts", charts}};
+}
+
+}  // namespace
+
+Quantised quantise(const std::vector<float>& values, int n_members) {
+  Quantised q;
+  float low = INFINITY, high = -INFINITY;
+  bool whole = true, shares = n_members > 0 && n_members < 65535;
+  for (const float v : values) {
+    if (!std::isfinite(v)) continue;
+    low = std::min(low, v), high = std::max(high, v);
+    whole = whole && v == std::floor(v) && v >= 0 && v < 65535;
+    const double k = static_cast<double>(v) * n_members;
+    shares = shares && v >= 0 && v <= 1 && std::abs(k - std::round(k)) < 1e-3;
+  }
+  const bool any = low <= high;
+  if (any && shares) {
+    q.factor = 1.0 / n_members;
+    if (n_members < 255) q.nodata = 255;
+  } else if (any && whole) {
+    if (high < 255) q.nodata = 255;
+  } else if (any) {
+    q.square = low >= 0;
+    q.offset = q.square ? 0 : low;
+    q.factor = q.square ? high / (static_cast<double>(steps) * steps) : (high - low) / steps;
+    q.nodata = steps + 1;
+  }
+  for (const float v : values) {
+    if (!std::isfinite(v) || q.factor <= 0) {
+      q.codes.push_back(static_cast<std::uint16_t>(std::isfinite(v) ? 0 : q.nodata));
+      continue;
+    }
+    const double scaled = (v - q.offset) / q.factor;
+    auto code = static_cast<std::uint16_t>(std::lround(q.square ? std::sqrt(scaled) : scaled));
+    if (q.square && v > 0 && code == 0) code = 1;  // what was touched stays touched
+    q.codes.push_back(code);
+  }
+  return q;
+}
+
+std::string report_payload(const ReportInput& input, const MapScene* scene,
+                           const LayerStack* maps) {
+  const Headline h = headline(input);
+  Json page{{"z", 1.959964},  // of ensemble/hazard/wilson.hpp
+            {"valid", h.n_valid},
+            {"single", input.hazard == nullptr},
+            {"runout",
+             {{"median", rounded(h.runout_m.value)},
+              {"lower", rounded(h.runout_m.lower)},
+              {"upper", rounded(h.runout_m.upper)}}}};
+  page["members"] = members_json(input);
+  if (input.history != nullptr) page["motion"] = motion_json(*input.history);
+  page["convergence"] = convergence_json(input.convergence);
+  if (scene != nullptr && maps != nullptr && default_layer(*maps) != nullptr)
+    page["maps"] = maps_json(input, *scene, *maps, h.n_valid);
+  return page.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace sturz

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/core/error.hpp"
+#include "reports/page/sections.hpp"
+#include "reports/page/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <vector>
+
+namespace sturz {
+namespace {
+
+constexpr std::size_t max_rows = 500;
+
+struct ScalarColumn {
+  const char* label;
+  const char* units;
+  double MemberScalars::*field;
+  bool percent = false;  ///< a share, shown to compare members, where some member has one
+};
+constexpr ScalarColumn scalar_columns[] = {
+    {"runout", "m", &MemberScalars::runout_m},
+    {"area", "m2", &MemberScalars::reached_area_m2},
+    {"max speed", "m s-1", &MemberScalars::max_speed_m_s},
+    {"max thickness", "m", &MemberScalars::max_thickness_m},
+    {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
+    {"layers", "1", &MemberScalars::release_layers},
+    {"parted", "1", &MemberScalars::parted_fraction, true},
+    {"in transition", "1", &MemberScalars::transition_fraction, true},
+    {"dilute", "1", &MemberScalars::dilute_fraction, true},
+    {"ultradilute", "1", &MemberScalars::ultradilute_fraction, true},
+    {"simulated", "s", &MemberScalars::end_time_s},
+    {"steps", "1", &MemberScalars::n_steps},
+    {"computed in", "s", &MemberScalars::wall_s},
+};
+
+std::string header_cell(const std::string& label, const std::string& unit,
+                        const std::string& full_name) {
+  return fmt::format("<th scope=\"col\" title=\"{}\">{}{}</th>", html_escape(full_name),
+                     html_escape(label),
+                     unit.empty() ? "" : "<small>" + html_escape(unit) + "</small>");
+}
+
+std::string number_cell(double value) {
+  return fmt::format("<td class=\"n\" data-v=\"{:.9g}\">{}</td>", value, number_text(value));
+}
+
+std::string unit_of(const ReportTable& table, std::size_t k) {
+  return k < table.units.size() ? table.units[k] : "1";
+}
+
+/// Columns that say something about these members.
+std::vector<ScalarColumn> shown_columns(const std::vector<MemberSummary>& members) {
+  std::vector<ScalarColumn> shown;
+  std::copy_if(std::begin(scalar_columns), std::end(scalar_columns), std::back_inserter(shown),
+               [&](const ScalarColumn& c) {
+                 if (!c.percent) return true;
+                 return members.size() > 1 &&
+                        std::any_of(members.begin(), members.end(),
+                                    [&](const MemberSummary& m) { return m.scalars.*c.field > 0; });
+               });
+  return shown;
+}
+
+std::string unit_of(const ScalarColumn& c) { return c.percent ? "%" : display_unit(c.units).label; }
+double factor_of(const ScalarColumn& c) { return c.percent ? 100 : display_unit(c.units).factor; }
+
+std::string full_name(const ScalarColumn& c) {
+  if (!c.percent) return c.label;
+  for (const ScalarInfo& scalar : scalar_table())
+    if (scalar.field == c.field) return scalar.long_name;
+  return c.label;
+}
+
+std::string table_head(const ReportTable& samples, bool with_samples,
+                       const std::vector<ScalarColumn>& columns) {
+  std::string head = header_cell("member", "", "Number of the member") +
+                     header_cell("outcome", "", "How the member ended");
+  for (std::size_t k = 0; with_samples && k < samples.columns.size(); ++k)
+    head += header_cell(key_label(samples, k), display_unit(unit_of(samples, k)).label,
+                        samples.columns[k]);
+  for (const auto& c : columns) head += header_cell(c.label, unit_of(c), full_name(c));
+  return head;
+}
+
+std::string table_row(const ReportInput& input, std::size_t i,
+                      const std::vector<ScalarColumn>& columns) {
+  const MemberSummary& m = input.members[i];
+  std::string row =
+      fmt::format("<tr{}><td class=\"n\" data-v=\"{}\">{}</td><td title=\"{}\">{}</td>",
+                  is_valid(m.outcome) ? "" : " class=\"lost\"", m.member, m.member,
+                  html_escape(m.reason), words(to_string(m.outcome)));
+  if (!input.samples.rows.empty())
+    for (std::size_t k = 0; k < input.samples.columns.size(); ++k)
+      row += number_cell(display_unit(unit_of(input.samples, k)).factor * input.samples.rows[i][k]);
+  const bool has_scalars = m.outcome != Outcome::failed && m.outcome != Outcome::cancelled;
+  for (const auto& c : columns)
+    row += number_cell(has_scalars ? factor_of(c) * m.scalars.*c.field : nan_d);
+  return row + "</tr>";
+}
+
+std::string lost_members(const std::vector<MemberSummary>& members) {
+  std::string items;
+  for (const auto& m : members)
+    if (!is_valid(m.outcome))
+      items += fmt::format("<li><b>{}</b> {}: {}</li>", m.member, words(to_string(m.outcome)),
+                           html_escape(m.reason.empty() ? "no reason recorded" : m.reason));
+  if (items.empty()) return {};
+  return "<h3>Members left out</h3><ul class=\"lost-list\">" + items + "</ul>";
+}
+
+}  // namespace
+
+std::string key_label(const ReportTable& samples, std::size_t column) {
+  const auto last_part = [](const std::string& path) {
+    const std::size_t dot = path.rfind('.');
+    return dot == std::string::npos ? path : path.substr(dot + 1);
+  };
+  const std::string own = last_part(samples.columns[column]);
+  const auto same = std::count_if(samples.columns.begin(), samples.columns.end(),
+                                  [&](const auto& path) { return last_part(path) == own; });
+  std::string label = same > 1 ? samples.columns[column] : own;
+  std::replace(label.begin(), label.end(), '.', ' ');
+  // Keys end in their unit, which stands beside the label already.
+  for (const char* unit : {"_kg_m3", "_m3", "_pa", "_deg", "_m", "_s"})
+    if (column < samples.units.size() && !display_unit(samples.units[column]).label.empty() &&
+        label.ends_with(unit)) {
+      label.erase(label.size() - std::string_view(unit).size());
+      break;
+    }
+  return words(label);
+}
+
+std::string members_html(const ReportInput& input, const Headline& h) {
+  const std::size_t n = input.members.size();
+  if (n == 0) return {};
+  expect(input.samples.rows.empty() || input.samples.rows.size() == n,
+         "report: one row of samples per member");
+  // Failed members first where the table must be cut: they are what a reader looks for.
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  if (n > max_rows) {
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t i) { return !is_valid(input.members[i].outcome); });
+    order.resize(max_rows);
+    std::sort(order.begin(), order.end());
+  }
+  const std::vector<ScalarColumn> columns = shown_columns(input.members);
+  std::string rows;
+  for (const std::size_t i : order) rows += table_row(input, i, columns);
+  std::string html =
+      fmt::format("<section id=\"members\"><h2>{}</h2>{}",
+                  h.n_members == 1 ? "The run in numbers" : "Members", lost_members(input.members));
+  if (n > max_rows)
+    html += fmt::format(
+        "<p class=\"note\">{} of {} members are shown, all that failed among them "
+        "where they fit; the rest is in members.csv.</p>",
+        max_rows, n);
+  return html + "<div class=\"table-box\" tabindex=\"0\"><table id=\"member-table\"><thead><tr>" +
+         table_head(input.samples, !input.samples.rows.empty(), columns) + "</tr></thead><tbody>" +
+         rows + "</tbody></table></div></section>";
+}
+
+}  // namespace sturz

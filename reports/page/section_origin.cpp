@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/page/sections.hpp"
+#include "reports/page/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace sturz {
+namespace {
+
+std::string list(const std::vector<std::string>& lines) {
+  std::string html = "<ul>";
+  for (const auto& line : lines) html += "<li>" + html_escape(line) + "</li>";
+  return html + "</ul>";
+}
+
+std::string timing_table(const NamedSeconds& timings) {
+  double total = 0;
+  for (const auto& [name, seconds] : timings) total += seconds;
+  std::string html = "<table class=\"plain\"><tbody>";
+  for (const auto& [name, seconds] : timings) {
+    const double share = total > 0 ? seconds / total : 0;
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td><td>"
+        "<svg width=\"72\" height=\"8\" aria-hidden=\"true\"><rect class=\"bar\" height=\"8\" "
+        "rx=\"2\" width=\"{:.1f}\"/></svg></td></tr>",
+        html_escape(name), duration_text(seconds), html_escape(percent_text(share)), 72 * share);
+  }
+  return html + "</tbody></table>";
+}
+
+std::string times_html(const ReportInput& input) {
+  std::string html = timing_table(input.timings);
+  if (!input.pass_timings.empty())
+    html += "<details><summary>By pass of a step</summary>" + timing_table(input.pass_timings) +
+            "</details>";
+  return html;
+}
+
+}  // namespace
+
+std::string computation_html(const ReportInput& input, const Headline&) {
+  if (input.description.empty() && input.timings.empty() && input.notes.empty()) return {};
+  std::string html =
+      "<section id=\"computation\"><h2>What was computed</h2><div class=\"columns\">";
+  if (!input.description.empty()) {
+    html += "<div><h3>The scene as it was understood</h3><pre class=\"lines\">";
+    for (const auto& line : input.description) html += html_escape(line) + "\n";
+    html += "</pre></div>";
+  }
+  if (!input.timings.empty())
+    html += "<div><h3>Where the time went</h3>" + times_html(input) + "</div>";
+  if (input.hazard != nullptr) html += left_out_html(input.members);
+  if (!input.notes.empty())
+    html += "<div><h3>What was done to the input</h3>" + list(input.notes) + "</div>";
+  return html + "</div></section>";
+}
+
+std::string provenance_html(const ReportInput& input) {
+  if (input.manifest.empty() && input.scenario_yaml.empty()) return {};
+  std::string html = "<section id=\"origin\"><h2>Where this comes from</h2>";
+  if (!input.manifest.empty()) {
+    html += "<dl class=\"manifest\">";
+    for (const auto& [key, value] : input.manifest)
+      html +=
+          "<div><dt>" + html_escape(words(key)) + "</dt><dd>" + html_escape(value) + "</dd></div>";
+    html += "</dl>";
+  }
+  if (!input.scenario_yaml.empty())
+    html += "<details><summary>Scenario file, with defaults filled in</summary><pre>" +
+            html_escape(input.scenario_yaml) + "</pre></details>";
+  return html + "</section>";
+}
+
+std::string reading_html(const ReportInput& input) {
+  const std::string level = percent_text(interval_confidence);
+  std::vector<std::string> lines;
+  if (input.hazard != nullptr) {
+    lines = {
+        "Probability is the share of valid members: it answers \u201Cgiven the ranges in the "
+        "scenario file\u201D, not \u201Chow often does such a slide occur\u201D. It says nothing "
+        "about the chance that the slope fails.",
+        "Intervals at " + level +
+            " are Wilson's, for members drawn independently: they tell how much the map could "
+            "change with other members of the same ensemble. Latin hypercube and Sobol\u2019 "
+            "designs usually do better than that. Errors of the model, the terrain and the "
+            "ranges themselves are not in them.",
+        "The interval of the median runout needs no distribution (order statistics); it is left "
+        "out where there are too few members.",
+    };
+  }
+  lines.emplace_back(
+      "Peaks are the largest value of each product at one instant, never the largest thickness "
+      "times the largest speed.");
+  if (input.resolved_thickness_m > 0)
+    lines.push_back("Thickness thresholds below " + with_unit(input.resolved_thickness_m, "m") +
+                    " (half a particle spacing) are not resolved and are marked so.");
+  lines.emplace_back(
+      "Maps in this page are rounded to about a thousandth of their largest value (finer near "
+      "zero), probabilities not at all; the result files hold all digits.");
+  return "<section id=\"reading\"><h2>How to read the numbers</h2>" + list(lines) + "</section>";
+}
+
+}  // namespace sturz

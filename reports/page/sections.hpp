@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The page's parts as HTML text, one function each, in the order in which they are read.
+#pragma once
+
+#include "reports/figures/map_scene.hpp"
+#include "reports/page/headline.hpp"
+#include "reports/page/report.hpp"
+
+#include <string>
+
+namespace sturz {
+
+/// Title, one line of origin, links to the parts below.
+std::string header_html(const ReportInput& input, const Headline& h);
+/// Warnings of the run and of its members; empty text when there are none.
+std::string warnings_html(const ReportInput& input, const Headline& h);
+std::string headline_html(const ReportInput& input, const Headline& h);
+/// Map panel, and still figures for readers without script. `scene`, `maps` may be null.
+std::string map_html(const ReportInput& input, const MapScene* scene, const LayerStack* maps);
+/// Travel, speeds and states over time of a single run, and what it left out; empty text for an
+/// ensemble.
+std::string motion_html(const ReportInput& input);
+/// How much of the mass of an ensemble's members was too loose for a scene without states; empty
+/// text where that is not known or nothing was left out.
+std::string left_out_html(const std::vector<MemberSummary>& members);
+/// Places for histogram, scatter plots, convergence; the script fills them.
+std::string charts_html(const ReportInput& input, const Headline& h);
+std::string members_html(const ReportInput& input, const Headline& h);
+/// Description, timings, notes.
+std::string computation_html(const ReportInput& input, const Headline& h);
+/// Manifest and scenario text.
+std::string provenance_html(const ReportInput& input);
+/// How the numbers are meant.
+std::string reading_html(const ReportInput& input);
+
+/// Short name of a sampled key: its last part where that is unique, else the whole path.
+std::string key_label(const ReportTable& samples, std::size_t column);
+
+}  // namespace sturz

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The one door to the engine: turns a scene of numbers into a Simulation, and the only place
+/// that knows which scenario block brings which effect.
+#pragma once
+
+#include "engine/effects/sweep/fused_sweep.hpp"
+#include "engine/simulation/simulation.hpp"
+#include "scenarios/scenario.hpp"
+#include "scenarios/scene_inputs.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// Builds member `member` of a scene. Every value must be fixed (no distribution left).
+/// \param threads OpenMP threads inside this member, >= 1
+/// \param instruction_set of the pair loop; avx2 and avx512 give the same bits
+/// \throws SetupError naming the key when the scene cannot be built
+Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member,
+                    int threads, InstructionSet instruction_set = best_instruction_set());
+
+/// An effect that the scene calls for, or not, and why.
+struct EffectNote {
+  std::string name;
+  bool active = false;
+  std::string reason;
+};
+
+/// What a scene will be, before anything is computed.
+struct SceneDescription {
+  std::vector<EffectNote> effects;
+  std::vector<std::string> passes;  ///< the step, in order
+  std::string formulation, formulation_reason;
+  std::size_t n_particles = 0;
+  std::size_t memory_bytes = 0;  ///< of one member while it runs
+  double spacing_m = 0, release_volume_m3 = 0, release_area_m2 = 0;
+  double layers = 0;  ///< volume-weighted median vertical thickness / spacing
+  double reference_speed_m_s = 0, sound_speed_m_s = 0;
+  double dt_s = 0, n_steps = 0;  ///< estimates
+  std::string binding_limit;
+  double predicted_seconds = 0;       ///< n_particles * n_steps / updates per second; by the caller
+  std::vector<std::string> warnings;  ///< thin flow, grain larger than particle, ...
+};
+SceneDescription describe(const Scenario& numbers, const SceneInputs& inputs);
+
+}  // namespace sturz

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The numbers that follow from a scene before any engine object is made: shared by assemble and
+/// describe, so that what is described is what is run.
+#pragma once
+
+#include "engine/core/domain.hpp"
+#include "engine/effects/bed/effect.hpp"
+#include "engine/effects/columns/effect.hpp"
+#include "engine/effects/dense/effect.hpp"
+#include "engine/effects/isolated/effect.hpp"
+#include "engine/particles/release.hpp"
+#include "scenarios/assembly/formulation.hpp"
+#include "scenarios/scenario.hpp"
+#include "scenarios/scene_inputs.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace sturz {
+
+struct ScenePlan {
+  Terrain bed;  ///< of this member, excavation laid over the shared raster
+  Domain domain;
+  FormulationChoice formulation;
+  Release release;
+  double bulk_density_kg_m3 = 1;
+  ZoneMap zones;
+  GrainStressSettings stress;                            ///< full_stress
+  ContactSettings contact;                               ///< full_stress
+  std::optional<ParcelContactSettings> parcel_contacts;  ///< where lone parcels may meet
+  double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
+  DepthAveragedSettings columns;    ///< depth_averaged
+  double reference_speed_m_s = 0;   ///< v_ref of the fastest expected mass point; full_stress
+  double available_energy_j = 0;    ///< release mass falling to the lowest ground in reach
+
+  explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
+};
+
+/// \throws SetupError naming the key
+ScenePlan plan_scene(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member);
+
+/// What a reader of the result has to know: thin release, coarse grains, coarse maps.
+std::vector<std::string> plan_warnings(const Scenario& numbers, const ScenePlan& plan);
+
+}  // namespace sturz

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which material keys go together, and which formulation knows them.
+#include "scenarios/checks/combination_checks.hpp"
+#include "scenarios/checks/distribution_check.hpp"
+#include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/value_text.hpp"
+
+#include <algorithm>
+
+namespace sturz {
+namespace {
+
+using Problems = std::vector<Problem>;
+
+void check_grains(const Scenario& s, Problems& problems) {
+  if (!s.grains) {
+    problems.push_back({"grains", "grains (missing: nothing would move). Add a grains block."});
+    return;
+  }
+  const auto& g = *s.grains;
+  if (g.friction && g.friction_angle_deg)
+    problems.push_back({"grains.friction_angle_deg",
+                        "grains.friction_angle_deg (grains.friction is there too). Keep one of "
+                        "them."});
+  if (!g.friction && !g.friction_angle_deg)
+    problems.push_back({"grains",
+                        "grains (no internal friction). Add grains.friction or "
+                        "grains.friction_angle_deg."});
+  if (!g.friction) return;
+  const double most_static = support(g.friction->static_coefficient).second;
+  const double least_dynamic = support(g.friction->dynamic_coefficient).first;
+  if (most_static > least_dynamic)  // friction that falls with the shear rate is ill-posed
+    problems.push_back({"grains.friction.dynamic",
+                        "grains.friction.dynamic = " + number_text(least_dynamic) +
+                            " (must be >= grains.friction.static = " + number_text(most_static) +
+                            "). Friction may not fall with the shear rate."});
+}
+
+/// "key = value", as the file would write it.
+std::string shown(const Scenario& s, const char* path) {
+  return std::string(path) + " = " + value_text(find_key(path)->get(s));
+}
+
+/// What grains that part need to be told apart by.
+void check_states(const Scenario& s, Problems& problems) {
+  if (!s.grains || !s.grains->states) return;
+  const GrainStatesSpec& states = *s.grains->states;
+  if (s.formulation == "depth_averaged")
+    problems.push_back({"grains.states",
+                        "grains.states (formulation is depth_averaged; only full_stress knows it). "
+                        "Remove it or set formulation: full_stress."});
+  const double densest = support(s.grains->solid_fraction).second;
+  if (!states.max_fraction) return;
+  const double least = support(*states.max_fraction).first;
+  // The release is dense: it must fit under the packing that no pressure can close.
+  if (least < std::max(0.60, densest) + 0.02)
+    problems.push_back({"grains.states.max_fraction",
+                        "grains.states.max_fraction = " + number_text(least) +
+                            " (must be at least 0.02 above grains.solid_fraction = " +
+                            number_text(densest) + ", and 0.62). Raise it or leave it out."});
+}
+
+/// Columns have a drag and a lateral pressure of their own; particles get both from their stress.
+void check_formulation(const Scenario& s, Problems& problems) {
+  if (s.formulation != "full_stress") return;
+  const auto refuse = [&](bool given, const char* path) {
+    if (given)
+      problems.push_back({path, shown(s, path) +
+                                    " (formulation is full_stress; only depth_averaged knows it). "
+                                    "Remove it or set formulation: depth_averaged."});
+  };
+  const auto& b = s.basal;
+  refuse(s.grains && s.grains->earth_pressure == "active_passive", "grains.earth_pressure");
+  refuse(b.turbulent_coefficient_m_s2.has_value(), "basal.turbulent_coefficient_m_s2");
+  refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
+  refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");
+}
+
+void check_drag(const Scenario& s, Problems& problems) {
+  const char* const path = "basal.yield_stress_pa";
+  if (s.basal.yield_stress_pa && !s.basal.viscosity_pa_s)
+    problems.push_back({path, shown(s, path) +
+                                  " (basal.viscosity_pa_s is missing). Add it: a Bingham fluid has "
+                                  "both."});
+}
+
+}  // namespace
+
+void check_material(const Scenario& s, Problems& problems) {
+  check_grains(s, problems);
+  check_states(s, problems);
+  check_formulation(s, problems);
+  check_drag(s, problems);
+}
+
+}  // namespace sturz

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// One terrain, one source, one way to say how thick it is.
+#include "scenarios/checks/combination_checks.hpp"
+#include "scenarios/shapes/synthetic_terrain.hpp"
+
+#include <algorithm>
+
+namespace sturz {
+namespace {
+
+using Problems = std::vector<Problem>;
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
+  return text;
+}
+
+void check_terrain(const TerrainSpec& t, Problems& problems) {
+  const bool raster = !t.raster.empty();
+  if (!raster && !t.synthetic)
+    problems.push_back({"terrain",
+                        "terrain (no ground given). Add terrain.raster or "
+                        "terrain.synthetic."});
+  if (raster && t.synthetic)
+    problems.push_back({"terrain.synthetic",
+                        "terrain.synthetic (terrain.raster is there too). "
+                        "Keep one of them."});
+  if (!t.synthetic || raster) return;
+  if (t.cell_size_m)
+    problems.push_back({"terrain.cell_size_m",
+                        "terrain.cell_size_m (a synthetic terrain has its "
+                        "own cell_size_m). Set that one."});
+  if (!t.crs.empty())
+    problems.push_back({"terrain.crs",
+                        "terrain.crs (only a raster file can lack a coordinate "
+                        "system). Remove it."});
+}
+
+std::vector<std::string> given_sources(const ReleaseSpec& r) {
+  std::vector<std::string> given;
+  if (!r.polygon.empty()) given.emplace_back("polygon");
+  if (!r.thickness_raster.empty()) given.emplace_back("thickness_raster");
+  if (r.box) given.emplace_back("box");
+  if (r.paraboloid) given.emplace_back("paraboloid");
+  if (r.cylinder) given.emplace_back("cylinder");
+  return given;
+}
+
+bool has_own_source(const TerrainSpec& t) {
+  return t.synthetic && brings_source(t.synthetic->shape);
+}
+
+/// Thickness and volume of a source that is only an outline.
+void check_outline(const ReleaseSpec& r, const std::string& source, Problems& problems) {
+  const bool attribute = !r.thickness_attribute.empty();
+  if (attribute && r.thickness_m)
+    problems.push_back({"release.thickness_m",
+                        "release.thickness_m (release.thickness_attribute "
+                        "gives the thickness too). Keep one of them."});
+  if (r.thickness_m && r.volume_m3)
+    problems.push_back({"release.volume_m3",
+                        "release.volume_m3 (release.thickness_m fixes the "
+                        "volume already). Keep one of them."});
+  if (!r.thickness_m && !r.volume_m3 && !attribute)
+    problems.push_back({"release", "release (how thick is the " + source +
+                                       "?). Add "
+                                       "release.thickness_m or release.volume_m3."});
+}
+
+void check_source(const Scenario& s, Problems& problems) {
+  const auto& r = s.release;
+  const auto given = given_sources(r);
+  if (given.size() > 1) {
+    problems.push_back(
+        {"release", "release (more than one source: " + joined(given) + "). Keep one of them."});
+    return;
+  }
+  const bool own = given.empty() && has_own_source(s.terrain);
+  if (given.empty() && !own) {
+    problems.push_back({"release",
+                        "release (no source given). Add one of polygon, "
+                        "thickness_raster, box, paraboloid, cylinder."});
+    return;
+  }
+  if (!own && given[0] != "thickness_raster") return check_outline(r, given[0], problems);
+  if (r.thickness_m)
+    problems.push_back({"release.thickness_m",
+                        std::string("release.thickness_m (") +
+                            (own ? "the synthetic terrain brings" : "release.thickness_raster is") +
+                            " the thickness). Remove it; release.volume_m3 scales the source."});
+  if (own && r.surface == "pre_failure")
+    problems.push_back({"release.surface",
+                        "release.surface = pre_failure (the synthetic terrain "
+                        "brings its bed and its source). Remove it."});
+}
+
+void check_companions(const ReleaseSpec& r, Problems& problems) {
+  const bool polygon = !r.polygon.empty();
+  if (!r.layer.empty() && !polygon)
+    problems.push_back({"release.layer",
+                        "release.layer (only release.polygon has layers). "
+                        "Remove it or name the polygon file."});
+  if (!r.thickness_attribute.empty() && !polygon)
+    problems.push_back({"release.thickness_attribute",
+                        "release.thickness_attribute (only release.polygon has fields). Remove "
+                        "it or name the polygon file."});
+  if (!r.crs.empty() && !polygon && r.thickness_raster.empty())
+    problems.push_back({"release.crs",
+                        "release.crs (only a release file can lack a coordinate "
+                        "system). Remove it."});
+  const auto rises = [&](const std::array<double, 2>& edges, const char* path) {
+    if (!(edges[0] < edges[1]))
+      problems.push_back({path, std::string(path) + " (the second edge must be above the first). "
+                                                    "Give [smaller, larger]."});
+  };
+  if (r.box) {
+    rises(r.box->x_m, "release.box.x_m");
+    rises(r.box->y_m, "release.box.y_m");
+  }
+}
+
+}  // namespace
+
+void check_terrain_and_release(const Scenario& s, Problems& problems) {
+  check_terrain(s.terrain, problems);
+  check_source(s, problems);
+  check_companions(s.release, problems);
+}
+
+}  // namespace sturz

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/schema/schema.hpp"
+
+#include "engine/core/error.hpp"
+#include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/schema_rows.hpp"
+#include "scenarios/schema/suggest.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+namespace sturz {
+namespace {
+
+std::vector<KeyInfo> all_keys() {
+  std::vector<KeyInfo> keys;
+  schema_rows::add_site_keys(keys);
+  schema_rows::add_material_keys(keys);
+  schema_rows::add_run_keys(keys);
+  return keys;
+}
+
+GrainStatesSpec& make_states(Scenario& s) {
+  if (!s.grains) s.grains.emplace();
+  if (!s.grains->states) s.grains->states.emplace();
+  return *s.grains->states;
+}
+
+std::vector<BlockInfo> all_optional_blocks() {
+  return {
+      {"release.box", "A rectangular source.",
+       [](const Scenario& s) { return s.release.box.has_value(); },
+       [](Scenario& s) {
+         if (!s.release.box) s.release.box.emplace();
+       }},
+      {"release.paraboloid", "A cap-shaped source.",
+       [](const Scenario& s) { return s.release.paraboloid.has_value(); },
+       [](Scenario& s) {
+         if (!s.release.paraboloid) s.release.paraboloid.emplace();
+       }},
+      {"release.cylinder", "A round source of even thickness.",
+       [](const Scenario& s) { return s.release.cylinder.has_value(); },
+       [](Scenario& s) {
+         if (!s.release.cylinder) s.release.cylinder.emplace();
+       }},
+      {"grains", "The moving mass.", [](const Scenario& s) { return s.grains.has_value(); },
+       [](Scenario& s) {
+         if (!s.grains) s.grains.emplace();
+       }},
+      {"grains.friction", "Internal friction that grows with the shear rate, mu(I).",
+       [](const Scenario& s) { return s.grains && s.grains->friction; },
+       [](Scenario& s) {
+         if (!s.grains) s.grains.emplace();
+         if (!s.grains->friction) s.grains->friction.emplace();
+       }},
+      {"grains.states", "Grains that part: pressure of loose packings, dilute and lone grains.",
+       [](const Scenario& s) { return s.grains && s.grains->states; },
+       [](Scenario& s) { make_states(s); }},
+      {"grains.states.dilute", "Grains that collide: kinetic theory, granular temperature.",
+       [](const Scenario& s) { return s.grains && s.grains->states && s.grains->states->dilute; },
+       [](Scenario& s) {
+         if (auto& dilute = make_states(s).dilute; !dilute) dilute.emplace();
+       }},
+      {"grains.states.ultradilute", "Grains without neighbours: parcels in free flight.",
+       [](const Scenario& s) {
+         return s.grains && s.grains->states && s.grains->states->ultradilute;
+       },
+       [](Scenario& s) {
+         if (auto& lone = make_states(s).ultradilute; !lone) lone.emplace();
+       }},
+  };
+}
+
+/// The name that follows "block." in `path`, or empty when `path` does not lie below the block.
+std::string name_below(const std::string& path, const std::string& block) {
+  std::size_t start = 0;
+  if (!block.empty()) {
+    if (path.size() <= block.size() + 1 || path.compare(0, block.size(), block) != 0 ||
+        path[block.size()] != '.')
+      return {};
+    start = block.size() + 1;
+  }
+  return path.substr(start, path.find('.', start) - start);
+}
+
+}  // namespace
+
+// Function-local constants: built once on first use, never changed.
+std::span<const KeyInfo> schema() {
+  static const std::vector<KeyInfo> keys = all_keys();
+  return keys;
+}
+
+const KeyInfo* find_key(const std::string& path) {
+  static const auto index = [] {
+    std::unordered_map<std::string, const KeyInfo*> by_path;
+    for (const auto& key : schema()) by_path.emplace(key.path, &key);
+    return by_path;
+  }();
+  const auto found = index.find(path);
+  return found == index.end() ? nullptr : found->second;
+}
+
+std::span<const BlockInfo> optional_blocks() {
+  static const std::vector<BlockInfo> blocks = all_optional_blocks();
+  return blocks;
+}
+
+bool is_block(const std::string& path) {
+  return std::any_of(schema().begin(), schema().end(),
+                     [&](const KeyInfo& key) { return !name_below(key.path, path).empty(); });
+}
+
+std::vector<std::string> names_in_block(const std::string& block) {
+  std::vector<std::string> names;
+  for (const auto& key : schema()) {
+    const std::string name = name_below(key.path, block);
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  }
+  return names;
+}
+
+std::span<const LaterKey> later_keys() {
+  static const std::vector<LaterKey> keys = {
+      {"fluid", "a pore fluid with particles of its own"},
+      {"coupling", "drag between fluid and grains"},
+      {"observation", "comparison with a mapped deposit"},
+      {"prior", "ready-made distributions by material"},
+  };
+  return keys;
+}
+
+void for_each_path(const KeyInfo& key, KeyValue& value,
+                   const std::function<void(std::string&)>& visit) {
+  if (auto* text = std::get_if<std::string>(&value); text && key.kind == ValueKind::path)
+    visit(*text);
+  if (auto* zones = std::get_if<std::vector<BasalZone>>(&value))
+    for (auto& zone : *zones) visit(zone.polygon);
+}
+
+std::string range_text(const KeyInfo& key) {
+  const bool low = key.min > -schema_rows::no_limit, high = key.max < schema_rows::no_limit;
+  const std::string min = number_text(key.min), max = number_text(key.max);
+  if (low && high && key.above_min) return "> " + min + " and <= " + max;
+  if (low && high) return "in " + min + ".." + max;
+  if (low) return (key.above_min ? "> " : ">= ") + min;
+  if (high) return "<= " + max;
+  return {};
+}
+
+std::vector<UncertainKey> uncertain_keys(const Scenario& scenario) {
+  std::vector<UncertainKey> found;
+  for (const auto& key : schema()) {
+    if (key.kind != ValueKind::uncertain) continue;
+    const KeyValue value = key.get(scenario);
+    const auto* number = std::get_if<Uncertain>(&value);
+    if (number && number->distribution)
+      found.push_back({key.path, key.units, *number->distribution});
+  }
+  return found;
+}
+
+Scenario with_value(Scenario scenario, const std::string& path, double value) {
+  const KeyInfo* key = find_key(path);
+  if (!key) {
+    std::vector<std::string> paths;
+    for (const auto& k : schema()) paths.push_back(k.path);
+    const std::string near = nearest_name(path, paths);
+    throw SetupError(path + " (unknown key)." +
+                     (near.empty() ? "" : " Did you mean " + near + "?"));
+  }
+  require(key->kind == ValueKind::uncertain || key->kind == ValueKind::number,
+          path + " = " + number_text(value) + " (the key does not hold a single number).");
+  if (key->kind == ValueKind::uncertain)
+    key->set(scenario, Uncertain(value));
+  else
+    key->set(scenario, value);
+  return scenario;
+}
+
+}  // namespace sturz

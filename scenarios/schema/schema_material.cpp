@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys that say what moves and on what: grains, basal, formulation.
+#include "scenarios/schema/schema_rows.hpp"
+
+namespace sturz::schema_rows {
+namespace {
+
+GrainsSpec& made_grains(Scenario& s) { return s.grains ? *s.grains : s.grains.emplace(); }
+
+constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
+                                [](Scenario& s) -> Scenario& { return s; }};
+constexpr Block<GrainsSpec> grains{
+    [](const Scenario& s) { return s.grains ? &*s.grains : nullptr; }, made_grains};
+constexpr Block<FrictionLaw> friction{[](const Scenario& s) {
+                                        return s.grains && s.grains->friction ? &*s.grains->friction
+                                                                              : nullptr;
+                                      },
+                                      [](Scenario& s) -> FrictionLaw& {
+                                        auto& law = made_grains(s).friction;
+                                        return law ? *law : law.emplace();
+                                      }};
+GrainStatesSpec& made_states(Scenario& s) {
+  auto& states = made_grains(s).states;
+  return states ? *states : states.emplace();
+}
+const GrainStatesSpec* found_states(const Scenario& s) {
+  return s.grains && s.grains->states ? &*s.grains->states : nullptr;
+}
+constexpr Block<GrainStatesSpec> states{found_states, made_states};
+constexpr Block<DiluteSpec> dilute{[](const Scenario& s) {
+                                     const auto* found = found_states(s);
+                                     return found && found->dilute ? &*found->dilute : nullptr;
+                                   },
+                                   [](Scenario& s) -> DiluteSpec& {
+                                     auto& block = made_states(s).dilute;
+                                     return block ? *block : block.emplace();
+                                   }};
+constexpr Block<UltradiluteSpec> ultradilute{
+    [](const Scenario& s) {
+      const auto* found = found_states(s);
+      return found && found->ultradilute ? &*found->ultradilute : nullptr;
+    },
+    [](Scenario& s) -> UltradiluteSpec& {
+      auto& block = made_states(s).ultradilute;
+      return block ? *block : block.emplace();
+    }};
+constexpr Block<BasalSpec> basal{[](const Scenario& s) { return &s.basal; },
+                                 [](Scenario& s) -> BasalSpec& { return s.basal; }};
+
+void add_grains(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(key(grains, &GrainsSpec::density_kg_m3,
+                     {"grains.density_kg_m3", uncertain, "kg m-3", 200, 10000,
+                      "Density of the grain material itself, without pores."}));
+  keys.push_back(above_min(key(
+      grains, &GrainsSpec::diameter_m,
+      {"grains.diameter_m", uncertain, "m", 0, 100, "Grain diameter in the inertial number."})));
+  keys.push_back(key(grains, &GrainsSpec::solid_fraction,
+                     {"grains.solid_fraction", uncertain, "1", 0.05, 0.85,
+                      "Share of the bulk volume that is grain at the start."}));
+  keys.push_back(key(friction, &FrictionLaw::static_coefficient,
+                     {"grains.friction.static", uncertain, "1", 0, 2,
+                      "Internal friction coefficient of slow flow in mu(I)."}));
+  keys.push_back(key(friction, &FrictionLaw::dynamic_coefficient,
+                     {"grains.friction.dynamic", uncertain, "1", 0, 3,
+                      "Internal friction coefficient of very fast flow in mu(I)."}));
+  keys.push_back(key(friction, &FrictionLaw::inertial_number_scale,
+                     {"grains.friction.inertial_number_scale", uncertain, "1", 1e-4, 10,
+                      "Inertial number at which mu(I) is half way from static to dynamic."}));
+  keys.push_back(key(grains, &GrainsSpec::friction_angle_deg,
+                     {"grains.friction_angle_deg", uncertain, "degree", 0, 60,
+                      "Internal friction angle without rate dependence, instead of "
+                      "grains.friction."}));
+  keys.push_back(
+      key(grains, &GrainsSpec::cohesion_pa,
+          {"grains.cohesion_pa", uncertain, "Pa", 0, no_limit, "Cohesion of the material."}));
+  keys.push_back(key(
+      grains, &GrainsSpec::poisson_ratio,
+      {"grains.poisson_ratio", uncertain, "1", 0, 0.49, "Poisson's ratio of the elastic part."}));
+  keys.push_back(with_choices(text_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
+                                       choice, "Lateral earth pressure of depth_averaged flow."),
+                              {"isotropic", "active_passive"}));
+}
+
+void add_states(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(with_choices(
+      text_key(states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode", choice,
+               "unified: one continuous law from dense to dilute; seed: the paper's switch between "
+               "laws, with relaxation."),
+      {"unified", "seed"}));
+  keys.push_back(key(states, &GrainStatesSpec::max_fraction,
+                     {"grains.states.max_fraction", uncertain, "1", 0.55, 0.95,
+                      "Densest packing of the grains; by default solid_fraction + 0.08, at least "
+                      "0.64."}));
+  keys.push_back(key(states, &GrainStatesSpec::frictional_pressure_pa,
+                     {"grains.states.frictional_pressure_pa", uncertain, "Pa", 0, 1e6,
+                      "Scale of the pressure between fractions 0.5 and max_fraction."}));
+  keys.push_back(above_min(key(dilute, &DiluteSpec::restitution,
+                               {"grains.states.dilute.restitution", uncertain, "1", 0, 0.999,
+                                "Share of the speed that two colliding grains keep. The theory is "
+                                "made for 0.7 and more."})));
+  keys.push_back(with_choices(
+      text_key(ultradilute, &UltradiluteSpec::contacts, "grains.states.ultradilute.contacts",
+               choice, "What lone parcels do when they meet."),
+      {"none", "hertz_mindlin"}));
+  keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::restitution,
+                               {"grains.states.ultradilute.restitution", uncertain, "1", 0, 0.999,
+                                "Share of the speed that two lone parcels keep."})));
+  keys.push_back(key(ultradilute, &UltradiluteSpec::friction_coefficient,
+                     {"grains.states.ultradilute.friction_coefficient", uncertain, "1", 0, 2,
+                      "Friction between two lone parcels."}));
+  keys.push_back(
+      above_min(key(ultradilute, &UltradiluteSpec::youngs_modulus_pa,
+                    {"grains.states.ultradilute.youngs_modulus_pa", number, "Pa", 0, 1e13,
+                     "Stiffness of the grains; softened to what the speeds of the "
+                     "scene need."})));
+}
+
+void add_basal(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(key(basal, &BasalSpec::friction_coefficient,
+                     {"basal.friction_coefficient", uncertain, "1", 0, 2,
+                      "Coulomb friction coefficient between mass and ground."}));
+  keys.push_back(key(basal, &BasalSpec::pore_pressure_ratio,
+                     {"basal.pore_pressure_ratio", uncertain, "1", 0, 0.99,
+                      "Pore pressure over normal stress at the base, r_u."}));
+  keys.push_back(key(
+      basal, &BasalSpec::cohesion_pa,
+      {"basal.cohesion_pa", uncertain, "Pa", 0, no_limit, "Cohesion between mass and ground."}));
+  keys.push_back(key(basal, &BasalSpec::restitution,
+                     {"basal.restitution", uncertain, "1", 0, 0.95,
+                      "Share of the normal speed that a rebound from the ground keeps."}));
+  keys.push_back(above_min(key(basal, &BasalSpec::turbulent_coefficient_m_s2,
+                               {"basal.turbulent_coefficient_m_s2", uncertain, "m s-2", 0, no_limit,
+                                "Voellmy's xi: drag that grows with the square of the speed, in "
+                                "depth_averaged flow."})));
+  keys.push_back(above_min(key(basal, &BasalSpec::viscosity_pa_s,
+                               {"basal.viscosity_pa_s", uncertain, "Pa s", 0, no_limit,
+                                "Viscosity of the laminar drag at the base, in depth_averaged "
+                                "flow."})));
+  keys.push_back(key(basal, &BasalSpec::yield_stress_pa,
+                     {"basal.yield_stress_pa", uncertain, "Pa", 0, no_limit,
+                      "Yield stress of a Bingham fluid, with basal.viscosity_pa_s."}));
+  keys.push_back(key(basal, &BasalSpec::zones,
+                     {"basal.zones", zone_list, "", -no_limit, no_limit,
+                      "Parts of the ground with values of their own: a polygon layer and fixed "
+                      "numbers in the place of basal's."}));
+}
+
+}  // namespace
+
+void add_material_keys(std::vector<KeyInfo>& keys) {
+  add_grains(keys);
+  add_states(keys);
+  add_basal(keys);
+  keys.push_back(with_choices(
+      text_key(scene, &Scenario::formulation, "formulation", ValueKind::choice,
+               "auto: full_stress where at least four layers of particles resolve the flow, else "
+               "depth_averaged; full_stress: three-dimensional particles with a full stress "
+               "tensor; depth_averaged: columns on the terrain."),
+      {"auto", "full_stress", "depth_averaged"}));
+}
+
+}  // namespace sturz::schema_rows

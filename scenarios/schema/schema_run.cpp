@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys that say how it is computed and what is asked: numerics, domain, ensemble, hazard.
+#include "scenarios/schema/schema_rows.hpp"
+
+namespace sturz::schema_rows {
+namespace {
+
+constexpr Block<NumericsSpec> numerics{[](const Scenario& s) { return &s.numerics; },
+                                       [](Scenario& s) -> NumericsSpec& { return s.numerics; }};
+constexpr Block<DomainSpec> domain{[](const Scenario& s) { return &s.domain; },
+                                   [](Scenario& s) -> DomainSpec& { return s.domain; }};
+constexpr Block<EnsembleSpec> ensemble{[](const Scenario& s) { return &s.ensemble; },
+                                       [](Scenario& s) -> EnsembleSpec& { return s.ensemble; }};
+constexpr Block<HazardSpec> hazard{[](const Scenario& s) { return &s.hazard; },
+                                   [](Scenario& s) -> HazardSpec& { return s.hazard; }};
+
+void add_numerics(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(is_required(absent_when_zero(above_min(
+      key(numerics, &NumericsSpec::spacing_m,
+          {"numerics.spacing_m", number, "m", 0, 1000,
+           "Distance between particles at the start; at least three should fit the source's "
+           "thickness."})))));
+  keys.push_back(above_min(key(numerics, &NumericsSpec::end_time_s,
+                               {"numerics.end_time_s", number, "s", 0, 1e5,
+                                "Simulated time after which a member is stopped."})));
+  keys.push_back(key(numerics, &NumericsSpec::courant,
+                     {"numerics.courant", number, "1", 0.01, 0.5,
+                      "Time step over smoothing length / (sound speed + speed)."}));
+  keys.push_back(key(numerics, &NumericsSpec::sound_speed_factor,
+                     {"numerics.sound_speed_factor", number, "1", 3, 100,
+                      "Numerical sound speed over the expected flow speed."}));
+  keys.push_back(key(numerics, &NumericsSpec::adaptive_sound_speed,
+                     {"numerics.adaptive_sound_speed", flag, "", -no_limit, no_limit,
+                      "Let the sound speed follow the flow: fewer steps while the mass is slow."}));
+  keys.push_back(
+      key(numerics, &NumericsSpec::artificial_viscosity,
+          {"numerics.artificial_viscosity", number, "1", 0, 1,
+           "Strength of the artificial viscosity. Where grains flow it stands in for at most "
+           "a tenth of their friction."}));
+  keys.push_back(key(numerics, &NumericsSpec::density_diffusion,
+                     {"numerics.density_diffusion", number, "1", 0, 0.5,
+                      "Strength of the density smoothing (delta-SPH)."}));
+  keys.push_back(key(numerics, &NumericsSpec::jitter,
+                     {"numerics.jitter", number, "1", 0, 0.25,
+                      "Random displacement of the start lattice, in spacings."}));
+  keys.push_back(key(numerics, &NumericsSpec::stop_at_rest,
+                     {"numerics.stop_at_rest", flag, "", -no_limit, no_limit,
+                      "Stop a member when its mass has come to rest."}));
+  keys.push_back(key(numerics, &NumericsSpec::max_wall_time_s,
+                     {"numerics.max_wall_time_s", number, "s", 0, 1e7,
+                      "Computing time after which a member counts as failed; 0 sets no limit."}));
+  keys.push_back(key(numerics, &NumericsSpec::accept_unresolved,
+                     {"numerics.accept_unresolved", flag, "", -no_limit, no_limit,
+                      "Compute with full_stress although fewer than two layers of particles "
+                      "resolve the flow."}));
+}
+
+void add_domain(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(with_choices(key(domain, &DomainSpec::periodic,
+                                  {"domain.periodic", text_list, "", -no_limit, no_limit,
+                                   "Directions in which the terrain's extent repeats itself."}),
+                              {"x", "y"}));
+  keys.push_back(key(domain, &DomainSpec::walls,
+                     {"domain.walls", wall_list, "", -no_limit, no_limit,
+                      "Plane walls: a point, a normal into the free side, friction, and when the "
+                      "wall is taken away."}));
+}
+
+void add_ensemble(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(with_choices(text_key(ensemble, &EnsembleSpec::design, "ensemble.design", choice,
+                                       "How the uncertain values are drawn."),
+                              {"monte_carlo", "latin_hypercube", "sobol", "table"},
+                              {"morris", "full_grid"}));
+  keys.push_back(text_key(ensemble, &EnsembleSpec::table, "ensemble.table", path,
+                          "CSV with one row per member and one column per uncertain key, for "
+                          "design: table."));
+  keys.push_back(
+      absent_when_zero(key(ensemble, &EnsembleSpec::members,
+                           {"ensemble.members", integer, "1", 1, 1e7, "Number of members."})));
+  keys.push_back(key(ensemble, &EnsembleSpec::seed,
+                     {"ensemble.seed", integer, "1", 0, 9007199254740992.0,
+                      "Seed of every random number of the ensemble."}));
+  keys.push_back(key(ensemble, &EnsembleSpec::correlation,
+                     {"ensemble.correlation", number_map, "1", -no_limit, no_limit,
+                      "Correlation of pairs 'key/key' of uncertain values (Gaussian copula), "
+                      "each between -1 and 1."}));
+  keys.push_back(key(ensemble, &EnsembleSpec::max_failed_fraction,
+                     {"ensemble.max_failed_fraction", number, "1", 0, 1,
+                      "Share of failed members above which the ensemble counts as failed."}));
+}
+
+void add_hazard(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  const auto thresholds = [&](std::vector<double> HazardSpec::*member, const char* path,
+                              const char* units, const char* help) {
+    keys.push_back(above_min(key(hazard, member, {path, number_list, units, 0, no_limit, help})));
+  };
+  keys.push_back(key(hazard, &HazardSpec::cell_size_m,
+                     {"hazard.cell_size_m", number, "m", 1e-3, 1e4,
+                      "Cell of the hazard maps; the terrain's working cell when absent."}));
+  thresholds(&HazardSpec::thickness_m, "hazard.thickness_m", "m",
+             "Thickness thresholds of the exceedance maps, rising.");
+  thresholds(&HazardSpec::speed_m_s, "hazard.speed_m_s", "m s-1",
+             "Speed thresholds of the exceedance maps, rising.");
+  thresholds(&HazardSpec::energy_kj_m2, "hazard.energy_kj_m2", "kJ m-2",
+             "Thresholds of kinetic energy per area, rising.");
+  thresholds(&HazardSpec::pressure_kpa, "hazard.pressure_kpa", "kPa",
+             "Thresholds of dynamic pressure, rising.");
+  keys.push_back(above_min(key(
+      hazard, &HazardSpec::quantiles,
+      {"hazard.quantiles", number_list, "1", 0, 1, "Quantile levels between 0 and 1, rising."})));
+}
+
+}  // namespace
+
+void add_run_keys(std::vector<KeyInfo>& keys) {
+  add_numerics(keys);
+  add_domain(keys);
+  add_ensemble(keys);
+  add_hazard(keys);
+}
+
+}  // namespace sturz::schema_rows

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys that say where: title, terrain, release.
+#include "scenarios/schema/schema_rows.hpp"
+
+namespace sturz::schema_rows {
+namespace {
+
+constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
+                                [](Scenario& s) -> Scenario& { return s; }};
+constexpr Block<TerrainSpec> terrain{[](const Scenario& s) { return &s.terrain; },
+                                     [](Scenario& s) -> TerrainSpec& { return s.terrain; }};
+constexpr Block<ReleaseSpec> release{[](const Scenario& s) { return &s.release; },
+                                     [](Scenario& s) -> ReleaseSpec& { return s.release; }};
+
+template <class T>
+T& engaged(std::optional<T>& block) {
+  return block ? *block : block.emplace();
+}
+
+constexpr Block<ReleaseBox> box{
+    [](const Scenario& s) { return s.release.box ? &*s.release.box : nullptr; },
+    [](Scenario& s) -> ReleaseBox& { return engaged(s.release.box); }};
+constexpr Block<ReleaseParaboloid> paraboloid{
+    [](const Scenario& s) { return s.release.paraboloid ? &*s.release.paraboloid : nullptr; },
+    [](Scenario& s) -> ReleaseParaboloid& { return engaged(s.release.paraboloid); }};
+constexpr Block<ReleaseCylinder> cylinder{
+    [](const Scenario& s) { return s.release.cylinder ? &*s.release.cylinder : nullptr; },
+    [](Scenario& s) -> ReleaseCylinder& { return engaged(s.release.cylinder); }};
+
+constexpr double map_limit = 1e8;  // metres; no projected coordinate is larger
+
+void add_terrain(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(text_key(terrain, &TerrainSpec::raster, "terrain.raster", path,
+                          "Elevation raster in any format that GDAL reads."));
+  keys.push_back(key(terrain, &TerrainSpec::synthetic,
+                     {"terrain.synthetic", synthetic, "", -no_limit, no_limit,
+                      "Ground written as a formula: one shape with its own numbers."}));
+  keys.push_back(text_key(terrain, &TerrainSpec::crs, "terrain.crs", text,
+                          "Coordinate system of the raster, e.g. EPSG:32648, where the file has "
+                          "none or a wrong one."));
+  keys.push_back(key(terrain, &TerrainSpec::cell_size_m,
+                     {"terrain.cell_size_m", number, "m", 1e-3, 1e4,
+                      "Cell of the working grid; the raster's own when absent."}));
+  keys.push_back(with_choices(
+      text_key(terrain, &TerrainSpec::nodata, "terrain.nodata", choice,
+               "What the edge of the known ground does to the mass: lets it out or holds it."),
+      {"outflow", "wall"}));
+}
+
+void add_shapes(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(with_size(key(box, &ReleaseBox::x_m,
+                               {"release.box.x_m", number_list, "m", -map_limit, map_limit,
+                                "West and east edge of a rectangular source."}),
+                           2));
+  keys.push_back(with_size(key(box, &ReleaseBox::y_m,
+                               {"release.box.y_m", number_list, "m", -map_limit, map_limit,
+                                "South and north edge of a rectangular source."}),
+                           2));
+  keys.push_back(with_size(key(paraboloid, &ReleaseParaboloid::center_m,
+                               {"release.paraboloid.center_m", number_list, "m", -map_limit,
+                                map_limit, "Map x and y of the thickest point of a cap."}),
+                           2));
+  keys.push_back(above_min(with_size(key(paraboloid, &ReleaseParaboloid::semi_axes_m,
+                                         {"release.paraboloid.semi_axes_m", number_list, "m", 0,
+                                          map_limit, "Half lengths of the cap along x and y."}),
+                                     2)));
+  keys.push_back(with_size(key(cylinder, &ReleaseCylinder::center_m,
+                               {"release.cylinder.center_m", number_list, "m", -map_limit,
+                                map_limit, "Map x and y of the axis of a round source."}),
+                           2));
+  keys.push_back(above_min(
+      key(cylinder, &ReleaseCylinder::radius_m,
+          {"release.cylinder.radius_m", number, "m", 0, map_limit, "Radius of a round source."})));
+}
+
+void add_release(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(text_key(release, &ReleaseSpec::polygon, "release.polygon", path,
+                          "Polygon layer that outlines the source, any format that OGR reads."));
+  keys.push_back(text_key(release, &ReleaseSpec::layer, "release.layer", text,
+                          "Layer inside release.polygon; the first when absent."));
+  keys.push_back(text_key(release, &ReleaseSpec::thickness_attribute, "release.thickness_attribute",
+                          text,
+                          "Field of release.polygon that holds each polygon's thickness in "
+                          "metres."));
+  keys.push_back(text_key(release, &ReleaseSpec::thickness_raster, "release.thickness_raster", path,
+                          "Raster of the vertical source thickness in metres; nodata means "
+                          "zero."));
+  keys.push_back(key(release, &ReleaseSpec::thickness_factor,
+                     {"release.thickness_factor", number, "1", -1000, 1000,
+                      "Multiplies the values of thickness_raster: -1 where depths count "
+                      "downward."}));
+  keys.push_back(text_key(release, &ReleaseSpec::crs, "release.crs", text,
+                          "Coordinate system of the release file where it has none."));
+  add_shapes(keys);
+  keys.push_back(above_min(key(release, &ReleaseSpec::thickness_m,
+                               {"release.thickness_m", uncertain, "m", 0, 2000,
+                                "Vertical thickness of a polygon, box, cylinder, or of the cap's "
+                                "thickest point."})));
+  keys.push_back(above_min(key(release, &ReleaseSpec::volume_m3,
+                               {"release.volume_m3", uncertain, "m3", 0, no_limit,
+                                "Bulk volume of the source; scales its thickness."})));
+  keys.push_back(with_choices(
+      text_key(release, &ReleaseSpec::surface, "release.surface", choice,
+               "What the terrain shows: the bed under the source, or the surface before failure "
+               "from which the source is dug."),
+      {"bed", "pre_failure"}));
+  keys.push_back(with_size(key(release, &ReleaseSpec::velocity_m_s,
+                               {"release.velocity_m_s", number_list, "m s-1", -500, 500,
+                                "Velocity of the source at the start: east, north, up."}),
+                           3));
+}
+
+}  // namespace
+
+void add_site_keys(std::vector<KeyInfo>& keys) {
+  keys.push_back(text_key(scene, &Scenario::title, "title", ValueKind::text,
+                          "One line that names the scene in reports."));
+  add_terrain(keys);
+  add_release(keys);
+}
+
+}  // namespace sturz::schema_rows

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The numbers that a zone of the base may give in the place of basal's own.
+#pragma once
+
+#include "scenarios/schema/schema.hpp"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// A raster of zones holds one byte per cell, and 0 means none.
+inline constexpr std::size_t most_basal_zones = 255;
+
+/// One of these numbers; its units and range are those of the key of the same name in basal.
+struct ZoneField {
+  const char* name;
+  std::optional<double> BasalZone::*value;
+};
+inline constexpr std::array<ZoneField, 3> zone_fields = {
+    {{"friction_coefficient", &BasalZone::friction_coefficient},
+     {"pore_pressure_ratio", &BasalZone::pore_pressure_ratio},
+     {"cohesion_pa", &BasalZone::cohesion_pa}}};
+
+/// nullptr for any other name.
+inline const ZoneField* find_zone_field(const std::string& name) {
+  for (const auto& field : zone_fields)
+    if (field.name == name) return &field;
+  return nullptr;
+}
+/// In the order of the table.
+inline std::vector<std::string> zone_field_names() {
+  std::vector<std::string> names;
+  names.reserve(zone_fields.size());
+  for (const auto& field : zone_fields) names.emplace_back(field.name);
+  return names;
+}
+/// The row whose range and units the field shares.
+inline const KeyInfo& basal_key(const ZoneField& field) {
+  return *find_key(std::string("basal.") + field.name);
+}
+
+}  // namespace sturz

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Tables that a reader sees as text and a program as JSON, from the same cells.
+#pragma once
+
+#include "tests/bench/measure/statistics.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace sturz::bench {
+
+struct Cell {
+  std::string text;
+  nlohmann::ordered_json value;
+};
+
+Cell cell(const char* text);
+Cell cell(const std::string& text);
+Cell cell(std::size_t count);
+Cell cell(int count);
+Cell cell(double value, int digits);
+/// Median and range.
+Cell range_cell(const Summary&, int digits);
+/// Median and its interval.
+Cell interval_cell(const Summary&, int digits);
+Cell yes_no(bool);
+
+struct Column {
+  std::string key;   ///< in JSON
+  std::string head;  ///< in the printed table
+};
+
+class Table {
+ public:
+  /// \param key  name in JSON
+  Table(std::string key, std::string title, std::vector<Column> columns)
+      : key_(std::move(key)), title_(std::move(title)), columns_(std::move(columns)) {}
+
+  void add(std::vector<Cell> row);
+  const std::string& key() const { return key_; }
+  bool empty() const { return rows_.empty(); }
+  std::string text() const;
+  nlohmann::ordered_json json() const;  ///< an array of objects, one per row
+
+ private:
+  std::string key_, title_;
+  std::vector<Column> columns_;
+  std::vector<std::vector<Cell>> rows_;
+};
+
+/// What one sub-command found, in the order in which it was found.
+struct Report {
+  std::string title, summary;  ///< of a page made from it
+  std::vector<Table> tables;
+  std::vector<std::string> notes;  ///< how the figures are to be read
+  bool failed = false;             ///< a limit that was asked for does not hold
+};
+
+}  // namespace sturz::bench

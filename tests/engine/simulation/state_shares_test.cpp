@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/simulation/state_shares.hpp"
+
+#include "engine/effects/dense/settings.hpp"
+#include "engine/laws/grain_states.hpp"
+#include "engine/simulation/member_result.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+/// Four grains of 1, 2, 3 and 4 kg in the four states.
+ParticleSet four_grains() {
+  ParticleSet p;
+  p.resize(4);
+  p.mass = {1, 2, 3, 4};
+  p.add_field("compression", 1).component[0] = {0.01, -0.019, -0.5, -0.99};
+  p.add_field("state", 1).component[0] = {
+      static_cast<double>(GrainState::dense), static_cast<double>(GrainState::transition),
+      static_cast<double>(GrainState::dilute), static_cast<double>(GrainState::ultradilute)};
+  p.add_field("granular_temperature", 1).component[0] = {0, 0.5, 2, 0};
+  return p;
+}
+
+TEST(StateShares, AreSharesOfTheMass) {
+  const StateShares s = state_shares(four_grains());
+  EXPECT_DOUBLE_EQ(s.dense, 0.1);
+  EXPECT_DOUBLE_EQ(s.transition, 0.2);
+  EXPECT_DOUBLE_EQ(s.dilute, 0.3);
+  EXPECT_DOUBLE_EQ(s.ultradilute, 0.4);
+  EXPECT_DOUBLE_EQ(s.parted, 0.7);
+  EXPECT_DOUBLE_EQ(s.mean_theta, 0.7);
+  EXPECT_DOUBLE_EQ(s.max_theta, 2);
+}
+
+TEST(StateShares, PartAtTheStrainThatTheStressLawKnows) {
+  EXPECT_EQ(parted_compression, GrainStressSettings::separation);
+}
+
+TEST(StateShares, AreNotMadeUpWhereNothingIsKnown) {
+  ParticleSet columns;
+  columns.resize(2);
+  columns.mass = {1, 1};
+  const StateShares none = state_shares(columns);
+  EXPECT_TRUE(std::isnan(none.parted));
+  EXPECT_EQ(none.dense + none.transition + none.dilute + none.ultradilute, 0);
+  ParticleSet empty = four_grains();
+  empty.compact(std::vector<std::uint8_t>{0, 0, 0, 0});
+  EXPECT_EQ(state_shares(empty).parted, 0);
+}
+
+TEST(StateTimes, WeighSharesByHowLongTheyHeld) {
+  StateTimes times;
+  StateShares s;
+  times.add(s, 0);
+  s.parted = 0.5, s.dilute = 0.2, s.ultradilute = 0.1, s.transition = 0.3;
+  times.add(s, 1);
+  s.parted = 0.1, s.dilute = 0, s.ultradilute = 0, s.transition = 0;
+  times.add(s, 3);
+  MemberScalars m;
+  times.write(m);
+  EXPECT_DOUBLE_EQ(m.parted_fraction, 0.2);
+  EXPECT_DOUBLE_EQ(m.dilute_fraction, 0.05);
+  EXPECT_DOUBLE_EQ(m.ultradilute_fraction, 0.025);
+  EXPECT_DOUBLE_EQ(m.transition_fraction, 0.075);
+}
+
+TEST(StateTimes, OfNoTimeAreWhatThereIsNow) {
+  StateTimes times;
+  StateShares s;
+  s.parted = 0.25;
+  times.add(s, 0);
+  MemberScalars m;
+  times.write(m);
+  EXPECT_EQ(m.parted_fraction, 0.25);
+}
+
+}  // namespace
+}  // namespace sturz
