@@ -7,6 +7,7 @@
 #include "engine/laws/grain_states.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace sturz {
 
@@ -69,10 +70,10 @@ struct PartingPacking {
     return std::fmax(std::fmin(lifted, most), -0.999);
   }
   /// \param before  contact pressure at n [Pa]; \param state  GrainState at n
-  double pressure(double e, double before, double state) const {
+  double pressure(double e, double before, std::uint8_t state) const {
     const double squeezed = e > 0 ? bulk * e : 0;
     if (!switched) return squeezed + friction.at(fraction(e));
-    const bool dense = state == static_cast<double>(GrainState::dense);
+    const bool dense = state == static_cast<std::uint8_t>(GrainState::dense);
     const double target = dense ? squeezed : friction.at(fraction(e));
     return target + (before - target) * kept;
   }

@@ -78,7 +78,7 @@ Meeting meet(const Scene& scene, double speed, double offset, double steps, doub
   m.restitution = last / speed;
   m.pulling_share = pulled / pushed;
   m.parted = way.norm() > 2 * radius_m && parting.dot(way) > 0;
-  m.energy_gained = f.energy() / f.state.ledger.kinetic_0 - 1;
+  m.energy_gained = f.energy() / f.state.grains().ledger.kinetic_0 - 1;
   return m;
 }
 
