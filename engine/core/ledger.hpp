@@ -40,7 +40,7 @@ struct Ledger {
   /// Now: spins of isolated particles, springs of their contacts.
   double rotational = 0, parcel_elastic = 0;
   double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the base
-  double rest_damping = 0;  ///< dissipated below the speed of rest (physics.md I4)
+  double rest_damping = 0;  ///< dissipated below the speed of rest (docs/physics.md I4)
   double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the rim
 
   double take_off = 0;  ///< mass times time on ground that bends away faster than it falls [kg s]

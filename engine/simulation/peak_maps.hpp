@@ -28,7 +28,7 @@ struct LayerCount {
 
 /// Spreads particles over cells with a quadratic B-spline of width max(dx, cell), normalised to
 /// sum to one (dx: of a depth-averaged column the present mean distance of columns), with the same
-/// weights for volume, m v and 1/2 m v^2 (physics.md D.3), and keeps maxima over time of each
+/// weights for volume, m v and 1/2 m v^2 (docs/physics.md D.3), and keeps maxima over time of each
 /// product at one instant.
 ///
 /// What falls on cells beyond the grid is dropped, not pushed in. Memory follows the part of the

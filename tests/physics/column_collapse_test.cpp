@@ -59,7 +59,7 @@ Scenario beads(double aspect, int particles_along) {
   s.basal.friction_coefficient = std::tan(27.4 * degree);
   return s;
 }
-/// Slices of discs and spheres, grain by grain and without side walls (physics.md C.3).
+/// Slices of discs and spheres, grain by grain and without side walls (docs/physics.md C.3).
 double beads_run_out(double a) { return a < 2.3 ? 1.67 * a : 2.7 * std::pow(a, 2.0 / 3); }
 
 /// Even numbers, so that the column ends between the cells of the ground.

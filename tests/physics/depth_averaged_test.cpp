@@ -113,7 +113,7 @@ TEST(Similarity, CapSpreadsAsSavageAndHutterFound) {
     const Cap cap(f.simulation.parts().state.grains());
     a_x.push_back(cap.a_x);
     const std::string name = fmt::format("V18 columns, dx = {:.0f} m", spacing);
-    // thin.md asks this at 4 m; the coarser one is reported.
+    // V18 asks this at 4 m; the coarser one is reported.
     const bool asked = spacing <= 4;
     auto line = [&](const char* what, double measured, double exact, double tolerance) {
       const Line l =

@@ -182,7 +182,7 @@ Inner inner_of(const Cloud& c, const State& s) {
 }
 
 struct Shear {
-  double fraction, theta, pressure, ratio;  ///< theta*, P*, tau/P of physics.md V11
+  double fraction, theta, pressure, ratio;  ///< theta*, P*, tau/P of docs/physics.md V11
 };
 
 class UniformShear : public testing::TestWithParam<Shear> {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Density and stress of one dense particle from n to n+1 (physics.md B.5), with its energies.
+/// Density and stress of one dense particle from n to n+1 (docs/physics.md B.5), with its energies.
 #pragma once
 
 #include "engine/core/symmetric_tensor.hpp"

@@ -16,7 +16,7 @@ struct ParcelContactSettings {
   bool never_pulls = false;      ///< see ContactPair
   /// The ground as another partner: a plane through the point of BoundarySupport, of the same
   /// material. By default lone parcels have the ground of `terrain_contact` as everybody has
-  /// (physics.md B.9); one of the two must be off for them. Spheres roll: nothing slows them on
+  /// (B.9); one of the two must be off for them. Spheres roll: nothing slows them on
   /// even ground.
   bool on_ground = false;
   double ground_restitution = 0.2;  ///< [-]
@@ -24,7 +24,7 @@ struct ParcelContactSettings {
 };
 
 /// Adds the contacts of the particles from MovingSet::n_listed on, each a sphere of its own mass
-/// and the grains' density: diameter (6 m/(pi rho_p))^(1/3) (physics.md B.9), with the field "spin"
+/// and the grains' density: diameter (6 m/(pi rho_p))^(1/3) (B.9), with the field "spin"
 /// (3) [rad/s]. To be added after `add_terrain_contact`, whose impulses come first.
 ///
 /// Only parcels that touch within the step, and whoever is near them, are stepped finely, in

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Grains that have lost their neighbours leave the continuum and fly; those that land in it come
-/// back (physics.md B.8, B.9). Mass, position and velocity stay: only the name changes.
+/// back (docs/physics.md B.8, B.9). Mass, position and velocity stay: only the name changes.
 #pragma once
 
 #include "engine/effects/dense/shared.hpp"
