@@ -39,7 +39,8 @@ struct SingleRun {
 SingleRun prepare_run(const RunRequest&, Observer&);
 
 /// Computes it; writes particle frames on the way where they are wanted, and nothing else.
-/// \param cancel may be set at any time; the outcome is then `cancelled`
+/// \param cancel may be set at any time and is looked at every 0.2 s; the outcome is then
+///   `cancelled`
 MemberResult compute_run(const SingleRun&, Observer&, const std::atomic<bool>& cancel);
 
 /// Writes member, maps, manifest and page. \throws IoError
