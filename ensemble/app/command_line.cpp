@@ -4,7 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
-#include "ensemble/app/version.hpp"
+#include "ensemble/workflow/version.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -17,6 +17,11 @@
 
 namespace sturz::app {
 namespace {
+
+using workflow::build_type;
+using workflow::compiler;
+using workflow::git_commit;
+using workflow::version;
 
 using Action = std::function<int(Console&)>;
 
