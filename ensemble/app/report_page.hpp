@@ -6,6 +6,7 @@
 #include "ensemble/app/output_folder.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <span>
 

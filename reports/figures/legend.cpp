@@ -66,7 +66,7 @@ Ramp ramp_of(const LayerMeaning& meaning) {
       return Ramp::deposit;
     case Quantity::intensity:
       return Ramp::hazard;
-    case Quantity::count:
+    case Quantity::members:
     case Quantity::other:
       return Ramp::neutral;
     default:
@@ -86,7 +86,7 @@ int Legend::class_of(float stored) const {
 }
 
 Legend legend_for(const Layer& layer) {
-  const LayerMeaning meaning = meaning_of(layer);
+  const LayerMeaning& meaning = layer.meaning;
   Legend legend;
   legend.unit = display_unit(layer.units);
   legend.probability = meaning.statistic == Statistic::probability && layer.units == "1";

@@ -12,6 +12,7 @@
 #include "engine/terrain/raster.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <span>
 #include <string>

@@ -135,17 +135,24 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
   s.grid = {600, 520, 403000, 4629500, 10, utm33_wkt()};
   s.attributes = {{"scenario_title", "test"}};
   Layer p{"probability_of_peak_thickness_above_threshold",
+          {Quantity::thickness, Statistic::probability},
           "chance",
           "",
           "1",
           "",
           "not resolved",
           {"thickness_threshold", "", "m", {0.1, 2}},
-          false,
           std::vector<float>(624000, 0.25F)};
   p.values[0] = nan_f;
   p.values[312000] = 0.75F;
-  Layer n{"number_of_valid_members",     "members", "", "1", "", "", {}, true,
+  Layer n{"number_of_valid_members",
+          {Quantity::members, Statistic::count},
+          "members",
+          "",
+          "1",
+          "",
+          "",
+          {},
           std::vector<float>(312000, 32)};
   s.layers = {p, n};
   const auto files = write_cogs(folder() / "hazard", s);
@@ -160,6 +167,8 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
   EXPECT_TRUE(std::isnan(band.GetNoDataValue()));
   EXPECT_EQ(band.GetOverviewCount(), 1);
   EXPECT_STREQ(band.GetMetadataItem("long_name"), "chance");
+  EXPECT_STREQ(band.GetMetadataItem("sturz_quantity"), "thickness");
+  EXPECT_STREQ(band.GetMetadataItem("sturz_statistic"), "probability");
   EXPECT_STREQ(band.GetMetadataItem("thickness_threshold"), "2 m");
   EXPECT_STREQ(band.GetMetadataItem("comment"), "not resolved");
   EXPECT_STREQ(band.GetUnitType(), "1");
@@ -177,7 +186,7 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
 TEST_F(GeoTiff, ABareSceneHasNoSystem) {
   LayerStack s;
   s.grid = {3, 2, 0, 2, 1, ""};
-  s.layers = {{"deposit_mean", "", "", "m", "", "", {}, false, {1, 2, 3, 4, 5, 6}}};
+  s.layers = {{"deposit_mean", {}, "", "", "m", "", "", {}, {1, 2, 3, 4, 5, 6}}};
   const auto files = write_cogs(folder(), s);
   GDALDataset* data = GDALDataset::Open(files[0].c_str());
   EXPECT_EQ(data->GetSpatialRef(), nullptr);

@@ -224,9 +224,11 @@ TEST(ReportFigures, ShowTheMostSevereOfJoinedCells) {
       .n_cols = 1600, .n_rows = 1000, .west_m = 0, .north_m = 0, .cell_m = 1, .crs_wkt = ""};
   Layer thickness, arrival;
   thickness.name = "peak_thickness", thickness.units = "m";
+  thickness.meaning = {Quantity::thickness, Statistic::peak};
   thickness.values.assign(maps.grid.n_cells(), 1);
   thickness.values[maps.grid.index(500, 801)] = 9;
   arrival.name = "arrival_time", arrival.units = "s";
+  arrival.meaning = {Quantity::arrival, Statistic::peak};
   arrival.values.assign(maps.grid.n_cells(), nan_f);
   arrival.values[maps.grid.index(501, 800)] = 7;
   arrival.values[maps.grid.index(501, 801)] = 5;

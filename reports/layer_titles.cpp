@@ -1,104 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/layer_meaning.hpp"
+#include "reports/layer_titles.hpp"
 
 #include "reports/page/text.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace sturz {
-namespace {
-
-bool has(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
-
-}  // namespace
-
-LayerMeaning meaning_of(const Layer& layer) {
-  const std::string& n = layer.name;
-  LayerMeaning m;
-  if (n.starts_with("number_of") || n.starts_with("count"))
-    m.quantity = Quantity::count;
-  else if (has(n, "deposit"))
-    m.quantity = Quantity::deposit;
-  else if (has(n, "arrival"))
-    m.quantity = Quantity::arrival;
-  else if (has(n, "thickness"))
-    m.quantity = Quantity::thickness;
-  else if (has(n, "speed") || has(n, "velocity"))
-    m.quantity = Quantity::speed;
-  else if (has(n, "energy"))
-    m.quantity = Quantity::energy;
-  else if (has(n, "pressure"))
-    m.quantity = Quantity::pressure;
-  else if (has(n, "intensity"))
-    m.quantity = Quantity::intensity;
-  else if (has(n, "reached"))
-    m.quantity = Quantity::reached;
-  if (has(n, "lower"))
-    m.statistic = Statistic::lower_bound;
-  else if (has(n, "upper"))
-    m.statistic = Statistic::upper_bound;
-  else if (has(n, "probab"))
-    m.statistic = Statistic::probability;
-  else if (has(n, "quantile") || has(n, "percentile"))
-    m.statistic = Statistic::quantile;
-  else if (has(n, "mean"))
-    m.statistic = Statistic::mean;
-  else if (n.starts_with("peak") || n.starts_with("max") || n.starts_with("deposit") ||
-           n.starts_with("arrival"))
-    m.statistic = Statistic::peak;
-  return m;
-}
-
-std::string word(Quantity q) {
-  switch (q) {
-    case Quantity::reached:
-      return "reached";
-    case Quantity::thickness:
-      return "thickness";
-    case Quantity::speed:
-      return "speed";
-    case Quantity::energy:
-      return "energy";
-    case Quantity::pressure:
-      return "pressure";
-    case Quantity::arrival:
-      return "arrival";
-    case Quantity::deposit:
-      return "deposit";
-    case Quantity::intensity:
-      return "intensity";
-    case Quantity::count:
-      return "count";
-    case Quantity::other:
-      break;
-  }
-  return "other";
-}
-
-std::string word(Statistic s) {
-  switch (s) {
-    case Statistic::probability:
-      return "probability";
-    case Statistic::lower_bound:
-      return "lower";
-    case Statistic::upper_bound:
-      return "upper";
-    case Statistic::quantile:
-      return "quantile";
-    case Statistic::mean:
-      return "mean";
-    case Statistic::peak:
-      return "peak";
-    case Statistic::other:
-      break;
-  }
-  return "value";
-}
-
 std::string title(Quantity q) {
   switch (q) {
     case Quantity::reached:
@@ -117,8 +25,8 @@ std::string title(Quantity q) {
       return "Deposit thickness";
     case Quantity::intensity:
       return "Intensity";
-    case Quantity::count:
-      return "Count";
+    case Quantity::members:
+      return "Members";
     case Quantity::other:
       break;
   }
@@ -126,12 +34,12 @@ std::string title(Quantity q) {
 }
 
 std::string plane_label(const Layer& layer, std::size_t plane) {
-  const LayerMeaning meaning = meaning_of(layer);
-  if (meaning.quantity == Quantity::intensity)
-    for (const char* level : {"high", "medium", "low"})
-      if (has(layer.name, level)) return level;
-  if (layer.axis.values.empty())
-    return meaning.quantity == Quantity::reached ? "reached" : word(meaning.statistic);
+  const LayerMeaning& meaning = layer.meaning;
+  if (meaning.intensity != IntensityClass::none) return std::string(to_string(meaning.intensity));
+  if (layer.axis.values.empty()) {
+    if (meaning.quantity == Quantity::reached) return std::string(to_string(meaning.quantity));
+    return std::string(to_string(meaning.statistic));
+  }
   const double value = layer.axis.values[plane];
   if (meaning.statistic == Statistic::quantile)
     return value == 0.5 ? "median" : number_text(100 * value) + "\u00A0% quantile";
@@ -140,11 +48,11 @@ std::string plane_label(const Layer& layer, std::size_t plane) {
 }
 
 std::string plane_title(const Layer& layer, std::size_t plane) {
-  const LayerMeaning meaning = meaning_of(layer);
+  const LayerMeaning& meaning = layer.meaning;
   const std::string what = title(meaning.quantity);
   std::string lower = what;
   lower[0] = static_cast<char>(lower[0] - 'A' + 'a');
-  if (meaning.quantity == Quantity::other || meaning.quantity == Quantity::count) {
+  if (meaning.quantity == Quantity::other || meaning.quantity == Quantity::members) {
     const std::string base = layer.long_name.empty() ? words(layer.name) : layer.long_name;
     return layer.axis.values.empty() ? base : base + ", " + plane_label(layer, plane);
   }
@@ -174,10 +82,7 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
 std::vector<const Layer*> shown_layers(const LayerStack& maps) {
   std::vector<const Layer*> shown;
   for (const Layer& layer : maps.layers) {
-    const LayerMeaning m = meaning_of(layer);
-    if (m.quantity == Quantity::count || m.statistic == Statistic::lower_bound ||
-        m.statistic == Statistic::upper_bound)
-      continue;
+    if (layer.is_count() || layer.meaning.is_bound()) continue;
     const bool defined = std::any_of(layer.values.begin(), layer.values.end(),
                                      [](float v) { return std::isfinite(v); });
     if (defined && layer.values.size() == layer.n_planes() * maps.grid.n_cells())
@@ -189,10 +94,8 @@ std::vector<const Layer*> shown_layers(const LayerStack& maps) {
 const Layer* default_layer(const LayerStack& maps) {
   const auto shown = shown_layers(maps);
   const auto pick = [&](Quantity q, Statistic s) -> const Layer* {
-    for (const Layer* l : shown) {
-      const LayerMeaning m = meaning_of(*l);
-      if (m.quantity == q && m.statistic == s) return l;
-    }
+    for (const Layer* l : shown)
+      if (l->meaning.quantity == q && l->meaning.statistic == s) return l;
     return nullptr;
   };
   for (const auto& [q, s] : {std::pair{Quantity::reached, Statistic::probability},
