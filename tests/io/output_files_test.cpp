@@ -104,12 +104,25 @@ TEST_F(TextFiles, AMissingFileIsNamed) {
 
 class Checksum : public IoTest {};
 
-TEST_F(Checksum, IsFnv1a64) {
-  write("a", "foobar");
-  EXPECT_EQ(file_checksum(path("a")), "fnv1a64:85944171f73967e8");  // published test vector
+TEST_F(Checksum, IsSha256) {
+  // Test vectors of FIPS 180-2: "abc", a million times "a" (more than one block is read), nothing.
+  write("abc", "abc");
+  EXPECT_EQ(file_checksum(path("abc")),
+            "sha256:ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  write("long", std::string(1000000, 'a'));
+  EXPECT_EQ(file_checksum(path("long")),
+            "sha256:cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   write("empty", "");
-  EXPECT_EQ(file_checksum(path("empty")), "fnv1a64:cbf29ce484222325");
+  EXPECT_EQ(file_checksum(path("empty")),
+            "sha256:e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_THROW(file_checksum(path("none")), IoError);
+}
+
+TEST_F(Checksum, DifferenceSaysWhyTwoSumsDiffer) {
+  EXPECT_EQ(checksum_difference("sha256:ab", "sha256:ab"), "");
+  EXPECT_EQ(checksum_difference("sha256:ab", "sha256:cd"), "other content than before");
+  EXPECT_THAT(checksum_difference("fnv1a64:ab", "sha256:cd"),
+              HasSubstr("another kind (fnv1a64, now sha256)"));
 }
 
 class GeoTiff : public IoTest {};
