@@ -71,6 +71,8 @@ TEST(DistributionCheck, NamesEveryBadParameter) {
   EXPECT_THAT(parameter_problems(discrete), ElementsAre("weights must be as many as values"));
   discrete.weights = {0, 0};
   EXPECT_THAT(parameter_problems(discrete), ElementsAre("one weight at least must be > 0"));
+  discrete.weights = {1.5e308, 1.5e308};
+  EXPECT_THAT(parameter_problems(discrete), ElementsAre("the sum of the weights must be finite"));
   Distribution table;
   table.kind = Kind::table;
   table.values = {2, 1};
