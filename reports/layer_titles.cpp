@@ -42,7 +42,7 @@ std::string plane_label(const Layer& layer, std::size_t plane) {
   }
   const double value = layer.axis.values[plane];
   if (meaning.statistic == Statistic::quantile)
-    return value == 0.5 ? "median" : number_text(100 * value) + "\u00A0% quantile";
+    return value == 0.5 ? "median" : shown_number(100 * value) + "\u00A0% quantile";
   return (meaning.statistic == Statistic::probability ? ">\u00A0" : "") +
          with_unit(value, layer.axis.units);
 }

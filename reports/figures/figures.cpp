@@ -35,7 +35,7 @@ double nice_length(double longest) {
 }
 
 std::string length_text(double metres) {
-  return metres >= 1000 ? number_text(metres / 1000) + " km" : number_text(metres) + " m";
+  return metres >= 1000 ? shown_number(metres / 1000) + " km" : shown_number(metres) + " m";
 }
 
 /// Classes as palette indices (0 clear), and the palette.
@@ -77,14 +77,14 @@ std::string coordinate_ticks(const Frame& frame) {
     out += fmt::format("<path d=\"M{:.1f} {:.1f}v-7\"/>", frame.x(x), frame.top + frame.height());
     if (std::abs(frame.x(x) - frame.left - map_width / 2) > map_width / 2 - 30) continue;
     labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
-                          frame.x(x), frame.top + frame.height() + 14, number_text(x, 9));
+                          frame.x(x), frame.top + frame.height() + 14, shown_number(x, 9));
   }
   for (double y = std::ceil(g.south_m() / step) * step; y < g.north_m; y += step) {
     out += fmt::format("<path d=\"M{:.1f} {:.1f}h7\"/>", frame.left, frame.y(y));
     if (std::abs(frame.y(y) - frame.top - frame.height() / 2) > frame.height() / 2 - 30) continue;
     labels += fmt::format(
         "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-        frame.left - 5, frame.y(y), number_text(y, 9));
+        frame.left - 5, frame.y(y), shown_number(y, 9));
   }
   return out + "</g>" + labels + "</g>";
 }

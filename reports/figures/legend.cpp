@@ -9,7 +9,7 @@ namespace sturz {
 namespace {
 
 std::string range_label(double lower, double upper) {
-  return number_text(lower) + "\u2013" + number_text(upper);
+  return shown_number(lower) + "\u2013" + shown_number(upper);
 }
 
 /// Fills in labels and colours for classes that start at `lowers`.
@@ -20,9 +20,9 @@ void dress(Legend& legend, const std::vector<double>& lowers, Ramp ramp) {
     LegendClass c{lowers[i], "", colours[i]};
     const bool last = i + 1 == lowers.size();
     if (last)
-      c.label = "\u2265\u00A0" + number_text(factor * lowers[i]);
+      c.label = "\u2265\u00A0" + shown_number(factor * lowers[i]);
     else if (i == 0 && legend.clear_zero)
-      c.label = "<\u00A0" + number_text(factor * lowers[1]);
+      c.label = "<\u00A0" + shown_number(factor * lowers[1]);
     else
       c.label = range_label(factor * lowers[i], factor * lowers[i + 1]);
     if (legend.probability) c.label += "\u00A0%";
