@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/catalogue.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "scenarios/schema/suggest.hpp"
 
@@ -11,7 +12,6 @@
 namespace sturz {
 namespace {
 
-constexpr double gravity_m_s2 = 9.81;
 constexpr double degree = std::numbers::pi / 180;
 
 /// A scene on synthetic ground with mu(I) grains; only the release is left to say.
@@ -69,7 +69,7 @@ Scenario column_collapse(double aspect, int particles_along) {
   s.domain.periodic = {"y"};
   s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt}};
   s.numerics.spacing_m = spacing;
-  s.numerics.end_time_s = 8 * std::sqrt(aspect * length / gravity_m_s2);
+  s.numerics.end_time_s = 8 * std::sqrt(aspect * length / standard_gravity);
   return s;
 }
 
@@ -85,7 +85,7 @@ Scenario cylinder_collapse(double aspect, int particles_along) {
   s.grains->diameter_m = 0.002;
   s.basal.friction_coefficient = std::tan(27.4 * degree);
   s.numerics.spacing_m = spacing;
-  s.numerics.end_time_s = 8 * std::sqrt(aspect * radius / gravity_m_s2);
+  s.numerics.end_time_s = 8 * std::sqrt(aspect * radius / standard_gravity);
   return s;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/scene_plan.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
@@ -200,7 +201,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
   stress.instruction_set = best_instruction_set();
   // c0 >= 10 v_ref keeps the density within about 1 % in motion, and K = rho c0^2/(1 + 4G/3K)
   // >= 100 rho g H does so at rest (physics.md B.5).
-  const double at_rest = std::sqrt((1 + 4.0 / 3 * stress.shear_to_bulk()) * 9.81 * deepest);
+  const double at_rest =
+      std::sqrt((1 + 4.0 / 3 * stress.shear_to_bulk()) * standard_gravity * deepest);
   stress.sound_speed =
       s.numerics.sound_speed_factor * std::max({plan.reference_speed_m_s, at_rest, start});
   stress.speed_factor = s.numerics.sound_speed_factor;
@@ -221,7 +223,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
   contact.smoothing_length = h;
   contact.reference_density = plan.bulk_density_kg_m3;
   const double impact = std::max(plan.reference_speed_m_s, start) / (0.5 * dx);
-  contact.stiffness = std::max(10 * 9.81 * std::max(deepest, dx) / (dx * dx), impact * impact);
+  contact.stiffness =
+      std::max(10 * standard_gravity * std::max(deepest, dx) / (dx * dx), impact * impact);
   contact.restitution = s.basal.restitution.value;
   contact.zones = plan.zones;
   contact.base.clear();
@@ -287,7 +290,8 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   }
   for (double z : in.elevation->values)
     if (std::isfinite(z)) lowest = std::min(lowest, z);
-  plan.available_energy_j = 9.81 * (height - mass * lowest) + 0.5 * mass * start * start;
+  plan.available_energy_j =
+      standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
   return plan;
 }
 

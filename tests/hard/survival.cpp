@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/hard/survival.hpp"
 
+#include "engine/core/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +11,7 @@
 namespace sturz::test {
 namespace {
 
-constexpr double gravity = 9.81;
+constexpr double gravity = standard_gravity;
 
 /// Kinetic energy and gravity's work over time.
 struct Instant {
