@@ -5,47 +5,7 @@
 namespace sturz::schema_rows {
 namespace {
 
-GrainsSpec& made_grains(Scenario& s) { return s.grains ? *s.grains : s.grains.emplace(); }
-
-constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
-                                [](Scenario& s) -> Scenario& { return s; }};
-constexpr Block<GrainsSpec> grains{
-    [](const Scenario& s) { return s.grains ? &*s.grains : nullptr; }, made_grains};
-constexpr Block<FrictionLaw> friction{[](const Scenario& s) {
-                                        return s.grains && s.grains->friction ? &*s.grains->friction
-                                                                              : nullptr;
-                                      },
-                                      [](Scenario& s) -> FrictionLaw& {
-                                        auto& law = made_grains(s).friction;
-                                        return law ? *law : law.emplace();
-                                      }};
-GrainStatesSpec& made_states(Scenario& s) {
-  auto& states = made_grains(s).states;
-  return states ? *states : states.emplace();
-}
-const GrainStatesSpec* found_states(const Scenario& s) {
-  return s.grains && s.grains->states ? &*s.grains->states : nullptr;
-}
-constexpr Block<GrainStatesSpec> states{found_states, made_states};
-constexpr Block<DiluteSpec> dilute{[](const Scenario& s) {
-                                     const auto* found = found_states(s);
-                                     return found && found->dilute ? &*found->dilute : nullptr;
-                                   },
-                                   [](Scenario& s) -> DiluteSpec& {
-                                     auto& block = made_states(s).dilute;
-                                     return block ? *block : block.emplace();
-                                   }};
-constexpr Block<UltradiluteSpec> ultradilute{
-    [](const Scenario& s) {
-      const auto* found = found_states(s);
-      return found && found->ultradilute ? &*found->ultradilute : nullptr;
-    },
-    [](Scenario& s) -> UltradiluteSpec& {
-      auto& block = made_states(s).ultradilute;
-      return block ? *block : block.emplace();
-    }};
-constexpr Block<BasalSpec> basal{[](const Scenario& s) { return &s.basal; },
-                                 [](Scenario& s) -> BasalSpec& { return s.basal; }};
+using namespace blocks;
 
 void add_grains(std::vector<KeyInfo>& keys) {
   using enum ValueKind;

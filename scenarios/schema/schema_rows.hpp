@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Tools to write rows of the key table: a block, a member pointer, the limits, one sentence.
+/// Tools to write rows of the key table: a block of blocks.hpp, a member, the limits, one sentence.
 /// For the schema_*.cpp files only.
 #pragma once
 
 #include "engine/core/error.hpp"
+#include "scenarios/schema/blocks.hpp"
 #include "scenarios/schema/schema.hpp"
 
 #include <algorithm>
@@ -13,13 +14,6 @@
 namespace sturz::schema_rows {
 
 inline constexpr double no_limit = std::numeric_limits<double>::infinity();
-
-/// Where a group of members lives: `find` gives nullptr while an optional block is absent.
-template <class Owner>
-struct Block {
-  const Owner* (*find)(const Scenario&);
-  Owner& (*make)(Scenario&);
-};
 
 // Absent values (empty text, no list) are monostate, so that the writer leaves them out.
 inline KeyValue to_value(double v) { return v; }

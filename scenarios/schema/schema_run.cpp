@@ -5,14 +5,7 @@
 namespace sturz::schema_rows {
 namespace {
 
-constexpr Block<NumericsSpec> numerics{[](const Scenario& s) { return &s.numerics; },
-                                       [](Scenario& s) -> NumericsSpec& { return s.numerics; }};
-constexpr Block<DomainSpec> domain{[](const Scenario& s) { return &s.domain; },
-                                   [](Scenario& s) -> DomainSpec& { return s.domain; }};
-constexpr Block<EnsembleSpec> ensemble{[](const Scenario& s) { return &s.ensemble; },
-                                       [](Scenario& s) -> EnsembleSpec& { return s.ensemble; }};
-constexpr Block<HazardSpec> hazard{[](const Scenario& s) { return &s.hazard; },
-                                   [](Scenario& s) -> HazardSpec& { return s.hazard; }};
+using namespace blocks;
 
 void add_numerics(std::vector<KeyInfo>& keys) {
   using enum ValueKind;

@@ -5,27 +5,7 @@
 namespace sturz::schema_rows {
 namespace {
 
-constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
-                                [](Scenario& s) -> Scenario& { return s; }};
-constexpr Block<TerrainSpec> terrain{[](const Scenario& s) { return &s.terrain; },
-                                     [](Scenario& s) -> TerrainSpec& { return s.terrain; }};
-constexpr Block<ReleaseSpec> release{[](const Scenario& s) { return &s.release; },
-                                     [](Scenario& s) -> ReleaseSpec& { return s.release; }};
-
-template <class T>
-T& engaged(std::optional<T>& block) {
-  return block ? *block : block.emplace();
-}
-
-constexpr Block<ReleaseBox> box{
-    [](const Scenario& s) { return s.release.box ? &*s.release.box : nullptr; },
-    [](Scenario& s) -> ReleaseBox& { return engaged(s.release.box); }};
-constexpr Block<ReleaseParaboloid> paraboloid{
-    [](const Scenario& s) { return s.release.paraboloid ? &*s.release.paraboloid : nullptr; },
-    [](Scenario& s) -> ReleaseParaboloid& { return engaged(s.release.paraboloid); }};
-constexpr Block<ReleaseCylinder> cylinder{
-    [](const Scenario& s) { return s.release.cylinder ? &*s.release.cylinder : nullptr; },
-    [](Scenario& s) -> ReleaseCylinder& { return engaged(s.release.cylinder); }};
+using namespace blocks;
 
 constexpr double map_limit = 1e8;  // metres; no projected coordinate is larger
 
@@ -50,28 +30,28 @@ void add_terrain(std::vector<KeyInfo>& keys) {
 
 void add_shapes(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
-  keys.push_back(with_size(key(box, &ReleaseBox::x_m,
+  keys.push_back(with_size(key(release_box, &ReleaseBox::x_m,
                                {"release.box.x_m", number_list, "m", -map_limit, map_limit,
                                 "West and east edge of a rectangular source."}),
                            2));
-  keys.push_back(with_size(key(box, &ReleaseBox::y_m,
+  keys.push_back(with_size(key(release_box, &ReleaseBox::y_m,
                                {"release.box.y_m", number_list, "m", -map_limit, map_limit,
                                 "South and north edge of a rectangular source."}),
                            2));
-  keys.push_back(with_size(key(paraboloid, &ReleaseParaboloid::center_m,
+  keys.push_back(with_size(key(release_paraboloid, &ReleaseParaboloid::center_m,
                                {"release.paraboloid.center_m", number_list, "m", -map_limit,
                                 map_limit, "Map x and y of the thickest point of a cap."}),
                            2));
-  keys.push_back(above_min(with_size(key(paraboloid, &ReleaseParaboloid::semi_axes_m,
+  keys.push_back(above_min(with_size(key(release_paraboloid, &ReleaseParaboloid::semi_axes_m,
                                          {"release.paraboloid.semi_axes_m", number_list, "m", 0,
                                           map_limit, "Half lengths of the cap along x and y."}),
                                      2)));
-  keys.push_back(with_size(key(cylinder, &ReleaseCylinder::center_m,
+  keys.push_back(with_size(key(release_cylinder, &ReleaseCylinder::center_m,
                                {"release.cylinder.center_m", number_list, "m", -map_limit,
                                 map_limit, "Map x and y of the axis of a round source."}),
                            2));
   keys.push_back(above_min(
-      key(cylinder, &ReleaseCylinder::radius_m,
+      key(release_cylinder, &ReleaseCylinder::radius_m,
           {"release.cylinder.radius_m", number, "m", 0, map_limit, "Radius of a round source."})));
 }
 
