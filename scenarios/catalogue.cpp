@@ -21,7 +21,7 @@ Scenario on_ground(std::string title, std::string shape, double cell_m,
   s.title = std::move(title);
   s.terrain.synthetic = SyntheticTerrain{std::move(shape), cell_m, std::move(parameters)};
   s.grains.emplace().friction.emplace();
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;  // single particles and sheets among them are on purpose
   return s;
 }
@@ -166,7 +166,7 @@ Scenario similarity_slide(double spacing_m) {
   const double cos35 = std::cos(35 * degree);
   Scenario s = on_ground("Savage and Hutter's parabolic cap on an even slope", "plane", 4,
                          {{"slope_deg", 35}, {"length_m", 560}, {"width_m", 320}});
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.release.paraboloid = ReleaseParaboloid{{-120, 0}, {80 * cos35, 80}};
   s.release.thickness_m = Uncertain(4 / cos35);
   s.basal.friction_coefficient = std::tan(25 * degree);

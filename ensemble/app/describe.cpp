@@ -68,7 +68,7 @@ int describe_command(const DescribeOptions& options, Console& console) {
   if (const int members = scene.scenario.ensemble.members; members > 0) {
     const int cores = available_cores();
     console.say(fmt::format("ensemble: {} members ({}) on {} cores: at most {}", members,
-                            scene.scenario.ensemble.design, cores,
+                            to_string(scene.scenario.ensemble.design), cores,
                             duration_text(scene.description.predicted_seconds * members / cores)));
   }
   for (const std::string& note : scene.inputs.notes) console.say("note: " + note);

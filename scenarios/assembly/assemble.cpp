@@ -140,7 +140,7 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   const bool columns = plan.formulation.depth_averaged;
   const auto& basal = s.basal;
   const bool zones = !basal.zones.empty();
-  const bool varying_k = s.grains->earth_pressure != "isotropic";
+  const bool varying_k = s.grains->earth_pressure != LateralPressure::isotropic;
   auto optional_note = [&](const char* name, const char* key, bool given) -> EffectNote {
     return {name, given, (given ? "`" : "no `") + std::string(key) + "`"};
   };
@@ -172,8 +172,8 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
       {std::string(EffectName::walls), walls, walls ? "`domain.walls`" : "no `domain.walls`"},
       {"periodic images", periodic, periodic ? "`domain.periodic`" : "no `domain.periodic`"},
       {std::string(EffectName::motion), true, "always"},
-      {"excavation", s.release.surface == "pre_failure",
-       "`release.surface: " + s.release.surface + "`"},
+      {"excavation", s.release.surface == ReleaseSurface::pre_failure,
+       "`release.surface: " + std::string(to_string(s.release.surface)) + "`"},
   };
   d.passes = step.pass_names();
   d.formulation = plan.formulation.name();

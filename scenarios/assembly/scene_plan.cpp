@@ -138,7 +138,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> base, ScenePla
   c.zones = plan.zones;
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(base.size(), EarthPressure{});
-  if (s.grains->earth_pressure == "active_passive") {
+  if (s.grains->earth_pressure == LateralPressure::active_passive) {
     const double internal = make_law(*s.grains).static_friction;
     for (std::size_t k = 0; k < base.size(); ++k)
       // Only the grains' part of the stress is anisotropic (Iverson & Denlinger 2001).
@@ -161,7 +161,7 @@ GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
     states.dilute = KineticTheory{s.grains->density_kg_m3.value, s.grains->diameter_m.value,
                                   spec.dilute->restitution.value, states.friction.max_fraction};
   states.ultradilute = spec.ultradilute.has_value();
-  states.switched = spec.stress_mode == "seed";
+  states.switched = spec.stress_mode == StressMode::seed;
   return states;
 }
 
@@ -214,7 +214,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
     GrainStressSettings softest = stress;
     softest.sound_speed = std::min(stress.sound_speed, stress.least_sound_speed);
     stress.states->friction.limit_slope(softest.bulk_modulus() / plan.reference_fraction);
-    if (s.grains->states->ultradilute && s.grains->states->ultradilute->contacts != "none")
+    if (s.grains->states->ultradilute &&
+        s.grains->states->ultradilute->contacts != ParcelContactLaw::none)
       plan.parcel_contacts = plan_parcel_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
   }
 
@@ -256,10 +257,11 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   const FormulationChoice formulation = choose_formulation(s, thickness);
   const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
 
-  require(!periodic || s.release.surface == "bed",
+  require(!periodic || s.release.surface == ReleaseSurface::bed,
           "release.surface = pre_failure cannot be used with domain.periodic (the excavation would "
           "not repeat). Use `surface: bed`.");
-  ScenePlan plan(s.release.surface == "pre_failure" ? excavate(ground, thickness) : ground);
+  ScenePlan plan(s.release.surface == ReleaseSurface::pre_failure ? excavate(ground, thickness)
+                                                                  : ground);
   plan.formulation = formulation;
   plan.domain = domain;
 

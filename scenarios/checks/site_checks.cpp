@@ -89,7 +89,7 @@ void check_source(const Scenario& s, Problems& problems) {
                         std::string("release.thickness_m (") +
                             (own ? "the synthetic terrain brings" : "release.thickness_raster is") +
                             " the thickness). Remove it; release.volume_m3 scales the source."});
-  if (own && r.surface == "pre_failure")
+  if (own && r.surface == ReleaseSurface::pre_failure)
     problems.push_back({"release.surface",
                         "release.surface = pre_failure (the synthetic terrain "
                         "brings its bed and its source). Remove it."});

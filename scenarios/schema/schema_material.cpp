@@ -37,18 +37,16 @@ void add_grains(std::vector<KeyInfo>& keys) {
   keys.push_back(key(
       grains, &GrainsSpec::poisson_ratio,
       {"grains.poisson_ratio", uncertain, "1", 0, 0.49, "Poisson's ratio of the elastic part."}));
-  keys.push_back(with_choices(text_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
-                                       choice, "Lateral earth pressure of depth_averaged flow."),
-                              {"isotropic", "active_passive"}));
+  keys.push_back(choice_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
+                            "Lateral earth pressure of depth_averaged flow."));
 }
 
 void add_states(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
-  keys.push_back(with_choices(
-      text_key(states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode", choice,
-               "unified: one continuous law from dense to dilute; seed: the paper's switch between "
-               "laws, with relaxation."),
-      {"unified", "seed"}));
+  keys.push_back(choice_key(
+      states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode",
+      "unified: one continuous law from dense to dilute; seed: the paper's switch between "
+      "laws, with relaxation."));
   keys.push_back(key(states, &GrainStatesSpec::max_fraction,
                      {"grains.states.max_fraction", uncertain, "1", 0.55, 0.95,
                       "Densest packing of the grains; by default solid_fraction + 0.08, at least "
@@ -60,10 +58,9 @@ void add_states(std::vector<KeyInfo>& keys) {
                                {"grains.states.dilute.restitution", uncertain, "1", 0, 0.999,
                                 "Share of the speed that two colliding grains keep. The theory is "
                                 "made for 0.7 and more."})));
-  keys.push_back(with_choices(
-      text_key(ultradilute, &UltradiluteSpec::contacts, "grains.states.ultradilute.contacts",
-               choice, "What lone parcels do when they meet."),
-      {"none", "hertz_mindlin"}));
+  keys.push_back(choice_key(ultradilute, &UltradiluteSpec::contacts,
+                            "grains.states.ultradilute.contacts",
+                            "What lone parcels do when they meet."));
   keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::restitution,
                                {"grains.states.ultradilute.restitution", uncertain, "1", 0, 0.999,
                                 "Share of the speed that two lone parcels keep."})));
@@ -114,12 +111,11 @@ void add_material_keys(std::vector<KeyInfo>& keys) {
   add_grains(keys);
   add_states(keys);
   add_basal(keys);
-  keys.push_back(with_choices(
-      text_key(scene, &Scenario::formulation, "formulation", ValueKind::choice,
-               "auto: full_stress where at least four layers of particles resolve the flow, else "
-               "depth_averaged; full_stress: three-dimensional particles with a full stress "
-               "tensor; depth_averaged: columns on the terrain."),
-      {"auto", "full_stress", "depth_averaged"}));
+  keys.push_back(
+      choice_key(scene, &Scenario::formulation, "formulation",
+                 "auto: full_stress where at least four layers of particles resolve the flow, else "
+                 "depth_averaged; full_stress: three-dimensional particles with a full stress "
+                 "tensor; depth_averaged: columns on the terrain."));
 }
 
 }  // namespace sturz::schema_rows

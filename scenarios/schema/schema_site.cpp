@@ -22,10 +22,9 @@ void add_terrain(std::vector<KeyInfo>& keys) {
   keys.push_back(key(terrain, &TerrainSpec::cell_size_m,
                      {"terrain.cell_size_m", number, "m", 1e-3, 1e4,
                       "Cell of the working grid; the raster's own when absent."}));
-  keys.push_back(with_choices(
-      text_key(terrain, &TerrainSpec::nodata, "terrain.nodata", choice,
-               "What the edge of the known ground does to the mass: lets it out or holds it."),
-      {"outflow", "wall"}));
+  keys.push_back(
+      choice_key(terrain, &TerrainSpec::nodata, "terrain.nodata",
+                 "What the edge of the known ground does to the mass: lets it out or holds it."));
 }
 
 void add_shapes(std::vector<KeyInfo>& keys) {
@@ -82,11 +81,10 @@ void add_release(std::vector<KeyInfo>& keys) {
   keys.push_back(above_min(key(release, &ReleaseSpec::volume_m3,
                                {"release.volume_m3", uncertain, "m3", 0, no_limit,
                                 "Bulk volume of the source; scales its thickness."})));
-  keys.push_back(with_choices(
-      text_key(release, &ReleaseSpec::surface, "release.surface", choice,
-               "What the terrain shows: the bed under the source, or the surface before failure "
-               "from which the source is dug."),
-      {"bed", "pre_failure"}));
+  keys.push_back(
+      choice_key(release, &ReleaseSpec::surface, "release.surface",
+                 "What the terrain shows: the bed under the source, or the surface before failure "
+                 "from which the source is dug."));
   keys.push_back(with_size(key(release, &ReleaseSpec::velocity_m_s,
                                {"release.velocity_m_s", number_list, "m s-1", -500, 500,
                                 "Velocity of the source at the start: east, north, up."}),

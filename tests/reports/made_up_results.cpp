@@ -74,7 +74,7 @@ DesignTable make_design(int n) {
   DesignTable design{.keys = {"basal.friction_coefficient", "basal.pore_pressure_ratio",
                               "grains.solid_fraction", "grains.cohesion_pa"},
                      .units = {"1", "1", "1", "Pa"},
-                     .design = "latin_hypercube",
+                     .design = Design::latin_hypercube,
                      .seed = 1,
                      .unit_cube = {},
                      .values = {}};

@@ -18,7 +18,7 @@ namespace sturz {
 namespace {
 
 Scenario with_states(Scenario s) {
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;
   s.grains->states.emplace();
   s.grains->states->dilute.emplace();
@@ -74,7 +74,7 @@ TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
 }
 
 /// A block on level ground whose grains are thrown apart and up.
-Simulation explosion(const char* contacts) {
+Simulation explosion(ParcelContactLaw contacts) {
   Scenario s = with_states(pile(1));
   s.release.cylinder.reset();
   s.release.paraboloid.reset();
@@ -98,7 +98,8 @@ Simulation explosion(const char* contacts) {
 
 /// B.8, I13, I16: detached grains keep mass and momentum, fly, land, and are taken back.
 TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
-  for (const char* contacts : {"none", "hertz_mindlin"}) {
+  for (const ParcelContactLaw contacts :
+       {ParcelContactLaw::none, ParcelContactLaw::hertz_mindlin}) {
     Simulation simulation = explosion(contacts);
     std::size_t most = 0;
     RunControl control;
@@ -109,9 +110,9 @@ TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
     };
     const MemberResult result = simulation.run(control);
     const State& state = simulation.parts().state;
-    EXPECT_GT(most, state.grains.size() / 2) << contacts;
-    EXPECT_EQ(in_flight_now(state), 0u) << contacts;
-    EXPECT_LT(std::abs(result.scalars.energy_residual), 1e-2) << contacts;
+    EXPECT_GT(most, state.grains.size() / 2) << to_string(contacts);
+    EXPECT_EQ(in_flight_now(state), 0u) << to_string(contacts);
+    EXPECT_LT(std::abs(result.scalars.energy_residual), 1e-2) << to_string(contacts);
     EXPECT_EQ(state.ledger.leaked_mass, 0);
     EXPECT_LT(std::abs(result.scalars.mass_error), 1e-13);
     EXPECT_LT(state.ledger.kinetic, 1e-3 * state.ledger.kinetic_0);
@@ -121,7 +122,7 @@ TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
 /// In free flight nobody is listed: a parcel follows its parabola to the bit of the same parcel
 /// without states.
 TEST(GrainStates, ALoneParcelFliesItsParabola) {
-  Simulation simulation = explosion("none");
+  Simulation simulation = explosion(ParcelContactLaw::none);
   const State& state = simulation.parts().state;
   const auto& alone = state.grains.find_field("steps_alone")->component[0];
   std::size_t followed = state.grains.size();
@@ -147,7 +148,7 @@ TEST(GrainStates, ALoneParcelFliesItsParabola) {
 /// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others
 /// far apart from everybody; all as lone parcels. \return how many are taken back as grains
 std::size_t taken_back(const std::vector<Vec3>& places) {
-  Simulation simulation = explosion("none");
+  Simulation simulation = explosion(ParcelContactLaw::none);
   State& state = simulation.parts().state;
   ParticleSet& p = state.grains;
   const double dx = simulation.parts().spacing_m;
