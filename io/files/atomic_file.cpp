@@ -115,6 +115,4 @@ void make_folder(const fs::path& folder) {
                               folder.string(), error.message()));
 }
 
-bool is_part_file(const fs::path& path) { return path.extension() == ".part"; }
-
 }  // namespace sturz

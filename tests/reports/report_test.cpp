@@ -207,17 +207,6 @@ TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   EXPECT_EQ(data["members"]["samples"][0]["values"].size(), 32U);
 }
 
-TEST(ReportFigures, AreCompleteFilesOfTheirOwn) {
-  const auto results = testing::make_up_results();
-  const std::string svg = overview_svg(results.hazard, &results.elevation, "A & B");
-  EXPECT_EQ(nesting_error(svg), "");
-  EXPECT_TRUE(holds(svg, "A &amp; B"));
-  EXPECT_TRUE(holds(svg, "data:image/png;base64,"));
-  const auto png = overview_png(results.hazard, &results.elevation);
-  EXPECT_GT(png.size(), 1000U);
-  EXPECT_TRUE(overview_png({}, nullptr).empty());
-}
-
 TEST(ReportFigures, ShowTheMostSevereOfJoinedCells) {
   LayerStack maps;
   maps.grid = {
