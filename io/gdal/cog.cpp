@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/stored_count.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 
@@ -13,13 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sturz {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::int32_t no_count = std::numeric_limits<std::int32_t>::min();
 
 /// A file in GDAL's memory that goes away with the scope.
 struct MemoryFile {
@@ -98,9 +96,7 @@ void write_plane(const fs::path& target, const LayerStack& stack, const Layer& l
   std::vector<float> floats;
   std::vector<std::int32_t> counts;
   if (layer.is_count())
-    std::transform(first, end, std::back_inserter(counts), [](float v) {
-      return std::isnan(v) ? no_count : static_cast<std::int32_t>(std::lround(v));
-    });
+    std::transform(first, end, std::back_inserter(counts), stored_count);
   else
     floats.assign(first, end);
   void* values = layer.is_count() ? static_cast<void*>(counts.data()) : floats.data();

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/stored_count.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
 #include "io/netcdf/history_netcdf.hpp"
 #include "io/netcdf/netcdf_file.hpp"
@@ -11,14 +12,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace sturz {
 namespace {
 
 constexpr std::size_t chunk_edge = 256;
-constexpr std::int32_t no_count = std::numeric_limits<std::int32_t>::min();
 
 constexpr const char* order_attribute = "layer_order";
 constexpr const char* quantity_attribute = "sturz_quantity";
@@ -67,9 +66,7 @@ int write_axis(NetcdfWriter& file, const Layer& layer, std::map<std::string, Wri
 
 void put_counts(NetcdfWriter& file, int variable, const Layer& layer) {
   std::vector<std::int32_t> counts(layer.values.size());
-  std::transform(layer.values.begin(), layer.values.end(), counts.begin(), [](float v) {
-    return std::isnan(v) ? no_count : static_cast<std::int32_t>(std::lround(v));
-  });
+  std::transform(layer.values.begin(), layer.values.end(), counts.begin(), stored_count);
   file.put(variable, counts);
 }
 

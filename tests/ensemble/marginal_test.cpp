@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/sampling/unit_cube.hpp"
+#include "tests/support/distributions.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,32 +14,11 @@
 namespace sturz {
 namespace {
 
+using test::bounded;
+using test::lognormal;
+using test::normal;
 using Kind = Distribution::Kind;
 constexpr double fractions[] = {1e-6, 0.01, 0.1, 0.25, 0.5, 0.75, 0.9, 0.99, 1 - 1e-6};
-
-Distribution bounded(Kind kind, double min, double max) {
-  Distribution d;
-  d.kind = kind;
-  d.min = min;
-  d.max = max;
-  return d;
-}
-
-Distribution normal(double mean, double sd) {
-  Distribution d;
-  d.kind = Kind::normal;
-  d.mean = mean;
-  d.sd = sd;
-  return d;
-}
-
-Distribution lognormal(double median, double sigma_ln) {
-  Distribution d;
-  d.kind = Kind::lognormal;
-  d.median = median;
-  d.sigma_ln = sigma_ln;
-  return d;
-}
 
 /// Distribution function of the standard normal.
 double phi(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
