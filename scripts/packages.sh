@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian 12 packages, kept in one place; sourced by quickstart.sh and test.sh.
+# Debian 12 packages, kept in one place; sourced by quickstart.sh, test.sh and test_package.sh.
 # libopenblas0-pthread stands beside libopenturns-dev on purpose: alone, OpenTURNS pulls ATLAS in
 # and makes it the BLAS of the whole machine.
 
@@ -10,8 +10,10 @@ build_packages=(
 )
 test_packages=(
   libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 gdal-bin netcdf-bin
-  chromium
+  chromium man-db
 )
+# For scripts/test_package.sh only.
+packaging_packages=(dpkg-dev mmdebstrap)
 
 # missing_packages NAME...: those that dpkg does not know as installed.
 missing_packages() {

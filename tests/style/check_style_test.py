@@ -113,6 +113,13 @@ class CheckStyle(unittest.TestCase):
             self.assertTrue(self.findings("references", "docs/decisions/a.md", line), line)
             self.assertTrue(self.findings("references", "engine/a.cpp", "// " + line), line)
 
+    def test_the_citation_has_the_projects_version(self):
+        (self.root / "CMakeLists.txt").write_text("project(sturz VERSION 1.2.3 LANGUAGES CXX)\n")
+        self.assertFalse(self.findings("citation", "CITATION.cff", "title: x\nversion: 1.2.3\n"))
+        for text in ("version: 1.2.2\n", "title: x\n", "version: 1.2.34\n"):
+            self.assertTrue(self.findings("citation", "CITATION.cff", text), text)
+        self.assertTrue(list(style.CHECKS["citation"](self.root)), "no file")
+
 
 if __name__ == "__main__":
     unittest.main()
