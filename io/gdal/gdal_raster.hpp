@@ -10,6 +10,9 @@
 
 namespace sturz {
 
+/// More cells than this are refused before anything is allocated.
+inline constexpr double max_raster_cells = 400e6;
+
 /// Which file to read, and what the scenario says about it.
 struct RasterRequest {
   std::string path;                    ///< as written; relative paths start at `directory`
@@ -21,6 +24,7 @@ struct RasterRequest {
   std::string fallback_crs_key;
   double factor = 1;                  ///< multiplies the values of a thickness raster
   std::optional<double> cell_size_m;  ///< wanted cells; default: the raster's own
+  double max_cells = max_raster_cells;
 };
 
 /// A raster on its working grid, and what was done to get it there.
