@@ -112,7 +112,7 @@ class Run {
     RunnerProgress& p = report_.progress;
     p.elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
     const bool known = p.n_done > 0 && p.elapsed_s > 0;
-    const double done = static_cast<double>(p.n_done);
+    const auto done = static_cast<double>(p.n_done);
     p.members_per_hour = known ? 3600 * done / p.elapsed_s : 0;
     p.eta_s = known ? p.elapsed_s * static_cast<double>(p.n_total - p.n_done) / done : nan_d;
   }

@@ -7,6 +7,9 @@
 
 namespace sturz {
 
+/// More cells than this are refused before anything is allocated.
+inline constexpr double max_raster_cells = 400e6;
+
 struct RasterRequest {
   std::string path;                    ///< as written; relative paths start at `directory`
   std::string key = "terrain.raster";  ///< scenario key, for messages
@@ -17,6 +20,7 @@ struct RasterRequest {
   std::string fallback_crs_key;
   double factor = 1;                  ///< multiplies the values of a thickness raster
   std::optional<double> cell_size_m;  ///< wanted cells; default: the raster's own
+  double max_cells = max_raster_cells;
 };
 
 }  // namespace sturz

@@ -150,7 +150,7 @@ LayerMeaning read_meaning(const NetcdfReader& file, const std::string& map) {
   return meaning;
 }
 
-Layer read_layer(const NetcdfReader& file, const std::string& name,
+Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& name,
                  const std::vector<std::string>& dimensions) {
   Layer layer;
   layer.name = name;
@@ -167,12 +167,16 @@ Layer read_layer(const NetcdfReader& file, const std::string& name,
     layer.axis = {dimensions[0], text(dimensions[0], "standard_name"), text(dimensions[0], "units"),
                   file.doubles(dimensions[0])};
   std::vector<std::size_t> start(dimensions.size(), 0), count;
-  std::size_t size = 1;
-  for (const auto& dimension : dimensions) {
-    count.push_back(file.length(dimension));
-    size *= count.back();
-  }
-  layer.values.resize(size);
+  for (const auto& dimension : dimensions) count.push_back(file.length(dimension));
+  const std::size_t n = count.size();
+  if (count[n - 2] != static_cast<std::size_t>(grid.n_rows) ||
+      count[n - 1] != static_cast<std::size_t>(grid.n_cols) ||
+      (n == 3 && (layer.axis.values.empty() || layer.axis.values.size() != count[0])))
+    throw IoError(
+        fmt::format("{}: variable '{}' does not lie on the file's grid (it is damaged). "
+                    "Compute it again.",
+                    file.file().string(), name));
+  layer.values.resize(file.size(name));
   if (!layer.is_count()) {
     file.floats(name, start, count, layer.values);
     return layer;
@@ -219,7 +223,7 @@ LayerStack read_layers(const std::filesystem::path& path) {
         dimensions[dimensions.size() - 2] != "y")
       throw IoError(
           fmt::format("{}: variable '{}' is not a map over y, x. Remove it.", path.string(), name));
-    stack.layers.push_back(read_layer(file, name, dimensions));
+    stack.layers.push_back(read_layer(file, stack.grid, name, dimensions));
   }
   restore_order(stack.layers, file.text("", order_attribute).value_or(""));
   return stack;
