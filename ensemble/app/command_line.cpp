@@ -7,7 +7,7 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/man_page.hpp"
-#include "ensemble/app/version.hpp"
+#include "ensemble/workflow/version.hpp"
 #include "io/files/text_files.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
@@ -22,6 +22,11 @@
 
 namespace sturz::app {
 namespace {
+
+using workflow::build_type;
+using workflow::compiler;
+using workflow::git_commit;
+using workflow::version;
 
 using Action = std::function<int(Console&)>;
 

@@ -24,7 +24,7 @@ struct FormulationChoice {
 inline constexpr double resolved_layers = 4;
 /// A release under this many is refused in full_stress unless the scenario accepts it.
 inline constexpr double unresolved_layers = 2;
-/// Deposit area over V^(2/3) of high-speed landslides (Griswold & Iverson 2008; physics.md D.1).
+/// Deposit area over V^(2/3) of high-speed landslides (Griswold & Iverson 2008; D.1).
 inline constexpr double area_over_volume23 = 20;
 
 /// The scenario's `formulation`; `auto` takes full_stress where at least four layers resolve both

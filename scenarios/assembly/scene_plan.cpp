@@ -14,7 +14,7 @@
 namespace sturz {
 namespace {
 
-constexpr double smoothing_ratio = 1.3;  // h/dx, physics.md B.1
+constexpr double smoothing_ratio = 1.3;  // h/dx, docs/physics.md B.1
 
 /// The member's release thickness [m] on the working grid.
 Raster<double> release_thickness(const ReleaseSpec& spec, const SceneInputs& in) {
@@ -147,7 +147,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> base, ScenePla
   c.base = std::move(base);
 }
 
-/// Grains that may part: reference packing and laws (physics.md A.4, A.7, B.9).
+/// Grains that may part: reference packing and laws (docs/physics.md A.4, A.7, B.9).
 GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
   const GrainStatesSpec& spec = *s.grains->states;
   GrainStatesSettings states;
@@ -199,7 +199,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
   stress.courant = s.numerics.courant;
   stress.instruction_set = best_instruction_set();
   // c0 >= 10 v_ref keeps the density within about 1 % in motion, and K = rho c0^2/(1 + 4G/3K)
-  // >= 100 rho g H does so at rest (physics.md B.5).
+  // >= 100 rho g H does so at rest (docs/physics.md B.5).
   const double at_rest = std::sqrt((1 + 4.0 / 3 * stress.shear_to_bulk()) * 9.81 * deepest);
   stress.sound_speed =
       s.numerics.sound_speed_factor * std::max({plan.reference_speed_m_s, at_rest, start});

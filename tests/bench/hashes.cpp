@@ -80,8 +80,8 @@ Report hashes(const Options&) {
     for (const auto set : instruction_sets())
       for (int threads : {1, 2}) same = same && hash_of(s, inputs, threads, set) == first;
     report.failed = report.failed || !same;
-    table.add({cell(n.name), cell(d.formulation), cell(fmt::format("{:016x}", first)),
-               yes_no(same)});
+    table.add(
+        {cell(n.name), cell(d.formulation), cell(fmt::format("{:016x}", first)), yes_no(same)});
   }
   report.tables.push_back(std::move(table));
   return report;

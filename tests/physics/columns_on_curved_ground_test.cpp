@@ -59,7 +59,7 @@ TEST(ColumnInABowl, KeepsItsEnergy) {
   s.numerics.stop_at_rest = false;
   double most = 0, highest = 0;
   const Finished f = run(s, {0.05, [&](double time, const SimulationParts& p) {
-                               const MeanMotion m = mean_motion(p.state.grains);
+                               const MeanMotion m = mean_motion(p.state.grains());
                                most = std::max(most, m.energy_height);
                                if (time > 150) highest = std::max(highest, m.z);
                              }});

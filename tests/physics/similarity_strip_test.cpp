@@ -100,7 +100,7 @@ Line line(const std::string& name, double metres, double expected, double tolera
 void compare(const std::string& name, Simulation simulation, double half_tolerance,
              double front_tolerance) {
   const Finished f = run(std::move(simulation));
-  const Ridge ridge(f.simulation.parts().state.grains);
+  const Ridge ridge(f.simulation.parts().state.grains());
   const double way =
       0.5 * gravity_m_s2 * (sin35 - std::tan(25 * degree) * cos35) * end_time * end_time;
   const double a = spread();

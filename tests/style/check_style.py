@@ -153,8 +153,64 @@ def citation(root):
     yield "CITATION.cff:1: no version."
 
 
+# What shows that a word is a label of docs/physics.md: a capital with a number and nothing that
+# would make it a version, a file name or an identifier. Errata and findings are named as such.
+LABEL = re.compile(
+    r"(?<![\w.\-/])([ABCDF]\.\d{1,2}|I[1-9]\d?|V[1-9]\d?[a-z]?)(?![\w/\-]|\.\d)"
+    r"|\b(?:[Ee]rrat(?:a|um)|[Ff]indings?) ([ES][1-9]\d?)\b")
+INSIDE_LABEL = re.compile(r"(?<![\w.\-/])([ES][1-9]\d?)(?![\w/\-]|\.\d)")  # in that file itself
+ANCHOR = re.compile(
+    r"^#{1,4} ([ABCDF]\.\d{1,2})\b|\*\*([IVS][1-9]\d?[a-z]?)\*\*|^\| (E[1-9]\d?) \|")
+DOCUMENT = re.compile(r"[\w.\-/]*\w\.md\b")
+
+
+def source_of(cited):
+    """What an installed document is in the repository."""
+    cited = re.sub(r"^(usr/)?share/doc/sturz/", "", cited.lstrip("/"))
+    return re.sub(r"^(usr/)?share/sturz/", "scenarios/", cited)
+
+
+def prose(path, line):
+    """Comments and string literals of C++, everything of other files; without addresses."""
+    if path.suffix in CODE:
+        strings = re.findall(r'"(?:\\.|[^"\\])*"', line)
+        comment = re.sub(r'"(?:\\.|[^"\\])*"', "", line).partition("//")[2]
+        line = " ".join(strings + [comment])
+    return re.sub(r"\w+://\S+", "", line)
+
+
+def references(root):
+    """Every label (B.9, I4, V8b) has its place in docs/physics.md, every cited document exists."""
+    physics = root / "docs" / "physics.md"
+    anchors = {}
+    for n, line in enumerate(lines_of(physics) if physics.is_file() else [], 1):
+        for found in ANCHOR.finditer(line):
+            label = next(filter(None, found.groups()))
+            if label in anchors:
+                yield f"docs/physics.md:{n}: {label} has its place in line {anchors[label]} already."
+            anchors.setdefault(label, n)
+    kinds = CODE + (".py", ".sh", ".md", ".yaml", ".yml", ".txt", ".cmake")
+    files = list(sources(root, LIBRARIES + ("docs", "scripts", "tests"), kinds))
+    files += [(p, p.name) for p in sorted(root.iterdir()) if p.is_file() and p.suffix in kinds]
+    documents = {p.name for p, _ in files if p.suffix == ".md"}
+    for path, name in files:
+        if name.startswith("tests/style/"):
+            continue  # examples of both kinds
+        patterns = (LABEL, INSIDE_LABEL) if path == physics else (LABEL,)
+        for n, line in enumerate(lines_of(path), 1):
+            text = prose(path, line)
+            for found in (m for p in patterns for m in p.finditer(text)):
+                label = next(filter(None, found.groups()))
+                if label not in anchors:
+                    yield f"{name}:{n}: {label} has no place in docs/physics.md."
+            for cited in (source_of(m.group(0)) for m in DOCUMENT.finditer(text)):
+                if not ((root / cited).is_file() or (path.parent / cited).is_file()
+                        or cited in documents):
+                    yield f"{name}:{n}: the document {cited} is not in the repository."
+
+
 CHECKS = {f.__name__: f for f in (length, silence, words, headers, machine_paths, equations,
-                                  citation)}
+                                  references, citation)}
 
 
 def main(which, root):

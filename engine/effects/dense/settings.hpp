@@ -37,7 +37,7 @@ struct GrainStressSettings {
   /// the cost.
   static constexpr int smoothing_interval = 16;
   /// Below this speed grains count as resting: smoothing fades out (it would let a pile creep) and
-  /// a weak drag takes over (physics.md B.13, I4) [m/s].
+  /// a weak drag takes over (docs/physics.md B.13, I4) [m/s].
   double rest_speed() const { return 1e-3 * std::sqrt(9.81 * smoothing_length); }
   /// Time of the drag at rest [s]: a net acceleration above rest_speed/rest_time still starts a
   /// slide (about 0.001 g).
@@ -56,7 +56,7 @@ struct GrainStressSettings {
   }
   double shear_modulus() const { return shear_to_bulk() * bulk_modulus(); }
   /// What the artificial viscosity is in uniform shear [Pa s]: alpha_v h c0/10 in three dimensions
-  /// (Monaghan 2005; physics.md B.4).
+  /// (Monaghan 2005; docs/physics.md B.4).
   double shear_viscosity() const {
     return 0.1 * viscosity * smoothing_length * sound_speed * reference_density;
   }

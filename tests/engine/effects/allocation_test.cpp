@@ -56,7 +56,7 @@ long allocations(const Scenario& s, int warm_up, int steps, bool rebuild) {
   for (int n = 0; n < warm_up; ++n) simulation.step();
   const long before = n_allocations;
   for (int n = 0; n < steps; ++n) {
-    if (rebuild) simulation.parts().state.order_changed = true;
+    if (rebuild) simulation.parts().state.grains().order_changed = true;
     simulation.step();
   }
   return n_allocations - before;
