@@ -1,29 +1,97 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what the tests need, builds everything, runs all tests labelled unit, physics, style or hard.
+# Installs what the tests need, builds everything and runs what a change must pass:
+#   release     warnings are errors; all tests labelled style, unit, physics or hard
+#   clang-tidy  over the files that changed (scripts/tidy.sh)
+#   asan        the unit tests under AddressSanitizer and UBSan (clang, -O1), but for those named
+#               below; then twenty seconds of each fuzz target
+#   tsan        the executor's and the runner's tests, and an ensemble on two workers, under the
+#               thread sanitizer (clang, -O1, one OpenMP thread: libomp is not instrumented)
+# Long fuzzing is scripts/nightly.sh. STURZ_STAGES="release asan" runs only these stages.
 # The last line is always "N passed, N failed"; the exit code is zero only when nothing failed.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . scripts/packages.sh
 
 give_up() { echo "$1" >&2; echo "0 passed, 1 failed"; exit 1; }
+wanted() { case " ${STURZ_STAGES:-release tidy asan tsan} " in *" $1 "*) ;; *) return 1 ;; esac; }
 
 install_packages "${build_packages[@]}" "${test_packages[@]}" || give_up "Packages are missing."
 install_node
 
-cmake --preset release -DSTURZ_TESTS=ON >/dev/null || give_up "cmake could not configure."
-cmake --build build/release || give_up "The build failed."
-
 export OMP_WAIT_POLICY=passive OPENBLAS_NUM_THREADS=1
-results=build/release/test-results
+results=$PWD/build/test-results
 rm -rf "$results" && mkdir -p "$results"
 jobs=$(nproc)
-# Tests that time something carry RUN_SERIAL, so ctest gives them the machine.
-for label in style unit physics hard; do
-  echo "--- $label"
-  ctest --test-dir build/release -L "^${label}\$" -j "$jobs" --no-tests=error \
-        --output-on-failure --output-junit "test-results/$label.xml" |
+
+# build PRESET TARGET...: configures and builds, or ends everything.
+build() {
+  local preset=$1
+  shift
+  cmake --preset "$preset" -DSTURZ_TESTS=ON -DSTURZ_WERROR=ON >/dev/null ||
+    give_up "cmake could not configure $preset."
+  cmake --build "build/$preset" --target "$@" || give_up "The build of $preset failed."
+}
+
+# tests PRESET NAME CTEST-OPTIONS...: results go to NAME.xml.
+tests() {
+  local preset=$1 name=$2
+  shift 2
+  echo "--- $name"
+  ctest --test-dir "build/$preset" -j "$jobs" --no-tests=error --output-on-failure \
+        --output-junit "$results/$name.xml" "$@" |
     grep -vE '^ *Start |\.\.\. +Passed |^Test project|^Internal ctest'
+}
+
+# record NAME COMMAND...: one more test, for what ctest does not run.
+record() {
+  local name=$1 status=run begin=$SECONDS
+  shift
+  echo "--- $name"
+  "$@" || status=fail
+  echo "    $name: $((SECONDS - begin)) s"
+  printf '<testsuite><testcase name="%s" status="%s"/></testsuite>\n' "$name" "$status" \
+    >"$results/$name.xml"
+}
+
+stage_release() {
+  build release all
+  # Tests that time something carry RUN_SERIAL, so ctest gives them the machine.
+  for label in style unit physics hard; do tests release "$label" -L "^${label}\$"; done
+}
+
+stage_tidy() { record tidy scripts/tidy.sh; }
+
+stage_asan() {
+  build asan unit_tests fuzz
+  tests asan asan -L '^unit$' -E "$slow_under_asan"
+  for target in scenario design polygons rasters netcdf manifest; do
+    record "fuzz-$target" quietly tests/fuzz/run.sh "$target" -max_total_time=20
+  done
+}
+
+stage_tsan() {
+  build tsan ensemble_runner_test sturz
+  OMP_NUM_THREADS=1 TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp" \
+    tests tsan tsan -R 'EveryExecutor|EveryRunner|^tsan\.'
+}
+
+# quietly COMMAND...: its output only when it fails.
+quietly() {
+  local text
+  text=$("$@" 2>&1) && { printf '%s\n' "$text" | tail -n 1; return 0; }
+  printf '%s\n' "$text" | tail -n 60
+  return 1
+}
+
+# Whole ensembles, browser pages and counted allocations: minutes under ASan, or meaningless there.
+slow_under_asan='^App|^Ensemble|ReportPages|Allocation'
+
+for stage in release tidy asan tsan; do
+  wanted "$stage" || continue
+  begin=$SECONDS
+  "stage_$stage"
+  echo "=== $stage took $((SECONDS - begin)) s"
 done
 
-python3 scripts/count_tests.py "$results"/style.xml "$results"/unit.xml "$results"/physics.xml "$results"/hard.xml
+python3 scripts/count_tests.py "$results"/*.xml

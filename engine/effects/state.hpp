@@ -2,6 +2,7 @@
 /// What a pass may touch: the particle sets, the ground and the clock.
 #pragma once
 
+#include "engine/core/constants.hpp"
 #include "engine/core/domain.hpp"
 #include "engine/effects/moving_set.hpp"
 #include "engine/terrain/terrain.hpp"
@@ -19,10 +20,9 @@ struct State {
   std::vector<MovingSet> sets = std::vector<MovingSet>(1);
   Terrain terrain;
   Domain domain;
-  static constexpr double standard_gravity = 9.81;  ///< [m/s^2]
-  double gravity = standard_gravity;                ///< along -z [m/s^2]
-  double time = 0;                                  ///< [s]
-  double previous_dt = 0;                           ///< of the last step [s]; 0 before the first
+  double gravity = standard_gravity;  ///< along -z [m/s^2]
+  double time = 0;                    ///< [s]
+  double previous_dt = 0;             ///< of the last step [s]; 0 before the first
   std::size_t n_steps = 0;
   int threads = 1;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/simulation.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/hash.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/fields.hpp"
@@ -21,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two looks at the motion at least [s]: a tenth of the time a particle takes to fall by
 /// its own size.
-double look_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / 9.81); }
+double look_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();

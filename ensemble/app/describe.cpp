@@ -75,7 +75,7 @@ int describe_command(const DescribeOptions& options, Console& console) {
     const int cores = workflow::available_cores();
     console.say(fmt::format(
         "ensemble: {} members ({}) on {} cores: at most {}", members,
-        scene.scenario.ensemble.design, cores,
+        to_string(scene.scenario.ensemble.design), cores,
         workflow::duration_text(scene.description.predicted_seconds * members / cores)));
   }
   for (const std::string& note : scene.inputs.notes) console.say("note: " + note);

@@ -20,13 +20,17 @@ namespace {
 class Loop {
  public:
   Loop(std::size_t n, const std::atomic<bool>& stop, const std::function<void(std::size_t)>& body)
-      : n_(n), stop_(stop), body_(body) {}
+      : n_(n), stop_(stop), body_(body) {
+    next_ = 0;  // seen by the first fetch_add of each worker, and with it all of the above
+  }
 
   /// One worker's life: takes pieces until none is left.
   void work() noexcept {
-    while (!stop_.load() && !broken_.load()) {
+    // The counters also order memory between the threads. The library does that by itself, but
+    // the thread sanitizer does not see it, for the packaged one is not instrumented.
+    for (;;) {
       const std::size_t piece = next_.fetch_add(1);
-      if (piece >= n_) return;
+      if (piece >= n_ || stop_.load() || broken_.load()) break;
       try {
         body_(piece);
       } catch (...) {
@@ -35,9 +39,12 @@ class Loop {
         broken_ = true;
       }
     }
+    finished_.fetch_add(1);
   }
 
+  /// After the last worker has ended.
   void rethrow() const {
+    expect(finished_.load() > 0, "the calling thread works too");
     if (error_) std::rethrow_exception(error_);
   }
 
@@ -45,7 +52,7 @@ class Loop {
   const std::size_t n_;
   const std::atomic<bool>& stop_;
   const std::function<void(std::size_t)>& body_;
-  std::atomic<std::size_t> next_{0};
+  std::atomic<std::size_t> next_{0}, finished_{0};
   std::atomic<bool> broken_{false};
   std::mutex lock_;
   std::exception_ptr error_;

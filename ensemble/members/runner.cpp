@@ -66,7 +66,7 @@ class Run {
 
  private:
   void run_member(std::size_t i) {
-    if (cancel_.load() || out_of_time()) {  // between two looks of the watcher
+    if (cancel_.load()) {  // between two looks of the watcher
       stop_ = true;
       return;
     }
@@ -112,7 +112,7 @@ class Run {
     RunnerProgress& p = report_.progress;
     p.elapsed_s = std::chrono::duration<double>(Clock::now() - start_).count();
     const bool known = p.n_done > 0 && p.elapsed_s > 0;
-    const double done = static_cast<double>(p.n_done);
+    const auto done = static_cast<double>(p.n_done);
     p.members_per_hour = known ? 3600 * done / p.elapsed_s : 0;
     p.eta_s = known ? p.elapsed_s * static_cast<double>(p.n_total - p.n_done) / done : nan_d;
   }
@@ -130,15 +130,10 @@ class Run {
     }
   }
 
-  bool out_of_time() const {
-    return plan_.max_wall_s > 0 &&
-           Clock::now() - start_ >= std::chrono::duration<double>(plan_.max_wall_s);
-  }
-
   void watch(const std::stop_token& over) {
     std::unique_lock guard(lock_);
     while (!wake_.wait_for(guard, over, watch_every, [&] { return over.stop_requested(); })) {
-      if (cancel_.load() || out_of_time()) stop_ = true;
+      if (cancel_.load()) stop_ = true;
       if (Clock::now() - last_report_ >= std::chrono::duration<double>(plan_.progress_every_s))
         report_progress();
     }

@@ -35,7 +35,7 @@ std::vector<std::string> description_lines(const Scene& scene) {
   lines.push_back("step: " + passes);
   lines.push_back(fmt::format("release: {} m3 on {} m2", grouped(d.release_volume_m3),
                               grouped(d.release_area_m2)));
-  const bool columns = d.formulation == "depth_averaged";
+  const bool columns = d.formulation == to_string(Formulation::depth_averaged);
   lines.push_back(fmt::format("{}: {}, {} m apart; {:.1f} spacings thick at release",
                               columns ? "columns" : "particles", d.n_particles, d.spacing_m,
                               d.layers));
@@ -60,7 +60,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.kind = kind;
   m.started = utc_now();
   m.command = command;
-  m.design = scene.scenario.ensemble.design;
+  m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
   m.inputs = scene.inputs.checksums;
   m.description = description_lines(scene);

@@ -11,6 +11,10 @@
 
 namespace sturz {
 
+/// Coordinates beyond this are no place on the earth, be they metres, feet or degrees; what
+/// follows the readers turns coordinates into row and column numbers, which hold only so much.
+inline constexpr double farthest_coordinate = 1e9;
+
 /// Reads "EPSG:32633", WKT or a PROJ text. \throws SetupError naming `key`
 OGRSpatialReference parse_crs(const std::string& text, const std::string& key);
 

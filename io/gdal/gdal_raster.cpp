@@ -44,14 +44,15 @@ struct Extent {
 };
 
 Grid grid_over(const Extent& e, double cell, const OGRSpatialReference& crs,
-               const std::string& label) {
+               const RasterSource& source) {
+  const std::string& label = source.label;
   const double n_cols = std::floor((e.east - e.west) / cell + placement_tolerance);
   const double n_rows = std::floor((e.north - e.south) / cell + placement_tolerance);
   require(n_cols >= 1 && n_rows >= 1,
           fmt::format("{}: cells of {:g} m are larger than the raster ({:g} x {:g} m). Use "
                       "smaller cells.",
                       label, cell, e.east - e.west, e.north - e.south));
-  require_raster_size(n_cols, n_rows, label);
+  require_raster_size(n_cols, n_rows, label, source.max_cells);
   return {static_cast<int>(n_cols), static_cast<int>(n_rows), e.west, e.north, cell, crs_wkt2(crs)};
 }
 
@@ -95,7 +96,7 @@ void warp_bilinear(RasterSource& source, const OGRSpatialReference& to, Raster<d
 }
 
 Raster<double> resampled_in_place(RasterSource& source, double cell) {
-  Raster<double> raster(grid_over(own_extent(source), cell, source.crs, source.label), nan_d);
+  Raster<double> raster(grid_over(own_extent(source), cell, source.crs, source), nan_d);
   const bool square = has_square_cells(source);
   const std::string why =
       !source.is_axis_aligned()
@@ -146,6 +147,8 @@ OGRSpatialReference working_crs_for(const RasterSource& s) {
           fmt::format("{}: its centre ({:.10g}, {:.10g}) cannot be found on the globe by {}. Is "
                       "that the right system?",
                       s.label, x, y, crs_name(s.crs)));
+  require(std::isfinite(x) && std::isfinite(y),
+          s.label + ": its centre is no place on the globe. Georeference it again.");
   return best_metric_crs(x, y);
 }
 
@@ -153,11 +156,13 @@ Raster<double> reprojected(RasterSource& source, const std::optional<double>& wa
                            const std::string& reason) {
   const OGRSpatialReference to = working_crs_for(source);
   const TransformPtr transform = transform_between(source.crs, to, source.label);
-  expect(transform != nullptr, "a system that cannot be worked in differs from UTM");
+  require(transform != nullptr,
+          fmt::format("{}: lies in {}, but {} (cells of {:g} x {:g}; a broken geotransform). "
+                      "Georeference it again.",
+                      source.label, crs_name(to), reason, source.col_step(), source.row_step()));
   const double cell = wanted ? *wanted : natural_cell(source, *transform);
   require(cell > 0, source.label + ": its cells have no size in the working system. Reproject it.");
-  Raster<double> raster(grid_over(outline(source, *transform, cell), cell, to, source.label),
-                        nan_d);
+  Raster<double> raster(grid_over(outline(source, *transform, cell), cell, to, source), nan_d);
   warp_bilinear(source, to, raster);
   source.notes.push_back(
       fmt::format("{}: reprojected from {} to {} because {}; {:g} m cells, bilinear", source.label,

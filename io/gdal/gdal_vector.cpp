@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "io/site/polygon_layer.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
@@ -35,6 +36,7 @@ int find_thickness_field(const Reading& reading) {
     return index;
   }
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(fields.GetFieldCount()));
   for (int i = 0; i < fields.GetFieldCount(); ++i)
     names.emplace_back(fields.GetFieldDefn(i)->GetNameRef());
   throw SetupError(fmt::format("{}: has no field '{}' (release.thickness_attribute). It has: {}.",

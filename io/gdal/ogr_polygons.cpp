@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sturz {
@@ -46,6 +47,15 @@ PolygonsPtr polygons_in(const OGRGeometry& geometry, std::string& other) {
   auto polygons = std::make_unique<OGRMultiPolygon>();
   collect(geometry, *polygons, other);
   return polygons;
+}
+
+double farthest_coordinate_of(const OGRMultiPolygon& polygons) {
+  double farthest = 0;
+  for (const OGRPolygon* polygon : polygons)
+    for (const OGRLinearRing* ring : *polygon)
+      for (const Vec2& p : points_of(*ring))
+        farthest = p.allFinite() ? std::max(farthest, p.cwiseAbs().maxCoeff()) : INFINITY;
+  return farthest;
 }
 
 PolygonsPtr united(const std::vector<const OGRMultiPolygon*>& all, const std::string& label) {

@@ -25,6 +25,9 @@ double shared_area(const OGRMultiPolygon& a, const OGRMultiPolygon& b);
 /// Area of `polygons` beyond `known` [m2].
 double area_outside(const OGRMultiPolygon& polygons, const OGRPolygon& known);
 
+/// Largest absolute coordinate; infinity where one is not finite.
+double farthest_coordinate_of(const OGRMultiPolygon& polygons);
+
 /// The ring's corners; the last repeats the first.
 std::vector<Vec2> points_of(const OGRLinearRing& ring);
 

@@ -18,6 +18,9 @@ namespace {
 
 constexpr double foot = 0.3048, survey_foot = 1200.0 / 3937.0;
 constexpr double deepest_elevation_m = -12000;  // below the deepest sea: a mark, not a place
+constexpr double largest_value = 1e30;
+/// Of the largest coordinate; closer edges fall together in double precision.
+constexpr double smallest_cell_share = 1e-11;
 
 GDALRasterBand& first_band(GDALDataset& dataset, const std::string& label) {
   if (dataset.GetRasterCount() > 0) return *dataset.GetRasterBand(1);
@@ -48,7 +51,7 @@ void read_values(RasterSource& source, GDALRasterBand& band) {
 
 /// Values that no file means as a height, although it does not say so.
 bool is_unspoken_nodata(double v, RasterQuantity quantity) {
-  if (!(std::abs(v) < 1e30)) return true;
+  if (!(std::abs(v) < largest_value)) return true;
   if (v == -9999 || v == -99999 || v == -32768 || v == -32767) return true;
   return quantity == RasterQuantity::elevation && v < deepest_elevation_m;
 }
@@ -110,7 +113,10 @@ void apply_scale_and_unit(RasterSource& source, GDALRasterBand& band,
         "taken as metres",
         source.label));
   if (scale == 1 && offset == 0 && metres == 1) return;
-  for (double& v : source.values) v = (v * scale + offset) * metres;
+  for (double& v : source.values) {
+    v = (v * scale + offset) * metres;
+    if (!(std::abs(v) < largest_value)) v = nan_d;  // a scale beyond all sense
+  }
 }
 
 /// Makes rows run south and columns east, as everything else here expects.
@@ -146,6 +152,23 @@ SourceExtent extent_of(const RasterSource& s) {
   return e;
 }
 
+void refuse_absurd_placement(const RasterSource& source) {
+  double farthest = 0;
+  for (const int col : {0, source.n_cols})
+    for (const int row : {0, source.n_rows})
+      farthest =
+          std::max({farthest, std::abs(source.x_of(col, row)), std::abs(source.y_of(col, row))});
+  require(farthest <= farthest_coordinate,
+          fmt::format("{}: reaches out to coordinate {:g} (no place on the earth; a broken "
+                      "geotransform). Georeference it again.",
+                      source.label, farthest));
+  const double step = std::min(source.col_step(), source.row_step());
+  require(step > smallest_cell_share * std::max(farthest, 1.0),
+          fmt::format("{}: its cells are {:g} wide (too small to be told apart; a broken "
+                      "geotransform). Georeference it again.",
+                      source.label, step));
+}
+
 void read_placement(RasterSource& source, GDALDataset& dataset) {
   if (dataset.GetGeoTransform(source.affine.data()) != CE_None)
     throw SetupError(fmt::format(
@@ -157,6 +180,7 @@ void read_placement(RasterSource& source, GDALDataset& dataset) {
   const bool finite = std::all_of(a.begin(), a.end(), [](double v) { return std::isfinite(v); });
   require(finite && determinant != 0,
           source.label + ": its cells have no area (broken geotransform). Georeference it again.");
+  refuse_absurd_placement(source);
 }
 
 }  // namespace
@@ -164,12 +188,12 @@ void read_placement(RasterSource& source, GDALDataset& dataset) {
 double RasterSource::col_step() const { return std::hypot(affine[1], affine[4]); }
 double RasterSource::row_step() const { return std::hypot(affine[2], affine[5]); }
 
-void require_raster_size(double n_cols, double n_rows, const std::string& label) {
-  require(n_cols * n_rows <= max_raster_cells && n_cols < std::numeric_limits<int>::max() &&
+void require_raster_size(double n_cols, double n_rows, const std::string& label, double most) {
+  require(n_cols * n_rows <= most && n_cols < std::numeric_limits<int>::max() &&
               n_rows < std::numeric_limits<int>::max(),
           fmt::format("{}: {:.0f} x {:.0f} cells are too many (at most {:.0f} million). Cut the "
                       "area out or use larger cells.",
-                      label, n_cols, n_rows, max_raster_cells / 1e6));
+                      label, n_cols, n_rows, most / 1e6));
 }
 
 RasterSource read_source(const RasterRequest& request, RasterQuantity quantity, bool crs_optional) {
@@ -182,7 +206,8 @@ RasterSource read_source(const RasterRequest& request, RasterQuantity quantity, 
   GDALRasterBand& band = first_band(*dataset.dataset, source.label);
   source.n_cols = dataset->GetRasterXSize();
   source.n_rows = dataset->GetRasterYSize();
-  require_raster_size(source.n_cols, source.n_rows, source.label);
+  source.max_cells = request.max_cells;
+  require_raster_size(source.n_cols, source.n_rows, source.label, source.max_cells);
   read_placement(source, *dataset.dataset);
   const OGRSpatialReference* own = dataset->GetSpatialRef();
   const bool bare = crs_optional && request.crs.empty() && (own == nullptr || own->IsEmpty());

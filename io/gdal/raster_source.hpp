@@ -4,7 +4,7 @@
 #pragma once
 
 #include "io/gdal/crs.hpp"
-#include "io/gdal/gdal_raster.hpp"
+#include "io/gdal/raster_request.hpp"
 
 #include <array>
 #include <string>
@@ -14,6 +14,7 @@ namespace sturz {
 
 struct RasterSource {
   std::string label;  ///< "terrain.raster = bed.tif"
+  double max_cells = max_raster_cells;
   int n_cols = 0, n_rows = 0;
   std::vector<double> values;  ///< [n_rows][n_cols] metres, NaN = nodata
   /// GDAL geotransform; where not rotated, rows run south and columns east (files are flipped).
@@ -36,15 +37,13 @@ struct RasterSource {
 
 enum class RasterQuantity { elevation, thickness };
 
-/// More cells than this are refused before anything is allocated.
-inline constexpr double max_raster_cells = 400e6;
-
 /// Reads band 1. \param crs_optional a file without a system is taken as it is (bare scenes)
 /// \throws SetupError; see read_elevation
 RasterSource read_source(const RasterRequest& request, RasterQuantity quantity,
                          bool crs_optional = false);
 
-/// \throws SetupError when `n_cols` x `n_rows` exceeds max_raster_cells
-void require_raster_size(double n_cols, double n_rows, const std::string& label);
+/// \throws SetupError when `n_cols` x `n_rows` exceeds `most`
+void require_raster_size(double n_cols, double n_rows, const std::string& label,
+                         double most = max_raster_cells);
 
 }  // namespace sturz

@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace sturz {
 namespace {
@@ -166,11 +167,21 @@ MemberSummary read_member_summary(const NetcdfReader& file) {
     if (value.size() != 1) not_a_member(file, fmt::format("{} is not one number", scalar.name));
     m.scalars.*scalar.field = value[0];
   }
-  const auto window = [&](const char* name) { return static_cast<int>(need_integer(file, name)); };
+  const auto window = [&](const char* name) {
+    const std::int64_t n = need_integer(file, name);
+    if (n < 0 || n > std::numeric_limits<int>::max())
+      not_a_member(file, fmt::format("has {} = {}", name, n));
+    return static_cast<int>(n);
+  };
   m.window = {window("window_row0"), window("window_col0"), window("window_n_rows"),
               window("window_n_cols")};
   m.effect_seconds = read_seconds(file, effects_attribute, effect_seconds_attribute);
   return m;
+}
+
+void require_inside(const NetcdfReader& file, const Window& w, const Grid& g) {
+  if (w.n_rows <= g.n_rows - w.row0 && w.n_cols <= g.n_cols - w.col0) return;
+  not_a_member(file, "has maps that reach beyond its grid");
 }
 
 void read_member_rows(const NetcdfReader& file, const Window& window, PeakLayer layer, int first,
@@ -193,14 +204,17 @@ MemberResult read_member(const std::filesystem::path& path) {
   m.scalars = s.scalars;
   m.window = s.window;
   m.grid = read_grid_attributes(file);
+  require_inside(file, m.window, m.grid);
   m.history = read_history(file);
   m.pass_seconds = read_seconds(file, passes_attribute, seconds_attribute);
   m.effect_seconds = std::move(s.effect_seconds);
   if (m.window.n_cells() == 0) return m;
   for (int i = 0; i < n_peak_layers; ++i) {
+    const auto layer = static_cast<PeakLayer>(i);
     auto& values = m.layers[static_cast<std::size_t>(i)];
+    file.require_room(static_cast<double>(m.window.n_cells()), info(layer).name);
     values.resize(m.window.n_cells());
-    read_member_rows(file, m.window, static_cast<PeakLayer>(i), 0, m.window.n_rows, values);
+    read_member_rows(file, m.window, layer, 0, m.window.n_rows, values);
   }
   return m;
 }

@@ -9,6 +9,8 @@ namespace sturz {
 
 /// Everything but the maps. \throws IoError for a file that is not a member's or is damaged
 MemberSummary read_member_summary(const NetcdfReader& file);
+/// \throws IoError when the window reaches beyond the grid
+void require_inside(const NetcdfReader& file, const Window& window, const Grid& grid);
 /// Rows first..first+n-1 of one map, counted within the window. \throws IoError
 void read_member_rows(const NetcdfReader& file, const Window& window, PeakLayer layer, int first,
                       int n, std::span<float> out);

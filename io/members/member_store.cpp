@@ -36,11 +36,6 @@ std::vector<std::int64_t> numbers_in(const fs::path& folder) {
   return numbers;
 }
 
-bool is_inside(const Window& w, const Grid& g) {
-  return w.row0 >= 0 && w.col0 >= 0 && w.n_rows >= 0 && w.n_cols >= 0 &&
-         w.row0 + w.n_rows <= g.n_rows && w.col0 + w.n_cols <= g.n_cols;
-}
-
 std::size_t key_of(std::size_t index, PeakLayer layer) {
   return index * n_peak_layers + static_cast<std::size_t>(layer);
 }
@@ -64,7 +59,7 @@ void MemberStore::add(std::int64_t number, MemberCheck check) {
     throw IoError(fmt::format("{}: {}. Delete it and run again.", file.file().string(), why));
   };
   if (summary.member != number) refuse(fmt::format("holds member {}", summary.member));
-  if (!is_inside(summary.window, grid)) refuse("its maps reach beyond its grid");
+  require_inside(file, summary.window, grid);
   if (grid.n_cells() > 0) {
     if (grid_.n_cells() == 0) grid_ = grid;
     if (!grid.same_place(grid_)) refuse("lies on another grid than the members before it");

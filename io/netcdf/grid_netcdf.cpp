@@ -4,6 +4,7 @@
 #include "io/files/io_error.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
+#include "io/gdal/gdal_raster.hpp"
 #include "io/netcdf/cf_grid_mapping.hpp"
 
 #include <cpl_conv.h>
@@ -108,8 +109,19 @@ Grid read_grid_attributes(const NetcdfReader& file) {
   grid.west_m = need("grid_west_m");
   grid.north_m = need("grid_north_m");
   grid.cell_m = need("grid_cell_m");
-  grid.n_cols = static_cast<int>(need("grid_n_cols"));
-  grid.n_rows = static_cast<int>(need("grid_n_rows"));
+  const double n_cols = need("grid_n_cols"), n_rows = need("grid_n_rows");
+  const bool sound = std::abs(grid.west_m) <= farthest_coordinate &&
+                     std::abs(grid.north_m) <= farthest_coordinate && grid.cell_m > 0 &&
+                     grid.cell_m <= farthest_coordinate && n_cols >= 0 && n_rows >= 0 &&
+                     n_cols * n_rows <= max_raster_cells && n_cols <= max_raster_cells &&
+                     n_rows <= max_raster_cells;
+  if (!sound)
+    throw IoError(
+        fmt::format("{}: its grid of {:g} x {:g} cells of {:g} m is none (the file is "
+                    "damaged). Compute it again.",
+                    file.file().string(), n_cols, n_rows, grid.cell_m));
+  grid.n_cols = static_cast<int>(n_cols);
+  grid.n_rows = static_cast<int>(n_rows);
   grid.crs_wkt = crs_text(file);
   return grid;
 }

@@ -30,6 +30,7 @@ void write_history(NetcdfWriter& file, const MemberHistory& history) {
 
 MemberHistory read_history(const NetcdfReader& file) {
   MemberHistory history;
+  file.require_room(static_cast<double>(file.length(time_axis)), time_axis);
   history.rows.resize(file.length(time_axis));
   if (history.rows.empty()) return history;
   history.has_states = any(file, HistoryPart::states);

@@ -79,6 +79,11 @@ class NetcdfReader {
   /// 0 for a dimension that is not there.
   std::size_t length(const std::string& dimension) const;
   bool is_integer(const std::string& variable) const;
+  /// Number of values of a variable. \throws IoError as require_room
+  std::size_t size(const std::string& variable) const;
+  /// To be asked before memory is taken for what a header promises.
+  /// \throws IoError when so many values cannot come out of a file of this length
+  void require_room(double n_values, const std::string& what) const;
 
   /// Names of the attributes; an empty `variable` means the file's own.
   std::vector<std::string> attributes(const std::string& variable) const;
@@ -93,13 +98,14 @@ class NetcdfReader {
   /// The whole variable. \throws IoError, also for damaged chunks
   std::vector<double> doubles(const std::string& variable) const;
   std::vector<std::int32_t> integers(const std::string& variable) const;
-  /// The block of `count` values per dimension that begins at `start`. \throws IoError
+  /// The block of `count` values per dimension that begins at `start`. \throws IoError, also when
+  /// the variable has another number of dimensions, or the block is larger than `out`
   void floats(const std::string& variable, const std::vector<std::size_t>& start,
               const std::vector<std::size_t>& count, std::span<float> out) const;
 
  private:
   int find(const std::string& variable) const;
-  std::size_t size_of(int variable) const;
+  std::vector<std::size_t> shape_of(int variable) const;
   void check(int status, const std::string& what) const;
 
   std::filesystem::path file_;

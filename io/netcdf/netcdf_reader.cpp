@@ -6,15 +6,36 @@
 #include <fmt/core.h>
 #include <netcdf.h>
 
+#include <array>
+#include <fstream>
+#include <string_view>
+
 namespace sturz {
 namespace {
 
 using Lock = std::lock_guard<std::recursive_mutex>;
 
+/// Bytes that deflate gets out of one, at most.
+constexpr double largest_inflation = 1032;
+
+/// This program writes the HDF5 layout alone; netCDF's readers of its older layouts crash on
+/// headers that are broken. A file that cannot be opened is left to netCDF's own message.
+void require_hdf5(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4> begin{};
+  if (!file.read(begin.data(), begin.size())) return;
+  if (std::string_view(begin.data(), begin.size()) == "\x89HDF") return;
+  throw IoError(
+      fmt::format("{}: is not netCDF in the HDF5 layout, which this program writes. Is "
+                  "the file complete?",
+                  path.string()));
+}
+
 }  // namespace
 
 NetcdfReader::NetcdfReader(std::filesystem::path file) : file_(std::move(file)) {
   const Lock lock(netcdf_mutex());
+  require_hdf5(file_);
   check(nc_open(file_.c_str(), NC_NOWRITE, &id_), "opening");
 }
 
@@ -152,40 +173,70 @@ std::optional<std::uint64_t> NetcdfReader::hash(const std::string& variable,
   return value;
 }
 
-std::size_t NetcdfReader::size_of(int variable) const {
-  int dims[NC_MAX_VAR_DIMS] = {};
+std::vector<std::size_t> NetcdfReader::shape_of(int variable) const {
   int n = 0;
   check(nc_inq_varndims(id_, variable, &n), "reading a shape");
-  check(nc_inq_vardimid(id_, variable, dims), "reading a shape");
-  std::size_t size = 1, length = 0;
-  for (int d = 0; d < n; ++d) {
-    check(nc_inq_dimlen(id_, dims[d], &length), "reading a shape");
+  std::vector<int> dims(static_cast<std::size_t>(n));
+  check(nc_inq_vardimid(id_, variable, dims.data()), "reading a shape");
+  std::vector<std::size_t> shape(dims.size());
+  for (std::size_t d = 0; d < dims.size(); ++d)
+    check(nc_inq_dimlen(id_, dims[d], &shape[d]), "reading a shape");
+  return shape;
+}
+
+std::size_t NetcdfReader::size(const std::string& variable) const {
+  const Lock lock(netcdf_mutex());
+  std::size_t size = 1;
+  double exact = 1;  // the product of the lengths may be more than an integer holds
+  for (const std::size_t length : shape_of(find(variable))) {
+    exact *= static_cast<double>(length);
     size *= length;
   }
+  require_room(exact, variable);
   return size;
+}
+
+void NetcdfReader::require_room(double n_values, const std::string& what) const {
+  std::error_code error;
+  const auto bytes = static_cast<double>(std::filesystem::file_size(file_, error));
+  if (error || n_values <= largest_inflation * bytes) return;
+  throw IoError(
+      fmt::format("{}: {} would have {:g} values (more than the file can hold; it is "
+                  "damaged). Compute it again.",
+                  file_.string(), what, n_values));
 }
 
 std::vector<double> NetcdfReader::doubles(const std::string& variable) const {
   const Lock lock(netcdf_mutex());
-  const int v = find(variable);
-  std::vector<double> values(size_of(v));
-  check(nc_get_var_double(id_, v, values.data()), "reading " + variable);
+  std::vector<double> values(size(variable));
+  check(nc_get_var_double(id_, find(variable), values.data()), "reading " + variable);
   return values;
 }
 
 std::vector<std::int32_t> NetcdfReader::integers(const std::string& variable) const {
   const Lock lock(netcdf_mutex());
-  const int v = find(variable);
-  std::vector<std::int32_t> values(size_of(v));
-  check(nc_get_var_int(id_, v, values.data()), "reading " + variable);
+  std::vector<std::int32_t> values(size(variable));
+  check(nc_get_var_int(id_, find(variable), values.data()), "reading " + variable);
   return values;
 }
 
 void NetcdfReader::floats(const std::string& variable, const std::vector<std::size_t>& start,
                           const std::vector<std::size_t>& count, std::span<float> out) const {
   const Lock lock(netcdf_mutex());
-  check(nc_get_vara_float(id_, find(variable), start.data(), count.data(), out.data()),
-        "reading " + variable);
+  const int v = find(variable);
+  const std::vector<std::size_t> shape = shape_of(v);
+  bool fits = shape.size() == count.size() && start.size() == count.size();
+  std::size_t size = 1;
+  for (std::size_t d = 0; fits && d < shape.size(); ++d) {
+    fits = start[d] <= shape[d] && count[d] <= shape[d] - start[d];
+    size *= count[d];
+  }
+  if (!fits || size > out.size())
+    throw IoError(
+        fmt::format("{}: {} has another shape than it should (the file is damaged). "
+                    "Compute it again.",
+                    file_.string(), variable));
+  check(nc_get_vara_float(id_, v, start.data(), count.data(), out.data()), "reading " + variable);
 }
 
 }  // namespace sturz

@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/input_files.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
@@ -17,6 +18,7 @@ using GeometryPtr = std::unique_ptr<OGRGeometry>;
 OGRLayer& choose_layer(PolygonLayer& layer, const PolygonRequest& request) {
   GDALDataset& dataset = *layer.dataset.dataset;
   std::vector<std::string> names;
+  names.reserve(static_cast<std::size_t>(dataset.GetLayerCount()));
   for (int i = 0; i < dataset.GetLayerCount(); ++i)
     names.emplace_back(dataset.GetLayer(i)->GetName());
   require(!names.empty(), layer.label + ": holds no layer. Export the polygons again.");
@@ -93,6 +95,11 @@ PolygonsPtr polygons_of(Reading& reading, const OGRGeometry& geometry, const std
         "{}: {} cannot be moved to the terrain's system ({}). Check {}.", layer.label, name,
         gdal_reason(),
         reading.request.crs_key.empty() ? "the file's own system" : reading.request.crs_key));
+  const double farthest = farthest_coordinate_of(*polygons);
+  require(
+      farthest <= farthest_coordinate,
+      fmt::format("{}: {} reaches out to coordinate {:g} (no place on the earth). Draw it again.",
+                  layer.label, name, farthest));
   if (polygons->IsValid()) return polygons;
   return mended(layer, *polygons, name);
 }
@@ -141,12 +148,6 @@ std::string places_text(const OGREnvelope& polygon, const Grid& terrain) {
       "to {:.10g}",
       polygon.MinX, polygon.MaxX, polygon.MinY, polygon.MaxY, terrain.west_m, terrain.east_m(),
       terrain.south_m(), terrain.north_m);
-}
-
-std::string comma_separated(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 }  // namespace sturz

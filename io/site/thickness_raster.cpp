@@ -19,9 +19,10 @@ namespace {
 /// Volumes below this share of the whole are round-off, not a part that lies outside.
 constexpr double volume_round_off = 1e-9;
 
-/// A convex polygon of few corners; a quadrilateral cut by two strips has at most eight.
+/// A polygon of few corners. A quadrilateral cut by two strips has at most eight; one that a
+/// transformation folded over itself gains half as many with each cut, 19 in the end.
 struct Patch {
-  std::array<Vec2, 12> corner;
+  std::array<Vec2, 20> corner;
   int n = 0;
   void add(const Vec2& p) { corner[static_cast<std::size_t>(n++)] = p; }
   double area() const { return std::abs(ring_area({corner.data(), static_cast<std::size_t>(n)})); }
@@ -67,15 +68,19 @@ double spread(const Patch& patch, double volume, Raster<double>& volumes) {
       hi[axis] = std::max(hi[axis], patch.corner[static_cast<std::size_t>(i)][axis]);
     }
   const Grid& g = volumes.grid;
-  const auto first = [](double v) { return static_cast<int>(std::floor(std::max(v, 0.0))); };
+  const auto first = [](double v, int n) {
+    return static_cast<int>(std::floor(std::clamp(v, 0.0, static_cast<double>(n))));
+  };
   const auto end = [](double v, int n) {
     return static_cast<int>(std::ceil(std::clamp(v, 0.0, static_cast<double>(n))));
   };
-  const double per_area = volume / patch.area();
+  const double area = patch.area();
+  if (!(area > 0)) return 0;
+  const double per_area = volume / area;
   double inside = 0;
-  for (int r = first(lo[1]); r < end(hi[1], g.n_rows); ++r) {
+  for (int r = first(lo[1], g.n_rows); r < end(hi[1], g.n_rows); ++r) {
     const Patch strip = cut(cut(patch, 1, r, 1), 1, r + 1.0, -1);
-    for (int c = first(lo[0]); c < end(hi[0], g.n_cols); ++c) {
+    for (int c = first(lo[0], g.n_cols); c < end(hi[0], g.n_cols); ++c) {
       const double part = per_area * cut(cut(strip, 0, c, 1), 0, c + 1.0, -1).area();
       volumes.at(r, c) += part;
       inside += part;
@@ -124,8 +129,13 @@ Patch cell_on_grid(const RasterSource& s, int col, int row, OGRCoordinateTransfo
                       "Check release.crs.",
                       s.label, row, col));
   Patch patch;
-  for (std::size_t k = 0; k < 4; ++k)
+  for (std::size_t k = 0; k < 4; ++k) {
+    require(std::isfinite(x[k]) && std::isfinite(y[k]),
+            fmt::format("{}: the cell at row {}, column {} lies nowhere in the terrain's system. "
+                        "Check release.crs.",
+                        s.label, row, col));
     patch.add({(x[k] - g.west_m) / g.cell_m, (g.north_m - y[k]) / g.cell_m});
+  }
   return patch;
 }
 

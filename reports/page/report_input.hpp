@@ -5,6 +5,7 @@
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
 #include "ensemble/hazard/convergence.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <string>
 #include <utility>

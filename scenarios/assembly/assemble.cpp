@@ -95,7 +95,7 @@ StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
 
 double least_step(const Scenario& s, const ScenePlan& plan) {
   if (plan.formulation.depth_averaged)
-    return 1e-6 * std::sqrt(s.numerics.spacing_m / State::standard_gravity);
+    return 1e-6 * std::sqrt(s.numerics.spacing_m / standard_gravity);
   // A hundredth of the acoustic limit at v_ref: below it something has run away.
   return 0.01 * plan.stress.courant * plan.stress.smoothing_length /
          (1.1 * plan.stress.sound_speed);

@@ -59,7 +59,7 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
-  if (s.grains->earth_pressure == "isotropic")
+  if (s.grains->earth_pressure == LateralPressure::isotropic)
     return {true, "`grains.earth_pressure: isotropic`, K = 1"};
   return {true, "`grains.earth_pressure: active_passive`"};
 }
@@ -76,7 +76,8 @@ Called periods_called(const Scenario& s, const ScenePlan&) {
   return by_key("domain.periodic", !s.domain.periodic.empty());
 }
 Called excavation_called(const Scenario& s, const ScenePlan&) {
-  return {s.release.surface == "pre_failure", "`release.surface: " + s.release.surface + "`"};
+  return {s.release.surface == ReleaseSurface::pre_failure,
+          "`release.surface: " + std::string(to_string(s.release.surface)) + "`"};
 }
 
 constexpr std::size_t grains = 0;  // index of the set

@@ -17,7 +17,11 @@ struct FormulationChoice {
   double deposit_layers =
       0;  ///< expected deposit thickness / spacing; infinite in a confined scene
 
-  const char* name() const { return depth_averaged ? "depth_averaged" : "full_stress"; }
+  /// The word of the scenario file and of every result.
+  std::string name() const {
+    return std::string(
+        to_string(depth_averaged ? Formulation::depth_averaged : Formulation::full_stress));
+  }
 };
 
 /// From this many layers on three-dimensional particles resolve a flow's footprint to about 10 %.

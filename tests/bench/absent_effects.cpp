@@ -56,7 +56,7 @@ Scene with_empty_zone(Scene scene) {
 }
 
 Scene with_active_passive(Scene scene) {
-  scene.scenario.grains->earth_pressure = "active_passive";
+  scene.scenario.grains->earth_pressure = LateralPressure::active_passive;
   return scene;
 }
 

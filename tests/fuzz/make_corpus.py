@@ -1,9 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the seeds of the scenario fuzzer. Usage: make_corpus.py ROOT CORPUS_FOLDER"""
+"""Writes the seeds of a fuzz target. Usage: make_corpus.py TARGET ROOT BUILD_FOLDER
+
+Binary formats are made by the tools of GDAL, and by BUILD_FOLDER/fuzz_seeds."""
+import json
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
 
 RELEASES = [
     "polygon: a.gpkg, layer: l, thickness_attribute: h, crs: 'EPSG:1'",
@@ -36,7 +41,7 @@ BAD = ["", "a: *b", "&a [*a]", "? [x]: 1", "<<: {a: 1}", "--- 1\n--- 2", "a: !!b
        "fluid: {}", "grains.friction: 1", "title: {", "- - - 1"]
 
 
-def seeds(root):
+def scenario_seeds(root, _build, _scratch):
     for case in sorted((root / "scenarios" / "cases").glob("*/scenario.yaml")):
         text = case.read_text()
         yield text
@@ -52,11 +57,143 @@ def seeds(root):
     yield from BAD
 
 
-def main(root, corpus):
-    corpus = pathlib.Path(corpus)
+DESIGNS = [
+    "release.thickness_m,basal.friction_coefficient\n1.5,0.3\n2,0.25\n",
+    "basal.friction_coefficient,release.thickness_m\n0.3,1.5\n",
+    "member,release.thickness_m,basal.friction_coefficient\r\n0,2.5,0.1\r\n1,3,0.2\r\n",
+    "# design table: one row per member, drawn once\n# design: sobol\n# seed: 18446744073709551615\n"
+    "# units: m,1\nmember,release.thickness_m,basal.friction_coefficient,"
+    "unit_cube:release.thickness_m,unit_cube:basal.friction_coefficient\n"
+    "0,1.5,0.29999999999999999,0.25,0.5\n1,2.5,0.40000000000000002,0.75,0.84\n",
+    "# design: monte_carlo\n# seed: 1\n# units: \nmember\n0\n1\n",
+    "\ufeff\"release.thickness_m\";\"x\"\n1;2\n", "\"a\",\"b\"\n\"1\",\"2\"\n", "a\n1e308\n-0\n", "a\nnan\n",
+]
+
+
+def design_seeds(_root, _build, _scratch):
+    yield from DESIGNS
+
+
+MANIFEST = {
+    "kind": "ensemble",
+    "program": {"name": "sturz", "version": "0.1.0", "git_commit": "0123abc", "compiler": "GNU 12",
+                "build_type": "Release"},
+    "started": "2026-01-31T12:00:00Z", "updated": "2026-01-31T12:00:00Z", "command": "sturz",
+    "design": "sobol", "seed": 18446744073709551615, "members": 16, "spacing_m": 2.5,
+    "inputs": [{"file": "bed.tif", "checksum": "fnv1a:0123"}], "description": ["a", "b"],
+    "notes": [], "warnings": ["thin"], "compute_s": 1.5, "hazard_hash": "0123456789abcdef"}
+
+
+def manifest_seeds(_root, _build, _scratch):
+    yield json.dumps(MANIFEST)
+    yield json.dumps(MANIFEST, indent=2)
+    for key in MANIFEST:
+        for value in (None, 1e300, -1, 0.5, "x", [], {}, [[1]]):
+            yield json.dumps(MANIFEST | {key: value})
+    yield from ("", "[]", "{", "[" * 200, "{\"kind\": \"\\ud800\"}", "1e999")
+
+
+GRID = "ncols 4\nnrows 3\nxllcorner {x}\nyllcorner {y}\ncellsize {cell}\nNODATA_value -9999\n"
+VALUES = "1 2 0.5 -9999\n0 1 1 0\n2 2 3 1\n"
+# Where the cells lie: on the target's terrain, in degrees, in feet, far away.
+PLACES = [(500000, 4600000, 10, "EPSG:32633"), (500003, 4600004, 7.5, "EPSG:32633"),
+          (15.0001, 41.5505, 0.0002, "EPSG:4326"), (1640420, 15091863, 30, "EPSG:2229"),
+          (0, 0, 1, None)]
+ROTATED = "<GeoTransform>500010, 8, 3, 4600060, 3, -8</GeoTransform>"
+
+
+def run(*words):
+    subprocess.run([str(word) for word in words], check=True, stdout=subprocess.DEVNULL)
+
+
+def raster_seeds(_root, _build, scratch):
+    for i, (x, y, cell, crs) in enumerate(PLACES):
+        text = GRID.format(x=x, y=y, cell=cell) + VALUES
+        yield text
+        grid = scratch / f"grid{i}.asc"
+        grid.write_text(text)
+        system = ["-a_srs", crs] if crs else []
+        variants = {"plain": [], "scaled": ["-a_scale", "0.01", "-a_offset", "2", "-ot", "Int16"],
+                    "wide": ["-ot", "Float64", "-outsize", "7", "3"], "bytes": ["-ot", "Byte"]}
+        for name, words in variants.items():
+            run("gdal_translate", "-q", *system, *words, grid, scratch / f"{name}{i}.tif")
+            yield (scratch / f"{name}{i}.tif").read_bytes()
+        run("gdal_translate", "-q", "-of", "VRT", *system, grid, scratch / "turned.vrt")
+        turned = re.sub("<GeoTransform>.*</GeoTransform>", ROTATED,
+                        (scratch / "turned.vrt").read_text())
+        (scratch / "turned.vrt").write_text(turned)
+        run("gdal_translate", "-q", scratch / "turned.vrt", scratch / "turned.tif")
+        yield (scratch / "turned.tif").read_bytes()
+        for driver, suffix in (("GSAG", "asag"), ("GSBG", "gsbg"), ("GS7BG", "gs7bg")):
+            run("gdal_translate", "-q", "-of", driver, grid, scratch / f"surfer{i}.{suffix}")
+            yield (scratch / f"surfer{i}.{suffix}").read_bytes()
+
+
+def ring(x, y, edge):
+    corners = ((0, 0), (edge, 0), (edge, edge), (0, edge), (0, 0))
+    return [[x + dx, y + dy] for dx, dy in corners]
+
+
+def features():
+    x, y = 500000, 4600000
+    yield "Polygon", [ring(x, y, 50)], {"h": 1.5}
+    yield "Polygon", [ring(x, y, 50), ring(x + 10, y + 10, 20)], {"h": 2}
+    yield "MultiPolygon", [[ring(x, y, 10)], [ring(x + 30, y, 10)]], {"h": 0.5}
+    yield "Polygon", [[[x, y], [x + 40, y + 40], [x + 40, y], [x, y + 40], [x, y]]], {"h": 1}
+    yield "Polygon", [ring(15.0001, 41.5505, 0.0003)], {"h": 1}
+    yield "LineString", ring(x, y, 10), {"h": 1}
+
+
+def polygon_seeds(_root, _build, scratch):
+    drawn = [{"type": "Feature", "properties": values,
+              "geometry": {"type": kind, "coordinates": places}}
+             for kind, places, values in features()]
+    drawn.append({"type": "Feature", "properties": {"h": None}, "geometry": {
+        "type": "GeometryCollection", "geometries": [drawn[0]["geometry"], drawn[2]["geometry"]]}})
+    for i, some in enumerate([[one] for one in drawn] + [drawn[0:2], drawn[0:1] + drawn[2:3]]):
+        for code in (32633, 4326):
+            system = {"type": "name", "properties": {"name": f"urn:ogc:def:crs:EPSG::{code}"}}
+            text = json.dumps({"type": "FeatureCollection", "crs": system, "features": some})
+            yield text
+        source = scratch / f"{i}.geojson"
+        source.write_text(text)
+        for suffix, words in (("shp", ["-lco", "SHPT=POLYGON"]), ("gpkg", [
+                "--config", "OGR_SQLITE_PRAGMA", "page_size=512", "-lco", "SPATIAL_INDEX=NO"])):
+            target = scratch / f"{i}.{suffix}"
+            done = subprocess.run(["ogr2ogr", "-a_srs", "EPSG:32633", *words, target, source],
+                                  stderr=subprocess.DEVNULL, check=False)
+            if done.returncode != 0:  # a line is no polygon
+                continue
+            if suffix == "gpkg":
+                yield target.read_bytes()
+            else:
+                index, table = target.with_suffix(".shx"), target.with_suffix(".dbf")
+                yield (target.read_bytes() + b"<<shx>>" + index.read_bytes() + b"<<dbf>>" +
+                       table.read_bytes())
+    yield json.dumps(drawn[0])
+    yield json.dumps(drawn[0]["geometry"])
+
+
+def netcdf_seeds(_root, build, _scratch):
+    (build / "valid").mkdir(exist_ok=True)
+    run(build / "fuzz_seeds", build / "valid")
+    for which in range(3):  # which of the valid files; then what to change in it
+        yield bytes([which])
+        yield bytes(range(which, 200, 7))
+
+
+SEEDS = {"scenario": scenario_seeds, "design": design_seeds, "manifest": manifest_seeds,
+         "rasters": raster_seeds, "polygons": polygon_seeds, "netcdf": netcdf_seeds}
+
+
+def main(target, root, build):
+    build = pathlib.Path(build).resolve()
+    corpus = build / f"corpus_{target}"
     corpus.mkdir(parents=True, exist_ok=True)
-    for n, text in enumerate(seeds(pathlib.Path(root))):
-        (corpus / f"seed_{n:03}.yaml").write_text(text)
+    with tempfile.TemporaryDirectory() as scratch:
+        for n, seed in enumerate(SEEDS[target](pathlib.Path(root), build, pathlib.Path(scratch))):
+            seed = seed.encode("utf-8", "surrogatepass") if isinstance(seed, str) else seed
+            (corpus / f"seed_{n:03}").write_bytes(seed)
 
 
 if __name__ == "__main__":

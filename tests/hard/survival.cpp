@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/hard/survival.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/effects/fields.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 namespace sturz::test {
 namespace {
 
-constexpr double gravity = 9.81;
+constexpr double gravity = standard_gravity;
 
 /// Kinetic energy and gravity's work over time.
 struct Instant {

@@ -20,7 +20,7 @@ constexpr int columns = 10;
 /// 1 m high, 10 x 10 particles wide, for five times the fall time.
 Scenario column(int layers) {
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   const double dx = height_m / layers, half = 0.5 * columns * dx;
   s.terrain.synthetic = SyntheticTerrain{
       "plane", dx, {{"slope_deg", 0}, {"length_m", 2 * half}, {"width_m", 2 * half}}};

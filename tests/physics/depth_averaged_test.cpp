@@ -19,7 +19,7 @@ namespace {
 /// A sheet of columns, `layers` spacings thick along the vertical, periodic on a 30 degree slope.
 Scenario sheet(double layers) {
   Scenario s = thin_sheet(1);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.release.thickness_m = Uncertain(layers * s.numerics.spacing_m);
   return s;
 }
@@ -57,7 +57,7 @@ TEST_P(Sheet, SlidesAsAMassPoint) {
 
 Scenario one_column(double slope_deg, double speed, double friction, double pore_pressure_ratio) {
   Scenario s = block_on_plane(friction, pore_pressure_ratio);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.terrain.synthetic->parameters["slope_deg"] = slope_deg;
   s.release.box = ReleaseBox{{-60, -59}, {0, 1}};
   s.release.thickness_m = Uncertain(1);
@@ -136,7 +136,7 @@ TEST(Similarity, CapSpreadsAsSavageAndHutterFound) {
 Scenario dam_break(double depth, double spacing) {
   Scenario s = block_on_plane(std::tan(21 * degree));
   const double c = std::cos(22 * degree), width = 10 * spacing;
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.terrain.synthetic = SyntheticTerrain{
       "plane", 2 * spacing, {{"slope_deg", 22}, {"length_m", 800}, {"width_m", width}}};
   s.release.box = ReleaseBox{{-260, 0}, {-width / 2, width / 2}};
@@ -226,8 +226,8 @@ TEST_P(SteadySheet, ReachesTheSpeedOfTheFilm) {
 
 TEST(EarthPressureOption, KeepsAPileAtRest) {
   Scenario s = pile(1);
-  s.formulation = "depth_averaged";
-  s.grains->earth_pressure = "active_passive";
+  s.formulation = Formulation::depth_averaged;
+  s.grains->earth_pressure = LateralPressure::active_passive;
   const Finished f = run(s);
   record({"active/passive pile", "front m in 10 s", f.result.scalars.front_travel_m, 0,
           f.result.scalars.front_travel_m},
@@ -239,7 +239,7 @@ TEST(EarthPressureOption, KeepsAPileAtRest) {
 /// A level layer in a box of walls stays as it is and is as thick at the walls as between them.
 TEST(ColumnWallsInAScene, ALevelLayerStandsStill) {
   Scenario s = block_on_plane(0.0);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.terrain.synthetic->parameters["slope_deg"] = 0;
   s.release.box = ReleaseBox{{-10, 10}, {-10, 10}};
   s.release.thickness_m = Uncertain(2);

@@ -27,7 +27,7 @@ Simulation launched(double spacing_m) {
   s.release.thickness_m = Uncertain(spacing_m);
   s.release.velocity_m_s = {20 * std::cos(45 * degree), 0, 20 * std::sin(45 * degree)};
   s.grains.emplace().friction_angle_deg = Uncertain(30);
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;
   s.numerics.spacing_m = spacing_m;
   s.numerics.end_time_s = 2.8;

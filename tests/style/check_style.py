@@ -135,24 +135,6 @@ def equations(root):
         yield "engine/EQUATIONS.md:1: the table has no rows."
 
 
-def citation(root):
-    """CITATION.cff names the version of the project: one number, one place."""
-    lists, cited = root / "CMakeLists.txt", root / "CITATION.cff"
-    if not lists.is_file() or not cited.is_file():
-        yield "CITATION.cff:1: CITATION.cff and CMakeLists.txt belong side by side."
-        return
-    project = re.search(r"^project\(\w+ VERSION ([\d.]+)", lists.read_text(), re.M)
-    if not project:
-        yield "CMakeLists.txt:1: project() gives no version."
-        return
-    for n, line in enumerate(lines_of(cited), 1):
-        if line.startswith("version:"):
-            if line.split(":", 1)[1].strip().strip("\"'") != project.group(1):
-                yield f"CITATION.cff:{n}: the project's version is {project.group(1)}."
-            return
-    yield "CITATION.cff:1: no version."
-
-
 # What shows that a word is a label of docs/physics.md: a capital with a number and nothing that
 # would make it a version, a file name or an identifier. Errata and findings are named as such.
 LABEL = re.compile(
@@ -207,6 +189,24 @@ def references(root):
                 if not ((root / cited).is_file() or (path.parent / cited).is_file()
                         or cited in documents):
                     yield f"{name}:{n}: the document {cited} is not in the repository."
+
+
+def citation(root):
+    """CITATION.cff names the version of the project: one number, one place."""
+    lists, cited = root / "CMakeLists.txt", root / "CITATION.cff"
+    if not lists.is_file() or not cited.is_file():
+        yield "CITATION.cff:1: CITATION.cff and CMakeLists.txt belong side by side."
+        return
+    project = re.search(r"^project\(\w+ VERSION ([\d.]+)", lists.read_text(), re.M)
+    if not project:
+        yield "CMakeLists.txt:1: project() gives no version."
+        return
+    for n, line in enumerate(lines_of(cited), 1):
+        if line.startswith("version:"):
+            if line.split(":", 1)[1].strip().strip("\"'") != project.group(1):
+                yield f"CITATION.cff:{n}: the project's version is {project.group(1)}."
+            return
+    yield "CITATION.cff:1: no version."
 
 
 CHECKS = {f.__name__: f for f in (length, silence, words, headers, machine_paths, equations,

@@ -43,6 +43,7 @@ SIMULATION_SEES = ("/step.hpp", "/state.hpp", "/moving_set.hpp", "/fields.hpp")
 
 LIBRARIES = {
     "gdal": {"io"}, "ogr": {"io"}, "cpl_": {"io"}, "netcdf": {"io"}, "yaml-cpp": {"io"},
+    "openssl/": {"io"}, "utf8": {"io"},
     "openturns": {"ensemble"}, "tbb/": {"ensemble"}, "oneapi/": {"ensemble"},
     "omp.h": {"engine/core"}, "CLI/": {"ensemble/app"}, "spdlog/": {"ensemble/app"},
     "nlohmann/": {"io", "reports", "ensemble/workflow", "ensemble/app"},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells, records and the sweep over neighbouring columns.
+#include "engine/core/constants.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/wrapping.hpp"
@@ -220,7 +221,7 @@ class SweepPass final : public Pass {
   double strained(const Domain& domain, const ParticleSet& p, std::size_t i, double k,
                   double strain, double thickness) const {
     const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
-    if (v2 < 1e-6 * 9.81 * thickness) return k;  // at rest K stays as it came
+    if (v2 < 1e-6 * standard_gravity * thickness) return k;  // at rest K stays as it came
     const EarthPressure& e = flow_->settings.earth_pressure[flow_->zone_of(domain, p, i)];
     return e.strained(k, strain, flow_->settings.earth_pressure_stiffness);
   }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <utility>
 
 namespace sturz::workflow {
 namespace fs = std::filesystem;
@@ -46,6 +47,28 @@ void Manifest::write(const fs::path& file) {
   write_text_atomic(file, all.dump(2) + "\n");
 }
 
+namespace {
+
+[[noreturn]] void not_a_manifest(const fs::path& file, const std::string& why) {
+  throw SetupError(
+      fmt::format("{}: not a manifest that sturz wrote ({}). Use another folder, or "
+                  "take the file from a backup.",
+                  file.string(), why));
+}
+
+/// The library would make any number of 1e300 or -1.
+template <class T>
+T whole(const fs::path& file, const json& all, const char* key) {
+  const json& value = all.at(key);
+  const bool fits = value.is_number_unsigned()
+                        ? std::in_range<T>(value.get<std::uint64_t>())
+                        : value.is_number_integer() && std::in_range<T>(value.get<std::int64_t>());
+  if (!fits) not_a_manifest(file, fmt::format("{} is {}", key, value.dump()));
+  return value.get<T>();
+}
+
+}  // namespace
+
 Manifest Manifest::read(const fs::path& file) {
   Manifest m;
   try {
@@ -58,8 +81,8 @@ Manifest Manifest::read(const fs::path& file) {
     m.started = all.at("started").get<std::string>();
     m.command = all.at("command").get<std::string>();
     m.design = all.at("design").get<std::string>();
-    m.seed = all.at("seed").get<std::uint64_t>();
-    m.members = all.at("members").get<std::int64_t>();
+    m.seed = whole<std::uint64_t>(file, all, "seed");
+    m.members = whole<std::int64_t>(file, all, "members");
     m.spacing_m = all.at("spacing_m").get<double>();
     for (const auto& input : all.at("inputs"))
       m.inputs.emplace_back(input.at("file").get<std::string>(),
@@ -70,10 +93,7 @@ Manifest Manifest::read(const fs::path& file) {
     m.compute_s = all.at("compute_s").get<double>();
     m.hazard_hash = all.at("hazard_hash").get<std::string>();
   } catch (const json::exception& problem) {
-    throw SetupError(
-        fmt::format("{}: not a manifest that sturz wrote ({}). Use another folder, or "
-                    "take the file from a backup.",
-                    file.string(), problem.what()));
+    not_a_manifest(file, problem.what());
   }
   return m;
 }

@@ -12,7 +12,7 @@ namespace sturz::workflow {
 namespace fs = std::filesystem;
 
 DesignTable new_design(const Scenario& scenario) {
-  if (scenario.ensemble.design != "table") return draw_design(scenario);
+  if (scenario.ensemble.design != Design::table) return draw_design(scenario);
   fs::path file = scenario.ensemble.table;
   if (file.is_relative()) file = fs::path(scenario.directory) / file;
   try {
@@ -50,7 +50,7 @@ DesignTable continued_design(const OutputFolder& folder, const DesignTable& want
   if (now == had) {
     // A user's own table may have changed; a drawn one is what was saved, whatever would be drawn
     // today.
-    require(wanted.design != "table" || same_rows,
+    require(wanted.design != Design::table || same_rows,
             fmt::format("{}: ensemble.table has other rows than the ensemble that was begun here. "
                         "Choose another folder with --out.",
                         where));
@@ -60,7 +60,7 @@ DesignTable continued_design(const OutputFolder& folder, const DesignTable& want
           fmt::format("{} holds {} members of design {}, and a table of {} does not begin with the "
                       "same rows (a {} design cannot grow). Use sobol or monte_carlo for ensembles "
                       "that shall grow, or choose another folder with --out.",
-                      where, had, saved.design, now, saved.design));
+                      where, had, to_string(saved.design), now, to_string(saved.design)));
   return wanted;
 }
 

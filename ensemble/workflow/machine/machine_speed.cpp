@@ -20,7 +20,7 @@ namespace {
 /// 40 m x 20 m x 5 m of rock on a 30 degree plane of 200 m x 100 m around the origin: 4000
 /// particles, or 3200 columns half a metre apart; a mid-size member.
 Scenario reference_scene(const std::string& formulation) {
-  const bool columns = formulation == "depth_averaged";
+  const bool columns = formulation == to_string(Formulation::depth_averaged);
   Scenario s;
   s.title = "reference slide";
   s.terrain.synthetic = SyntheticTerrain{"plane", 5, {{"slope_deg", 30}}};
@@ -29,7 +29,7 @@ Scenario reference_scene(const std::string& formulation) {
   s.grains.emplace();
   s.grains->friction.emplace();
   s.basal.friction_coefficient = Uncertain(0.3);
-  s.formulation = formulation;
+  s.formulation = from_word<Formulation>(formulation).value();
   s.numerics.spacing_m = columns ? 0.5 : 1;
   s.numerics.end_time_s = columns ? 8 : 1.5;
   s.numerics.stop_at_rest = false;

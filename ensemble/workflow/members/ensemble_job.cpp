@@ -6,6 +6,7 @@
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/files/checksum.hpp"
 #include "io/files/text_files.hpp"
 #include "io/members/member_store.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -33,10 +34,14 @@ void require_same_scene(const OutputFolder& folder, const Scene& scene) {
     what += "\n  " + line;
   const auto& was = Manifest::read(folder.manifest()).inputs;
   const auto& is = scene.inputs.checksums;
-  for (std::size_t i = 0; i < std::max(was.size(), is.size()); ++i)
-    if (i >= was.size() || i >= is.size() || was[i].second != is[i].second)
-      what += fmt::format("\n  input {}: other content than before",
-                          i < is.size() ? is[i].first : was[i].first);
+  for (std::size_t i = 0; i < std::max(was.size(), is.size()); ++i) {
+    const std::string difference = i < was.size() && i < is.size()
+                                       ? checksum_difference(was[i].second, is[i].second)
+                                       : "other content than before";
+    if (!difference.empty())
+      what +=
+          fmt::format("\n  input {}: {}", i < is.size() ? is[i].first : was[i].first, difference);
+  }
   require(what.empty(),
           fmt::format("{} was begun with another scene (members of two scenes make no map). "
                       "Choose another folder with --out, or take these changes back:{}",

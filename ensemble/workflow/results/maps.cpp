@@ -35,7 +35,7 @@ LayerStack hazard_of(const MemberStore& store, const Manifest& manifest, const S
   context.attributes = {{"title", scenario.title.empty() ? "Landslide hazard" : scenario.title},
                         {"source", fmt::format("sturz {} ({})", version, git_commit)},
                         {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
-                        {"design", fmt::format("{}, {} members, seed {}", design.design,
+                        {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
                                                design.n_members(), design.seed)}};
   return make_hazard_map(store, scenario.hazard, context);
 }

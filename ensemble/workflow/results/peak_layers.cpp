@@ -13,9 +13,11 @@ LayerStack peak_layers(const MemberResult& result) {
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto& values = result.layers[i];
     Layer layer;
-    layer.name = info(static_cast<PeakLayer>(i)).name;
-    layer.long_name = info(static_cast<PeakLayer>(i)).long_name;
-    layer.units = info(static_cast<PeakLayer>(i)).units;
+    const auto peak = static_cast<PeakLayer>(i);
+    layer.name = info(peak).name;
+    layer.meaning = {quantity_of(peak), Statistic::peak};
+    layer.long_name = info(peak).long_name;
+    layer.units = info(peak).units;
     layer.comment = "missing where the flow never came";
     layer.values.assign(stack.grid.n_cells(), nan_f);
     for (int row = 0; row < w.n_rows && !values.empty(); ++row)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 namespace sturz::workflow {
 

@@ -71,8 +71,9 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.timings = sum_of_effects(content.members);
   input.elapsed_s = manifest.compute_s;
   const bool particles =
-      std::any_of(content.members.begin(), content.members.end(),
-                  [](const MemberSummary& m) { return m.formulation != "depth_averaged"; });
+      std::any_of(content.members.begin(), content.members.end(), [](const MemberSummary& m) {
+        return m.formulation != to_string(Formulation::depth_averaged);
+      });
   input.resolved_thickness_m = particles ? 0.5 * manifest.spacing_m : 0;
   write_text_atomic(folder.report(), make_report(input));
 }

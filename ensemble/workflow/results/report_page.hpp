@@ -8,6 +8,7 @@
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <filesystem>
 #include <span>

@@ -21,7 +21,7 @@ namespace {
 constexpr auto in_flight = static_cast<std::uint8_t>(fields::Membership::in_flight);
 
 Scenario with_states(Scenario s) {
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;
   s.grains->states.emplace();
   s.grains->states->dilute.emplace();
@@ -80,7 +80,7 @@ TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
 }
 
 /// A block on level ground whose grains are thrown apart and up.
-Simulation explosion(const char* contacts) {
+Simulation explosion(ParcelContactLaw contacts) {
   Scenario s = with_states(pile(1));
   s.release.cylinder.reset();
   s.release.paraboloid.reset();
@@ -104,7 +104,8 @@ Simulation explosion(const char* contacts) {
 
 /// B.8, I13, I16: detached grains keep mass and momentum, fly, land, and are taken back.
 TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
-  for (const char* contacts : {"none", "hertz_mindlin"}) {
+  for (const ParcelContactLaw contacts :
+       {ParcelContactLaw::none, ParcelContactLaw::hertz_mindlin}) {
     Simulation simulation = explosion(contacts);
     std::size_t most = 0;
     RunControl control;
@@ -115,9 +116,9 @@ TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
     };
     const MemberResult result = simulation.run(control);
     const State& state = simulation.parts().state;
-    EXPECT_GT(most, state.grains().size() / 2) << contacts;
-    EXPECT_EQ(in_flight_now(state), 0u) << contacts;
-    EXPECT_LT(std::abs(result.scalars.energy_residual), 1e-2) << contacts;
+    EXPECT_GT(most, state.grains().size() / 2) << to_string(contacts);
+    EXPECT_EQ(in_flight_now(state), 0u) << to_string(contacts);
+    EXPECT_LT(std::abs(result.scalars.energy_residual), 1e-2) << to_string(contacts);
     EXPECT_EQ(state.grains().ledger.leaked_mass, 0);
     EXPECT_LT(std::abs(result.scalars.mass_error), 1e-13);
     EXPECT_LT(state.grains().ledger.kinetic, 1e-3 * state.grains().ledger.kinetic_0);
@@ -127,7 +128,7 @@ TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
 /// In free flight nobody is listed: a parcel follows its parabola to the bit of the same parcel
 /// without states.
 TEST(GrainStates, ALoneParcelFliesItsParabola) {
-  Simulation simulation = explosion("none");
+  Simulation simulation = explosion(ParcelContactLaw::none);
   const State& state = simulation.parts().state;
   const auto& membership = state.grains().flags(fields::membership);
   std::size_t followed = state.grains().size();
@@ -153,7 +154,7 @@ TEST(GrainStates, ALoneParcelFliesItsParabola) {
 /// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others
 /// far apart from everybody; all as lone parcels. \return how many are taken back as grains
 std::size_t taken_back(const std::vector<Vec3>& places) {
-  Simulation simulation = explosion("none");
+  Simulation simulation = explosion(ParcelContactLaw::none);
   State& state = simulation.parts().state;
   MovingSet& p = state.grains();
   const double dx = simulation.parts().facts.spacing_m;

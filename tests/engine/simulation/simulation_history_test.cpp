@@ -95,7 +95,7 @@ TEST(SimulationHistory, StatesSumToOneAndAgreeWithTheScalars) {
 
 TEST(SimulationHistory, ColumnsHaveAHistoryButKnowNothingOfParting) {
   Scenario s = over_the_cliff();
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   const MemberResult r = run(s);
   EXPECT_TRUE(std::isnan(r.scalars.parted_fraction));
   EXPECT_EQ(r.scalars.dilute_fraction, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Zones of the base: which one a point lies in, and that parcels and columns feel theirs.
+#include "engine/core/constants.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/terrain/zone_map.hpp"
 #include "tests/support/hand_made.hpp"
@@ -15,7 +16,7 @@ namespace {
 using test::even_ground;
 using test::HandMade;
 
-constexpr double g = 9.81;
+constexpr double g = standard_gravity;
 
 /// Zone by map point on 30 x 30 cells of 1 m around the origin.
 ZoneMap zones_of(const std::function<int(double, double)>& zone) {

@@ -24,7 +24,7 @@ double critical_height() {
 Scenario bank(double height, double times) {
   const double dx = height / 10, half = 1.2 * height, reach = 5 * height;
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.terrain.synthetic = SyntheticTerrain{
       "plane", 2 * dx, {{"slope_deg", 0}, {"length_m", 2 * reach}, {"width_m", 4 * dx}}};
   s.release.box = ReleaseBox{{-half, half}, {-2 * dx, 2 * dx}};
@@ -91,7 +91,7 @@ CaseReport tall_bank_falls(States states) {
 CaseReport stretched_bar(States states) {
   constexpr double half = 12, speed = 0.5, strain = 0.3;
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.terrain.synthetic =
       SyntheticTerrain{"plane", 2, {{"slope_deg", 0}, {"length_m", 100}, {"width_m", 40}}};
   s.release.box = ReleaseBox{{-half, half}, {-3, 3}};

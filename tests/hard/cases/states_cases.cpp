@@ -23,7 +23,7 @@ namespace {
 /// Grains without weight, 8 x 8 x 8 of them 1 m apart, high over level ground.
 Simulation floating_box() {
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.terrain.synthetic =
       SyntheticTerrain{"plane", 2, {{"slope_deg", 0}, {"length_m", 200}, {"width_m", 200}}};
   s.release.box = ReleaseBox{{-4, 4}, {-4, 4}};

@@ -1,37 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a layer of results means to a reader: quantity, statistic, titles, which one to show first.
+/// How a page names the maps of results, which of them it shows, and which one first.
 #pragma once
 
-#include "engine/terrain/raster.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <string>
 #include <vector>
 
 namespace sturz {
 
-enum class Quantity {
-  reached,
-  thickness,
-  speed,
-  energy,
-  pressure,
-  arrival,
-  deposit,
-  intensity,
-  count,
-  other
-};
-enum class Statistic { probability, lower_bound, upper_bound, quantile, mean, peak, other };
-
-/// Read from the layer's name, so that any LayerStack can be shown.
-struct LayerMeaning {
-  Quantity quantity = Quantity::other;
-  Statistic statistic = Statistic::other;
-};
-LayerMeaning meaning_of(const Layer& layer);
-/// Lower-case word for the page's data and switches, e.g. "thickness".
-std::string word(Quantity quantity);
-std::string word(Statistic statistic);
 /// "Flow thickness", "Kinetic energy per area", ...
 std::string title(Quantity quantity);
 
