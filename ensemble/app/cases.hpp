@@ -2,7 +2,7 @@
 /// sturz cases: what it may be told.
 #pragma once
 
-#include "ensemble/app/console.hpp"
+#include "ensemble/app/console/console.hpp"
 
 #include <string>
 

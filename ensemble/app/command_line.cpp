@@ -2,11 +2,11 @@
 #include "ensemble/app/command_line.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/app/bash_completion.hpp"
 #include "ensemble/app/cases.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
-#include "ensemble/app/man_page.hpp"
+#include "ensemble/app/help/bash_completion.hpp"
+#include "ensemble/app/help/man_page.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/text_files.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"

@@ -2,7 +2,7 @@
 /// The sub-commands: what each may be told, and the function that does it. One file each.
 #pragma once
 
-#include "ensemble/app/console.hpp"
+#include "ensemble/app/console/console.hpp"
 
 #include <optional>
 #include <string>

@@ -2,9 +2,9 @@
 // sturz ensemble: draw or read the design, run what is not finished, make the maps.
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
-#include "ensemble/app/console_observer.hpp"
+#include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
-#include "ensemble/app/interrupt.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/app/verdict.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"

@@ -3,7 +3,7 @@
 #include "ensemble/workflow/results/merge.hpp"
 
 #include "ensemble/app/commands.hpp"
-#include "ensemble/app/console_observer.hpp"
+#include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/verdict.hpp"
 
 namespace sturz::app {

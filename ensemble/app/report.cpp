@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz report: write the page of a results folder again.
 #include "ensemble/app/commands.hpp"
-#include "ensemble/app/console_observer.hpp"
+#include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 

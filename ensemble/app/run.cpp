@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz run: one member, with the median of every distribution.
 #include "ensemble/app/commands.hpp"
-#include "ensemble/app/console_observer.hpp"
+#include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
-#include "ensemble/app/interrupt.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/workflow/members/single_run.hpp"
 #include "ensemble/workflow/readable.hpp"

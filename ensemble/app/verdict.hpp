@@ -2,7 +2,7 @@
 /// The last words of an ensemble, and what they are as an exit code.
 #pragma once
 
-#include "ensemble/app/console.hpp"
+#include "ensemble/app/console/console.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 
 namespace sturz::app {

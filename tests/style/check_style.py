@@ -42,6 +42,40 @@ def length(root):
             yield f"{name}:{n}: {n} lines (at most {MAX_LINES}). One file, one idea: split it."
 
 
+MAX_FILES, MAX_TYPES, MAX_FUNCTION = 25, 60, 70
+
+
+def folders(root):
+    """No folder of code is a drawer: at most 25 files and 60 types."""
+    found = {}
+    for path, name in sources(root, LIBRARIES + ("tests",)):
+        found.setdefault(name.rpartition("/")[0], []).append(path)
+    declared = re.compile(r"^\s*(?:class|struct|enum class|enum) \w+[^;]*\{")
+    for folder, paths in found.items():
+        if len(paths) > MAX_FILES:
+            yield f"{folder}:1: {len(paths)} files (at most {MAX_FILES}). Group them."
+        n = sum(bool(declared.match(line)) for path in paths for line in lines_of(path))
+        if n > MAX_TYPES:
+            yield f"{folder}:1: {n} types (at most {MAX_TYPES}). Group them."
+
+
+def functions(root):
+    """No function of the libraries is longer than a screen; tables of data are none. Formatted code
+    closes a block in the column in which it began."""
+    heads = re.compile(r"^( {0,4})(?!namespace\b|struct\b|class\b|enum\b|union\b|extern\b|if\b|for\b|while\b"
+                       r"|switch\b|do\b|else\b|[}:#/])\S.*\{$")
+    for path, name in sources(root, LIBRARIES):
+        lines = lines_of(path)
+        for n, line in enumerate(lines):
+            head = heads.match(line)
+            if not head or "(" not in line or re.search(r"=\s*\w*\{$", line):
+                continue
+            end = next((k for k in range(n + 1, len(lines))
+                        if lines[k].startswith(head.group(1) + "}")), n)
+            if end - n + 1 > MAX_FUNCTION:
+                yield f"{name}:{n + 1}: a function of {end - n + 1} lines (at most {MAX_FUNCTION})."
+
+
 def silence(root):
     """Libraries do not print, exit or read the environment."""
     forbidden = re.compile(
@@ -209,7 +243,7 @@ def citation(root):
     yield "CITATION.cff:1: no version."
 
 
-CHECKS = {f.__name__: f for f in (length, silence, words, headers, machine_paths, equations,
+CHECKS = {f.__name__: f for f in (length, folders, functions, silence, words, headers, machine_paths, equations,
                                   references, citation)}
 
 

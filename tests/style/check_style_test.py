@@ -115,6 +115,20 @@ class CheckStyle(unittest.TestCase):
             self.assertTrue(self.findings("references", "docs/decisions/a.md", line), line)
             self.assertTrue(self.findings("references", "engine/a.cpp", "// " + line), line)
 
+    def test_a_folder_is_no_drawer(self):
+        for k in range(25):
+            (self.root / f"io/file_{k}.cpp").write_text("int x;\n")
+        self.assertFalse(list(style.CHECKS["folders"](self.root)))
+        self.assertTrue(self.findings("folders", "io/one_more.cpp", "int x;\n"))
+        self.assertTrue(self.findings("folders", "engine/a.hpp", "struct S {\n};\n" * 61))
+        self.assertFalse(self.findings("folders", "reports/a.hpp", "struct S;\n" * 61))
+
+    def test_long_functions_are_found_and_tables_are_not(self):
+        body = "  work();\n" * 70
+        self.assertTrue(self.findings("functions", "io/a.cpp", "void f(int x) {\n" + body + "}\n"))
+        self.assertFalse(self.findings("functions", "io/a.cpp", "constexpr int t[] = {\n" + body + "};\n"))
+        self.assertFalse(self.findings("functions", "io/a.cpp", "void f() {\n" + body[:300] + "}\n"))
+
     def test_the_citation_has_the_projects_version(self):
         (self.root / "CMakeLists.txt").write_text("project(sturz VERSION 1.2.3 LANGUAGES CXX)\n")
         self.assertFalse(self.findings("citation", "CITATION.cff", "title: x\nversion: 1.2.3\n"))

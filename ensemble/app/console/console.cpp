@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/app/console.hpp"
+#include "ensemble/app/console/console.hpp"
 
 #include "engine/core/error.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/app/man_page.hpp"
+#include "ensemble/app/help/man_page.hpp"
 
 #include <fmt/core.h>
 

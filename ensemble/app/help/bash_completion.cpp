@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/app/bash_completion.hpp"
+#include "ensemble/app/help/bash_completion.hpp"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 /// What the workflow tells, in words on the console.
 #pragma once
 
-#include "ensemble/app/console.hpp"
+#include "ensemble/app/console/console.hpp"
 #include "ensemble/workflow/observer.hpp"
 
 namespace sturz::app {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/app/console_observer.hpp"
+#include "ensemble/app/console/console_observer.hpp"
 
-#include "ensemble/app/progress_bar.hpp"
+#include "ensemble/app/console/progress_bar.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>

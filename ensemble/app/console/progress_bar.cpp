@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/app/progress_bar.hpp"
+#include "ensemble/app/console/progress_bar.hpp"
 
 #include "ensemble/workflow/readable.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/app/command_entries.hpp"
+#include "ensemble/app/help/command_entries.hpp"
 
 #include <CLI/CLI.hpp>
 

@@ -2,7 +2,7 @@
 /// Completion for bash, written from the command table.
 #pragma once
 
-#include "ensemble/app/command_entries.hpp"
+#include "ensemble/app/help/command_entries.hpp"
 
 namespace sturz::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/app/interrupt.hpp"
+#include "ensemble/app/console/interrupt.hpp"
 
 #include <csignal>
 
