@@ -42,10 +42,10 @@ constexpr auto words_of(StressMode) {
   return std::array{Word{unified, "unified"}, Word{seed, "seed"}};
 }
 
-/// What parcels in free flight do when they meet.
-enum class ParcelContactLaw { none, hertz_mindlin };
-constexpr auto words_of(ParcelContactLaw) {
-  using enum ParcelContactLaw;
+/// What isolated particles do when they meet.
+enum class IsolatedContactLaw { none, hertz_mindlin };
+constexpr auto words_of(IsolatedContactLaw) {
+  using enum IsolatedContactLaw;
   return std::array{Word{none, "none"}, Word{hertz_mindlin, "hertz_mindlin"}};
 }
 

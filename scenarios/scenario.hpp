@@ -79,11 +79,11 @@ struct DiluteSpec {
   bool operator==(const DiluteSpec&) const = default;
 };
 
-/// Grains that have lost their neighbours: parcels in free flight.
+/// Grains that have lost their neighbours: isolated particles in free flight.
 struct UltradiluteSpec {
-  ParcelContactLaw contacts = ParcelContactLaw::none;
-  Uncertain restitution{0.7};           ///< of two parcels, where they meet
-  Uncertain friction_coefficient{0.5};  ///< of two parcels
+  IsolatedContactLaw contacts = IsolatedContactLaw::none;
+  Uncertain restitution{0.7};           ///< of two isolated particles, where they meet
+  Uncertain friction_coefficient{0.5};  ///< of two isolated particles
   double youngs_modulus_pa = 5e10;      ///< softened to the speeds of the scene
   bool operator==(const UltradiluteSpec&) const = default;
 };

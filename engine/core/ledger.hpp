@@ -14,7 +14,7 @@ namespace sturz {
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
-/// and among lone parcels -(change of rotational and parcel_elastic + parcel_dissipated).
+/// and among isolated particles -(change of rotational and isolated_elastic + isolated_dissipated).
 struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
   double added_mass = 0;                                     ///< by effects, after the release
@@ -35,10 +35,10 @@ struct Ledger {
   double granular_lost = 0;  ///< with grains that left the continuum, less what came back
   double plastic = 0;        ///< dissipated by yielding
   double diffusion = 0;      ///< elastic energy added by density diffusion and stress smoothing
-  double contact_work = 0;   ///< by contact springs, dampers and the ground guard, parcel_work too
-  double parcel_work = 0;    ///< by contacts of lone parcels, on their flight
+  double contact_work = 0;   ///< by contact springs, dampers and the ground guard, isolated_work too
+  double isolated_work = 0;    ///< by contacts of isolated particles, on their flight
   /// Now: spins of isolated particles, springs of their contacts.
-  double rotational = 0, parcel_elastic = 0;
+  double rotational = 0, isolated_elastic = 0;
   double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the base
   double rest_damping = 0;  ///< dissipated below the speed of rest (docs/physics.md I4)
   double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the rim
@@ -57,14 +57,14 @@ struct Ledger {
   /// Dissipated by artificial viscosity and discretisation.
   double numerical() const { return -stress_work - stress_power; }
   /// Dissipated in normal contact with ground and walls.
-  double damping() const { return -(contact_work - parcel_work) - (spring - spring_0); }
-  /// Dissipated by contacts of lone parcels, or lost with a parcel that was pressed or spun.
-  double parcel_dissipated() const { return -parcel_work - rotational - parcel_elastic; }
+  double damping() const { return -(contact_work - isolated_work) - (spring - spring_0); }
+  /// Dissipated by contacts of isolated particles, or lost with a particle that was pressed or spun.
+  double isolated_dissipated() const { return -isolated_work - rotational - isolated_elastic; }
   /// Energy that no booking explains [J]: time integration of gravity and of the stress law.
   double residual() const {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +
-           rest_damping + damping() + rotational + parcel_elastic + parcel_dissipated() +
+           rest_damping + damping() + rotational + isolated_elastic + isolated_dissipated() +
            numerical() - diffusion + lost_energy - added_energy;
   }
 };
@@ -79,8 +79,8 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
       &Ledger::gravity_work,        &Ledger::stress_work,    &Ledger::stress_power,
       &Ledger::frictional,          &Ledger::granular,       &Ledger::conducted,
       &Ledger::collisions,          &Ledger::granular_lost,  &Ledger::plastic,
-      &Ledger::diffusion,           &Ledger::contact_work,   &Ledger::parcel_work,
-      &Ledger::rotational,          &Ledger::parcel_elastic, &Ledger::friction,
+      &Ledger::diffusion,           &Ledger::contact_work,   &Ledger::isolated_work,
+      &Ledger::rotational,          &Ledger::isolated_elastic, &Ledger::friction,
       &Ledger::rest_damping,        &Ledger::lost_energy,    &Ledger::take_off,
       &Ledger::stress_impulse_scale};
   // An entry that is added above but forgotten here would silently miss from every total.

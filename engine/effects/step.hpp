@@ -36,7 +36,7 @@ struct StepLimit {
 /// A part of a pass that works for another effect than the pass itself.
 struct EffectPart {
   std::string_view effect;  ///< EffectName; empty: no such part
-  std::string_view name;    ///< after the pass's name, e.g. "groups that fly"
+  std::string_view name;    ///< after the pass's name, e.g. "dispersed groups"
   double share = 0;         ///< of the last `apply`'s time, 0..1
 };
 

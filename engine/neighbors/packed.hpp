@@ -26,7 +26,7 @@ struct alignas(64) PackedRecord {
 };
 static_assert(sizeof(PackedRecord) == 64);
 
-/// What a grain that flies among others brings besides its PackedRecord (B.6, B.9). The
+/// What a dispersed grain brings besides its PackedRecord (B.6, B.9). The
 /// record's volume and stress are those of enduring contacts, which grains that have parted no
 /// longer feel; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
@@ -86,9 +86,9 @@ struct BoundaryView {
   const float* gradient[6];  ///< to the velocity gradient before correction [1/s]
 };
 
-/// How long a sweep spends on groups in which some grain flies or meets one that does. A function
+/// How long a sweep spends on groups in which some grain is dispersed or has a dispersed neighbour. A function
 /// of the caller because headers of the library must not be compiled for one instruction set.
-struct FlyingClock {
+struct DispersedClock {
   std::int64_t (*now_ns)() = nullptr;
   std::int64_t spent_ns = 0;  ///< added to
 };
@@ -96,8 +96,8 @@ struct FlyingClock {
 /// For a mass whose grains may part.
 struct KineticView {
   const KineticRecord* records = nullptr;  ///< as many as PackedView::records
-  const std::uint8_t* calm = nullptr;      ///< by record/group_size: 1 where no grain flies
-  FlyingClock* clock = nullptr;            ///< may be null
+  const std::uint8_t* dense_group = nullptr;      ///< by record/group_size: 1 where no grain is dispersed
+  DispersedClock* clock = nullptr;            ///< may be null
 };
 
 /// Results per particle, each [n_particles rounded up to whole groups].
@@ -123,7 +123,7 @@ struct SweepOutput {
   /// Symmetric velocity gradient as the pair forces of kinetic stresses feel it, xx yy zz xy yz zx:
   /// their work on the motion is V sigma_k : this, exactly [1/s].
   float* felt[6];
-  static constexpr float uncounted = 1000;  ///< neighbours of a grain that nobody flies near
+  static constexpr float uncounted = 1000;  ///< neighbours of a grain far from dispersed ones
   float* smooth[6];  ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
 };
 

@@ -55,7 +55,7 @@ Called isolated_called(const Scenario& s, const ScenePlan& plan) {
 }
 Called contacts_called(const Scenario&, const ScenePlan& plan) {
   return by_grain_key(plan, "grains.states.ultradilute.contacts: hertz_mindlin",
-                      plan.parcel_contacts.has_value());
+                      plan.isolated_contacts.has_value());
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
@@ -103,7 +103,7 @@ void add_collisions(SceneParts& p) { add_kinetic_theory(p.step, p.state, p.grain
 void add_states(SceneParts& p) { add_grain_states(p.step, p.state, p.grain_stress); }
 void add_isolated(SceneParts& p) { add_isolated_particles(p.step, p.state, p.grain_stress); }
 void add_contacts(SceneParts& p) {
-  add_isolated_contacts(p.step, p.state, grains, *p.plan.parcel_contacts);
+  add_isolated_contacts(p.step, p.state, grains, *p.plan.isolated_contacts);
 }
 void add_columns(SceneParts& p) {
   add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);

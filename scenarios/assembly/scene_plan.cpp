@@ -165,9 +165,9 @@ GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
   return states;
 }
 
-ParcelContactSettings plan_parcel_contacts(const Scenario& s, double speed) {
+IsolatedContactSettings plan_isolated_contacts(const Scenario& s, double speed) {
   const UltradiluteSpec& spec = *s.grains->states->ultradilute;
-  ParcelContactSettings contacts;
+  IsolatedContactSettings contacts;
   contacts.material.youngs_modulus = spec.youngs_modulus_pa;
   contacts.material.poisson_ratio = s.grains->poisson_ratio.value;
   contacts.material.density = s.grains->density_kg_m3.value;
@@ -215,8 +215,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
     softest.sound_speed = std::min(stress.sound_speed, stress.least_sound_speed);
     stress.states->friction.limit_slope(softest.bulk_modulus() / plan.reference_fraction);
     if (s.grains->states->ultradilute &&
-        s.grains->states->ultradilute->contacts != ParcelContactLaw::none)
-      plan.parcel_contacts = plan_parcel_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
+        s.grains->states->ultradilute->contacts != IsolatedContactLaw::none)
+      plan.isolated_contacts = plan_isolated_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
   }
 
   ContactSettings& contact = plan.contact;

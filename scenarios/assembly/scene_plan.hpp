@@ -27,7 +27,7 @@ struct ScenePlan {
   ZoneMap zones;
   GrainStressSettings stress;                            ///< full_stress
   ContactSettings contact;                               ///< full_stress
-  std::optional<ParcelContactSettings> parcel_contacts;  ///< where lone parcels may meet
+  std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;    ///< depth_averaged
   double reference_speed_m_s = 0;   ///< v_ref of the fastest expected mass point; full_stress

@@ -60,13 +60,13 @@ void add_states(std::vector<KeyInfo>& keys) {
                                 "made for 0.7 and more."})));
   keys.push_back(choice_key(ultradilute, &UltradiluteSpec::contacts,
                             "grains.states.ultradilute.contacts",
-                            "What lone parcels do when they meet."));
+                            "What isolated particles do when they meet."));
   keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::restitution,
                                {"grains.states.ultradilute.restitution", uncertain, "1", 0, 0.999,
-                                "Share of the speed that two lone parcels keep."})));
+                                "Share of the speed that two isolated particles keep."})));
   keys.push_back(key(ultradilute, &UltradiluteSpec::friction_coefficient,
                      {"grains.states.ultradilute.friction_coefficient", uncertain, "1", 0, 2,
-                      "Friction between two lone parcels."}));
+                      "Friction between two isolated particles."}));
   keys.push_back(
       above_min(key(ultradilute, &UltradiluteSpec::youngs_modulus_pa,
                     {"grains.states.ultradilute.youngs_modulus_pa", number, "Pa", 0, 1e13,

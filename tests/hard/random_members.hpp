@@ -23,7 +23,7 @@ class RandomMembers {
   /// \param folder  with marsicano_10m.tif and release_250m.geojson
   static RandomMembers on_marsicano(const std::string& folder, States = States::dense_only);
 
-  /// With all states every fourth member lets lone parcels meet (hertz_mindlin).
+  /// With all states every fourth member lets isolated particles meet (hertz_mindlin).
   HardMember member(int number) const;
   const std::string& ground() const { return name_; }
   States states() const { return states_; }

@@ -55,7 +55,7 @@ class Witness {
     out.energy_residual = std::abs(l.residual()) / most_released_;
     out.numerical_share = l.numerical() / most_released_;
     const double given = l.kinetic_0 + l.elastic_0 + l.gravity_work;
-    const double stored = l.elastic + l.frictional + l.granular + l.rotational + l.parcel_elastic;
+    const double stored = l.elastic + l.frictional + l.granular + l.rotational + l.isolated_elastic;
     const double kept = l.kinetic + stored + l.lost_energy + l.granular_lost;
     const double known = std::max(0.0, l.diffusion);
     out.created_energy = std::max(0.0, kept - known - given) / most_released_;

@@ -15,7 +15,7 @@ Scenario columns(Scenario s) {
   return s;
 }
 
-/// The lone column follows the mass point; the bend presses it on (a regression test too: every
+/// The single column follows the mass point; the bend presses it on (a regression test too: every
 /// normal impulse counts for friction).
 TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
   // The bend of 40 m is spread over two spacings of 8 m: there the energy's place is 2.1 % off.

@@ -266,7 +266,7 @@ ReportInput MadeUpResults::ensemble_input() const {
   in.timings = {{"grain stress", 361},  {"base", 74},
                 {"kinetic theory", 31}, {"motion", 12},
                 {"bookkeeping", 5.2},   {"gravity", 1.9},
-                {"lone parcels", 0.4},  {"states of the grains", 0.3}};
+                {"isolated particles", 0.4},  {"states of the grains", 0.3}};
   in.elapsed_s = 251;
   in.resolved_thickness_m = 3.5;
   return in;
@@ -280,7 +280,7 @@ ReportInput MadeUpResults::single_input() const {
   in.members.resize(1);
   in.pass_timings = {{"pair sweep", 325},
                      {"ground and wall support", 74},
-                     {"pair sweep, groups that fly", 31},
+                     {"pair sweep, dispersed groups", 31},
                      {"others", 56}};
   if (!in.members.empty()) {
     MemberScalars& m = in.members.front().scalars;

@@ -85,12 +85,12 @@ HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& 
   return made;
 }
 
-HandMade parcels_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+HandMade particles_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
                     const Domain& domain, double friction) {
-  return parcels_on_zones(std::move(ground), places, velocity, domain, {{friction}}, {});
+  return particles_on_zones(std::move(ground), places, velocity, domain, {{friction}}, {});
 }
 
-HandMade parcels_on_zones(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
                           const Domain& domain, std::vector<GroundFriction> base, ZoneMap zones) {
   HandMade made{state_of(std::move(ground), places, velocity, domain), {}};
   finish(made, std::move(base), std::move(zones));

@@ -34,11 +34,11 @@ HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& 
                    const Domain& domain = {}, double friction = 0.4);
 
 /// Particles without stress: gravity, contact and motion alone.
-HandMade parcels_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+HandMade particles_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
                     const Domain& domain = {}, double friction = 0.4);
 
 /// The same with a base of its own in each zone.
-HandMade parcels_on_zones(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
                           const Domain& domain, std::vector<GroundFriction> base, ZoneMap zones);
 
 /// Depth-averaged columns of density 1560 kg/m^3 on a lattice of 1 m (z of the places does not

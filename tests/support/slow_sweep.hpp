@@ -22,7 +22,7 @@ struct SlowParticle {
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
   double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
   Vec3 ground_normal{0, 0, 1};
-  // For grains that fly, see KineticRecord:
+  // For dispersed grains, see KineticRecord:
   double tension = 0;  ///< artificial pressure [Pa]
   double growth = 1, weight = 1, theta = 0, conductivity = 1e-30;
   Eigen::Matrix3d kinetic_stress = Eigen::Matrix3d::Zero();  ///< [Pa]

@@ -91,7 +91,7 @@ struct Prepared {
   NeighborLists lists;
   std::optional<Rooms> rooms;
   std::vector<KineticRecord> kinetic;
-  std::vector<std::uint8_t> calm;
+  std::vector<std::uint8_t> dense_group;
 
   Prepared(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
            InstructionSet isa, const Domain& domain)
@@ -106,12 +106,12 @@ struct Prepared {
     lists.pack_positions(set, 0, set.size());
     rooms.emplace(lists.padded_size());
     kinetic.resize(lists.n_records_rounded());
-    calm.assign(kinetic.size() / group_size, 1);
+    dense_group.assign(kinetic.size() / group_size, 1);
     for (std::size_t i = 0; i < set.size(); ++i) take(particles[set.id[i]], i);
     lists.copy_images();
     lists.for_each_image([&](std::size_t image, std::size_t source) {
       kinetic[image] = kinetic[source];
-      if (!calm[source / group_size]) calm[image / group_size] = 0;
+      if (!dense_group[source / group_size]) dense_group[image / group_size] = 0;
     });
   }
 
@@ -142,7 +142,7 @@ struct Prepared {
     float* stress[6] = {&k.xx, &k.yy, &k.zz, &k.xy, &k.yz, &k.zx};
     for (int n = 0; n < 6; ++n)
       *stress[n] = static_cast<float>(p.kinetic_stress(entries[n][0], entries[n][1]));
-    if (p.growth != 1 || p.theta != 0) calm[i / group_size] = 0;
+    if (p.growth != 1 || p.theta != 0) dense_group[i / group_size] = 0;
   }
 };
 
@@ -157,9 +157,9 @@ SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConst
 }
 
 SweepRun kinetic_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
-                       InstructionSet isa, const Domain& domain, FlyingClock* clock) {
+                       InstructionSet isa, const Domain& domain, DispersedClock* clock) {
   Prepared p(particles, constants, isa, domain);
-  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.calm.data(), clock}, constants,
+  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.dense_group.data(), clock}, constants,
                       p.rooms->boundary(), p.rooms->output(), 0, p.lists.n_groups());
   return p.results();
 }

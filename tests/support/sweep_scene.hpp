@@ -25,9 +25,9 @@ SweepConstants usual_constants(double spacing);
 SweepRun fast_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
                     const Domain& = {});
 
-/// The same through the sweep of grains that may fly.
+/// The same through the sweep of grains that may disperse.
 SweepRun kinetic_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
-                       const Domain& = {}, FlyingClock* = nullptr);
+                       const Domain& = {}, DispersedClock* = nullptr);
 
 /// A jittered cubic lattice of n[0] x n[1] x n[2] particles at spacing dx around `center`.
 std::vector<SlowParticle> lattice(std::array<int, 3> n, double dx, double jitter,

@@ -70,7 +70,7 @@ class WallPressure {
   double density_ = 1;
   const float* share_ = nullptr;
   const double* stress_[6] = {};
-  const double* kinetic_[6] = {};  ///< of grains that fly, see grain_states.cpp
+  const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
   const double* compression_ = nullptr;
 };
 

@@ -12,7 +12,7 @@ namespace sturz {
 namespace {
 
 /// Thickness that a column without neighbours gives to itself: the floor at release.
-double lone_thickness(double volume, double reach) { return 2.2281692 * volume / (reach * reach); }
+double single_thickness(double volume, double reach) { return 2.2281692 * volume / (reach * reach); }
 
 /// Rates that set the length of the first step [1/s].
 struct FirstRates {
@@ -33,7 +33,7 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   const double reach =
       set.reach_per_spacing * set.spacing * std::min(set.most_reach, std::sqrt(1 / n.z()));
   const double thickness =
-      std::max(vertical_thickness * n.z(), lone_thickness(p.mass[i] / set.density, reach));
+      std::max(vertical_thickness * n.z(), single_thickness(p.mass[i] / set.density, reach));
   const double g_n = s.gravity * n.z();
   p.scalar(fields::support_radius)[i] = reach;
   p.scalar(fields::thickness)[i] = thickness;

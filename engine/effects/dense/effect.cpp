@@ -43,7 +43,7 @@ class NeighborPass final : public Pass {
         s.previous_dt * std::sqrt(range[0] * range[0] + range[1] * range[1] + range[2] * range[2]));
     if (p.order_changed) lists.invalidate();
     p.order_changed = false;
-    parcels_ns_ = all_ns_ = 0;
+    isolated_ns_ = all_ns_ = 0;
     if (!lists.needs_rebuild()) return;
     const std::int64_t start = now_ns();
     wrap_particles(s.domain, p);
@@ -56,7 +56,7 @@ class NeighborPass final : public Pass {
     // Asked when the pass is added, before isolated particles are.
     const auto& states = shared_->settings.states;
     if (!states || !states->ultradilute) return {};
-    return {EffectName::isolated, "who leaves and comes back", ratio(parcels_ns_, all_ns_)};
+    return {EffectName::isolated, "who leaves and comes back", ratio(isolated_ns_, all_ns_)};
   }
   std::size_t bytes() const override { return shared_->lists.bytes(); }
 
@@ -76,7 +76,7 @@ class NeighborPass final : public Pass {
   void timed(Work&& work) {
     const std::int64_t start = now_ns();
     work();
-    parcels_ns_ += now_ns() - start;
+    isolated_ns_ += now_ns() - start;
   }
 
   void make_room(MovingSet& p, std::size_t padded) const {
@@ -89,7 +89,7 @@ class NeighborPass final : public Pass {
   }
 
   std::shared_ptr<GrainStress> shared_;
-  std::int64_t parcels_ns_ = 0, all_ns_ = 0;  // of this step
+  std::int64_t isolated_ns_ = 0, all_ns_ = 0;  // of this step
 };
 
 /// Fills the records of the pair sweep. Velocities go in extrapolated by half a step to v_{n+1/2}:
@@ -192,7 +192,7 @@ class SweepPass final : public Pass {
     const BoundaryView wall = boundary_view(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
     constexpr std::size_t groups_per_range = 16;
-    flying_ns_ = all_ns_ = 0;
+    dispersed_ns_ = all_ns_ = 0;
     parallel_ranges(shared_->lists.n_groups(), groups_per_range, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       if (g.states)
@@ -204,7 +204,7 @@ class SweepPass final : public Pass {
   }
   EffectPart part() const override {
     if (!shared_->settings.states) return {};
-    return {flying_effect(shared_->settings), "groups that fly", ratio(flying_ns_, all_ns_)};
+    return {dispersed_effect(shared_->settings), "dispersed groups", ratio(dispersed_ns_, all_ns_)};
   }
   std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
 
@@ -214,13 +214,13 @@ class SweepPass final : public Pass {
   void timed_kinetic(const PackedView& view, const SweepConstants& constants,
                      const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
                      std::size_t end) {
-    FlyingClock clock{&now_ns};
+    DispersedClock clock{&now_ns};
     const std::int64_t start = now_ns();
     sweeps(shared_->settings.instruction_set)
-        .kinetic(view, {shared_->kinetic.data(), shared_->calm.data(), &clock}, constants, wall,
+        .kinetic(view, {shared_->kinetic.data(), shared_->dense_group.data(), &clock}, constants, wall,
                  out, begin, end);
     all_ns_.fetch_add(now_ns() - start, std::memory_order_relaxed);
-    flying_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
+    dispersed_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
   }
 
   static BoundaryView boundary_view(const Domain& domain, const MovingSet& p) {
@@ -234,7 +234,7 @@ class SweepPass final : public Pass {
   }
 
   std::shared_ptr<GrainStress> shared_;
-  std::atomic<std::int64_t> flying_ns_ = 0, all_ns_ = 0;  // of this step, all threads
+  std::atomic<std::int64_t> dispersed_ns_ = 0, all_ns_ = 0;  // of this step, all threads
 };
 
 class StressPass final : public Pass {

@@ -32,7 +32,7 @@ struct GrainStress {
   // Only where grains may part:
   std::vector<float> parted[9];  // fill, neighbours, heat, gradient felt; see SweepOutput
   std::vector<KineticRecord> kinetic;
-  std::vector<std::uint8_t> calm;
+  std::vector<std::uint8_t> dense_group;
   std::unique_ptr<ListChanges> changes;  // isolated particles, where the scene calls for them
   double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
 
@@ -56,7 +56,7 @@ struct GrainStress {
 };
 
 /// What the passes that only grains in flight call for count to.
-inline std::string_view flying_effect(const GrainStressSettings& g) {
+inline std::string_view dispersed_effect(const GrainStressSettings& g) {
   return g.states->dilute ? EffectName::kinetic_theory : EffectName::states;
 }
 

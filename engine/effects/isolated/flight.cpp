@@ -15,7 +15,7 @@ namespace {
 
 using fields::Membership;
 
-/// A parcel's fields as the continuum would have them.
+/// The fields of an isolated particle, as grains of the continuum have them.
 struct GrainFields {
   explicit GrainFields(ParticleSet& p)
       : compression(p.scalar(fields::compression)),
@@ -49,7 +49,7 @@ struct GrainFields {
   Field *theta, *kinetic;
 };
 
-/// What a parcel finds around it.
+/// The neighbourhood of an isolated particle.
 struct Surroundings {
   int neighbors = 0;
   double fill = 0;              ///< of its support, 1 inside a dense mass
@@ -61,10 +61,10 @@ struct Surroundings {
   }
 };
 
-/// Looks around every parcel, for grains in the lists and for other parcels.
-class Lookout {
+/// Surveys the neighbourhood of every isolated particle: listed grains and other isolated particles.
+class NeighborhoodSurvey {
  public:
-  Lookout(const Domain& domain, const MovingSet& set, const GrainStressSettings& g)
+  NeighborhoodSurvey(const Domain& domain, const MovingSet& set, const GrainStressSettings& g)
       : domain_(domain),
         set_(set),
         g_(g),
@@ -73,7 +73,7 @@ class Lookout {
         volume_(g.spacing * g.spacing * g.spacing),
         around_(set.size() - set.n_listed) {}
 
-  const Surroundings& of(std::size_t parcel) const { return around_[parcel - set_.n_listed]; }
+  const Surroundings& of(std::size_t particle) const { return around_[particle - set_.n_listed]; }
 
   void grains(const NeighborLists& lists, const Field* theta) {
     const MovingSet& p = set_;
@@ -86,30 +86,31 @@ class Lookout {
         found.warm += w * theta->component[0][j];
       });
   }
-  /// Counts those parcels besides that come too. One that stays in flight is in no list: who came
-  /// for its sake would be alone there, and leave again. \return who comes, by parcel
-  std::vector<char> parcels(ParcelSearch& search) {
+  /// Also counts isolated particles that rejoin at the same time. One that stays in flight is in no
+  /// list: a particle that rejoined because of it would be alone there, and leave again.
+  /// \return whether each isolated particle rejoins
+  std::vector<char> rejoining(IsolatedSearch& search) {
     const MovingSet& p = set_;
-    std::vector<ParcelSphere> spheres;
+    std::vector<IsolatedSphere> spheres;
     for (std::size_t i = p.n_listed; i < p.size(); ++i)
       spheres.push_back({Vec3(p.x[i], p.y[i], p.z[i]), Vec3(0, 0, 0), 0, p.id[i]});
     const std::vector<NearPair>& pairs = search.find(spheres, reach_, domain_);
-    std::vector<char> comes(spheres.size(), 1);
+    std::vector<char> rejoins(spheres.size(), 1);
     const std::vector<Surroundings> among_grains = around_;
     for (bool all = false; !all;) {
       around_ = among_grains;
       for (const NearPair& pair : pairs) {
         const double r2 =
             (spheres[pair.a].place - spheres[pair.b].place - pair.image).squaredNorm();
-        if (r2 >= reach_ * reach_ || !comes[pair.a] || !comes[pair.b]) continue;
+        if (r2 >= reach_ * reach_ || !rejoins[pair.a] || !rejoins[pair.b]) continue;
         count(around_[pair.a], r2);
         count(around_[pair.b], r2);
       }
       all = true;
-      for (std::size_t k = 0; k < comes.size(); ++k)
-        if (comes[k] && !around_[k].enough(g_)) comes[k] = 0, all = false;
+      for (std::size_t k = 0; k < rejoins.size(); ++k)
+        if (rejoins[k] && !around_[k].enough(g_)) rejoins[k] = 0, all = false;
     }
-    return comes;
+    return rejoins;
   }
 
  private:
@@ -124,7 +125,7 @@ class Lookout {
   const MovingSet& set_;
   const GrainStressSettings& g_;
   double reach_, factor_, volume_;
-  std::vector<Surroundings> around_;  // by parcel
+  std::vector<Surroundings> around_;  // by isolated particle
 };
 
 }  // namespace
@@ -174,16 +175,16 @@ void put_listed_first(MovingSet& p) {
 }
 
 bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& g,
-                 const NeighborLists& lists, ParcelSearch& search) {
+                 const NeighborLists& lists, IsolatedSearch& search) {
   if (p.n_listed == p.size()) return false;
   GrainFields f(p);
-  Lookout lookout(domain, p, g);
-  lookout.grains(lists, f.theta);
-  const std::vector<char> comes = lookout.parcels(search);
+  NeighborhoodSurvey survey(domain, p, g);
+  survey.grains(lists, f.theta);
+  const std::vector<char> rejoins = survey.rejoining(search);
   bool any = false;
   for (std::size_t i = p.n_listed; i < p.size(); ++i) {
-    if (!comes[i - p.n_listed]) continue;
-    const Surroundings& around = lookout.of(i);
+    if (!rejoins[i - p.n_listed]) continue;
+    const Surroundings& around = survey.of(i);
     const double reference = g.states->reference_fraction;
     f.fill[i] = around.fill;
     f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation);

@@ -11,7 +11,7 @@ namespace {
 constexpr int bits = 21;  // of each index in a cell's number
 constexpr double last_index = (1 << bits) - 3;
 
-/// A parcel far away or nowhere (NaN) falls into the last cell: slow, never wrong.
+/// A particle far away or nowhere (NaN) falls into the last cell: slow, never wrong.
 std::uint64_t index_along(double distance, double cell, int offset) {
   const double i = distance > 0 ? std::min(distance / cell, last_index) : 0;
   const auto shifted = static_cast<std::int64_t>(i) + 1 + offset;  // neighbours of 0 are 0
@@ -20,13 +20,13 @@ std::uint64_t index_along(double distance, double cell, int offset) {
 
 }  // namespace
 
-std::uint64_t ParcelSearch::cell_of(const Vec3& p, int dx, int dy, int dz) const {
+std::uint64_t IsolatedSearch::cell_of(const Vec3& p, int dx, int dy, int dz) const {
   return index_along(p.z() - origin_.z(), cell_, dz) << (2 * bits) |
          index_along(p.y() - origin_.y(), cell_, dy) << bits |
          index_along(p.x() - origin_.x(), cell_, dx);
 }
 
-void ParcelSearch::add_images(const Period& period, int axis, double margin) {
+void IsolatedSearch::add_images(const Period& period, int axis, double margin) {
   if (!period.active) return;
   const std::size_t n = entries_.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -45,7 +45,7 @@ void ParcelSearch::add_images(const Period& period, int axis, double margin) {
   }
 }
 
-void ParcelSearch::enter(const std::vector<ParcelSphere>& spheres, const Domain& domain,
+void IsolatedSearch::enter(const std::vector<IsolatedSphere>& spheres, const Domain& domain,
                          double margin) {
   entries_.clear();
   for (std::uint32_t k = 0; k < spheres.size(); ++k) {
@@ -65,12 +65,12 @@ void ParcelSearch::enter(const std::vector<ParcelSphere>& spheres, const Domain&
   });
 }
 
-bool ParcelSearch::still_good(const std::vector<ParcelSphere>& spheres, double reach) const {
+bool IsolatedSearch::still_good(const std::vector<IsolatedSphere>& spheres, double reach) const {
   if (spheres.size() != searched_.size()) return false;
   const double slack = 0.5 * (searched_reach_ - reach);
   if (!(slack > 0)) return false;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
-    const ParcelSphere &now = spheres[k], &then = searched_[k];
+    const IsolatedSphere &now = spheres[k], &then = searched_[k];
     // A wrapped place has gone far, a NaN anywhere.
     if (now.id != then.id || now.radius != then.radius) return false;
     if (!((now.place - then.place).squaredNorm() <= slack * slack)) return false;
@@ -78,23 +78,23 @@ bool ParcelSearch::still_good(const std::vector<ParcelSphere>& spheres, double r
   return true;
 }
 
-const std::vector<NearPair>& ParcelSearch::find(const std::vector<ParcelSphere>& spheres,
+const std::vector<NearPair>& IsolatedSearch::find(const std::vector<IsolatedSphere>& spheres,
                                                 double reach, const Domain& domain) {
   pairs_.clear();
   if (spheres.size() < 2) return pairs_;
   if (!still_good(spheres, reach)) search(spheres, reach, domain);
   for (const NearPair& p : within_) {
-    const ParcelSphere &a = spheres[p.a], &b = spheres[p.b];
+    const IsolatedSphere &a = spheres[p.a], &b = spheres[p.b];
     const double limit = a.radius + b.radius + reach;
     if ((b.place + p.image - a.place).squaredNorm() < limit * limit) pairs_.push_back(p);
   }
   return pairs_;
 }
 
-void ParcelSearch::search(const std::vector<ParcelSphere>& spheres, double reach,
+void IsolatedSearch::search(const std::vector<IsolatedSphere>& spheres, double reach,
                           const Domain& domain) {
   double radius = 0;
-  for (const ParcelSphere& s : spheres) radius = std::max(radius, s.radius);
+  for (const IsolatedSphere& s : spheres) radius = std::max(radius, s.radius);
   ++n_grids_;
   within_.clear();
   searched_ = spheres;
@@ -105,14 +105,14 @@ void ParcelSearch::search(const std::vector<ParcelSphere>& spheres, double reach
   const auto before = [](const Entry& e, std::uint64_t cell) { return e.cell < cell; };
   for (const Entry& e : entries_) {
     if (!e.own) continue;
-    const ParcelSphere& a = spheres[e.sphere];
+    const IsolatedSphere& a = spheres[e.sphere];
     for (int row = 0; row < 9; ++row) {
       const int dy = row % 3 - 1, dz = row / 3 - 1;
       const std::uint64_t last = cell_of(e.place, 1, dy, dz);
       auto other =
           std::lower_bound(entries_.begin(), entries_.end(), cell_of(e.place, -1, dy, dz), before);
       for (; other != entries_.end() && other->cell <= last; ++other) {
-        const ParcelSphere& b = spheres[other->sphere];
+        const IsolatedSphere& b = spheres[other->sphere];
         if (a.id >= b.id) continue;  // found from the other side
         const double limit = a.radius + b.radius + searched_reach_;
         if (!((e.place - other->place).squaredNorm() < limit * limit)) continue;
@@ -126,29 +126,29 @@ void ParcelSearch::search(const std::vector<ParcelSphere>& spheres, double reach
   });
 }
 
-std::size_t ParcelSearch::bytes() const {
-  return entries_.capacity() * sizeof(Entry) + searched_.capacity() * sizeof(ParcelSphere) +
+std::size_t IsolatedSearch::bytes() const {
+  return entries_.capacity() * sizeof(Entry) + searched_.capacity() * sizeof(IsolatedSphere) +
          (within_.capacity() + pairs_.capacity()) * sizeof(NearPair);
 }
 
-void ParcelGroups::start(std::size_t n) {
+void IsolatedGroups::start(std::size_t n) {
   parent_.resize(n);
   std::iota(parent_.begin(), parent_.end(), 0u);
   wanted_.assign(n, 0);
 }
 
-void ParcelGroups::join(std::uint32_t a, std::uint32_t b) {
+void IsolatedGroups::join(std::uint32_t a, std::uint32_t b) {
   const std::uint32_t x = root(a), y = root(b), least = std::min(x, y), other = std::max(x, y);
   parent_[other] = least;
   wanted_[least] |= wanted_[other];
 }
 
-std::uint32_t ParcelGroups::root(std::uint32_t a) {
+std::uint32_t IsolatedGroups::root(std::uint32_t a) {
   while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
   return a;
 }
 
-bool may_touch(const ParcelSphere& a, const ParcelSphere& b, const Vec3& image, double dt) {
+bool may_touch(const IsolatedSphere& a, const IsolatedSphere& b, const Vec3& image, double dt) {
   const Vec3 way = b.place + image - a.place, speed = b.velocity - a.velocity;
   const double reach = a.radius + b.radius, v2 = speed.squaredNorm();
   const double t = v2 > 0 ? std::clamp(-way.dot(speed) / v2, 0.0, dt) : 0;  // nearest

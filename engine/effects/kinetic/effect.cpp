@@ -18,7 +18,7 @@ class KineticPack final : public Pass {
  public:
   explicit KineticPack(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "kinetic pack"; }
-  std::string_view effect() const override { return flying_effect(shared_->settings); }
+  std::string_view effect() const override { return dispersed_effect(shared_->settings); }
   Stage stage() const override { return Stage::pack; }
 
   void apply(State& s, double) override {
@@ -26,7 +26,7 @@ class KineticPack final : public Pass {
     GrainStress& g = *shared_;
     const std::size_t groups = g.lists.n_records_rounded() / group_size;
     g.kinetic.resize(groups * group_size);
-    g.calm.assign(groups, 1);
+    g.dense_group.assign(groups, 1);
     parallel_ranges(p.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) { fill(p, begin, end); });
     std::fill(g.kinetic.begin() + static_cast<std::ptrdiff_t>(p.n_listed),
@@ -34,11 +34,11 @@ class KineticPack final : public Pass {
               KineticRecord{});
     g.lists.for_each_image([&](std::size_t image, std::size_t source) {
       g.kinetic[image] = g.kinetic[source];
-      if (!g.calm[source / group_size]) g.calm[image / group_size] = 0;
+      if (!g.dense_group[source / group_size]) g.dense_group[image / group_size] = 0;
     });
   }
   std::size_t bytes() const override {
-    return shared_->kinetic.capacity() * sizeof(KineticRecord) + shared_->calm.capacity();
+    return shared_->kinetic.capacity() * sizeof(KineticRecord) + shared_->dense_group.capacity();
   }
 
  private:
@@ -56,7 +56,7 @@ class KineticPack final : public Pass {
       k = {};
       k.viscosity = records[i].viscosity;
       if (e >= GrainStressSettings::separation && hot == 0) continue;
-      g.calm[i / group_size] = 0;
+      g.dense_group[i / group_size] = 0;
       const double fraction = states.reference_fraction * (1 + e);
       const double growth = (1 + std::max(e, GrainStressSettings::separation)) / (1 + e);
       k.growth = static_cast<float>(growth);

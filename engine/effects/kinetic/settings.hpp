@@ -13,7 +13,7 @@ struct GrainStatesSettings {
   double reference_fraction = 0.6;      ///< alpha_ref = max(0.60, alpha_init): where p = K e begins
   FrictionalPressure friction;          ///< of the transition
   std::optional<KineticTheory> dilute;  ///< absent: parted grains do not collide
-  bool ultradilute = false;             ///< lone grains leave the continuum and fly
+  bool ultradilute = false;             ///< isolated grains leave the continuum and fly
   /// Gao et al. sections 3.2 and 4.2: elastic pressure in the dense state, Eq. (23) alone in the
   /// transition, kinetic theory alone below; pressure relaxes to it within 10 h/c0.
   bool switched = false;

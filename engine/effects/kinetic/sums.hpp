@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a grain that flies among others gathers in the dense loop besides DenseSums.
+/// What a dispersed grain gathers in the dense loop besides DenseSums.
 ///
 /// With w = V_j t^3 (V of the record), W = weight_j w and D = W r_ij:
 ///   kinetic momentum  K += sigma_k,j D, G += D     a += -(weight_i/rho)(K + sigma_k,i G)      B.4

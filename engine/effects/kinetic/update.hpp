@@ -41,7 +41,7 @@ struct KineticTotals {
 };
 
 /// Share of the kinetic stresses. The last twentieth of w_k is left out, so that grains that are
-/// all but dense (alpha > 0.587) fly in no sum.
+/// all but dense (alpha > 0.587) count as dense in every sum.
 inline double kinetic_share(double fraction, bool switched) {
   if (switched) return fraction < transition_fraction ? 1 : 0;
   constexpr double trace = 0.05;

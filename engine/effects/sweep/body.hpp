@@ -71,9 +71,9 @@ struct Image {
 /// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours
 /// that
 ///                parted alike are too small by it
-/// \tparam flying  whether the group may be a cloud
+/// \tparam dispersed  whether the group may be a cloud
 /// \return trace of the moment that ground and walls add
-template <bool flying>
+template <bool dispersed>
 inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, const DenseScale& k,
                           const BoundaryView& wall, const SweepOutput& out, std::size_t at,
                           Lanes growth) {
@@ -95,7 +95,7 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
   for (Lanes& c : w) c = share * c;
   const Lanes imaged = w[0] + w[1] + w[2];
   const Correction b =
-      flying ? Correction::in_a_cloud(s, moment, w, growth) : Correction(s, moment, w);
+      dispersed ? Correction::in_a_cloud(s, moment, w, growth) : Correction(s, moment, w);
   for (int c = 0; c < 6; ++c) w[c] = share * image.gradient[c];
   const Lanes scale = Lanes::all(k.gradient) * growth;
   auto row = [&](Lanes x, Lanes y, Lanes z, float* ox, float* oy, float* oz) {
@@ -260,14 +260,14 @@ inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
   for (std::size_t g = first_group; g < last_group; ++g) group(view, scale, wall, out, g);
 }
 
-/// A group in which some grain flies, or meets one that does.
+/// A group in which some grain is dispersed, or a neighbour is.
 template <bool smooth, bool tension>
-inline void kinetic_group(const PackedView& view, const KineticView& flying,
+inline void kinetic_group(const PackedView& view, const KineticView& dispersed,
                           const DenseScale& scale, const BoundaryView& wall, const SweepOutput& out,
                           std::size_t group) {
   const std::size_t first = group * group_size;
   const GroupRows rows(view.records + first);
-  const KineticRows own(flying.records + first);
+  const KineticRows own(dispersed.records + first);
   const std::uint32_t* begin = view.list(group);
   const std::uint32_t* end = begin + view.list_size(group);
   for (int lane = 0; lane < group_size; lane += Lanes::width) {
@@ -284,7 +284,7 @@ inline void kinetic_group(const PackedView& view, const KineticView& flying,
     if constexpr (tension) pull.clear();
     const Lanes half = Lanes::all(0.5f * scale.viscosity), mine = half * kinetic.viscosity;
     for (const std::uint32_t* j = begin; j != end; ++j) {
-      const KineticRecord& k = flying.records[*j];
+      const KineticRecord& k = dispersed.records[*j];
       const Lanes viscosity = fma(half, Lanes::all(k.viscosity), mine);
       const Lanes w = sums.add(self, view.records[*j], scale, viscosity);
       more.add(self, kinetic, view.records[*j], k, w);
@@ -306,18 +306,18 @@ inline auto pick_kinetic(const SweepConstants& c) {
   return c.tension ? &kinetic_group<false, true> : &kinetic_group<false, false>;
 }
 
-/// Whether nobody in the group or near it flies.
-inline bool calm_around(const PackedView& view, const KineticView& flying, std::size_t group) {
+/// Whether no grain in the group or near it is dispersed.
+inline bool dense_around(const PackedView& view, const KineticView& dispersed, std::size_t group) {
   const std::uint32_t* list = view.list(group);
   const std::size_t n = view.list_size(group);
-  unsigned calm = flying.calm[group];
-  for (std::size_t k = 0; k < n; ++k) calm &= flying.calm[list[k] / group_size];
-  return calm != 0;
+  unsigned dense_group = dispersed.dense_group[group];
+  for (std::size_t k = 0; k < n; ++k) dense_group &= dispersed.dense_group[list[k] / group_size];
+  return dense_group != 0;
 }
 
-/// What a calm group has in the outputs that only the kinetic sums fill. Its neighbours are not
+/// What a dense group has in the outputs that only the kinetic sums fill. Its neighbours are not
 /// counted: a grain that has lost them shows by `fill` first.
-inline void leave_calm(const SweepOutput& out, std::size_t group) {
+inline void write_dense_group(const SweepOutput& out, std::size_t group) {
   for (std::size_t i = group * group_size; i < (group + 1) * group_size; ++i) {
     out.neighbors[i] = SweepOutput::uncounted;
     out.heat[i] = 0;
@@ -325,29 +325,29 @@ inline void leave_calm(const SweepOutput& out, std::size_t group) {
   }
 }
 
-inline void kinetic_sweep(const PackedView& view, const KineticView& flying,
+inline void kinetic_sweep(const PackedView& view, const KineticView& dispersed,
                           const SweepConstants& constants, const BoundaryView& wall,
                           const SweepOutput& out, std::size_t first_group, std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
-  const auto calm = pick_dense<true>(constants);
-  const auto stirred = pick_kinetic(constants);
-  bool stirring = false;
+  const auto dense = pick_dense<true>(constants);
+  const auto kinetic = pick_kinetic(constants);
+  bool in_dispersed = false;
   std::int64_t since = 0;
-  const auto turn = [&](bool to_stirring) {  // the clock is read where the kind of group changes
-    if (!flying.clock || stirring == to_stirring) return;
-    const std::int64_t now = flying.clock->now_ns();
-    if (stirring) flying.clock->spent_ns += now - since;
+  const auto turn = [&](bool to_dispersed) {  // the clock is read where the kind of group changes
+    if (!dispersed.clock || in_dispersed == to_dispersed) return;
+    const std::int64_t now = dispersed.clock->now_ns();
+    if (in_dispersed) dispersed.clock->spent_ns += now - since;
     since = now;
-    stirring = to_stirring;
+    in_dispersed = to_dispersed;
   };
   for (std::size_t g = first_group; g < last_group; ++g) {
-    const bool quiet = calm_around(view, flying, g);
-    turn(!quiet);
-    if (quiet) {
-      calm(view, scale, wall, out, g);
-      leave_calm(out, g);
+    const bool is_dense = dense_around(view, dispersed, g);
+    turn(!is_dense);
+    if (is_dense) {
+      dense(view, scale, wall, out, g);
+      write_dense_group(out, g);
     } else {
-      stirred(view, flying, scale, wall, out, g);
+      kinetic(view, dispersed, scale, wall, out, g);
     }
   }
   turn(false);

@@ -24,7 +24,7 @@ struct Sweeps {
   void (*dense)(const PackedView&, const SweepConstants&, const BoundaryView&, const SweepOutput&,
                 std::size_t first_group, std::size_t last_group);
   /// The same where grains may part: kinetic stresses, conduction of granular temperature, how full
-  /// each support is (terms/kinetic_sums.hpp). Groups that nobody flies in or near take `dense`.
+  /// each support is (terms/kinetic_sums.hpp). Groups without dispersed grains in or near them take `dense`.
   void (*kinetic)(const PackedView&, const KineticView&, const SweepConstants&, const BoundaryView&,
                   const SweepOutput&, std::size_t first_group, std::size_t last_group);
   /// Appends to `out` those of `candidates` that lie within `reach_units` of any particle of the

@@ -138,13 +138,13 @@ TEST(ColumnSweep, ALoneColumnMeetsOnlyItself) {
   auto flow = rough_flow(40, 20, 20);
   flow.push_back(flow[0]);
   flow.back().position += Vec3(900, -700, 50);
-  const ColumnRates lone = test::fast_columns(flow, constants, best_instruction_set()).rates.back();
+  const ColumnRates single = test::fast_columns(flow, constants, best_instruction_set()).rates.back();
   const double own = 7 / (std::numbers::pi * flow[0].reach * flow[0].reach);
-  EXPECT_NEAR(lone.density, own, 1e-6 * own);
-  EXPECT_NEAR(lone.thickness, flow[0].volume * own, 1e-6 * flow[0].volume * own);
-  EXPECT_EQ(lone.acceleration, Vec3(0, 0, 0));
-  EXPECT_EQ(lone.divergence, 0);
-  EXPECT_EQ(lone.approach, 0);
+  EXPECT_NEAR(single.density, own, 1e-6 * own);
+  EXPECT_NEAR(single.thickness, flow[0].volume * own, 1e-6 * flow[0].volume * own);
+  EXPECT_EQ(single.acceleration, Vec3(0, 0, 0));
+  EXPECT_EQ(single.divergence, 0);
+  EXPECT_EQ(single.approach, 0);
 }
 
 TEST(ColumnSweep, PairForcesCancel) {

@@ -80,7 +80,7 @@ TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
 }
 
 /// A block on level ground whose grains are thrown apart and up.
-Simulation explosion(ParcelContactLaw contacts) {
+Simulation explosion(IsolatedContactLaw contacts) {
   Scenario s = with_states(pile(1));
   s.release.cylinder.reset();
   s.release.paraboloid.reset();
@@ -104,8 +104,8 @@ Simulation explosion(ParcelContactLaw contacts) {
 
 /// B.8, I13, I16: detached grains keep mass and momentum, fly, land, and are taken back.
 TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
-  for (const ParcelContactLaw contacts :
-       {ParcelContactLaw::none, ParcelContactLaw::hertz_mindlin}) {
+  for (const IsolatedContactLaw contacts :
+       {IsolatedContactLaw::none, IsolatedContactLaw::hertz_mindlin}) {
     Simulation simulation = explosion(contacts);
     std::size_t most = 0;
     RunControl control;
@@ -125,10 +125,10 @@ TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
   }
 }
 
-/// In free flight nobody is listed: a parcel follows its parabola to the bit of the same parcel
+/// In free flight no particle is listed: it follows its parabola to the bit of the same particle
 /// without states.
-TEST(GrainStates, ALoneParcelFliesItsParabola) {
-  Simulation simulation = explosion(ParcelContactLaw::none);
+TEST(GrainStates, AnIsolatedParticleFollowsItsParabola) {
+  Simulation simulation = explosion(IsolatedContactLaw::none);
   const State& state = simulation.parts().state;
   const auto& membership = state.grains().flags(fields::membership);
   std::size_t followed = state.grains().size();
@@ -152,9 +152,9 @@ TEST(GrainStates, ALoneParcelFliesItsParabola) {
 }
 
 /// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others
-/// far apart from everybody; all as lone parcels. \return how many are taken back as grains
+/// far apart from everybody; all as isolated particles. \return how many are taken back as grains
 std::size_t taken_back(const std::vector<Vec3>& places) {
-  Simulation simulation = explosion(ParcelContactLaw::none);
+  Simulation simulation = explosion(IsolatedContactLaw::none);
   State& state = simulation.parts().state;
   MovingSet& p = state.grains();
   const double dx = simulation.parts().facts.spacing_m;
@@ -173,7 +173,7 @@ std::size_t taken_back(const std::vector<Vec3>& places) {
 }
 
 /// B.9: eight neighbours among the grains. One that stays in flight is nobody's neighbour.
-TEST(GrainStates, AParcelComesBackOnlyAmongThoseThatComeToo) {
+TEST(GrainStates, AParticleRejoinsOnlyAmongThoseThatRejoinToo) {
   std::vector<Vec3> star{Vec3(0, 0, 0)}, crowd;
   for (const double x : {-1.04, 1.04})
     for (const double y : {-1.04, 1.04})

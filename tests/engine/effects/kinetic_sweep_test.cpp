@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sweep of grains that may fly, against its slow twin and against the dense sweep.
+// The sweep of grains that may disperse, against its slow twin and against the dense sweep.
 #include "engine/effects/kinetic/update.hpp"
 #include "tests/support/sweep_scene.hpp"
 
@@ -16,8 +16,8 @@ using test::SlowRates;
 
 constexpr double dx = 1.5;
 
-/// Half of a rough block flies: parted, warm, with kinetic stresses.
-std::vector<SlowParticle> half_flying() {
+/// Half of a rough block is dispersed: dilated, agitated, with kinetic stresses.
+std::vector<SlowParticle> half_dispersed() {
   auto cloud = test::lattice({12, 11, 9}, dx, 0.2);
   test::roughen(cloud, dx);
   std::mt19937 random(5);
@@ -51,24 +51,24 @@ const std::vector<Part> parts{
 
 TEST(KineticSweep, EqualsTheSlowTwin) {
   const auto constants = test::usual_constants(dx);
-  const auto cloud = half_flying();
+  const auto cloud = half_dispersed();
   const auto slow = test::slow_sweep(cloud, {}, constants, true);
   const auto still = test::slow_sweep(cloud, {}, constants);
   for (auto isa : {InstructionSet::plain, InstructionSet::avx2, InstructionSet::avx512}) {
     if (!supports(isa)) continue;
     const auto fast = test::kinetic_sweep(cloud, constants, isa).rates;
-    std::vector<SlowRates> twin;  // groups that nobody flies in or near take the dense sweep
-    int flying = 0;
+    std::vector<SlowRates> twin;  // groups far from dispersed grains take the dense sweep
+    int dispersed = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const bool calm = fast[i].neighbors == static_cast<int>(SweepOutput::uncounted);
-      twin.push_back(calm ? still[i] : slow[i]);
-      if (calm) twin.back().felt.setZero();
-      if (calm) continue;
-      ++flying;
+      const bool dense_group = fast[i].neighbors == static_cast<int>(SweepOutput::uncounted);
+      twin.push_back(dense_group ? still[i] : slow[i]);
+      if (dense_group) twin.back().felt.setZero();
+      if (dense_group) continue;
+      ++dispersed;
       ASSERT_EQ(fast[i].neighbors, slow[i].neighbors);
     }
-    EXPECT_GT(flying, 400);
-    EXPECT_LT(flying, 1188);
+    EXPECT_GT(dispersed, 400);
+    EXPECT_LT(dispersed, 1188);
     for (const auto& [name, part] : parts)
       EXPECT_LT(test::relative_error(fast, twin, part), 1e-5) << name << " " << to_string(isa);
   }
@@ -77,7 +77,7 @@ TEST(KineticSweep, EqualsTheSlowTwin) {
 TEST(KineticSweep, ArtificialStressEqualsTheSlowTwinInBothSweeps) {
   auto constants = test::usual_constants(dx);
   constants.tension = true;
-  auto cloud = half_flying();
+  auto cloud = half_dispersed();
   for (std::size_t i = 0; i < cloud.size(); ++i) cloud[i].tension = 1e4 * (i % 5);
   const auto acceleration = [](const SlowRates& r) -> Eigen::MatrixXd { return r.acceleration; };
   for (auto isa : {InstructionSet::plain, InstructionSet::avx2, InstructionSet::avx512}) {
@@ -97,7 +97,7 @@ TEST(KineticSweep, ArtificialStressEqualsTheSlowTwinInBothSweeps) {
 
 TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
   const auto constants = test::usual_constants(dx);
-  const auto cloud = half_flying();
+  const auto cloud = half_dispersed();
   const auto fast = test::kinetic_sweep(cloud, constants, best_instruction_set()).rates;
   Vec3 force(0, 0, 0);
   double scale = 0, heat = 0, heat_scale = 0;
@@ -125,7 +125,7 @@ TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
   EXPECT_LT(std::abs(heat), 1e-6 * heat_scale);
 }
 
-TEST(KineticSweep, GivesTheDenseBitsWhereNobodyFlies) {
+TEST(KineticSweep, GivesTheDenseBitsWhereAllIsDense) {
   const auto constants = test::usual_constants(dx);
   auto cloud = test::lattice({12, 11, 9}, dx, 0.2);
   test::roughen(cloud, dx);
@@ -138,7 +138,7 @@ TEST(KineticSweep, GivesTheDenseBitsWhereNobodyFlies) {
 TEST(KineticSweep, GivesTheSameBitsOnBothVectorWidths) {
   if (!supports(InstructionSet::avx512)) GTEST_SKIP() << "no AVX-512 here";
   const auto constants = test::usual_constants(dx);
-  const auto cloud = half_flying();
+  const auto cloud = half_dispersed();
   const auto wide = test::kinetic_sweep(cloud, constants, InstructionSet::avx512).raw;
   const auto narrow = test::kinetic_sweep(cloud, constants, InstructionSet::avx2).raw;
   EXPECT_EQ(std::memcmp(wide.data(), narrow.data(), wide.size() * sizeof(float)), 0);
@@ -195,20 +195,20 @@ std::int64_t next_look() { return ++looks; }
 
 TEST(KineticSweep, ClockIsReadOnlyWhereTheKindOfGroupChangesAndChangesNoBit) {
   const auto constants = test::usual_constants(dx);
-  const auto mixed = half_flying();
-  auto calm = test::lattice({12, 11, 9}, dx, 0.2), stirred = calm;
+  const auto mixed = half_dispersed();
+  auto resting = test::lattice({12, 11, 9}, dx, 0.2), stirred = resting;
   for (SlowParticle& p : stirred) p.growth = p.weight = 1.5;
   for (auto isa : {InstructionSet::plain, InstructionSet::avx2, InstructionSet::avx512}) {
     if (!supports(isa)) continue;
     const auto timed = [&](const std::vector<SlowParticle>& cloud) {
       looks = 0;
-      FlyingClock clock{&next_look};
+      DispersedClock clock{&next_look};
       const auto run = test::kinetic_sweep(cloud, constants, isa, {}, &clock);
       EXPECT_EQ(run.raw, test::kinetic_sweep(cloud, constants, isa).raw) << to_string(isa);
-      EXPECT_EQ(2 * clock.spent_ns, looks);  // every stay among groups that fly is one tick long
+      EXPECT_EQ(2 * clock.spent_ns, looks);  // every stay among dispersed groups is one tick long
       return clock.spent_ns;
     };
-    EXPECT_EQ(timed(calm), 0);
+    EXPECT_EQ(timed(resting), 0);
     EXPECT_EQ(timed(stirred), 1);
     EXPECT_GT(timed(mixed), 1);
   }

@@ -36,7 +36,7 @@ TEST(Losses, MassThatLeavesIsBookedExactly) {
 TEST(Losses, AccelerationsFollowTheirParticles) {
   // Works are booked after the removal: everybody's with the own acceleration.
   auto made =
-      test::parcels_on(even_ground(16), {{20, 0, 5}, {0, 0, 5}, {30, 0, 5}, {3, 0, 5}}, {0, 0, 0});
+      test::particles_on(even_ground(16), {{20, 0, 5}, {0, 0, 5}, {30, 0, 5}, {3, 0, 5}}, {0, 0, 0});
   made.state.grains().ax = {1, 2, 3, 4};
   made.advance();
   EXPECT_EQ(made.state.grains().id, (std::vector<std::uint32_t>{1, 3}));
@@ -84,7 +84,7 @@ TEST(Losses, WhatSinksUnderTheGroundIsRemovedOnceWhateverTheRim) {
   for (NodataRule rule : {NodataRule::outflow, NodataRule::wall}) {
     auto places = block({2, 2, 1});
     places.push_back({-3, -3, -2.5});  // two and a half spacings under the ground
-    auto made = test::parcels_on(even_ground(16, 0, rule), places, {0, 0, 0});
+    auto made = test::particles_on(even_ground(16, 0, rule), places, {0, 0, 0});
     for (int n = 0; n < 20; ++n) made.advance();
     EXPECT_EQ(made.state.grains().size(), 4u);
     EXPECT_EQ(made.state.grains().ledger.leaked_mass, 1560);
@@ -105,7 +105,7 @@ TEST(Losses, AWallRimHoldsTheMass) {
 }
 
 TEST(Losses, AnEmptyGroundStaysQuiet) {
-  auto made = test::parcels_on(even_ground(16), {{7, 0, 0.5}}, {20, 0, 0});
+  auto made = test::particles_on(even_ground(16), {{7, 0, 0.5}}, {20, 0, 0});
   for (int n = 0; n < 50; ++n) made.step.apply(made.state, 0.01);
   EXPECT_EQ(made.state.grains().size(), 0u);
   EXPECT_EQ(made.state.grains().motion.max_speed, 0);

@@ -191,14 +191,14 @@ TEST(SimulationHistory, TheComputingTimeIsSharedOutByEffect) {
     ASSERT_NE(seconds_of(with.effect_seconds, name), nullptr) << name;
     EXPECT_GT(*seconds_of(with.effect_seconds, name), 0) << name;
   }
-  EXPECT_EQ(seconds_of(without.pass_seconds, "pair sweep, groups that fly"), nullptr);
-  const double* flying = seconds_of(with.pass_seconds, "pair sweep, groups that fly");
-  ASSERT_NE(flying, nullptr);
-  EXPECT_GT(*flying, 0);
-  EXPECT_LT(*flying, *seconds_of(with.effect_seconds, EffectName::kinetic_theory));
+  EXPECT_EQ(seconds_of(without.pass_seconds, "pair sweep, dispersed groups"), nullptr);
+  const double* dispersed = seconds_of(with.pass_seconds, "pair sweep, dispersed groups");
+  ASSERT_NE(dispersed, nullptr);
+  EXPECT_GT(*dispersed, 0);
+  EXPECT_LT(*dispersed, *seconds_of(with.effect_seconds, EffectName::kinetic_theory));
 }
 
-TEST(SimulationHistory, GroupsThatFlyTakeNoTimeWhereNobodyFlies) {
+TEST(SimulationHistory, DispersedGroupsTakeNoTimeInADenseMass) {
   // A sheet without edges, at rest.
   Scenario s = with_states(thin_sheet(8));
   s.terrain.synthetic->parameters["slope_deg"] = 0;
@@ -206,8 +206,8 @@ TEST(SimulationHistory, GroupsThatFlyTakeNoTimeWhereNobodyFlies) {
   const MemberResult r = run(s);
   const MemberScalars& m = r.scalars;
   ASSERT_EQ(m.transition_fraction + m.dilute_fraction + m.ultradilute_fraction, 0);
-  ASSERT_NE(seconds_of(r.pass_seconds, "pair sweep, groups that fly"), nullptr);
-  EXPECT_EQ(*seconds_of(r.pass_seconds, "pair sweep, groups that fly"), 0);
+  ASSERT_NE(seconds_of(r.pass_seconds, "pair sweep, dispersed groups"), nullptr);
+  EXPECT_EQ(*seconds_of(r.pass_seconds, "pair sweep, dispersed groups"), 0);
   EXPECT_GT(*seconds_of(r.pass_seconds, "pair sweep"), 0);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Zones of the base: which one a point lies in, and that parcels and columns feel theirs.
+/// Zones of the base: which one a point lies in, and that particles and columns feel theirs.
 #include "engine/core/constants.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/terrain/zone_map.hpp"
@@ -58,11 +58,11 @@ void advance_to(HandMade& made, double time) {
     made.step.apply(made.state, std::min(time - made.state.time, 2e-3));
 }
 
-/// A parcel per strip, 6 m/s eastward.
+/// A particle per strip, 6 m/s eastward.
 const std::vector<Vec3> one_per_strip{{-10, -10, 0.5}, {-10, 0, 0.5}, {-10, 10, 0.5}};
 
-TEST(ZonesOfTheBase, AParcelFeelsTheFrictionOfItsZone) {
-  HandMade made = test::parcels_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
+TEST(ZonesOfTheBase, AParticleFeelsTheFrictionOfItsZone) {
+  HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
                                          {{0.2}, {0.6}, {0.6, 0.5}}, strips());
   advance_to(made, 0.8);
   const ParticleSet& p = made.state.grains();
@@ -72,19 +72,19 @@ TEST(ZonesOfTheBase, AParcelFeelsTheFrictionOfItsZone) {
   EXPECT_NEAR(p.vx[2], 6 - 0.3 * g * 0.8, 0.01 * 0.3 * g) << "its pore pressure bears half";
 }
 
-TEST(ZonesOfTheBase, AParcelFeelsTheCohesionOfItsZone) {
-  HandMade made = test::parcels_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
+TEST(ZonesOfTheBase, AParticleFeelsTheCohesionOfItsZone) {
+  HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
                                          {{0}, {0, 0, 1560 * 2.0}, {0}}, strips());
   advance_to(made, 0.8);
-  // A parcel of 1 m^3 and 1560 kg on 1 m^2: 2 m/s^2.
+  // A particle of 1 m^3 and 1560 kg on 1 m^2: 2 m/s^2.
   EXPECT_EQ(made.state.grains().vx[0], 6);
   EXPECT_NEAR(made.state.grains().vx[1], 6 - 2 * 0.8, 1e-9);
   EXPECT_EQ(made.state.grains().vx[2], 6);
 }
 
-TEST(ZonesOfTheBase, AParcelChangesZonesOnItsWay) {
+TEST(ZonesOfTheBase, AParticleChangesZonesOnItsWay) {
   const auto rough_east = zones_of([](double x, double) { return x >= 0; });
-  HandMade made = test::parcels_on_zones(even_ground(40), {{-3, 0, 0.5}}, {6, 0, 0}, {},
+  HandMade made = test::particles_on_zones(even_ground(40), {{-3, 0, 0.5}}, {6, 0, 0}, {},
                                          {{0.2}, {0.6}}, rough_east);
   advance_to(made, 3);
   // v^2/2 = 18: three metres take 0.2 g each, the rest 0.6 g.
@@ -101,8 +101,8 @@ Domain repeating() {
 }
 const auto rough_west = zones_of([](double x, double) { return x < 0; });
 
-TEST(ZonesOfTheBase, AParcelBeyondThePeriodFeelsTheZoneOfItsImage) {
-  HandMade made = test::parcels_on_zones(even_ground(40), {{9, 0, 0.5}}, {6, 0, 0}, repeating(),
+TEST(ZonesOfTheBase, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
+  HandMade made = test::particles_on_zones(even_ground(40), {{9, 0, 0.5}}, {6, 0, 0}, repeating(),
                                          {{0.2}, {0.6}}, rough_west);
   advance_to(made, 3);
   const double way = 1 + (18 - 0.2 * g) / (0.6 * g);

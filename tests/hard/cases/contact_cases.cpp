@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// I14: the damper of a Hertz contact pulls while the two part (A.5). Slow parcels must
+// I14: the damper of a Hertz contact pulls while the two part (A.5). Slow particles must
 // come off each other all the same, with the restitution that was set.
 #include "tests/hard/cases/cases.hpp"
-#include "tests/support/parcel_flight.hpp"
+#include "tests/support/isolated_flight.hpp"
 
 #include <cmath>
 #include <utility>
@@ -29,12 +29,12 @@ struct Softened {
   ContactPair law;
   double fine_step = 0;
 
-  /// \param partners  2: two parcels, 1: a parcel and the ground
+  /// \param partners  2: two particles, 1: a particle and the ground
   explicit Softened(int partners) {
-    const GrainMaterial m = softened({}, softest_modulus(parcel_density, bound_m_s));
+    const GrainMaterial m = softened({}, softest_modulus(contact_density, bound_m_s));
     law.modulus = contact_modulus(m, m);
     law.radius = radius_m / partners;
-    law.mass = 4.0 / 3 * std::numbers::pi * parcel_density * std::pow(radius_m, 3) / partners;
+    law.mass = 4.0 / 3 * std::numbers::pi * contact_density * std::pow(radius_m, 3) / partners;
     fine_step = contact_time_step(m, radius_m, law, bound_m_s);
   }
 };
@@ -56,7 +56,7 @@ struct Meeting {
   double energy_gained = 0;  ///< of what the two had, in flight
 };
 
-/// Two parcels at `speed` towards each other, followed until long after they have touched.
+/// Two particles at `speed` towards each other, followed until long after they have touched.
 /// \param offset  of their ways, across [m]; \param steps  fine steps in one of the scene
 Meeting meet(const Scene& scene, double speed, double offset, double steps, double start) {
   const Softened soft(2);
@@ -125,8 +125,8 @@ std::pair<double, double> off_centre() {
   return {together, gained};
 }
 
-/// A parcel against the ground as its partner. The ground's distance is a float: below 1e-3 m/s its
-/// rounding is felt in the restitution, but parcels leave at any speed.
+/// A particle against the ground as its partner. The ground's distance is a float: below 1e-3 m/s its
+/// rounding is felt in the restitution, but particles leave at any speed.
 Worst against_the_ground() {
   Worst worst;
   const Softened soft(1);
@@ -157,7 +157,7 @@ CaseReport slow_contacts_part(States) {
   return {
       {at_most("pairs in flight that stay together", flight.together + oblique, 0),
        at_most("pairs on the ground that stay together", level.together, 0),
-       at_most("parcels that stay on the ground", ground.together, 0),
+       at_most("particles that stay on the ground", ground.together, 0),
        at_most("restitution off what was set, in flight", flight.off, off),
        at_most("restitution off what was set, on the ground", level.off, off),
        at_most("restitution off what was set, against the ground, from 1e-3 m/s", ground.off, off),

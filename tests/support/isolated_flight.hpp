@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lone parcels thrown by hand: only gravity, their contacts and motion.
+/// Isolated particles thrown by hand: only gravity, their contacts and motion.
 #pragma once
 
 #include "engine/effects/fields.hpp"
@@ -18,7 +18,7 @@
 
 namespace sturz::test {
 
-constexpr double parcel_density = 2600;
+constexpr double contact_density = 2600;
 
 struct Thrown {
   Vec3 place, velocity;
@@ -45,17 +45,17 @@ struct Scene {
   bool works = false;   ///< book works with the velocity before
   bool ground = false;  ///< look the ground up
   Domain domain;
-  ParcelContactSettings contacts;
+  IsolatedContactSettings contacts;
 };
 
 class Flight {
  public:
-  Flight(const std::vector<Thrown>& parcels, const Scene& scene)
+  Flight(const std::vector<Thrown>& particles, const Scene& scene)
       : state(even_ground(64), scene.domain) {
     MovingSet& p = state.grains();
     state.gravity = scene.gravity;
-    p.grow(parcels.size());
-    for (std::size_t i = 0; i < parcels.size(); ++i) put(i, parcels[i]);
+    p.grow(particles.size());
+    for (std::size_t i = 0; i < particles.size(); ++i) put(i, particles[i]);
     add_gravity(step, state, 0);
     if (scene.works) step.add(std::make_unique<StartNote>(p.add(fields::velocity_before)));
     if (scene.ground) {
@@ -84,7 +84,7 @@ class Flight {
     return {w[0][i], w[1][i], w[2][i]};
   }
   double radius(std::size_t i) const {
-    return std::cbrt(0.75 * state.grains().mass[i] / (std::numbers::pi * parcel_density));
+    return std::cbrt(0.75 * state.grains().mass[i] / (std::numbers::pi * contact_density));
   }
   Vec3 momentum() const {
     Vec3 sum(0, 0, 0);
@@ -102,7 +102,7 @@ class Flight {
   /// Of motion, spins and springs [J].
   double energy() const {
     return state.grains().ledger.kinetic + state.grains().ledger.rotational +
-           state.grains().ledger.parcel_elastic;
+           state.grains().ledger.isolated_elastic;
   }
 
   State state;
@@ -113,7 +113,7 @@ class Flight {
     MovingSet& p = state.grains();
     p.x[i] = t.place.x(), p.y[i] = t.place.y(), p.z[i] = t.place.z();
     p.vx[i] = t.velocity.x(), p.vy[i] = t.velocity.y(), p.vz[i] = t.velocity.z();
-    p.mass[i] = 4.0 / 3 * std::numbers::pi * parcel_density * t.radius * t.radius * t.radius;
+    p.mass[i] = 4.0 / 3 * std::numbers::pi * contact_density * t.radius * t.radius * t.radius;
   }
 };
 
@@ -125,24 +125,24 @@ inline Scene free_flight(double restitution = 0.7, double friction = 0.5) {
   return scene;
 }
 
-/// A bag of parcels that fly towards its middle.
+/// A bag of particles that fly towards its middle.
 inline std::vector<Thrown> bag(int n, double speed, std::uint32_t seed = 3) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
-  std::vector<Thrown> parcels;
-  while (static_cast<int>(parcels.size()) < n) {
+  std::vector<Thrown> particles;
+  while (static_cast<int>(particles.size()) < n) {
     Thrown t;
     t.place = 3.5 * Vec3(unit(random), unit(random), unit(random));
     t.radius = 0.45 + 0.15 * unit(random);
     t.velocity =
         -speed / 3.5 * t.place + 0.3 * speed * Vec3(unit(random), unit(random), unit(random));
     t.place += Vec3(1, -2, 100);
-    const bool free = std::none_of(parcels.begin(), parcels.end(), [&](const Thrown& o) {
+    const bool free = std::none_of(particles.begin(), particles.end(), [&](const Thrown& o) {
       return (o.place - t.place).norm() < o.radius + t.radius + 0.02;
     });
-    if (free) parcels.push_back(t);
+    if (free) particles.push_back(t);
   }
-  return parcels;
+  return particles;
 }
 
 }  // namespace sturz::test
