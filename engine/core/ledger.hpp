@@ -28,7 +28,7 @@ struct Ledger {
   double gravity_work = 0;
   double stress_work = 0;    ///< by pair forces and the wall's share of the pressure field
   double stress_power = 0;   ///< integral of V sigma : D
-  double frictional = 0;     ///< stored by the frictional pressure of grains that part
+  double frictional = 0;     ///< stored by the frictional pressure of grains that separate
   double granular = 0;       ///< of granular temperature, now
   double conducted = 0;      ///< gained by its conduction: zero but for rounding
   double collisions = 0;     ///< dissipated by collisions of grains

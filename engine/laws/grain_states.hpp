@@ -11,7 +11,7 @@ namespace sturz {
 /// stress itself is one continuous law.
 enum class GrainState : std::uint8_t { dense, transition, dilute, ultradilute };
 
-/// Fractions alpha_p that part the states [-].
+/// Fractions alpha_p that separate the states [-].
 inline constexpr double dense_fraction = 0.60;        ///< above: dense
 inline constexpr double transition_fraction = 0.50;   ///< above: enduring contacts carry load
 inline constexpr double ultradilute_fraction = 0.02;  ///< below: isolated particles

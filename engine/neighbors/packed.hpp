@@ -27,8 +27,8 @@ struct alignas(64) PackedRecord {
 static_assert(sizeof(PackedRecord) == 64);
 
 /// What a dispersed grain brings besides its PackedRecord (B.6, B.9). The
-/// record's volume and stress are those of enduring contacts, which grains that have parted no
-/// longer feel; kinetic stresses act on the volume that the grains really take up.
+/// record's volume and stress are those of enduring contacts, which dilated grains do
+/// not have; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
   float growth = 1;  ///< true volume over PackedRecord::volume [-]
   /// Takes the place of `growth` in pairs: sqrt(growth/fill) makes the sums over a cloud's few
@@ -93,7 +93,7 @@ struct DispersedClock {
   std::int64_t spent_ns = 0;  ///< added to
 };
 
-/// For a mass whose grains may part.
+/// For a mass whose grains may disperse.
 struct KineticView {
   const KineticRecord* records = nullptr;  ///< as many as PackedView::records
   const std::uint8_t* dense_group = nullptr;      ///< by record/group_size: 1 where no grain is dispersed

@@ -310,7 +310,7 @@ std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan)
   if (s.grains->states && plan.formulation.depth_averaged)
     out.push_back(
         "grains.states is not used: columns have no states. Use formulation: full_stress "
-        "where the grains may part");
+        "where the grains may disperse");
   const bool collides =
       s.grains->states && s.grains->states->dilute && !plan.formulation.depth_averaged;
   if (collides && s.grains->states->dilute->restitution.value < 0.7)

@@ -197,7 +197,7 @@ TEST(CylinderCollapse, QuarterBetweenWallsRunsAsTheFullCircle) {
          full.finished);
 }
 
-/// Grains that part, collide and fly on the way down.
+/// Grains that separate, collide and fly on the way down.
 TEST(CylinderCollapse, StatesOfTheGrainsRunOutAlike) {
   for (const auto& [aspect, n] : {std::pair{2.0, 10}, {5.0, 7}}) {
     Scenario s = scene(aspect, n);

@@ -102,7 +102,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
     bool own_corrected = true;
     // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no image.
     rates.fill = moment.trace() / 3;
-    gradient *= a.growth;  // neighbours that parted alike leave too little
+    gradient *= a.growth;  // neighbours that dilated alike leave too little
     const Matrix3d grown = a.growth * moment;
     const double along = grown.cwiseProduct(a.wall_moment).sum();
     rates.wall_share = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);

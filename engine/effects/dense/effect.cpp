@@ -83,7 +83,7 @@ class NeighborPass final : public Pass {
     for (auto& r : shared_->results) r.resize(padded);
     for (auto& r : shared_->smooth) r.resize(padded);
     if (shared_->settings.states)
-      for (auto& r : shared_->parted) r.resize(padded);
+      for (auto& r : shared_->dispersed) r.resize(padded);
     const std::size_t all = std::max(padded, p.size());
     for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.share}) a->resize(all);
   }
@@ -117,7 +117,7 @@ class PackPass final : public Pass {
                       PackedRecord* records = lists.records();
                       for (std::size_t i = begin; i < end; ++i) {
                         PackedRecord& r = records[i];
-                        const double e = std::max(compression[i], GrainStressSettings::separation);
+                        const double e = std::max(compression[i], GrainStressSettings::separation_threshold);
                         r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
                         r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
                         r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
@@ -209,7 +209,7 @@ class SweepPass final : public Pass {
   std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
 
  private:
-  /// The sweep of a mass whose grains may part, and which part of its time those take that do: two
+  /// The sweep of a mass whose grains may disperse, and which part of its time those take that do: two
   /// looks at the clock for 16 groups, and one where the kind of group changes.
   void timed_kinetic(const PackedView& view, const SweepConstants& constants,
                      const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
@@ -261,7 +261,7 @@ class StressPass final : public Pass {
         p.n_listed, s.threads, StressEnergies{},
         [&](std::size_t begin, std::size_t end, StressEnergies& out) {
           if (g.states)
-            update.apply(parting(g, dt), columns, rates, begin, end, out);
+            update.apply(dilatant(g, dt), columns, rates, begin, end, out);
           else
             update.apply(columns, rates, begin, end, out);
         },
@@ -276,7 +276,7 @@ class StressPass final : public Pass {
   }
 
  private:
-  static PartingPacking parting(const GrainStressSettings& g, double dt) {
+  static DilatantPacking dilatant(const GrainStressSettings& g, double dt) {
     const GrainStatesSettings& s = *g.states;
     const double relaxation = 10 * g.smoothing_length / g.sound_speed;
     return {g.bulk_modulus(), s.reference_fraction, s.friction, s.switched,

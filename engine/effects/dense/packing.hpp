@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// How density and the pressure of contacts follow from strain: for masses that stay dense, and for
-/// those whose grains may part and meet again.
+/// those whose grains may disperse and meet again.
 #pragma once
 
 #include "engine/effects/dense/settings.hpp"
@@ -13,7 +13,7 @@ namespace sturz {
 
 /// p = K e above the reference density, nothing below (docs/physics.md B.5 step 1).
 struct DensePacking {
-  static constexpr bool parts = false;
+  static constexpr bool dilates = false;
   double bulk;  ///< K [Pa]
 
   /// How much dilation is remembered: the sums of few far neighbours drift, and a grain that must
@@ -23,11 +23,11 @@ struct DensePacking {
   static const MuIRheology& yielding(const MuIRheology& law, double) { return law; }
   /// Whether the stress ratio of a grain that starts the step at e under p is smoothed.
   static bool smooths(double, double p, const MuIRheology&) { return p > 0; }
-  /// Parted grains carry no shear.
-  static bool carries_shear(double e) { return !(e < GrainStressSettings::separation); }
+  /// Dilated grains carry no shear.
+  static bool carries_shear(double e) { return !(e < GrainStressSettings::separation_threshold); }
 };
 
-/// p = K e + p_fric(alpha): one continuous law from dense to parted (docs/physics.md B.9).
+/// p = K e + p_fric(alpha): one continuous law from dense to dilated (docs/physics.md B.9).
 ///
 /// The density of the continuity equation drifts where neighbours are few. It is kept between what
 /// the fill of the support allows: not under 0.85 of it where that is nearly full (so a grain that
@@ -38,8 +38,8 @@ struct DensePacking {
 /// Few neighbours do not hold a grain under pressure either: see held().
 /// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing,
 /// not a cloud: it stays dense, without load, so that it carries at once when others run up on it.
-struct PartingPacking {
-  static constexpr bool parts = true;
+struct DilatantPacking {
+  static constexpr bool dilates = true;
   static constexpr double sparse = 0.12;   ///< fill under which nobody is dense
   static constexpr double surface = 0.45;  ///< fill from which a grain holds whatever presses it
   double bulk;                             ///< K [Pa]
@@ -64,7 +64,7 @@ struct PartingPacking {
   /// \param touching  whether it lies on the ground
   static double bounded(double e, double fill, bool touching) {
     const double packed = touching ? 1 : 0.85 * fill * smoothstep(2 * (fill - 0.3));
-    const double least = std::fmin(packed - 1, GrainStressSettings::separation);
+    const double least = std::fmin(packed - 1, GrainStressSettings::separation_threshold);
     const double lifted = std::fmax(e, least);
     const double most = fill < sparse && !touching ? fill / sparse - 1 : held(fill);
     return std::fmax(std::fmin(lifted, most), -0.999);
@@ -77,12 +77,12 @@ struct PartingPacking {
     const double target = dense ? squeezed : friction.at(fraction(e));
     return target + (before - target) * kept;
   }
-  /// Cohesion ends where grains part, over the two percent after it ends in a mass that stays
+  /// Cohesion ends where grains separate, over the two percent after it ends in a mass that stays
   /// dense. Held on to through the transition it would be shear without pressure, that is tension,
   /// and pull grains into clumps (docs/physics.md B.13, I1).
   static MuIRheology yielding(const MuIRheology& law, double e) {
     MuIRheology faded = law;
-    faded.cohesion *= smoothstep((e - GrainStressSettings::separation + 0.02) / 0.02);
+    faded.cohesion *= smoothstep((e - GrainStressSettings::separation_threshold + 0.02) / 0.02);
     return faded;
   }
   /// Not where cohesion alone holds a grain: the ratio is that to p_c there, which is thousands of

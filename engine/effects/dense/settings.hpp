@@ -30,10 +30,10 @@ struct GrainStressSettings {
   double skin = 0.15;              ///< of the lists, in smoothing lengths
   InstructionSet instruction_set = InstructionSet::plain;  ///< chosen by assemble
 
-  /// Grains whose density fell this far below the reference have parted: they carry no shear, and
-  /// count in their neighbours' sums as if they had parted no further. A volume that grows with
+  /// Grains whose density fell this far below the reference have dilated: they carry no shear, and
+  /// count in their neighbours' sums as if they had dilated no further. A volume that grows with
   /// the dilation would multiply every force on a grain that has left the mass.
-  static constexpr double separation = -0.02;
+  static constexpr double separation_threshold = -0.02;
   /// Smoothing runs in every so many-th step, as many times as strong: the same for a fraction of
   /// the cost.
   static constexpr int smoothing_interval = 16;

@@ -21,7 +21,7 @@ struct StressColumns {
   double* stress[6] = {};  ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
   /// What the artificial viscosity would carry, over the friction of yielding grains [-]
   double* viscous_ratio = nullptr;
-  const float* distance = nullptr;      ///< to the ground [m]; where grains may part
+  const float* distance = nullptr;      ///< to the ground [m]; where grains may disperse
   const std::uint8_t* state = nullptr;  ///< GrainState at n; read by the switched law only
 };
 
@@ -119,7 +119,7 @@ class StressUpdate {
       double squeezed_by;     // de by the continuity equation alone
       double p0, p1;          // of contacts
       double q0 = 0, q1 = 0;  // the frictional part of it
-      if constexpr (Packing::parts) {
+      if constexpr (Packing::dilates) {
         const double carried = packing.carried(e0, dt * trace);
         e1 = packing.bounded(carried + diffused, r_fill[i], c_distance[i] < touching);
         diffused = e1 - carried;
@@ -176,7 +176,7 @@ class StressUpdate {
       const double replaced = carried * dt * work;  // the viscosity takes it instead
       const double squeezed = p1 - q1;
       elastic += volume * (squeezed * squeezed * half_inv_bulk + tau * tau * half_inv_shear);
-      if constexpr (Packing::parts) frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
+      if constexpr (Packing::dilates) frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
       // As the law stores it: per reference volume.
       power += volume * (dt * work - replaced + mean_p * squeezed_by);
       plastic += volume * (dt * work - replaced - (tau * tau - s.norm2()) * half_inv_shear);

@@ -16,7 +16,7 @@ Vec3 velocity_at(const Vec3& velocity, const Vec3& spin, const Vec3& arm) {
 /// The point of contact lies midway in the overlap of two spheres, on the ground's plane else.
 void press(IsolatedContact& c, std::vector<IsolatedBody>& bodies, double dt) {
   measure(c, bodies);
-  // What has parted again starts loading from where it is.
+  // A contact that has opened again starts loading from where it is.
   c.unloaded = std::clamp(c.overlap, 0.0, c.unloaded);
   c.stored = 0;
   if (!(c.loaded() > 0)) {

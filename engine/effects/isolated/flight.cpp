@@ -156,7 +156,7 @@ void attach_landed(MovingSet& p) {
   GrainFields f(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!f.is(i, Membership::landed)) continue;
-    f.compression[i] = GrainStressSettings::separation;
+    f.compression[i] = GrainStressSettings::separation_threshold;
     f.set(i, GrainState::dense, Membership::listed);
   }
 }
@@ -187,7 +187,7 @@ bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& 
     const Surroundings& around = survey.of(i);
     const double reference = g.states->reference_fraction;
     f.fill[i] = around.fill;
-    f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation);
+    f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation_threshold);
     f.set(i, grain_state(reference * (1 + f.compression[i])), Membership::listed);
     if (f.theta) {
       f.theta->component[0][i] = around.theta();

@@ -55,10 +55,10 @@ class KineticPack final : public Pass {
       const double e = compression[i], hot = theta ? theta->component[0][i] : 0;
       k = {};
       k.viscosity = records[i].viscosity;
-      if (e >= GrainStressSettings::separation && hot == 0) continue;
+      if (e >= GrainStressSettings::separation_threshold && hot == 0) continue;
       g.dense_group[i / group_size] = 0;
       const double fraction = states.reference_fraction * (1 + e);
-      const double growth = (1 + std::max(e, GrainStressSettings::separation)) / (1 + e);
+      const double growth = (1 + std::max(e, GrainStressSettings::separation_threshold)) / (1 + e);
       k.growth = static_cast<float>(growth);
       k.weight = static_cast<float>(pair_weight(growth, fill[i]));
       double wave = 0;

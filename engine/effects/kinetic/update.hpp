@@ -49,7 +49,7 @@ inline double kinetic_share(double fraction, bool switched) {
 }
 
 /// KineticRecord::weight: sums are completed to the whole, but not from less than 0.4 of it. One
-/// neighbour fills at most 1/23 of a support, so grains that have parted further than `most` have
+/// neighbour fills at most 1/23 of a support, so grains that have dilated further than `most` have
 /// no sum to complete. Without this bound the first neighbour of such a grain would count hundreds
 /// of times over: the fill is that of the step before, and was empty. \param growth  volume over
 /// that of the record; \param fill  of the support

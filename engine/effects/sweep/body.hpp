@@ -70,7 +70,7 @@ struct Image {
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
 /// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours
 /// that
-///                parted alike are too small by it
+///                dilated alike are too small by it
 /// \tparam dispersed  whether the group may be a cloud
 /// \return trace of the moment that ground and walls add
 template <bool dispersed>

@@ -23,7 +23,7 @@ struct Sweeps {
   /// diffusion (terms/dense_sums.hpp).
   void (*dense)(const PackedView&, const SweepConstants&, const BoundaryView&, const SweepOutput&,
                 std::size_t first_group, std::size_t last_group);
-  /// The same where grains may part: kinetic stresses, conduction of granular temperature, how full
+  /// The same where grains may disperse: kinetic stresses, conduction of granular temperature, how full
   /// each support is (terms/kinetic_sums.hpp). Groups without dispersed grains in or near them take `dense`.
   void (*kinetic)(const PackedView&, const KineticView&, const SweepConstants&, const BoundaryView&,
                   const SweepOutput&, std::size_t first_group, std::size_t last_group);

@@ -4,7 +4,7 @@
 /// Included by files that are compiled for this very processor, so it holds plain data only.
 ///
 /// Left out against the engine: the gradient's correction (moment matrix), density diffusion,
-/// stress smoothing, the mirror image at the ground, drag at rest, parted grains, cohesion, walls,
+/// stress smoothing, the mirror image at the ground, drag at rest, dilated grains, cohesion, walls,
 /// periods, zones, losses over the rim, the energy ledger, double precision of the state, sums
 /// whose bits do not depend on threads, limits of the time step, peak maps and the stop rule.
 #pragma once

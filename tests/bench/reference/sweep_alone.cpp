@@ -37,7 +37,7 @@ void SweepAlone::fill_records(const GrainStressSettings& g) {
   auto f = [](double v) { return static_cast<float>(v); };
   for (std::size_t i = 0; i < set_.size(); ++i) {
     PackedRecord& r = lists_.records()[i];
-    const double e = std::max(compression[i], GrainStressSettings::separation);
+    const double e = std::max(compression[i], GrainStressSettings::separation_threshold);
     r.volume = f(set_.mass[i] / (g.reference_density * (1 + e)));
     r.vx = f(set_.vx[i]), r.vy = f(set_.vy[i]), r.vz = f(set_.vz[i]);
     r.compression = f(e);

@@ -284,7 +284,7 @@ TEST(FusedSweep, UniformStressRatioIsNotSmoothed) {
     EXPECT_LT(even[i].smoothing.norm(), 1e-5 * noise[i].smoothing.norm() + 1e-4);
 }
 
-TEST(FusedSweep, ViscosityResistsApproachAndParting) {
+TEST(FusedSweep, ViscosityResistsApproachAndSeparation) {
   auto constants = test::usual_constants(dx);
   auto pair = test::lattice({2, 1, 1}, dx, 0);
   for (double sign : {-1.0, 1.0}) {

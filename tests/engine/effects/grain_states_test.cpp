@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole members whose grains part, fly alone and come back.
+// Whole members whose grains separate, fly alone and come back.
 #include "engine/effects/fields.hpp"
 #include "engine/effects/isolated/flight.hpp"
 #include "engine/effects/motion/accounts.hpp"

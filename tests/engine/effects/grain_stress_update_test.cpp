@@ -78,16 +78,16 @@ TEST(GrainStressUpdate, PressureFollowsTheContinuityEquation) {
   EXPECT_NEAR(grain.tau(), 0, 1e-6 * grain.pressure());
 }
 
-TEST(GrainStressUpdate, MassesInTensionPartWithoutPull) {
+TEST(GrainStressUpdate, MassesInTensionSeparateWithoutPull) {
   const GrainStressSettings g = settings();
   Grain grain;
   grain.set_stress(g, 1e4, 1e3 * (Matrix3d() << 0, 0, 1, 0, 0, 0, 1, 0, 0).finished());
   grain.set_gradient(0.5 * Matrix3d::Identity());
   for (int n = 0; n < 300; ++n) grain.update(g, 1e-3);
   for (double s : grain.stress) EXPECT_EQ(std::abs(s), 0);
-  EXPECT_LT(grain.compression, GrainStressSettings::separation);
+  EXPECT_LT(grain.compression, GrainStressSettings::separation_threshold);
   for (int n = 0; n < 100000; ++n) grain.update(g, 1e-3);
-  EXPECT_GT(grain.compression, -1);  // the density stays positive however far they part
+  EXPECT_GT(grain.compression, -1);  // the density stays positive however far they separate
 }
 
 TEST(GrainStressUpdate, SteadyShearReachesTheFrictionOfItsRate) {

@@ -203,7 +203,7 @@ TEST(IsolatedContacts, BecomingIsolatedSetsNoEnergyFree) {
   EXPECT_NEAR(meet.velocity(1).x(), 1.4, 0.03);
   EXPECT_EQ(meet.spin(0).norm(), 0);
 
-  // Parting without load, then pushed together again: the zero has moved out with them.
+  // Separating without load, then pushed together again: the zero has moved out with them.
   Flight part({{{0, 0, 100}, {-1, 0, 0}}, {{0.75, 0, 100}, {1, 0, 0}}}, free_flight(0.7));
   for (int n = 0; n < 10; ++n) part.advance(0.01);
   EXPECT_EQ(part.velocity(1), Vec3(1, 0, 0));

@@ -144,7 +144,7 @@ TEST(KineticSweep, GivesTheSameBitsOnBothVectorWidths) {
   EXPECT_EQ(std::memcmp(wide.data(), narrow.data(), wide.size() * sizeof(float)), 0);
 }
 
-/// A cloud whose grains have parted alike sees a linear velocity field exactly.
+/// A cloud whose grains have dilated alike sees a linear velocity field exactly.
 TEST(KineticSweep, LinearVelocityGivesTheExactGradientInAnExpandedCloud) {
   const auto constants = test::usual_constants(dx);
   Eigen::Matrix3d a;

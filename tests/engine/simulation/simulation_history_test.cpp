@@ -15,7 +15,7 @@
 namespace sturz {
 namespace {
 
-/// A few hundred grains that go over a cliff: the front parts in the air.
+/// A few hundred grains that go over a cliff: the front separates in the air.
 Scenario over_the_cliff() {
   Scenario s = cliff(2);
   s.numerics.end_time_s = 3;
@@ -93,7 +93,7 @@ TEST(SimulationHistory, StatesSumToOneAndAgreeWithTheScalars) {
               s.max_granular_temperature_m2_s2, 1e-9 * s.max_granular_temperature_m2_s2);
 }
 
-TEST(SimulationHistory, ColumnsHaveAHistoryButKnowNothingOfParting) {
+TEST(SimulationHistory, ColumnsHaveAHistoryButHaveNoStates) {
   Scenario s = over_the_cliff();
   s.formulation = Formulation::depth_averaged;
   const MemberResult r = run(s);

@@ -32,7 +32,7 @@ CaseReport breathing(States);
 CaseReport pressed_to_the_limit(States);
 /// I13: a mass that flies apart, until nobody has a neighbour.
 CaseReport jet_breaks_up(States);
-/// I14: particles that touch at 1e-6 to 1 m/s part again, with the restitution that was set.
+/// I14: particles that touch at 1e-6 to 1 m/s separate again, with the restitution that was set.
 CaseReport slow_contacts_part(States);
 /// I15: particles of one scene are alike in mass.
 CaseReport masses_mix(States);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// I14: the damper of a Hertz contact pulls while the two part (A.5). Slow particles must
+// I14: the damper of a Hertz contact pulls while the two separate (A.5). Slow particles must
 // come off each other all the same, with the restitution that was set.
 #include "tests/hard/cases/cases.hpp"
 #include "tests/support/isolated_flight.hpp"
@@ -52,7 +52,7 @@ Scene scene_at(Place place, double restitution, bool cut, double friction) {
 
 struct Meeting {
   double restitution = 0, pulling_share = 0;
-  bool parted = false;
+  bool separated = false;
   double energy_gained = 0;  ///< of what the two had, in flight
 };
 
@@ -74,10 +74,10 @@ Meeting meet(const Scene& scene, double speed, double offset, double steps, doub
     (now > last ? pushed : pulled) += std::abs(now - last);
     last = now;
   }
-  const Vec3 way = f.place(1) - f.place(0), parting = f.velocity(1) - f.velocity(0);
+  const Vec3 way = f.place(1) - f.place(0), separation = f.velocity(1) - f.velocity(0);
   m.restitution = last / speed;
   m.pulling_share = pulled / pushed;
-  m.parted = way.norm() > 2 * radius_m && parting.dot(way) > 0;
+  m.separated = way.norm() > 2 * radius_m && separation.dot(way) > 0;
   m.energy_gained = f.energy() / f.state.grains().ledger.kinetic_0 - 1;
   return m;
 }
@@ -88,7 +88,7 @@ struct Worst {
   void add(const Meeting& m, double restitution, double pulling_share) {
     off = std::max(off, std::abs(m.restitution - restitution));
     pulling = std::max(pulling, m.pulling_share - pulling_share);
-    together += m.parted ? 0 : 1;
+    together += m.separated ? 0 : 1;
   }
 };
 
@@ -119,7 +119,7 @@ std::pair<double, double> off_centre() {
       for (const double offset : {0.3, 0.7, 0.95}) {
         const Scene scene = scene_at(Place::in_flight, e.set, false, 0.5);
         const Meeting m = meet(scene, speed, offset, 7.7, 0.4);
-        together += m.parted ? 0 : 1;
+        together += m.separated ? 0 : 1;
         gained = std::max(gained, m.energy_gained);
       }
   return {together, gained};
