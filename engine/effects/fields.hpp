@@ -24,7 +24,7 @@ inline constexpr FieldKey viscous_ratio{"viscous_ratio", 1, "1", "grain stress"}
 /// GrainState by number.
 inline constexpr FlagKey state{"state", "states of the grains"};
 /// How complete the support is with neighbours and ground, 1 inside a dense mass.
-inline constexpr FieldKey fill{"fill", 1, "1", "states of the grains", 1.0};
+inline constexpr FieldKey support_completeness{"support_completeness", 1, "1", "states of the grains", 1.0};
 inline constexpr FieldKey granular_temperature{"granular_temperature", 1, "m2 s-2",
                                                "kinetic theory"};
 /// Stress of collisions, tension positive.

@@ -30,8 +30,8 @@ static_assert(sizeof(PackedRecord) == 64);
 /// record's volume and stress are those of enduring contacts, which dilated grains do
 /// not have; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
-  float growth = 1;  ///< true volume over PackedRecord::volume [-]
-  /// Takes the place of `growth` in pairs: sqrt(growth/fill) makes the sums over a cloud's few
+  float dilation_ratio = 1;  ///< true volume over PackedRecord::volume [-]
+  /// Takes the place of `dilation_ratio` in pairs: sqrt(dilation_ratio/support_completeness) makes the sums over a cloud's few
   /// neighbours complete, and keeps pairs symmetric.
   float weight = 1;
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
@@ -119,7 +119,7 @@ struct SweepOutput {
   /// Written where a KineticView is given: how full the support is of neighbours and ground (1
   /// inside a dense mass, about a half at its surface), how many neighbours there are, and the heat
   /// that granular temperature conducts per volume of the record [W/m^3].
-  float *fill, *neighbors, *heat;
+  float *support_completeness, *neighbors, *heat;
   /// Symmetric velocity gradient as the pair forces of kinetic stresses feel it, xx yy zz xy yz zx:
   /// their work on the motion is V sigma_k : this, exactly [1/s].
   float* felt[6];

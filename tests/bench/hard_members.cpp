@@ -124,7 +124,7 @@ Table members_table() {
            {"numerical", "numerical, least"},
            {"under_ground_dx", "lowest centre, dx"},
            {"speed_ratio", "speed / free fall"},
-           {"late_growth", "late growth"},
+           {"late_growth", "late dilation_ratio"},
            {"mean_dt_ratio", "mean step / estimate"},
            {"least_dt_ratio", "least step / estimate"},
            {"particles", "particles"},

@@ -40,8 +40,8 @@ Matrix3d correction(const Matrix3d& moment, bool& corrected) {
 }
 
 /// The same in units of the mean diagonal, for clouds.
-Matrix3d correction_in_a_cloud(const Matrix3d& moment, double growth, bool& corrected) {
-  const double least = std::max(1 / (growth * growth), 0.5);
+Matrix3d correction_in_a_cloud(const Matrix3d& moment, double dilation_ratio, bool& corrected) {
+  const double least = std::max(1 / (dilation_ratio * dilation_ratio), 0.5);
   const double mean = std::min(1.0, std::max(moment.trace() / 3, least));
   return correction(moment / mean, corrected) / mean;
 }
@@ -87,7 +87,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       const double weight = -grad.dot(r) / r.squaredNorm();  // F_ij without the 0.01 h^2
       laplace += b.volume * weight * rise;
       const double conduction = 4 / (1 / a.conductivity + 1 / b.conductivity);
-      const double shared = b.volume * a.weight * b.weight / a.growth;
+      const double shared = b.volume * a.weight * b.weight / a.dilation_ratio;
       rates.heat += shared * conduction * weight * (b.theta - a.theta);
       const Matrix3d seen = -shared * u * grad.transpose();
       rates.felt += 0.5 * (seen + seen.transpose());
@@ -101,16 +101,16 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
     for (const SlowParticle& b : images) add(b);
     bool own_corrected = true;
     // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no image.
-    rates.fill = moment.trace() / 3;
-    gradient *= a.growth;  // neighbours that dilated alike leave too little
-    const Matrix3d grown = a.growth * moment;
+    rates.support_completeness = moment.trace() / 3;
+    gradient *= a.dilation_ratio;  // neighbours that dilated alike leave too little
+    const Matrix3d grown = a.dilation_ratio * moment;
     const double along = grown.cwiseProduct(a.wall_moment).sum();
     rates.wall_share = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
     const Matrix3d imaged = grown + rates.wall_share * a.wall_moment;
     rates.gradient = (gradient + rates.wall_share * a.wall_gradient) *
-                     (clouds ? correction_in_a_cloud(imaged, a.growth, rates.corrected)
+                     (clouds ? correction_in_a_cloud(imaged, a.dilation_ratio, rates.corrected)
                              : correction(imaged, rates.corrected));
-    rates.fill += rates.wall_share * a.wall_moment.trace() / (3 * a.growth);
+    rates.support_completeness += rates.wall_share * a.wall_moment.trace() / (3 * a.dilation_ratio);
     const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // grad of compression
     rates.acceleration = force;
     // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.

@@ -24,7 +24,7 @@ struct SlowParticle {
   Vec3 ground_normal{0, 0, 1};
   // For dispersed grains, see KineticRecord:
   double tension = 0;  ///< artificial pressure [Pa]
-  double growth = 1, weight = 1, theta = 0, conductivity = 1e-30;
+  double dilation_ratio = 1, weight = 1, theta = 0, conductivity = 1e-30;
   Eigen::Matrix3d kinetic_stress = Eigen::Matrix3d::Zero();  ///< [Pa]
 };
 
@@ -36,7 +36,7 @@ struct SlowRates {
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d felt = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
   double heat = 0;  ///< conducted, per volume that the grain takes up [W/m^3]
-  double fill = 0;  ///< a third of the moment's trace
+  double support_completeness = 0;  ///< a third of the moment's trace
   int neighbors = 0;
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I
 };

@@ -45,7 +45,7 @@ struct Rooms {
     for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
     o.wall_share = results[19].data();
-    o.fill = results[20].data(), o.neighbors = results[21].data(), o.heat = results[22].data();
+    o.support_completeness = results[20].data(), o.neighbors = results[21].data(), o.heat = results[22].data();
     for (int k = 0; k < 6; ++k) o.felt[k] = results[23 + k].data();
     return o;
   }
@@ -62,7 +62,7 @@ struct Rooms {
     }
     r.diffusion = results[12][i];
     r.wall_share = results[19][i];
-    r.fill = results[20][i], r.heat = results[22][i];
+    r.support_completeness = results[20][i], r.heat = results[22][i];
     r.neighbors = static_cast<int>(results[21][i]);
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
@@ -134,7 +134,7 @@ struct Prepared {
       rooms->wall[6 + k][i] = static_cast<float>(p.wall_gradient(entries[k][0], entries[k][1]));
     }
     KineticRecord& k = kinetic[i];
-    k.growth = static_cast<float>(p.growth);
+    k.dilation_ratio = static_cast<float>(p.dilation_ratio);
     k.weight = static_cast<float>(p.weight);
     k.theta = static_cast<float>(p.theta);
     k.resistance = static_cast<float>(1 / p.conductivity);
@@ -142,7 +142,7 @@ struct Prepared {
     float* stress[6] = {&k.xx, &k.yy, &k.zz, &k.xy, &k.yz, &k.zx};
     for (int n = 0; n < 6; ++n)
       *stress[n] = static_cast<float>(p.kinetic_stress(entries[n][0], entries[n][1]));
-    if (p.growth != 1 || p.theta != 0) dense_group[i / group_size] = 0;
+    if (p.dilation_ratio != 1 || p.theta != 0) dense_group[i / group_size] = 0;
   }
 };
 

@@ -30,18 +30,18 @@ struct DensePacking {
 /// p = K e + p_fric(alpha): one continuous law from dense to dilated (docs/physics.md B.9).
 ///
 /// The density of the continuity equation drifts where neighbours are few. It is kept between what
-/// the fill of the support allows: not under 0.85 of it where that is nearly full (so a grain that
+/// the support completeness allows: not under 0.85 of it where that is nearly full (so a grain that
 /// is packed in again counts as such), and not over eight times of it (so a grain that has lost its
-/// neighbours does not count as dense: the surface of a dense mass has a fill of about a half, a
-/// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make the fill too
+/// neighbours does not count as dense: the surface of a dense mass has a support completeness of about a half, a
+/// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make it too
 /// uneven to correct by.
 /// Few neighbours do not hold a grain under pressure either: see held().
 /// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing,
 /// not a cloud: it stays dense, without load, so that it carries at once when others run up on it.
 struct DilatantPacking {
   static constexpr bool dilates = true;
-  static constexpr double sparse = 0.12;   ///< fill under which nobody is dense
-  static constexpr double surface = 0.45;  ///< fill from which a grain holds whatever presses it
+  static constexpr double sparse = 0.12;   ///< support completeness below which no grain is dense
+  static constexpr double surface = 0.45;  ///< support completeness from which a grain bears any load
   double bulk;                             ///< K [Pa]
   double reference_fraction;               ///< alpha where e = 0
   FrictionalPressure friction;
@@ -53,20 +53,20 @@ struct DilatantPacking {
   static double carried(double e, double strain) {
     return strain > 0 ? (1 + e) / (1 + strain) - 1 : (1 + e) * (1 - strain) - 1;
   }
-  /// Largest e that so few neighbours hold: 0 up to `sparse`, 0.017 at a fill of 0.2, 0.13 in a
+  /// Largest e that so few neighbours hold: 0 up to `sparse`, 0.017 at a support completeness of 0.2, 0.13 in a
   /// corner (0.3), any from `surface` on; grains at rest stay below. Without it a handful of grains
   /// that hits the ground bounces as one elastic body and throws one of them off with what the
   /// others lose. What the bound takes is booked with density diffusion, as a loss.
-  static double held(double fill) {
-    const double closed = smoothstep((fill - sparse) / (surface - sparse));
+  static double held(double completeness) {
+    const double closed = smoothstep((completeness - sparse) / (surface - sparse));
     return 0.1 * closed / (1 - closed);
   }
   /// \param touching  whether it lies on the ground
-  static double bounded(double e, double fill, bool touching) {
-    const double packed = touching ? 1 : 0.85 * fill * smoothstep(2 * (fill - 0.3));
+  static double bounded(double e, double completeness, bool touching) {
+    const double packed = touching ? 1 : 0.85 * completeness * smoothstep(2 * (completeness - 0.3));
     const double least = std::fmin(packed - 1, GrainStressSettings::separation_threshold);
     const double lifted = std::fmax(e, least);
-    const double most = fill < sparse && !touching ? fill / sparse - 1 : held(fill);
+    const double most = completeness < sparse && !touching ? completeness / sparse - 1 : held(completeness);
     return std::fmax(std::fmin(lifted, most), -0.999);
   }
   /// \param before  contact pressure at n [Pa]; \param state  GrainState at n

@@ -142,11 +142,11 @@ struct Correction {
   /// there M is judged, and where it is poor replaced, in units of its mean diagonal. Not so at the
   /// surface of a dense mass, where pair forces lack the same share that M does: a full gradient
   /// there would make the stress dissipate what no force takes.
-  /// \param growth  dilation ratio of the grain, 1: dense
-  static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6], Lanes growth) {
+  /// \param dilation_ratio  dilation ratio of the grain, 1: dense
+  static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6], Lanes dilation_ratio) {
     const Lanes xx = fma(s.mxx, scale, wall[0]), yy = fma(s.myy, scale, wall[1]);
     const Lanes zz = fma(s.mzz, scale, wall[2]), one = Lanes::all(1);
-    const Lanes least = max(one / (growth * growth), Lanes::all(0.5f));
+    const Lanes least = max(one / (dilation_ratio * dilation_ratio), Lanes::all(0.5f));
     const Lanes diagonal = max(Lanes::all(1.0f / 3) * (xx + yy + zz), least);
     const Lanes u = one / select_less(diagonal, one, diagonal, one);
     Correction c(u * xx, u * yy, u * zz, u * fma(s.mxy, scale, wall[3]),

@@ -92,7 +92,7 @@ class StressUpdate {
     const float *r_lzx = r.lzx, *r_lzy = r.lzy, *r_lzz = r.lzz, *r_diffusion = r.diffusion;
     const float *r_xx = r.smooth[0], *r_yy = r.smooth[1], *r_zz = r.smooth[2];
     const float *r_xy = r.smooth[3], *r_yz = r.smooth[4], *r_zx = r.smooth[5];
-    const float *r_fill = r.fill, *c_distance = c.distance;
+    const float *r_completeness = r.support_completeness, *c_distance = c.distance;
     const float touching = touching_;
     const double* mass = c.mass;
     const std::uint8_t* c_state = c.state;
@@ -121,7 +121,7 @@ class StressUpdate {
       double q0 = 0, q1 = 0;  // the frictional part of it
       if constexpr (Packing::dilates) {
         const double carried = packing.carried(e0, dt * trace);
-        e1 = packing.bounded(carried + diffused, r_fill[i], c_distance[i] < touching);
+        e1 = packing.bounded(carried + diffused, r_completeness[i], c_distance[i] < touching);
         diffused = e1 - carried;
         squeezed_by = carried - e0;
         p0 = -(s_xx[i] + s_yy[i] + s_zz[i]) / 3;

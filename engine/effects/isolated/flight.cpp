@@ -23,7 +23,7 @@ struct GrainFields {
         state(p.flags(fields::state)),
         alone(p.flags(fields::steps_alone)),
         membership(p.flags(fields::membership)),
-        fill(p.scalar(fields::fill)),
+        support_completeness(p.scalar(fields::support_completeness)),
         theta(p.find(fields::granular_temperature)),
         kinetic(p.find(fields::kinetic_stress)) {}
 
@@ -45,19 +45,19 @@ struct GrainFields {
   std::vector<double>& compression;
   std::vector<std::vector<double>>& stress;
   std::vector<std::uint8_t>&state, &alone, &membership;
-  std::vector<double>& fill;
+  std::vector<double>& support_completeness;
   Field *theta, *kinetic;
 };
 
 /// The neighbourhood of an isolated particle.
 struct Surroundings {
   int neighbors = 0;
-  double fill = 0;              ///< of its support, 1 inside a dense mass
+  double support_completeness = 0;              ///< of its support, 1 inside a dense mass
   double weight = 0, warm = 0;  ///< of the grains among them: sum of weights, and times theta
 
   double theta() const { return weight > 0 ? warm / weight : 0; }
   bool enough(const GrainStressSettings& g) const {
-    return neighbors >= attach_neighbors && fill * g.states->reference_fraction > attach_fraction;
+    return neighbors >= attach_neighbors && support_completeness * g.states->reference_fraction > attach_fraction;
   }
 };
 
@@ -117,7 +117,7 @@ class NeighborhoodSurvey {
   double count(Surroundings& found, double r2) const {
     const double t = 1 - std::sqrt(r2) / reach_, w = volume_ * t * t * t;
     ++found.neighbors;
-    found.fill += factor_ * w * r2 / 3;
+    found.support_completeness += factor_ * w * r2 / 3;
     return w;
   }
 
@@ -186,8 +186,8 @@ bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& 
     if (!rejoins[i - p.n_listed]) continue;
     const Surroundings& around = survey.of(i);
     const double reference = g.states->reference_fraction;
-    f.fill[i] = around.fill;
-    f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation_threshold);
+    f.support_completeness[i] = around.support_completeness;
+    f.compression[i] = std::fmin(around.support_completeness - 1, GrainStressSettings::separation_threshold);
     f.set(i, grain_state(reference * (1 + f.compression[i])), Membership::listed);
     if (f.theta) {
       f.theta->component[0][i] = around.theta();

@@ -28,7 +28,7 @@ class KineticPack final : public Pass {
     g.kinetic.resize(groups * group_size);
     g.dense_group.assign(groups, 1);
     parallel_ranges(p.n_listed, reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) { fill(p, begin, end); });
+                    [&](std::size_t begin, std::size_t end) { gather(p, begin, end); });
     std::fill(g.kinetic.begin() + static_cast<std::ptrdiff_t>(p.n_listed),
               g.kinetic.begin() + static_cast<std::ptrdiff_t>(g.lists.padded_size()),
               KineticRecord{});
@@ -42,13 +42,13 @@ class KineticPack final : public Pass {
   }
 
  private:
-  void fill(const MovingSet& p, std::size_t begin, std::size_t end) const {
+  void gather(const MovingSet& p, std::size_t begin, std::size_t end) const {
     GrainStress& g = *shared_;
     const GrainStatesSettings& states = *g.settings.states;
     const auto& compression = p.scalar(fields::compression);
     const Field* theta = p.find(fields::granular_temperature);
     const Field* stress = p.find(fields::kinetic_stress);
-    const auto& fill = p.scalar(fields::fill);
+    const auto& support_completeness = p.scalar(fields::support_completeness);
     const PackedRecord* records = g.lists.records();
     for (std::size_t i = begin; i < end; ++i) {
       KineticRecord& k = g.kinetic[i];
@@ -58,9 +58,9 @@ class KineticPack final : public Pass {
       if (e >= GrainStressSettings::separation_threshold && hot == 0) continue;
       g.dense_group[i / group_size] = 0;
       const double fraction = states.reference_fraction * (1 + e);
-      const double growth = (1 + std::max(e, GrainStressSettings::separation_threshold)) / (1 + e);
-      k.growth = static_cast<float>(growth);
-      k.weight = static_cast<float>(pair_weight(growth, fill[i]));
+      const double dilation_ratio = (1 + std::max(e, GrainStressSettings::separation_threshold)) / (1 + e);
+      k.dilation_ratio = static_cast<float>(dilation_ratio);
+      k.weight = static_cast<float>(pair_weight(dilation_ratio, support_completeness[i]));
       double wave = 0;
       if (hot > 0) {
         const KineticTheory& law = *states.dilute;
@@ -75,7 +75,7 @@ class KineticPack final : public Pass {
       // place.
       const double apart = kinetic_share(fraction, states.switched);
       k.viscosity *= static_cast<float>(
-          1 - apart + apart * std::min(1.0, wave / g.settings.sound_speed) / growth);
+          1 - apart + apart * std::min(1.0, wave / g.settings.sound_speed) / dilation_ratio);
     }
   }
 
@@ -150,13 +150,13 @@ class StatePass final : public Pass {
     const double reference = shared_->settings.states->reference_fraction;
     const auto& compression = p.scalar(fields::compression);
     auto& state = p.flags(fields::state);
-    auto& fill = p.scalar(fields::fill);
+    auto& support_completeness = p.scalar(fields::support_completeness);
     const SweepOutput out = shared_->output();
     parallel_ranges(p.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       for (std::size_t i = begin; i < end; ++i) {
                         state[i] = named(reference * (1 + compression[i]), state[i]);
-                        fill[i] = out.fill[i];
+                        support_completeness[i] = out.support_completeness[i];
                       }
                     });
   }
@@ -183,7 +183,7 @@ void add_kinetic_theory(Step& step, State& state, const std::shared_ptr<GrainStr
 void add_grain_states(Step& step, State& state, const std::shared_ptr<GrainStress>& shared) {
   MovingSet& p = state.sets[shared->set];
   p.add(fields::state);
-  p.add(fields::fill);
+  p.add(fields::support_completeness);
   step.add(std::make_unique<KineticPack>(shared));
   step.add(std::make_unique<StatePass>(shared));
 }

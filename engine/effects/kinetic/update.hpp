@@ -51,12 +51,12 @@ inline double kinetic_share(double fraction, bool switched) {
 /// KineticRecord::weight: sums are completed to the whole, but not from less than 0.4 of it. One
 /// neighbour fills at most 1/23 of a support, so grains that have dilated further than `most` have
 /// no sum to complete. Without this bound the first neighbour of such a grain would count hundreds
-/// of times over: the fill is that of the step before, and was empty. \param growth  volume over
-/// that of the record; \param fill  of the support
-inline double pair_weight(double growth, double fill) {
+/// of times over: the support completeness is that of the step before, and was zero. \param dilation_ratio  volume over
+/// that of the record; \param completeness  of the support
+inline double pair_weight(double dilation_ratio, double completeness) {
   constexpr double most = 30;
-  const double told = std::fmin(growth, most);
-  return told / std::sqrt(std::fmax(fill * told, 0.4));
+  const double told = std::fmin(dilation_ratio, most);
+  return told / std::sqrt(std::fmax(completeness * told, 0.4));
 }
 
 /// Speed of sound in colliding grains: c^2 = dp/drho at theta, and what compression heats

@@ -68,7 +68,7 @@ struct Image {
 };
 
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
-/// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours
+/// \param dilation_ratio  true volume over that of the records, 1 in a dense mass: sums over neighbours
 /// that
 ///                dilated alike are too small by it
 /// \tparam dispersed  whether the group may be a cloud
@@ -76,7 +76,7 @@ struct Image {
 template <bool dispersed>
 inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, const DenseScale& k,
                           const BoundaryView& wall, const SweepOutput& out, std::size_t at,
-                          Lanes growth) {
+                          Lanes dilation_ratio) {
   const Lanes sxx = Lanes::load(rows.sxx + lane), syy = Lanes::load(rows.syy + lane);
   const Lanes szz = Lanes::load(rows.szz + lane), sxy = Lanes::load(rows.sxy + lane);
   const Lanes syz = Lanes::load(rows.syz + lane), szx = Lanes::load(rows.szx + lane);
@@ -89,15 +89,15 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
 
   Image image(wall, rows, lane, k, at);
   Lanes(&w)[6] = image.moment;
-  const Lanes moment = Lanes::all(k.moment) * growth;
+  const Lanes moment = Lanes::all(k.moment) * dilation_ratio;
   const Lanes share = wall_share(s, w, moment);
   share.store(out.wall_share + at);
   for (Lanes& c : w) c = share * c;
   const Lanes imaged = w[0] + w[1] + w[2];
   const Correction b =
-      dispersed ? Correction::in_a_cloud(s, moment, w, growth) : Correction(s, moment, w);
+      dispersed ? Correction::in_a_cloud(s, moment, w, dilation_ratio) : Correction(s, moment, w);
   for (int c = 0; c < 6; ++c) w[c] = share * image.gradient[c];
-  const Lanes scale = Lanes::all(k.gradient) * growth;
+  const Lanes scale = Lanes::all(k.gradient) * dilation_ratio;
   auto row = [&](Lanes x, Lanes y, Lanes z, float* ox, float* oy, float* oz) {
     fma(x, b.xx, fma(y, b.xy, z * b.zx)).store(ox + at);
     fma(x, b.xy, fma(y, b.yy, z * b.yz)).store(oy + at);
@@ -123,7 +123,7 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
 }
 
 /// A third of the moment's trace: 1 inside a dense mass, about a half at its surface.
-inline Lanes fill_of(const DenseSums& s, const DenseScale& k, Lanes imaged) {
+inline Lanes support_completeness(const DenseSums& s, const DenseScale& k, Lanes imaged) {
   const Lanes trace = Lanes::all(k.moment) * (s.mxx + s.myy + s.mzz);
   return Lanes::all(1.0f / 3) * (trace + imaged);
 }
@@ -142,7 +142,7 @@ inline void finish_tension(const TensionSums& s, const GroupRows& rows, int lane
 
 /// A group's kinetic records in rows.
 struct KineticRows {
-  alignas(64) float growth[group_size], weight[group_size], theta[group_size];
+  alignas(64) float dilation_ratio[group_size], weight[group_size], theta[group_size];
   alignas(64) float resistance[group_size], viscosity[group_size];
   alignas(64) float xx[group_size], yy[group_size], zz[group_size];
   alignas(64) float xy[group_size], yz[group_size], zx[group_size];
@@ -150,7 +150,7 @@ struct KineticRows {
   explicit KineticRows(const KineticRecord* first) {
     for (int n = 0; n < group_size; ++n) {
       const KineticRecord& k = first[n];
-      growth[n] = k.growth, weight[n] = k.weight, theta[n] = k.theta;
+      dilation_ratio[n] = k.dilation_ratio, weight[n] = k.weight, theta[n] = k.theta;
       resistance[n] = k.resistance, viscosity[n] = k.viscosity;
       xx[n] = k.xx, yy[n] = k.yy, zz[n] = k.zz;
       xy[n] = k.xy, yz[n] = k.yz, zx[n] = k.zx;
@@ -162,7 +162,7 @@ struct KineticRows {
 inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const GroupRows& rows,
                            const KineticRows& own, int lane, const DenseScale& k, Lanes imaged,
                            const SweepOutput& out, std::size_t at) {
-  const Lanes growth = Lanes::load(own.growth + lane), weight = Lanes::load(own.weight + lane);
+  const Lanes dilation_ratio = Lanes::load(own.dilation_ratio + lane), weight = Lanes::load(own.weight + lane);
   const Lanes density =
       Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
   const Lanes factor = Lanes::all(-k.gradient) * weight / density;
@@ -173,14 +173,14 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
   push(out.ax + at, fma(xx, s.gx, fma(xy, s.gy, fma(zx, s.gz, s.kx))));
   push(out.ay + at, fma(xy, s.gx, fma(yy, s.gy, fma(yz, s.gz, s.ky))));
   push(out.az + at, fma(zx, s.gx, fma(yz, s.gy, fma(zz, s.gz, s.kz))));
-  // Per volume that the grain takes up: the record's times `growth`.
-  const Lanes share = weight / growth, half = Lanes::all(0.5f);
+  // Per volume that the grain takes up: the record's times `dilation_ratio`.
+  const Lanes share = weight / dilation_ratio, half = Lanes::all(0.5f);
   (Lanes::all(k.laplacian) * share * s.heat).store(out.heat + at);
   const Lanes felt = Lanes::all(k.gradient) * share;
   (felt * s.exx).store(out.felt[0] + at), (felt * s.eyy).store(out.felt[1] + at);
   (felt * s.ezz).store(out.felt[2] + at), (half * felt * s.exy).store(out.felt[3] + at);
   (half * felt * s.eyz).store(out.felt[4] + at), (half * felt * s.ezx).store(out.felt[5] + at);
-  fill_of(dense, k, imaged / growth).store(out.fill + at);
+  support_completeness(dense, k, imaged / dilation_ratio).store(out.support_completeness + at);
   s.count.store(out.neighbors + at);
 }
 
@@ -211,9 +211,9 @@ inline DenseSelf self_of(const GroupRows& rows, int lane) {
           Lanes::load(rows.compression + lane)};
 }
 
-/// \tparam fill  whether SweepOutput::fill is wanted
+/// \tparam completeness  whether SweepOutput::support_completeness is wanted
 /// \tparam tension  whether artificial stress acts
-template <bool smooth, bool fill, bool tension>
+template <bool smooth, bool completeness, bool tension>
 inline void dense_group(const PackedView& view, const DenseScale& scale, const BoundaryView& wall,
                         const SweepOutput& out, std::size_t group) {
   const std::size_t first = group * group_size;
@@ -238,18 +238,18 @@ inline void dense_group(const PackedView& view, const DenseScale& scale, const B
     }
     const Lanes imaged =
         finish_dense<false>(sums, rows, lane, scale, wall, out, first + lane, Lanes::all(1));
-    if constexpr (fill) fill_of(sums, scale, imaged).store(out.fill + first + lane);
+    if constexpr (completeness) support_completeness(sums, scale, imaged).store(out.support_completeness + first + lane);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, first + lane);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, first + lane);
   }
 }
 
 /// The loop with the terms of this step.
-template <bool fill>
+template <bool completeness>
 inline auto pick_dense(const SweepConstants& c) {
   if (c.stress_smoothing > 0)
-    return c.tension ? &dense_group<true, fill, true> : &dense_group<true, fill, false>;
-  return c.tension ? &dense_group<false, fill, true> : &dense_group<false, fill, false>;
+    return c.tension ? &dense_group<true, completeness, true> : &dense_group<true, completeness, false>;
+  return c.tension ? &dense_group<false, completeness, true> : &dense_group<false, completeness, false>;
 }
 
 inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
@@ -293,7 +293,7 @@ inline void kinetic_group(const PackedView& view, const KineticView& dispersed,
     }
     const std::size_t at = first + lane;
     const Lanes imaged =
-        finish_dense<true>(sums, rows, lane, scale, wall, out, at, Lanes::load(own.growth + lane));
+        finish_dense<true>(sums, rows, lane, scale, wall, out, at, Lanes::load(own.dilation_ratio + lane));
     finish_kinetic(more, sums, rows, own, lane, scale, imaged, out, at);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, at);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, at);
@@ -315,8 +315,8 @@ inline bool dense_around(const PackedView& view, const KineticView& dispersed, s
   return dense_group != 0;
 }
 
-/// What a dense group has in the outputs that only the kinetic sums fill. Its neighbours are not
-/// counted: a grain that has lost them shows by `fill` first.
+/// What a dense group has in the outputs that only the kinetic sums write. Its neighbours are not
+/// counted: a grain that has lost them shows by its support completeness first.
 inline void write_dense_group(const SweepOutput& out, std::size_t group) {
   for (std::size_t i = group * group_size; i < (group + 1) * group_size; ++i) {
     out.neighbors[i] = SweepOutput::uncounted;

@@ -59,7 +59,7 @@ TEST(GrainStates, AreAbsentWhereTheSceneDoesNotNameThem) {
   const Simulation simulation = made(s);
   const MovingSet& grains = simulation.parts().state.grains();
   for (const FieldKey* key :
-       {&fields::fill, &fields::granular_temperature, &fields::kinetic_stress, &fields::spin})
+       {&fields::support_completeness, &fields::granular_temperature, &fields::kinetic_stress, &fields::spin})
     EXPECT_FALSE(grains.has(*key)) << key->name;
   for (const FlagKey* key : {&fields::state, &fields::steps_alone, &fields::membership})
     EXPECT_FALSE(grains.has(*key)) << key->name;

@@ -27,8 +27,8 @@ std::vector<SlowParticle> half_dispersed() {
     p.wall_moment = 0.2 * u(random) * n * n.transpose();
     p.wall_gradient = 0.7 * n * n.transpose();
     if (p.position.x() < 0) continue;
-    p.growth = 1 + 8 * u(random);
-    p.weight = p.growth * (0.8 + 0.5 * u(random));
+    p.dilation_ratio = 1 + 8 * u(random);
+    p.weight = p.dilation_ratio * (0.8 + 0.5 * u(random));
     p.theta = 4 * u(random);
     p.conductivity = 10 + 100 * u(random);
     p.viscosity_share = u(random);
@@ -46,7 +46,7 @@ const std::vector<Part> parts{
     {"diffusion", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.diffusion, 0, 0); }},
     {"heat", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.heat, 0, 0); }},
     {"felt", [](const SlowRates& r) -> Eigen::MatrixXd { return r.felt; }},
-    {"fill", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.fill, 0, 0); }},
+    {"support_completeness", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.support_completeness, 0, 0); }},
     {"smoothing", [](const SlowRates& r) -> Eigen::MatrixXd { return r.smoothing; }}};
 
 TEST(KineticSweep, EqualsTheSlowTwin) {
@@ -105,8 +105,8 @@ TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
     const double mass = cloud[i].volume * constants.reference_density * (1 + cloud[i].compression);
     force += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
-    heat += cloud[i].volume * cloud[i].growth * fast[i].heat;
-    heat_scale += cloud[i].volume * cloud[i].growth * std::abs(fast[i].heat);
+    heat += cloud[i].volume * cloud[i].dilation_ratio * fast[i].heat;
+    heat_scale += cloud[i].volume * cloud[i].dilation_ratio * std::abs(fast[i].heat);
   }
   EXPECT_LT(force.norm(), 1e-6 * scale);
   // What the kinetic force does to the motion is -Sum V sigma_k : felt.
@@ -118,8 +118,8 @@ TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
     const SlowParticle& p = cloud[i];
     const double mass = p.volume * constants.reference_density * (1 + p.compression);
     work += mass * (fast[i].acceleration - without[i].acceleration).dot(p.velocity);
-    power += p.volume * p.growth * p.kinetic_stress.cwiseProduct(fast[i].felt).sum();
-    size += p.volume * p.growth * p.kinetic_stress.norm() * fast[i].felt.norm();
+    power += p.volume * p.dilation_ratio * p.kinetic_stress.cwiseProduct(fast[i].felt).sum();
+    size += p.volume * p.dilation_ratio * p.kinetic_stress.norm() * fast[i].felt.norm();
   }
   EXPECT_LT(std::abs(work + power), 1e-4 * size);
   EXPECT_LT(std::abs(heat), 1e-6 * heat_scale);
@@ -131,7 +131,7 @@ TEST(KineticSweep, GivesTheDenseBitsWhereAllIsDense) {
   test::roughen(cloud, dx);
   const auto dense = test::fast_sweep(cloud, constants, best_instruction_set()).raw;
   const auto kinetic = test::kinetic_sweep(cloud, constants, best_instruction_set()).raw;
-  const std::size_t shared = 20 * cloud.size();  // the outputs that both fill
+  const std::size_t shared = 20 * cloud.size();  // the outputs that both write
   EXPECT_EQ(std::memcmp(dense.data(), kinetic.data(), shared * sizeof(float)), 0);
 }
 
@@ -153,7 +153,7 @@ TEST(KineticSweep, LinearVelocityGivesTheExactGradientInAnExpandedCloud) {
     auto cloud = test::lattice({12, 12, 12}, stretch * dx, 0.1);
     for (SlowParticle& p : cloud) {
       p.volume = dx * dx * dx;
-      p.growth = stretch * stretch * stretch;
+      p.dilation_ratio = stretch * stretch * stretch;
       p.velocity = a * p.position;
     }
     const auto fast = test::kinetic_sweep(cloud, constants, best_instruction_set()).rates;
@@ -162,31 +162,31 @@ TEST(KineticSweep, LinearVelocityGivesTheExactGradientInAnExpandedCloud) {
       if (cloud[i].position.cwiseAbs().maxCoeff() > 4 * stretch * dx) continue;
       ++inside;
       EXPECT_LT((fast[i].gradient - a).norm(), 1e-5 * a.norm());
-      EXPECT_NEAR(fast[i].fill * cloud[i].growth, 1, 0.2);
+      EXPECT_NEAR(fast[i].support_completeness * cloud[i].dilation_ratio, 1, 0.2);
     }
     EXPECT_GT(inside, 100);
   }
 }
 
-/// A grain that finds its first neighbour: the fill of the step before knows nothing of it, and the
+/// A grain that finds its first neighbour: the support completeness of the step before does not include it, and the
 /// density follows later still.
 TEST(KineticSweep, APairThatMeetsInEmptySpaceIsNotFeltManyTimesOver) {
   const auto constants = test::usual_constants(dx);
-  for (const double growth : {5.0, 30.0, 100.0, 1000.0}) {
+  for (const double dilation_ratio : {5.0, 30.0, 100.0, 1000.0}) {
     auto pair = test::lattice({2, 1, 1}, dx, 0);
     for (SlowParticle& p : pair) {
-      p.growth = growth;
-      p.weight = pair_weight(growth, 0);
+      p.dilation_ratio = dilation_ratio;
+      p.weight = pair_weight(dilation_ratio, 0);
     }
     pair[0].velocity = Vec3(0, 0, 0), pair[1].velocity = Vec3(-1, 0, 0);
     const auto fast = test::kinetic_sweep(pair, constants, best_instruction_set()).rates;
-    EXPECT_LT(fast[0].felt.norm(), 11 / dx) << growth;  // 1/dx is what there is; it was 330
-    EXPECT_GT(fast[0].felt.norm(), 0) << growth;
+    EXPECT_LT(fast[0].felt.norm(), 11 / dx) << dilation_ratio;  // 1/dx is what there is; it was 330
+    EXPECT_GT(fast[0].felt.norm(), 0) << dilation_ratio;
   }
-  for (const double growth : {5.0, 30.0})
+  for (const double dilation_ratio : {5.0, 30.0})
     for (const double filled : {0.4, 1.0, 3.0}) {
-      const double weight = pair_weight(growth, filled / growth);
-      EXPECT_NEAR(weight * weight / growth * (filled / growth), 1, 1e-12);  // the sums are whole
+      const double weight = pair_weight(dilation_ratio, filled / dilation_ratio);
+      EXPECT_NEAR(weight * weight / dilation_ratio * (filled / dilation_ratio), 1, 1e-12);  // the sums are whole
     }
 }
 
@@ -197,7 +197,7 @@ TEST(KineticSweep, ClockIsReadOnlyWhereTheKindOfGroupChangesAndChangesNoBit) {
   const auto constants = test::usual_constants(dx);
   const auto mixed = half_dispersed();
   auto resting = test::lattice({12, 11, 9}, dx, 0.2), stirred = resting;
-  for (SlowParticle& p : stirred) p.growth = p.weight = 1.5;
+  for (SlowParticle& p : stirred) p.dilation_ratio = p.weight = 1.5;
   for (auto isa : {InstructionSet::plain, InstructionSet::avx2, InstructionSet::avx512}) {
     if (!supports(isa)) continue;
     const auto timed = [&](const std::vector<SlowParticle>& cloud) {

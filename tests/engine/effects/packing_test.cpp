@@ -42,8 +42,8 @@ TEST(DilatantPacking, DensityStaysWhatTheSurroundingsAllow) {
   EXPECT_LE(DilatantPacking::bounded(-0.9, 1.5, false), separation_threshold);
   // Loaded or surface grains are left alone.
   for (const double e : {-0.05, 0.0, 0.02})
-    for (const double fill : {0.45, 0.7, 1.0})
-      EXPECT_EQ(DilatantPacking::bounded(e, fill, false), e);
+    for (const double completeness : {0.45, 0.7, 1.0})
+      EXPECT_EQ(DilatantPacking::bounded(e, completeness, false), e);
   // Without neighbours nobody is dense, but on the ground.
   EXPECT_NEAR(DilatantPacking::bounded(0.01, 0.1 * DilatantPacking::sparse, false), -0.9, 1e-12);
   EXPECT_EQ(DilatantPacking::bounded(-0.9, 0.03, true), separation_threshold);
@@ -52,13 +52,13 @@ TEST(DilatantPacking, DensityStaysWhatTheSurroundingsAllow) {
 }
 
 TEST(DilatantPacking, FewNeighboursHoldLittlePressure) {
-  // Five grains in flight that hit the ground at 90 m/s: compressed by 9 % at a fill of 0.19, they
+  // Five grains in flight that hit the ground at 90 m/s: compressed by 9 % at a support completeness of 0.19, they
   // threw one of them off at 1.1 times the speed of free fall.
   for (const bool touching : {false, true})
     EXPECT_LT(DilatantPacking::bounded(0.09, 0.19, touching), 0.015);
   double before = 0;
-  for (double fill = DilatantPacking::sparse; fill < 0.7; fill += 1e-3) {
-    const double now = DilatantPacking::bounded(0.2, fill, true);
+  for (double completeness = DilatantPacking::sparse; completeness < 0.7; completeness += 1e-3) {
+    const double now = DilatantPacking::bounded(0.2, completeness, true);
     EXPECT_GE(now, before);
     EXPECT_LT(now - before, 0.01);  // no jump
     before = now;
