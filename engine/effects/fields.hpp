@@ -13,8 +13,8 @@ namespace sturz::fields {
 inline constexpr FieldKey velocity_before{"velocity_before", 3, "m s-1", "motion"};
 
 // Grain stress (dense/).
-/// rho / rho_ref - 1.
-inline constexpr FieldKey compression{"compression", 1, "1", "grain stress"};
+/// Relative density change rho / rho_ref - 1.
+inline constexpr FieldKey density_change{"density_change", 1, "1", "grain stress"};
 /// Stress of enduring contacts, tension positive.
 inline constexpr FieldKey stress{"stress", 6, "Pa", "grain stress"};
 /// Artificial viscosity over the friction that acts, see dense/viscous_share.hpp.

@@ -19,7 +19,7 @@ struct alignas(64) PackedRecord {
   std::int32_t x, y, z;
   float volume;                        ///< m / rho [m^3]
   float vx, vy, vz;                    ///< [m/s]
-  float compression;                   ///< rho / rho_ref - 1 [-]
+  float density_change;                   ///< rho / rho_ref - 1 [-]
   float sxx, syy, szz, sxy, syz, szx;  ///< stress, tension positive [Pa]
   float viscosity;                     ///< share of the artificial viscosity that acts [-]
   float tension;  ///< artificial pressure against clumps in tension [Pa], see TensionSums
@@ -114,7 +114,7 @@ struct SweepOutput {
   float* lzx;
   float* lzy;
   float* lzz;
-  float* diffusion;   ///< d(compression)/dt by delta-SPH [1/s]
+  float* diffusion;   ///< d(density_change)/dt by delta-SPH [1/s]
   float* wall_share;  ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
   /// Written where a KineticView is given: how full the support is of neighbours and ground (1
   /// inside a dense mass, about a half at its surface), how many neighbours there are, and the heat

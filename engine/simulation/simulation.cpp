@@ -140,7 +140,7 @@ class Run {
     m.max_mean_speed_m_s = std::max(m.max_mean_speed_m_s, now_.mean_speed);
     m.front_travel_m = std::max(m.front_travel_m, now_.front);
     for (const MovingSet& set : s.sets)
-      if (const Field* c = set.find(fields::compression))
+      if (const Field* c = set.find(fields::density_change))
         m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
     if (parts_.stop.at_rest({s.time, s.ledger().kinetic, now_.front, now_.com}) && !ended_)
       end(Outcome::settled, "");
@@ -169,9 +169,9 @@ class Run {
   }
 
   /// |rho/rho_ref - 1| under load that 99 % of the particles stay below.
-  double density_error(const std::vector<double>& compression) {
+  double density_error(const std::vector<double>& density_change) {
     loaded_.clear();
-    for (double c : compression)
+    for (double c : density_change)
       if (c > 0) loaded_.push_back(c);
     if (loaded_.empty()) return 0;
     const auto at = loaded_.begin() + static_cast<std::ptrdiff_t>(0.99 * (loaded_.size() - 1));

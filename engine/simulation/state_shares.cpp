@@ -14,18 +14,18 @@ constexpr int n_states = 4;  // numbered as GrainState, dense first
 /// Masses [kg] of what shares are taken of, over all sets.
 struct Masses {
   double all = 0, dilated = 0, heat = 0, in_state[n_states] = {};
-  bool has_compression = false;
+  bool has_density_change = false;
 };
 
 void add_set(const MovingSet& set, Masses& sums, StateShares& out) {
-  const Field* compression = set.find(fields::compression);
+  const Field* density_change = set.find(fields::density_change);
   const Flags* state = set.find(fields::state);
   const Field* theta = set.find(fields::granular_temperature);
-  sums.has_compression |= compression != nullptr;
+  sums.has_density_change |= density_change != nullptr;
   for (std::size_t i = 0; i < set.size(); ++i) {
     const double m = set.mass[i];
     sums.all += m;
-    if (compression && compression->component[0][i] < dilated_density_change) sums.dilated += m;
+    if (density_change && density_change->component[0][i] < dilated_density_change) sums.dilated += m;
     if (state) sums.in_state[std::min<int>(state->value[i], n_states - 1)] += m;
     if (theta) {
       sums.heat += m * theta->component[0][i];
@@ -40,9 +40,9 @@ StateShares state_shares(std::span<const MovingSet> sets) {
   StateShares out;
   Masses sums;
   for (const MovingSet& set : sets) add_set(set, sums, out);
-  out.dilated = sums.has_compression ? 0 : nan_d;
+  out.dilated = sums.has_density_change ? 0 : nan_d;
   if (sums.all == 0) return out;
-  if (sums.has_compression) out.dilated = sums.dilated / sums.all;
+  if (sums.has_density_change) out.dilated = sums.dilated / sums.all;
   out.dense = sums.in_state[0] / sums.all;
   out.transition = sums.in_state[1] / sums.all;
   out.dilute = sums.in_state[2] / sums.all;

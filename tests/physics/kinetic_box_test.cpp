@@ -80,7 +80,7 @@ void place(const Cloud& c, ParticleSet& p) {
 }
 
 void warm_up(const Cloud& c, State& s) {
-  for (double& e : s.grains().scalar(fields::compression)) e = c.fraction / reference_fraction - 1;
+  for (double& e : s.grains().scalar(fields::density_change)) e = c.fraction / reference_fraction - 1;
   for (auto& component : s.grains().components(fields::stress))
     std::fill(component.begin(), component.end(), 0.0);
   for (double& theta : s.grains().scalar(fields::granular_temperature)) theta = c.theta;
@@ -205,14 +205,14 @@ TEST_P(UniformShear, ReachesTheClosedForm) {
     HandMade made = cloud_of(c, false);
     State& s = made.state;
     const double rate = 2, scale = rate * c.law.grain_diameter;
-    auto& compression = s.grains().scalar(fields::compression);
+    auto& density_change = s.grains().scalar(fields::density_change);
     const double e0 = c.fraction / reference_fraction - 1;
     for (int step = 0; step < 1500; ++step) {
       // The shear is held: grains stay in place and keep the velocities that it gives them.
       for (std::size_t i = 0; i < s.grains().size(); ++i) {
         s.grains().vx[i] = rate * (s.grains().z[i] - c.bottom());
         s.grains().vy[i] = s.grains().vz[i] = 0;
-        compression[i] = e0;
+        density_change[i] = e0;
       }
       s.grains().motion.max_speed = 100;
       s.grains().motion.velocity_range[0] = 0;

@@ -54,7 +54,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
   std::vector<SlowRates> out(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const SlowParticle& a = particles[i];
-    const double density_a = c.reference_density * (1 + a.compression);
+    const double density_a = c.reference_density * (1 + a.density_change);
     Matrix3d gradient = Matrix3d::Zero(), moment = Matrix3d::Zero();
     Vec3 force(0, 0, 0), grad_sum(0, 0, 0), density_gradient(0, 0, 0);
     double laplace = 0;
@@ -65,7 +65,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       if (distance == 0 || distance >= 2 * c.h) return;
       const Vec3 grad = derivative(distance, c) * r / distance;  // of W_ij at i
       const Vec3 u = a.velocity - b.velocity;
-      const double density_b = c.reference_density * (1 + b.compression);
+      const double density_b = c.reference_density * (1 + b.density_change);
       const double mass_b = b.volume * density_b;
       gradient += b.volume * (b.velocity - a.velocity) * grad.transpose();
       moment += b.volume * (b.position - a.position) * grad.transpose();
@@ -83,7 +83,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
         force -= b.volume / density_a * (a.tension + b.tension) * near2 * near2 * grad;
       }
       ++rates.neighbors;
-      const double rise = b.compression - a.compression;
+      const double rise = b.density_change - a.density_change;
       const double weight = -grad.dot(r) / r.squaredNorm();  // F_ij without the 0.01 h^2
       laplace += b.volume * weight * rise;
       const double conduction = 4 / (1 / a.conductivity + 1 / b.conductivity);
@@ -111,7 +111,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                      (clouds ? correction_in_a_cloud(imaged, a.dilation_ratio, rates.corrected)
                              : correction(imaged, rates.corrected));
     rates.support_completeness += rates.wall_share * a.wall_moment.trace() / (3 * a.dilation_ratio);
-    const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // grad of compression
+    const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // gradient of the density change
     rates.acceleration = force;
     // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.
     rates.diffusion =

@@ -15,7 +15,7 @@ namespace sturz::test {
 struct SlowParticle {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};
   double volume = 1;                                      ///< m/rho [m^3]
-  double compression = 0;                                 ///< rho/rho_ref - 1
+  double density_change = 0;                                 ///< rho/rho_ref - 1
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();       ///< [Pa], tension positive
   double viscosity_share = 1;                             ///< of the artificial viscosity that acts
   Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();  ///< what walls add [-]

@@ -18,7 +18,7 @@ PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
   r.vx = static_cast<float>(p.velocity.x());
   r.vy = static_cast<float>(p.velocity.y());
   r.vz = static_cast<float>(p.velocity.z());
-  r.compression = static_cast<float>(p.compression);
+  r.density_change = static_cast<float>(p.density_change);
   float* stress[6] = {&r.sxx, &r.syy, &r.szz, &r.sxy, &r.syz, &r.szx};
   for (int k = 0; k < 6; ++k)
     *stress[k] = static_cast<float>(p.stress(entries[k][0], entries[k][1]));
@@ -186,7 +186,7 @@ void roughen(std::vector<SlowParticle>& particles, double dx, unsigned seed) {
   std::uniform_real_distribution<double> u(-1, 1);
   for (SlowParticle& p : particles) {
     p.velocity = 5 * Vec3(u(random), u(random), u(random));
-    p.compression = 0.01 * u(random);
+    p.density_change = 0.01 * u(random);
     p.volume = dx * dx * dx * (1 + 0.1 * u(random));
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b <= a; ++b) p.stress(a, b) = p.stress(b, a) = 3e4 * u(random);

@@ -48,17 +48,17 @@ class WallPressure {
     for (int k = 0; k < 6; ++k) stress_[k] = stress->component[k].data();
     if (const Field* kinetic = p.find(fields::kinetic_stress))
       for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
-    compression_ = p.scalar(fields::compression).data();
+    density_change_ = p.scalar(fields::density_change).data();
     density_ = c.reference_density;
     share_ = p.boundary.share.data();
   }
   /// \param plane  plane_integral at the particle's distance [1/m]
   double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
-    if (!compression_) return 0;
+    if (!density_change_) return 0;
     double snn = normal(stress_, i, nx, ny, nz);
     if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
     if (snn >= 0) return 0;
-    return -2 * snn * plane * share_[i] / (density_ * (1 + compression_[i]));
+    return -2 * snn * plane * share_[i] / (density_ * (1 + density_change_[i]));
   }
 
  private:
@@ -71,7 +71,7 @@ class WallPressure {
   const float* share_ = nullptr;
   const double* stress_[6] = {};
   const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
-  const double* compression_ = nullptr;
+  const double* density_change_ = nullptr;
 };
 
 /// Velocities at the start of the step, as the pack pass left them.

@@ -108,7 +108,7 @@ class PackPass final : public Pass {
     const double reference = shared_->settings.reference_density;
     const bool cohesive = shared_->settings.law.cohesion > 0;
     auto& before = p.components(fields::velocity_before);
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
     const auto& viscous = p.scalar(fields::viscous_ratio);
     parallel_ranges(p.n_listed, reduction_block, s.threads,
@@ -117,12 +117,12 @@ class PackPass final : public Pass {
                       PackedRecord* records = lists.records();
                       for (std::size_t i = begin; i < end; ++i) {
                         PackedRecord& r = records[i];
-                        const double e = std::max(compression[i], GrainStressSettings::separation_threshold);
+                        const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
                         r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
                         r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
                         r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
                         r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
-                        r.compression = static_cast<float>(e);
+                        r.density_change = static_cast<float>(e);
                         const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
                         const ViscousShare v = viscous_share(viscous[i]);
                         const double share = 1 - v.carried, mean = -v.carried * pressure;
@@ -249,7 +249,7 @@ class StressPass final : public Pass {
     StressColumns columns;
     columns.mass = p.mass.data();
     columns.vx = p.vx.data(), columns.vy = p.vy.data(), columns.vz = p.vz.data();
-    columns.compression = p.scalar(fields::compression).data();
+    columns.density_change = p.scalar(fields::density_change).data();
     for (int k = 0; k < 6; ++k) columns.stress[k] = p.components(fields::stress)[k].data();
     columns.viscous_ratio = p.scalar(fields::viscous_ratio).data();
     const SweepOutput rates = shared_->output();
@@ -298,19 +298,19 @@ class StressPass final : public Pass {
 
 void start_geostatic(MovingSet& p, double gravity, const GrainStressSettings& g,
                      std::span<const double> depth) {
-  auto& compression = p.scalar(fields::compression);
+  auto& density_change = p.scalar(fields::density_change);
   auto& stress = p.components(fields::stress);
   const double mu = g.law.static_friction;
   const double k0 = 1 - mu / std::sqrt(1 + mu * mu);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double vertical = g.reference_density * gravity * depth[i];
     const double mean = vertical * (1 + 2 * k0) / 3;
-    compression[i] = g.compression_at(mean);
+    density_change[i] = g.density_change_at(mean);
     // Near the surface the frictional pressure may ask for more than the depth gives.
-    const double excess = g.pressure_at(compression[i]) - mean;
+    const double excess = g.pressure_at(density_change[i]) - mean;
     stress[0][i] = stress[1][i] = -k0 * vertical - excess;
     stress[2][i] = -vertical - excess;
-    p.ledger.elastic += elastic_energy(g, p.mass[i] / g.reference_density, compression[i],
+    p.ledger.elastic += elastic_energy(g, p.mass[i] / g.reference_density, density_change[i],
                                        vertical * (1 - k0) / std::sqrt(3.0));
   }
   p.ledger.elastic_0 = p.ledger.elastic;
@@ -325,7 +325,7 @@ std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::siz
                                               std::span<const double> depth) {
   MovingSet& p = state.sets[set];
   expect(depth.size() == p.size(), "one depth per particle");
-  p.add(fields::compression);
+  p.add(fields::density_change);
   p.add(fields::stress);
   p.add(fields::viscous_ratio);
   Field& before = p.add(fields::velocity_before);

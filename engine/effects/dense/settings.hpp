@@ -62,13 +62,13 @@ struct GrainStressSettings {
     return 0.1 * viscosity * smoothing_length * sound_speed * reference_density;
   }
 
-  /// Contact pressure at a compression [Pa].
+  /// Contact pressure at a relative density change [Pa].
   double pressure_at(double e) const {
     const double squeezed = bulk_modulus() * std::fmax(0.0, e);
     return states ? squeezed + states->friction.at(states->reference_fraction * (1 + e)) : squeezed;
   }
-  /// Compression >= 0 that carries a pressure; 0 where the frictional pressure alone does.
-  double compression_at(double pressure) const {
+  /// Relative density change >= 0 that carries a pressure; 0 where the frictional pressure alone does.
+  double density_change_at(double pressure) const {
     double e = std::fmax(0.0, pressure / bulk_modulus());
     if (!states) return e;
     if (pressure_at(0) >= pressure) return 0;

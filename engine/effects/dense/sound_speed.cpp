@@ -47,12 +47,12 @@ class SoundSpeedPass final : public Pass {
     const double ratio = (g.sound_speed / c0) * (g.sound_speed / c0);  // K_old / K_new
     if (std::abs(ratio - 1) < 1e-3) return;
     g.sound_speed = p.sound_speed = c0;
-    auto& compression = p.scalar(fields::compression);
+    auto& density_change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
-    for (std::size_t i = 0; i < compression.size(); ++i) {
-      double& e = compression[i];
+    for (std::size_t i = 0; i < density_change.size(); ++i) {
+      double& e = density_change[i];
       if (e <= 0) continue;
-      e = g.states ? g.compression_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3)
+      e = g.states ? g.density_change_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3)
                    : e * ratio;
     }
     const double gained = (ratio - 1) * p.ledger.elastic;

@@ -58,7 +58,7 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
 /// The lanes' own values.
 struct DenseSelf {
   IntLanes x, y, z;
-  Lanes vx, vy, vz, compression;
+  Lanes vx, vy, vz, density_change;
 };
 
 /// Sums for the smoothing of the stress ratio S = s/(p + p_c): Sum V_j t^3 sigma_j/(p_j + p_c).
@@ -120,7 +120,7 @@ struct DenseSums {
     ay = fma(sxy, dx, fma(Lanes::all(j.syy) + q, dy, fma(syz, dz, ay)));
     az = fma(szx, dx, fma(syz, dy, fma(Lanes::all(j.szz) + q, dz, az)));
 
-    const Lanes e = Lanes::all(j.compression) - i.compression;
+    const Lanes e = Lanes::all(j.density_change) - i.density_change;
     d = fma(w, e, d);
     nx = fma(e, dx, nx), ny = fma(e, dy, ny), nz = fma(e, dz, nz);
     return w;

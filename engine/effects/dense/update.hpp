@@ -17,7 +17,7 @@ namespace sturz {
 struct StressColumns {
   const double* mass = nullptr;
   double *vx = nullptr, *vy = nullptr, *vz = nullptr;
-  double* compression = nullptr;
+  double* density_change = nullptr;
   double* stress[6] = {};  ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
   /// What the artificial viscosity would carry, over the friction of yielding grains [-]
   double* viscous_ratio = nullptr;
@@ -97,7 +97,7 @@ class StressUpdate {
     const double* mass = c.mass;
     const std::uint8_t* c_state = c.state;
     double* c_ratio = c.viscous_ratio;
-    double *compression = c.compression, *c_vx = c.vx, *c_vy = c.vy, *c_vz = c.vz;
+    double *density_change = c.density_change, *c_vx = c.vx, *c_vy = c.vy, *c_vz = c.vz;
     double *s_xx = c.stress[0], *s_yy = c.stress[1], *s_zz = c.stress[2];
     double *s_xy = c.stress[3], *s_yz = c.stress[4], *s_zx = c.stress[5];
     const MuIRheology law = law_;
@@ -105,7 +105,7 @@ class StressUpdate {
     const double inv_rest_speed2 = inv_rest_speed2_, rest_drag = rest_drag_;
     const double half_inv_bulk = half_inv_bulk_, half_inv_shear = half_inv_shear_;
     const double inv_density = inv_density_, viscous = viscous_;
-    const double held = law.cohesion > 0 ? 0 : -1;  // compression
+    const double held = law.cohesion > 0 ? 0 : -1;  // density_change
 #pragma omp simd reduction(+ : elastic, frictional, power, plastic, diffusion, resting)
     for (std::size_t i = begin; i < end; ++i) {
       const double lxx = r_lxx[i], lxy = r_lxy[i], lxz = r_lxz[i];
@@ -114,7 +114,7 @@ class StressUpdate {
       const double trace = lxx + lyy + lzz;
 
       // Density on the continuity equation, cut at zero pressure in tension.
-      const double e0 = compression[i];
+      const double e0 = density_change[i];
       double diffused = dt * r_diffusion[i], e1;
       double squeezed_by;     // de by the continuity equation alone
       double p0, p1;          // of contacts
@@ -132,7 +132,7 @@ class StressUpdate {
         e1 = packing.bounded(e0 + squeezed_by + diffused);
         p0 = packing.pressure(e0), p1 = packing.pressure(e1);
       }
-      compression[i] = e1;
+      density_change[i] = e1;
 
       // Drag on loaded grains that hardly move: 0 at rest .. 1 in motion.
       const double vx = c_vx[i], vy = c_vy[i], vz = c_vz[i];

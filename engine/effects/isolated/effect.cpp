@@ -50,12 +50,12 @@ class IsolationPass final : public Pass {
     const double reference = shared_->settings.states->reference_fraction;
     const double touching = shared_->settings.touching_distance();
     const SweepOutput out = shared_->output();
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     auto& alone = p.flags(fields::steps_alone);
     parallel_ranges(
         p.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
-            const double fraction = reference * (1 + compression[i]);
+            const double fraction = reference * (1 + density_change[i]);
             const bool few = fraction < detach_fraction || out.neighbors[i] < detach_neighbors;
             const bool isolated = few && p.boundary.distance[i] >= touching;
             alone[i] = isolated ? static_cast<std::uint8_t>(std::min(alone[i] + 1, detach_steps)) : 0;

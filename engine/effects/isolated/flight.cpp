@@ -18,7 +18,7 @@ using fields::Membership;
 /// The fields of an isolated particle, as grains of the continuum have them.
 struct GrainFields {
   explicit GrainFields(ParticleSet& p)
-      : compression(p.scalar(fields::compression)),
+      : density_change(p.scalar(fields::density_change)),
         stress(p.components(fields::stress)),
         state(p.flags(fields::state)),
         alone(p.flags(fields::steps_alone)),
@@ -42,7 +42,7 @@ struct GrainFields {
     theta->component[0][i] = 0;
   }
 
-  std::vector<double>& compression;
+  std::vector<double>& density_change;
   std::vector<std::vector<double>>& stress;
   std::vector<std::uint8_t>&state, &alone, &membership;
   std::vector<double>& support_completeness;
@@ -144,8 +144,8 @@ bool detach_isolated(MovingSet& p, const GrainStressSettings& g) {
       p.ledger.granular_lost += heat;
     }
     f.clear_stress(i);
-    f.compression[i] =
-        std::fmin(f.compression[i], detach_fraction / g.states->reference_fraction - 1);
+    f.density_change[i] =
+        std::fmin(f.density_change[i], detach_fraction / g.states->reference_fraction - 1);
     f.set(i, GrainState::ultradilute, Membership::in_flight);
     any = true;
   }
@@ -156,7 +156,7 @@ void attach_landed(MovingSet& p) {
   GrainFields f(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!f.is(i, Membership::landed)) continue;
-    f.compression[i] = GrainStressSettings::separation_threshold;
+    f.density_change[i] = GrainStressSettings::separation_threshold;
     f.set(i, GrainState::dense, Membership::listed);
   }
 }
@@ -187,8 +187,8 @@ bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& 
     const Surroundings& around = survey.of(i);
     const double reference = g.states->reference_fraction;
     f.support_completeness[i] = around.support_completeness;
-    f.compression[i] = std::fmin(around.support_completeness - 1, GrainStressSettings::separation_threshold);
-    f.set(i, grain_state(reference * (1 + f.compression[i])), Membership::listed);
+    f.density_change[i] = std::fmin(around.support_completeness - 1, GrainStressSettings::separation_threshold);
+    f.set(i, grain_state(reference * (1 + f.density_change[i])), Membership::listed);
     if (f.theta) {
       f.theta->component[0][i] = around.theta();
       const double heat = 1.5 * p.mass[i] * around.theta();

@@ -45,14 +45,14 @@ class KineticPack final : public Pass {
   void gather(const MovingSet& p, std::size_t begin, std::size_t end) const {
     GrainStress& g = *shared_;
     const GrainStatesSettings& states = *g.settings.states;
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     const Field* theta = p.find(fields::granular_temperature);
     const Field* stress = p.find(fields::kinetic_stress);
     const auto& support_completeness = p.scalar(fields::support_completeness);
     const PackedRecord* records = g.lists.records();
     for (std::size_t i = begin; i < end; ++i) {
       KineticRecord& k = g.kinetic[i];
-      const double e = compression[i], hot = theta ? theta->component[0][i] : 0;
+      const double e = density_change[i], hot = theta ? theta->component[0][i] : 0;
       k = {};
       k.viscosity = records[i].viscosity;
       if (e >= GrainStressSettings::separation_threshold && hot == 0) continue;
@@ -102,7 +102,7 @@ class KineticPass final : public Pass {
     MovingSet& p = s.sets[shared_->set];
     KineticColumns columns;
     columns.mass = p.mass.data();
-    columns.compression = p.scalar(fields::compression).data();
+    columns.density_change = p.scalar(fields::density_change).data();
     columns.theta = p.scalar(fields::granular_temperature).data();
     for (int k = 0; k < 6; ++k) columns.stress[k] = p.components(fields::kinetic_stress)[k].data();
     const SweepOutput rates = shared_->output();
@@ -148,14 +148,14 @@ class StatePass final : public Pass {
   void apply(State& s, double) override {
     MovingSet& p = s.sets[shared_->set];
     const double reference = shared_->settings.states->reference_fraction;
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     auto& state = p.flags(fields::state);
     auto& support_completeness = p.scalar(fields::support_completeness);
     const SweepOutput out = shared_->output();
     parallel_ranges(p.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       for (std::size_t i = begin; i < end; ++i) {
-                        state[i] = named(reference * (1 + compression[i]), state[i]);
+                        state[i] = named(reference * (1 + density_change[i]), state[i]);
                         support_completeness[i] = out.support_completeness[i];
                       }
                     });

@@ -14,7 +14,7 @@ namespace sturz {
 /// Raw pointers to the columns that the update reads and writes.
 struct KineticColumns {
   const double* mass = nullptr;
-  const double* compression = nullptr;  ///< at n+1
+  const double* density_change = nullptr;  ///< at n+1
   double* theta = nullptr;              ///< [m^2/s^2]
   double* stress[6] = {};               ///< kinetic, xx yy zz xy yz zx, tension positive [Pa]
 };
@@ -59,7 +59,7 @@ inline double pair_weight(double dilation_ratio, double completeness) {
   return told / std::sqrt(std::fmax(completeness * told, 0.4));
 }
 
-/// Speed of sound in colliding grains: c^2 = dp/drho at theta, and what compression heats
+/// Speed of sound in colliding grains: c^2 = dp/drho at theta, and what compaction adds to it
 /// (2/3 p^2/(rho^2 theta)), over theta.
 inline double kinetic_wave2(const KineticTheory& law, const KineticCoefficients& k,
                             double fraction) {
@@ -80,7 +80,7 @@ class KineticUpdate {
   void apply(const KineticColumns& c, const SweepOutput& r, std::size_t begin, std::size_t end,
              KineticTotals& out) const {
     for (std::size_t i = begin; i < end; ++i) {
-      const double fraction = settings_.states->reference_fraction * (1 + c.compression[i]);
+      const double fraction = settings_.states->reference_fraction * (1 + c.density_change[i]);
       const double share = kinetic_share(fraction, settings_.states->switched);
       if (share > 0 || c.theta[i] > 0)
         advance(c, r, i, fraction, share, out);

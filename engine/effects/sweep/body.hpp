@@ -10,7 +10,7 @@ namespace sturz::STURZ_ISA {
 struct GroupRows {
   alignas(64) std::int32_t x[group_size], y[group_size], z[group_size];
   alignas(64) float volume[group_size], vx[group_size], vy[group_size], vz[group_size];
-  alignas(64) float compression[group_size];
+  alignas(64) float density_change[group_size];
   alignas(64) float sxx[group_size], syy[group_size], szz[group_size];
   alignas(64) float sxy[group_size], syz[group_size], szx[group_size];
   alignas(64) float viscosity[group_size], tension[group_size];
@@ -19,7 +19,7 @@ struct GroupRows {
     for (int k = 0; k < group_size; ++k) {
       const PackedRecord& p = first[k];
       x[k] = p.x, y[k] = p.y, z[k] = p.z, volume[k] = p.volume;
-      vx[k] = p.vx, vy[k] = p.vy, vz[k] = p.vz, compression[k] = p.compression;
+      vx[k] = p.vx, vy[k] = p.vy, vz[k] = p.vz, density_change[k] = p.density_change;
       sxx[k] = p.sxx, syy[k] = p.syy, szz[k] = p.szz;
       sxy[k] = p.sxy, syz[k] = p.syz, szx[k] = p.szx;
       viscosity[k] = p.viscosity, tension[k] = p.tension;
@@ -81,7 +81,7 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
   const Lanes szz = Lanes::load(rows.szz + lane), sxy = Lanes::load(rows.sxy + lane);
   const Lanes syz = Lanes::load(rows.syz + lane), szx = Lanes::load(rows.szx + lane);
   const Lanes one = Lanes::all(1);
-  const Lanes density = Lanes::all(k.density) * (one + Lanes::load(rows.compression + lane));
+  const Lanes density = Lanes::all(k.density) * (one + Lanes::load(rows.density_change + lane));
   const Lanes factor = Lanes::all(-k.gradient) / density;
   (factor * fma(sxx, s.gx, fma(sxy, s.gy, fma(szx, s.gz, s.ax)))).store(out.ax + at);
   (factor * fma(sxy, s.gx, fma(syy, s.gy, fma(syz, s.gz, s.ay)))).store(out.ay + at);
@@ -132,7 +132,7 @@ inline Lanes support_completeness(const DenseSums& s, const DenseScale& k, Lanes
 inline void finish_tension(const TensionSums& s, const GroupRows& rows, int lane,
                            const DenseScale& k, const SweepOutput& out, std::size_t at) {
   const Lanes density =
-      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
+      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.density_change + lane));
   const Lanes factor = Lanes::all(k.gradient) / density, own = Lanes::load(rows.tension + lane);
   auto push = [&](float* a, Lanes force) { fma(factor, force, Lanes::load(a)).store(a); };
   push(out.ax + at, fma(own, s.cx, s.bx));
@@ -164,7 +164,7 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
                            const SweepOutput& out, std::size_t at) {
   const Lanes dilation_ratio = Lanes::load(own.dilation_ratio + lane), weight = Lanes::load(own.weight + lane);
   const Lanes density =
-      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
+      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.density_change + lane));
   const Lanes factor = Lanes::all(-k.gradient) * weight / density;
   const Lanes xx = Lanes::load(own.xx + lane), yy = Lanes::load(own.yy + lane);
   const Lanes zz = Lanes::load(own.zz + lane), xy = Lanes::load(own.xy + lane);
@@ -208,7 +208,7 @@ inline DenseSelf self_of(const GroupRows& rows, int lane) {
   return {IntLanes::load(rows.x + lane),       IntLanes::load(rows.y + lane),
           IntLanes::load(rows.z + lane),       Lanes::load(rows.vx + lane),
           Lanes::load(rows.vy + lane),         Lanes::load(rows.vz + lane),
-          Lanes::load(rows.compression + lane)};
+          Lanes::load(rows.density_change + lane)};
 }
 
 /// \tparam completeness  whether SweepOutput::support_completeness is wanted

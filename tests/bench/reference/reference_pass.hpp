@@ -36,7 +36,7 @@ struct ReferenceGround {
 /// Columns of the particles, all [n].
 struct ReferenceColumns {
   std::size_t n;
-  float *x, *y, *z, *vx, *vy, *vz, *mass, *compression, *ax, *ay, *az;
+  float *x, *y, *z, *vx, *vy, *vz, *mass, *density_change, *ax, *ay, *az;
   float *stress[6], *gradient[9];  ///< xx yy zz xy yz zx; dv_a/dx_b row by row
 };
 

@@ -55,7 +55,7 @@ ReferenceSlide::ReferenceSlide(const SimulationParts& parts, const ScenePlan& pl
   x_ = shifted(p.x, x0), y_ = shifted(p.y, y0), z_ = shifted(p.z, z0);
   vx_ = as_floats(p.vx), vy_ = as_floats(p.vy), vz_ = as_floats(p.vz);
   mass_ = as_floats(p.mass);
-  compression_ = as_floats(p.scalar(fields::compression));
+  density_change_ = as_floats(p.scalar(fields::density_change));
   for (int c = 0; c < 6; ++c) stress_[c] = as_floats(p.components(fields::stress)[c]);
   for (auto* v : {&ax_, &ay_, &az_}) v->assign(p.size(), 0);
   for (auto& v : gradient_) v.assign(p.size(), 0);
@@ -77,14 +77,14 @@ ReferenceSlide::ReferenceSlide(const SimulationParts& parts, const ScenePlan& pl
 ReferenceColumns ReferenceSlide::columns() {
   ReferenceColumns c{
       size(),       x_.data(),           y_.data(),  z_.data(),  vx_.data(), vy_.data(), vz_.data(),
-      mass_.data(), compression_.data(), ax_.data(), ay_.data(), az_.data(), {},         {}};
+      mass_.data(), density_change_.data(), ax_.data(), ay_.data(), az_.data(), {},         {}};
   for (int k = 0; k < 6; ++k) c.stress[k] = stress_[k].data();
   for (int k = 0; k < 9; ++k) c.gradient[k] = gradient_[k].data();
   return c;
 }
 
 std::vector<std::vector<float>*> ReferenceSlide::carried() {
-  std::vector<std::vector<float>*> all{&x_, &y_, &z_, &vx_, &vy_, &vz_, &mass_, &compression_};
+  std::vector<std::vector<float>*> all{&x_, &y_, &z_, &vx_, &vy_, &vz_, &mass_, &density_change_};
   for (auto& s : stress_) all.push_back(&s);
   return all;
 }

@@ -32,15 +32,15 @@ SweepAlone::SweepAlone(const SimulationParts& parts, const ScenePlan& plan, Inst
 
 void SweepAlone::fill_records(const GrainStressSettings& g) {
   lists_.pack_positions(set_, 0, set_.size());
-  const auto& compression = set_.scalar(fields::compression);
+  const auto& density_change = set_.scalar(fields::density_change);
   const auto& stress = set_.components(fields::stress);
   auto f = [](double v) { return static_cast<float>(v); };
   for (std::size_t i = 0; i < set_.size(); ++i) {
     PackedRecord& r = lists_.records()[i];
-    const double e = std::max(compression[i], GrainStressSettings::separation_threshold);
+    const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
     r.volume = f(set_.mass[i] / (g.reference_density * (1 + e)));
     r.vx = f(set_.vx[i]), r.vy = f(set_.vy[i]), r.vz = f(set_.vz[i]);
-    r.compression = f(e);
+    r.density_change = f(e);
     r.sxx = f(stress[0][i]), r.syy = f(stress[1][i]), r.szz = f(stress[2][i]);
     r.sxy = f(stress[3][i]), r.syz = f(stress[4][i]), r.szx = f(stress[5][i]);
   }

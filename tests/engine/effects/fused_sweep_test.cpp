@@ -105,7 +105,7 @@ TEST(FusedSweep, PairForcesKeepMomentum) {
   Vec3 sum(0, 0, 0);
   double scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double mass = constants.reference_density * (1 + cloud[i].compression) * cloud[i].volume;
+    const double mass = constants.reference_density * (1 + cloud[i].density_change) * cloud[i].volume;
     sum += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
   }
@@ -241,8 +241,8 @@ TEST(FusedSweep, LinearDensityDoesNotDiffuse) {
   auto rough = cloud;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> u(-6e-3, 6e-3);
-  for (SlowParticle& p : cloud) p.compression = 6e-3 + rise.dot(p.position - utm_corner);
-  for (SlowParticle& p : rough) p.compression = u(random);
+  for (SlowParticle& p : cloud) p.density_change = 6e-3 + rise.dot(p.position - utm_corner);
+  for (SlowParticle& p : rough) p.density_change = u(random);
   const auto slow = test::slow_sweep(cloud, {}, constants);
   const auto column = test::fast_sweep(cloud, constants, fastest()).rates;
   const auto noise = test::fast_sweep(rough, constants, fastest()).rates;
@@ -260,7 +260,7 @@ TEST(FusedSweep, DiffusionDrawsDensitiesTogether) {
   const auto constants = test::usual_constants(dx);
   auto cloud = test::lattice({7, 7, 7}, dx, 0);
   const std::size_t middle = 3 * 49 + 3 * 7 + 3;
-  cloud[middle].compression = 0.01;
+  cloud[middle].density_change = 0.01;
   const auto rates = test::fast_sweep(cloud, constants, fastest()).rates;
   EXPECT_LT(rates[middle].diffusion, 0);
   EXPECT_GT(rates[middle + 1].diffusion, 0);

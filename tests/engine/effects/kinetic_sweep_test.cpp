@@ -102,7 +102,7 @@ TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
   Vec3 force(0, 0, 0);
   double scale = 0, heat = 0, heat_scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double mass = cloud[i].volume * constants.reference_density * (1 + cloud[i].compression);
+    const double mass = cloud[i].volume * constants.reference_density * (1 + cloud[i].density_change);
     force += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
     heat += cloud[i].volume * cloud[i].dilation_ratio * fast[i].heat;
@@ -116,7 +116,7 @@ TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
   const auto without = test::kinetic_sweep(still, constants, best_instruction_set()).rates;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const SlowParticle& p = cloud[i];
-    const double mass = p.volume * constants.reference_density * (1 + p.compression);
+    const double mass = p.volume * constants.reference_density * (1 + p.density_change);
     work += mass * (fast[i].acceleration - without[i].acceleration).dot(p.velocity);
     power += p.volume * p.dilation_ratio * p.kinetic_stress.cwiseProduct(fast[i].felt).sum();
     size += p.volume * p.dilation_ratio * p.kinetic_stress.norm() * fast[i].felt.norm();

@@ -101,13 +101,13 @@ TEST(DilatantPacking, SwitchedPressureRelaxesToTheLawOfItsState) {
   EXPECT_NEAR(p.pressure(0.57 / 0.6 - 1, 2e4, transition), target + (2e4 - target) * kept, 1e-9);
 }
 
-TEST(GrainStressSettings, CompressionCarriesTheAskedPressure) {
+TEST(GrainStressSettings, DensityChangeCarriesTheAskedPressure) {
   GrainStressSettings g;
   g.states = GrainStatesSettings{};
   g.states->friction.max_fraction = 0.68;
   for (const double pressure : {200.0, 1e3, 1e4, 1e6})
-    EXPECT_NEAR(g.pressure_at(g.compression_at(pressure)) / pressure, 1, 1e-9);
-  EXPECT_EQ(g.compression_at(10), 0);  // the frictional pressure alone is 152 Pa at 0.60
+    EXPECT_NEAR(g.pressure_at(g.density_change_at(pressure)) / pressure, 1, 1e-9);
+  EXPECT_EQ(g.density_change_at(10), 0);  // the frictional pressure alone is 152 Pa at 0.60
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ MovingSet four_grains() {
   MovingSet p;
   p.grow(4);
   p.mass = {1, 2, 3, 4};
-  p.add(fields::compression).component[0] = {0.01, -0.019, -0.5, -0.99};
+  p.add(fields::density_change).component[0] = {0.01, -0.019, -0.5, -0.99};
   p.add(fields::state).value = {static_cast<std::uint8_t>(GrainState::dense),
                                 static_cast<std::uint8_t>(GrainState::transition),
                                 static_cast<std::uint8_t>(GrainState::dilute),

@@ -104,7 +104,7 @@ CaseReport stretched_bar(States states) {
   ParticleSet& p = parts.state.grains();
   parts.state.gravity = 0;
   for (double& z : p.z) z += 30;
-  for (const FieldKey* key : {&fields::stress, &fields::compression})
+  for (const FieldKey* key : {&fields::stress, &fields::density_change})
     for (auto& column : p.components(*key)) std::fill(column.begin(), column.end(), 0.0);
   std::vector<double> pull(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)

@@ -35,7 +35,7 @@ Simulation floating_box() {
   SimulationParts& parts = simulation.parts();
   parts.state.gravity = 0;
   for (double& z : parts.state.grains().z) z += 60;
-  for (const FieldKey* key : {&fields::stress, &fields::compression})
+  for (const FieldKey* key : {&fields::stress, &fields::density_change})
     for (auto& column : parts.state.grains().components(*key))
       std::fill(column.begin(), column.end(), 0.0);
   return simulation;
