@@ -79,7 +79,7 @@ struct SweepConstants {
 /// give along the normal: a grain with nothing above it has no pressure field to be mirrored, and
 /// would bounce off its own image without loss.
 struct BoundaryView {
-  const float* distance;      ///< to the ground [m]; 2h and more: not felt
+  const float* distance;      ///< to the ground [m]; 2h and more: no effect
   const float *nx, *ny, *nz;  ///< the ground's normal, finite everywhere
   /// What analytic walls add, order xx yy zz xy yz zx; null where there are none.
   const float* moment[6];    ///< to the moment matrix [-]
@@ -117,12 +117,12 @@ struct SweepOutput {
   float* diffusion;   ///< d(density_change)/dt by delta-SPH [1/s]
   float* wall_share;  ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
   /// Written where a KineticView is given: how full the support is of neighbours and ground (1
-  /// inside a dense mass, about a half at its surface), how many neighbours there are, and the heat
-  /// that granular temperature conducts per volume of the record [W/m^3].
-  float *support_completeness, *neighbors, *heat;
-  /// Symmetric velocity gradient as the pair forces of kinetic stresses feel it, xx yy zz xy yz zx:
+  /// inside a dense mass, about a half at its surface), how many neighbours there are, and the granular
+  /// energy that is conducted to it per volume of the record [W/m^3].
+  float *support_completeness, *neighbors, *conducted;
+  /// Symmetric velocity gradient consistent with the pair forces of kinetic stresses, xx yy zz xy yz zx:
   /// their work on the motion is V sigma_k : this, exactly [1/s].
-  float* felt[6];
+  float* pair_gradient[6];
   static constexpr float uncounted = 1000;  ///< neighbours of a grain far from dispersed ones
   float* smooth[6];  ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
 };

@@ -274,11 +274,11 @@ class Run {
     m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
     m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
     state_times_.write(m);
-    double hottest = 0;
+    double largest_temperature = 0;
     for (const MovingSet& set : s.sets)
-      hottest = std::max(hottest, set.largest_granular_temperature);
-    m.max_granular_temperature_m2_s2 = hottest;
-    m.granular_ratio = m.max_speed_m_s > 0 ? hottest / (m.max_speed_m_s * m.max_speed_m_s) : 0;
+      largest_temperature = std::max(largest_temperature, set.largest_granular_temperature);
+    m.max_granular_temperature_m2_s2 = largest_temperature;
+    m.granular_ratio = m.max_speed_m_s > 0 ? largest_temperature / (m.max_speed_m_s * m.max_speed_m_s) : 0;
     m.end_time_s = s.time;
     m.n_steps = static_cast<double>(s.n_steps);
     m.mean_dt_s = s.n_steps ? s.time / s.n_steps : 0;

@@ -13,7 +13,7 @@ constexpr int n_states = 4;  // numbered as GrainState, dense first
 
 /// Masses [kg] of what shares are taken of, over all sets.
 struct Masses {
-  double all = 0, dilated = 0, heat = 0, in_state[n_states] = {};
+  double all = 0, dilated = 0, theta_sum = 0, in_state[n_states] = {};
   bool has_density_change = false;
 };
 
@@ -28,7 +28,7 @@ void add_set(const MovingSet& set, Masses& sums, StateShares& out) {
     if (density_change && density_change->component[0][i] < dilated_density_change) sums.dilated += m;
     if (state) sums.in_state[std::min<int>(state->value[i], n_states - 1)] += m;
     if (theta) {
-      sums.heat += m * theta->component[0][i];
+      sums.theta_sum += m * theta->component[0][i];
       out.max_theta = std::max(out.max_theta, theta->component[0][i]);
     }
   }
@@ -47,7 +47,7 @@ StateShares state_shares(std::span<const MovingSet> sets) {
   out.transition = sums.in_state[1] / sums.all;
   out.dilute = sums.in_state[2] / sums.all;
   out.ultradilute = sums.in_state[3] / sums.all;
-  out.mean_theta = sums.heat / sums.all;
+  out.mean_theta = sums.theta_sum / sums.all;
   return out;
 }
 

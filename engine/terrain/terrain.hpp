@@ -104,7 +104,7 @@ class Terrain {
   /// Distance of `p` to the surface, negative below it: (z - z_s) n_z where the ground within
   /// `reach` is smooth. Where its slope exceeds 45 degrees or its curvature times `reach` 0.2, a
   /// point that may touch gets the distance to the closest point (two Newton steps on every patch
-  /// within reach), so that a cliff beside a particle is felt. The sign is always that of z - z_s.
+  /// within reach), so that a cliff beside a particle counts. The sign is always that of z - z_s.
   /// \param reach  the contact distance [m]; farther up the tangent plane's distance is returned.
   ///               Up to one cell costs 20-40 ns; more (or a whole smoothing support) makes nearly
   ///               all of a mountain count as bent and costs several times as much

@@ -110,17 +110,17 @@ HandMade cloud_of(const Cloud& c, bool moving) {
   return made;
 }
 
-double total_heat(const State& s) {
+double total_granular_energy(const State& s) {
   double sum = 0;
   const auto& theta = s.grains().scalar(fields::granular_temperature);
   for (std::size_t i = 0; i < theta.size(); ++i) sum += 1.5 * s.grains().mass[i] * theta[i];
   return sum;
 }
 
-/// Largest deviation of the cloud's heat from Haff's law theta_0/(1 + t/tau)^2 within 3 tau.
+/// Largest deviation of the cloud's granular energy from Haff's law theta_0/(1 + t/tau)^2 within 3 tau.
 struct Cooling {
   double worst = 0;
-  double stirred = 0;  ///< kinetic energy at the end over the heat at the start
+  double stirred = 0;  ///< kinetic energy at the end over the granular energy at the start
 };
 Cooling cool(const Cloud& c) {
   HandMade made = cloud_of(c, true);
@@ -128,20 +128,20 @@ Cooling cool(const Cloud& c) {
   const double e = c.law.restitution;
   const double tau = c.law.grain_diameter * std::sqrt(std::numbers::pi) /
                      (4 * (1 - e * e) * c.fraction * g0 * std::sqrt(c.theta));
-  const double heat = total_heat(made.state);
+  const double granular_energy = total_granular_energy(made.state);
   Cooling out;
   while (made.state.time < 3 * tau) {
     made.state.grains().motion.max_speed = 10;  // theta is bounded by the speed of the scene
     made.advance();
-    const double expected = heat / std::pow(1 + made.state.time / tau, 2);
-    out.worst = std::max(out.worst, std::abs(total_heat(made.state) / expected - 1));
+    const double expected = granular_energy / std::pow(1 + made.state.time / tau, 2);
+    out.worst = std::max(out.worst, std::abs(total_granular_energy(made.state) / expected - 1));
   }
-  out.stirred = made.state.grains().ledger.kinetic / heat;
-  EXPECT_LT(std::abs(made.state.grains().ledger.conducted), 1e-5 * heat);
+  out.stirred = made.state.grains().ledger.kinetic / granular_energy;
+  EXPECT_LT(std::abs(made.state.grains().ledger.conducted), 1e-5 * granular_energy);
   EXPECT_EQ(made.state.grains().n_listed, made.state.grains().size());
   fmt::print(
       "V10 box, jitter {}: {} steps to 3 tau = {:.2f} s, worst error {:.3f} %, stirred "
-      "{:.2f} % of the heat\n",
+      "{:.2f} % of the granular energy\n",
       c.jitter, made.state.n_steps, made.state.time, 100 * out.worst, 100 * out.stirred);
   return out;
 }
@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shear{0.3, 1.0492, 1.9525, 0.291}, Shear{0.4, 0.93119, 4.4018, 0.299}),
     [](const auto& i) { return fmt::format("{:.0f}Percent", 100 * i.param.fraction); });
 
-/// V11 with particles held in uniform shear: gradient, heating, conduction and stress of the
+/// V11 with particles held in uniform shear: gradient, production, conduction and stress of the
 /// sweep, against the closed form, with a jittered cloud of free top and bottom.
 TEST_P(UniformShear, ReachesTheClosedForm) {
   for (const int layers : {10, 14, 20}) {

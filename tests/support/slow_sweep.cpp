@@ -88,9 +88,9 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       laplace += b.volume * weight * rise;
       const double conduction = 4 / (1 / a.conductivity + 1 / b.conductivity);
       const double shared = b.volume * a.weight * b.weight / a.dilation_ratio;
-      rates.heat += shared * conduction * weight * (b.theta - a.theta);
+      rates.conducted += shared * conduction * weight * (b.theta - a.theta);
       const Matrix3d seen = -shared * u * grad.transpose();
-      rates.felt += 0.5 * (seen + seen.transpose());
+      rates.pair_gradient += 0.5 * (seen + seen.transpose());
       grad_sum += b.volume * grad;
       density_gradient += b.volume * rise * grad;
       rates.smoothing +=

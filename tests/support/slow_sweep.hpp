@@ -34,8 +34,8 @@ struct SlowRates {
   double diffusion = 0;
   double wall_share = 0;  ///< of the mirror image
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d felt = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
-  double heat = 0;  ///< conducted, per volume that the grain takes up [W/m^3]
+  Eigen::Matrix3d pair_gradient = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
+  double conducted = 0;  ///< conducted granular energy, per volume that the grain takes up [W/m^3]
   double support_completeness = 0;  ///< a third of the moment's trace
   int neighbors = 0;
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I

@@ -45,8 +45,8 @@ struct Rooms {
     for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
     o.wall_share = results[19].data();
-    o.support_completeness = results[20].data(), o.neighbors = results[21].data(), o.heat = results[22].data();
-    for (int k = 0; k < 6; ++k) o.felt[k] = results[23 + k].data();
+    o.support_completeness = results[20].data(), o.neighbors = results[21].data(), o.conducted = results[22].data();
+    for (int k = 0; k < 6; ++k) o.pair_gradient[k] = results[23 + k].data();
     return o;
   }
   BoundaryView boundary() const {
@@ -62,12 +62,12 @@ struct Rooms {
     }
     r.diffusion = results[12][i];
     r.wall_share = results[19][i];
-    r.support_completeness = results[20][i], r.heat = results[22][i];
+    r.support_completeness = results[20][i], r.conducted = results[22][i];
     r.neighbors = static_cast<int>(results[21][i]);
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
       r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
-      r.felt(entries[k][0], entries[k][1]) = r.felt(entries[k][1], entries[k][0]) =
+      r.pair_gradient(entries[k][0], entries[k][1]) = r.pair_gradient(entries[k][1], entries[k][0]) =
           results[23 + k][i];
     }
     return r;

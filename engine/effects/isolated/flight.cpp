@@ -139,9 +139,9 @@ bool detach_isolated(MovingSet& p, const GrainStressSettings& g) {
     p.ledger.elastic -= stored;
     p.ledger.lost_energy += stored;
     if (f.theta) {
-      const double heat = 1.5 * p.mass[i] * f.theta->component[0][i];
-      p.ledger.granular -= heat;
-      p.ledger.granular_lost += heat;
+      const double granular_energy = 1.5 * p.mass[i] * f.theta->component[0][i];
+      p.ledger.granular -= granular_energy;
+      p.ledger.granular_lost += granular_energy;
     }
     f.clear_stress(i);
     f.density_change[i] =
@@ -191,9 +191,9 @@ bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& 
     f.set(i, grain_state(reference * (1 + f.density_change[i])), Membership::listed);
     if (f.theta) {
       f.theta->component[0][i] = around.theta();
-      const double heat = 1.5 * p.mass[i] * around.theta();
-      p.ledger.granular += heat;
-      p.ledger.granular_lost -= heat;
+      const double granular_energy = 1.5 * p.mass[i] * around.theta();
+      p.ledger.granular += granular_energy;
+      p.ledger.granular_lost -= granular_energy;
     }
     any = true;
   }

@@ -52,22 +52,22 @@ class KineticPack final : public Pass {
     const PackedRecord* records = g.lists.records();
     for (std::size_t i = begin; i < end; ++i) {
       KineticRecord& k = g.kinetic[i];
-      const double e = density_change[i], hot = theta ? theta->component[0][i] : 0;
+      const double e = density_change[i], temperature = theta ? theta->component[0][i] : 0;
       k = {};
       k.viscosity = records[i].viscosity;
-      if (e >= GrainStressSettings::separation_threshold && hot == 0) continue;
+      if (e >= GrainStressSettings::separation_threshold && temperature == 0) continue;
       g.dense_group[i / group_size] = 0;
       const double fraction = states.reference_fraction * (1 + e);
       const double dilation_ratio = (1 + std::max(e, GrainStressSettings::separation_threshold)) / (1 + e);
       k.dilation_ratio = static_cast<float>(dilation_ratio);
       k.weight = static_cast<float>(pair_weight(dilation_ratio, support_completeness[i]));
       double wave = 0;
-      if (hot > 0) {
+      if (temperature > 0) {
         const KineticTheory& law = *states.dilute;
         const auto c = kinetic_coefficients(law, fraction, g.settings.smoothing_length);
-        wave = std::sqrt(hot * kinetic_wave2(law, c, fraction));
-        k.theta = static_cast<float>(hot);
-        k.resistance = static_cast<float>(1 / (c.conductivity * std::sqrt(hot) + 1e-30));
+        wave = std::sqrt(temperature * kinetic_wave2(law, c, fraction));
+        k.theta = static_cast<float>(temperature);
+        k.resistance = static_cast<float>(1 / (c.conductivity * std::sqrt(temperature) + 1e-30));
         float* columns[] = {&k.xx, &k.yy, &k.zz, &k.xy, &k.yz, &k.zx};
         for (int n = 0; n < 6; ++n) *columns[n] = static_cast<float>(stress->component[n][i]);
       }
@@ -127,9 +127,9 @@ class KineticPass final : public Pass {
   static void release(const State& s, MovingSet& p, const double* theta) {
     for (std::size_t i = 0; i < p.n_listed; ++i) {
       if (!s.leaves(p, i)) continue;
-      const double heat = 1.5 * p.mass[i] * theta[i];
-      p.ledger.granular -= heat;
-      p.ledger.granular_lost += heat;
+      const double granular_energy = 1.5 * p.mass[i] * theta[i];
+      p.ledger.granular -= granular_energy;
+      p.ledger.granular_lost += granular_energy;
     }
   }
 

@@ -73,9 +73,9 @@ inline double kinetic_wave2(const KineticTheory& law, const KineticCoefficients&
 
 class KineticUpdate {
  public:
-  /// \param hottest  bound on theta: a third of the square of the largest speed [m^2/s^2]
-  KineticUpdate(const GrainStressSettings& g, double dt, double hottest)
-      : settings_(g), law_(*g.states->dilute), dt_(dt), hottest_(hottest) {}
+  /// \param largest_theta  bound on theta: a third of the square of the largest speed [m^2/s^2]
+  KineticUpdate(const GrainStressSettings& g, double dt, double largest_theta)
+      : settings_(g), law_(*g.states->dilute), dt_(dt), largest_theta_(largest_theta) {}
 
   void apply(const KineticColumns& c, const SweepOutput& r, std::size_t begin, std::size_t end,
              KineticTotals& out) const {
@@ -106,22 +106,22 @@ class KineticUpdate {
     // Expanding grains may push less, but do not pull: the bulk viscosity stops at the pressure.
     if (trace > 0) k.bulk_viscosity = std::min(k.bulk_viscosity, k.pressure * s0 / trace);
 
-    // Heated by what the pair forces take from the motion, no more: see SweepOutput::felt.
-    const Symmetric felt{r.felt[0][i], r.felt[1][i], r.felt[2][i],
-                         r.felt[3][i], r.felt[4][i], r.felt[5][i]};
-    const double opened = felt.trace();
-    double a = share * (2 * k.shear_viscosity * d.dot(felt) + k.bulk_viscosity * trace * opened) /
+    // Gains what the pair forces take from the motion, no more: see SweepOutput::pair_gradient.
+    const Symmetric pair_gradient{r.pair_gradient[0][i], r.pair_gradient[1][i], r.pair_gradient[2][i],
+                         r.pair_gradient[3][i], r.pair_gradient[4][i], r.pair_gradient[5][i]};
+    const double opened = pair_gradient.trace();
+    double a = share * (2 * k.shear_viscosity * d.dot(pair_gradient) + k.bulk_viscosity * trace * opened) /
                (3 * density);
     double b = share * k.pressure * opened / (3 * density);
-    if (a < 0) {  // uneven surroundings: it cools, as fast as it has heat for
+    if (a < 0) {  // uneven surroundings: it cools, as fast as its granular energy allows
       b -= a / std::fmax(s0, 1e-12);
       a = 0;
     }
     const double s1 = riccati_step(s0, a, b, k.dissipation / (3 * density), dt_);
-    const double conducted = dt_ * r.heat[i] / density;  // J/kg
-    double theta1 = std::clamp(s1 * s1 + conducted / 1.5, 0.0, hottest_);
+    const double conducted = dt_ * r.conducted[i] / density;  // J/kg
+    double theta1 = std::clamp(s1 * s1 + conducted / 1.5, 0.0, largest_theta_);
     // In a mass that has become dense the last trace fades as 1/t^2 only.
-    if (share == 0 && theta1 < 1e-5 * hottest_) theta1 = 0;
+    if (share == 0 && theta1 < 1e-5 * largest_theta_) theta1 = 0;
     c.theta[i] = theta1;
 
     const double root = std::sqrt(theta1);
@@ -134,7 +134,7 @@ class KineticUpdate {
     c.stress[3][i] = after.xy, c.stress[4][i] = after.yz, c.stress[5][i] = after.zx;
 
     const double mass = c.mass[i];
-    const double work = mass / density * dt_ * 0.5 * (before.dot(felt) + after.dot(felt));
+    const double work = mass / density * dt_ * 0.5 * (before.dot(pair_gradient) + after.dot(pair_gradient));
     out.power += work;
     out.granular += 1.5 * mass * theta1;
     out.conducted += mass * conducted;
@@ -149,7 +149,7 @@ class KineticUpdate {
 
   const GrainStressSettings& settings_;
   const KineticTheory& law_;
-  double dt_, hottest_;
+  double dt_, largest_theta_;
 };
 
 }  // namespace sturz

@@ -158,7 +158,7 @@ struct KineticRows {
   }
 };
 
-/// What kinetic stresses add to the acceleration, heat, and how full the support is.
+/// What kinetic stresses add to the acceleration, conducted granular energy, and how complete the support is.
 inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const GroupRows& rows,
                            const KineticRows& own, int lane, const DenseScale& k, Lanes imaged,
                            const SweepOutput& out, std::size_t at) {
@@ -175,11 +175,11 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
   push(out.az + at, fma(zx, s.gx, fma(yz, s.gy, fma(zz, s.gz, s.kz))));
   // Per volume that the grain takes up: the record's times `dilation_ratio`.
   const Lanes share = weight / dilation_ratio, half = Lanes::all(0.5f);
-  (Lanes::all(k.laplacian) * share * s.heat).store(out.heat + at);
-  const Lanes felt = Lanes::all(k.gradient) * share;
-  (felt * s.exx).store(out.felt[0] + at), (felt * s.eyy).store(out.felt[1] + at);
-  (felt * s.ezz).store(out.felt[2] + at), (half * felt * s.exy).store(out.felt[3] + at);
-  (half * felt * s.eyz).store(out.felt[4] + at), (half * felt * s.ezx).store(out.felt[5] + at);
+  (Lanes::all(k.laplacian) * share * s.conducted).store(out.conducted + at);
+  const Lanes pair_gradient = Lanes::all(k.gradient) * share;
+  (pair_gradient * s.exx).store(out.pair_gradient[0] + at), (pair_gradient * s.eyy).store(out.pair_gradient[1] + at);
+  (pair_gradient * s.ezz).store(out.pair_gradient[2] + at), (half * pair_gradient * s.exy).store(out.pair_gradient[3] + at);
+  (half * pair_gradient * s.eyz).store(out.pair_gradient[4] + at), (half * pair_gradient * s.ezx).store(out.pair_gradient[5] + at);
   support_completeness(dense, k, imaged / dilation_ratio).store(out.support_completeness + at);
   s.count.store(out.neighbors + at);
 }
@@ -320,8 +320,8 @@ inline bool dense_around(const PackedView& view, const KineticView& dispersed, s
 inline void write_dense_group(const SweepOutput& out, std::size_t group) {
   for (std::size_t i = group * group_size; i < (group + 1) * group_size; ++i) {
     out.neighbors[i] = SweepOutput::uncounted;
-    out.heat[i] = 0;
-    for (float* column : out.felt) column[i] = 0;
+    out.conducted[i] = 0;
+    for (float* column : out.pair_gradient) column[i] = 0;
   }
 }
 

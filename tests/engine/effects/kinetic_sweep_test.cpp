@@ -44,8 +44,8 @@ const std::vector<Part> parts{
     {"acceleration", [](const SlowRates& r) -> Eigen::MatrixXd { return r.acceleration; }},
     {"gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; }},
     {"diffusion", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.diffusion, 0, 0); }},
-    {"heat", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.heat, 0, 0); }},
-    {"felt", [](const SlowRates& r) -> Eigen::MatrixXd { return r.felt; }},
+    {"conducted", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.conducted, 0, 0); }},
+    {"pair_gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.pair_gradient; }},
     {"support_completeness", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.support_completeness, 0, 0); }},
     {"smoothing", [](const SlowRates& r) -> Eigen::MatrixXd { return r.smoothing; }}};
 
@@ -62,7 +62,7 @@ TEST(KineticSweep, EqualsTheSlowTwin) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       const bool dense_group = fast[i].neighbors == static_cast<int>(SweepOutput::uncounted);
       twin.push_back(dense_group ? still[i] : slow[i]);
-      if (dense_group) twin.back().felt.setZero();
+      if (dense_group) twin.back().pair_gradient.setZero();
       if (dense_group) continue;
       ++dispersed;
       ASSERT_EQ(fast[i].neighbors, slow[i].neighbors);
@@ -95,21 +95,21 @@ TEST(KineticSweep, ArtificialStressEqualsTheSlowTwinInBothSweeps) {
   EXPECT_GT(test::relative_error(dense, without, acceleration), 0.01);
 }
 
-TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
+TEST(KineticSweep, KeepsMomentumGranularEnergyAndEnergy) {
   const auto constants = test::usual_constants(dx);
   const auto cloud = half_dispersed();
   const auto fast = test::kinetic_sweep(cloud, constants, best_instruction_set()).rates;
   Vec3 force(0, 0, 0);
-  double scale = 0, heat = 0, heat_scale = 0;
+  double scale = 0, conducted = 0, conducted_scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double mass = cloud[i].volume * constants.reference_density * (1 + cloud[i].density_change);
     force += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
-    heat += cloud[i].volume * cloud[i].dilation_ratio * fast[i].heat;
-    heat_scale += cloud[i].volume * cloud[i].dilation_ratio * std::abs(fast[i].heat);
+    conducted += cloud[i].volume * cloud[i].dilation_ratio * fast[i].conducted;
+    conducted_scale += cloud[i].volume * cloud[i].dilation_ratio * std::abs(fast[i].conducted);
   }
   EXPECT_LT(force.norm(), 1e-6 * scale);
-  // What the kinetic force does to the motion is -Sum V sigma_k : felt.
+  // What the kinetic force does to the motion is -Sum V sigma_k : pair_gradient.
   double work = 0, power = 0, size = 0;
   auto still = cloud;
   for (SlowParticle& p : still) p.kinetic_stress.setZero();
@@ -118,11 +118,11 @@ TEST(KineticSweep, KeepsMomentumHeatAndEnergy) {
     const SlowParticle& p = cloud[i];
     const double mass = p.volume * constants.reference_density * (1 + p.density_change);
     work += mass * (fast[i].acceleration - without[i].acceleration).dot(p.velocity);
-    power += p.volume * p.dilation_ratio * p.kinetic_stress.cwiseProduct(fast[i].felt).sum();
-    size += p.volume * p.dilation_ratio * p.kinetic_stress.norm() * fast[i].felt.norm();
+    power += p.volume * p.dilation_ratio * p.kinetic_stress.cwiseProduct(fast[i].pair_gradient).sum();
+    size += p.volume * p.dilation_ratio * p.kinetic_stress.norm() * fast[i].pair_gradient.norm();
   }
   EXPECT_LT(std::abs(work + power), 1e-4 * size);
-  EXPECT_LT(std::abs(heat), 1e-6 * heat_scale);
+  EXPECT_LT(std::abs(conducted), 1e-6 * conducted_scale);
 }
 
 TEST(KineticSweep, GivesTheDenseBitsWhereAllIsDense) {
@@ -180,8 +180,8 @@ TEST(KineticSweep, APairThatMeetsInEmptySpaceIsNotFeltManyTimesOver) {
     }
     pair[0].velocity = Vec3(0, 0, 0), pair[1].velocity = Vec3(-1, 0, 0);
     const auto fast = test::kinetic_sweep(pair, constants, best_instruction_set()).rates;
-    EXPECT_LT(fast[0].felt.norm(), 11 / dx) << dilation_ratio;  // 1/dx is what there is; it was 330
-    EXPECT_GT(fast[0].felt.norm(), 0) << dilation_ratio;
+    EXPECT_LT(fast[0].pair_gradient.norm(), 11 / dx) << dilation_ratio;  // 1/dx is what there is; it was 330
+    EXPECT_GT(fast[0].pair_gradient.norm(), 0) << dilation_ratio;
   }
   for (const double dilation_ratio : {5.0, 30.0})
     for (const double filled : {0.4, 1.0, 3.0}) {

@@ -74,21 +74,21 @@ TEST(SimulationHistory, ADenseSceneTellsHowMuchOfItParted) {
 TEST(SimulationHistory, StatesSumToOneAndAgreeWithTheScalars) {
   const MemberResult r = run(with_states(over_the_cliff()));
   ASSERT_TRUE(r.history.has_states && r.history.has_temperature);
-  double dilute = 0, hottest = 0;
+  double dilute = 0, largest_temperature = 0;
   const auto& rows = r.history.rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const HistoryRow& row = rows[i];
     EXPECT_NEAR(row.dense + row.transition + row.dilute + row.ultradilute, 1, 1e-6);
     EXPECT_LE(row.mean_granular_temperature_m2_s2, row.max_granular_temperature_m2_s2);
     if (i > 0) dilute += row.dilute * (row.time_s - rows[i - 1].time_s);
-    hottest = std::max<double>(hottest, row.max_granular_temperature_m2_s2);
+    largest_temperature = std::max<double>(largest_temperature, row.max_granular_temperature_m2_s2);
   }
   const MemberScalars& s = r.scalars;
   EXPECT_GT(s.dilute_fraction, 0);
   EXPECT_NEAR(dilute / s.end_time_s, s.dilute_fraction, 0.02 * s.dilute_fraction + 1e-4);
   EXPECT_GT(s.transition_fraction, 0);
-  EXPECT_GE(s.max_granular_temperature_m2_s2, hottest * (1 - 1e-6));
-  EXPECT_GT(hottest, 0);
+  EXPECT_GE(s.max_granular_temperature_m2_s2, largest_temperature * (1 - 1e-6));
+  EXPECT_GT(largest_temperature, 0);
   EXPECT_NEAR(s.granular_ratio * s.max_speed_m_s * s.max_speed_m_s,
               s.max_granular_temperature_m2_s2, 1e-9 * s.max_granular_temperature_m2_s2);
 }

@@ -126,7 +126,7 @@ std::pair<double, double> off_centre() {
 }
 
 /// A particle against the ground as its partner. The ground's distance is a float: below 1e-3 m/s its
-/// rounding is felt in the restitution, but particles leave at any speed.
+/// rounding shows in the restitution, but particles leave at any speed.
 Worst against_the_ground() {
   Worst worst;
   const Softened soft(1);
