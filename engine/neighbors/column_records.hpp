@@ -3,7 +3,7 @@
 /// loop is compiled once per instruction set.
 #pragma once
 
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 
 #include <cstddef>
 #include <cstdint>

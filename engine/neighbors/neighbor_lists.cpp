@@ -29,8 +29,8 @@ void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads,
   sort_particles(set);
   make_images(set, domain);
   // Padding records carry no volume, so a lane that shares their group sees nothing of them.
-  records_.assign(padded_size() + images_.size(), PackedRecord{});
-  pack_positions(set, 0, n_particles_);
+  records_.assign(padded_size() + images_.size(), NeighborRecord{});
+  gather_positions(set, 0, n_particles_);
   for (std::size_t i = n_particles_; i < padded_size(); ++i)
     records_[i] = records_[n_particles_ - 1];
   copy_images();
@@ -134,7 +134,7 @@ void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
   }
 }
 
-void NeighborLists::pack_positions(const ParticleSet& set, std::size_t begin, std::size_t end) {
+void NeighborLists::gather_positions(const ParticleSet& set, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     records_[i].x = to_units(set.x[i], origin_[0], unit_);
     records_[i].y = to_units(set.y[i], origin_[1], unit_);
@@ -145,7 +145,7 @@ void NeighborLists::pack_positions(const ParticleSet& set, std::size_t begin, st
 void NeighborLists::copy_images() {
   for (std::size_t k = 0; k < images_.size(); ++k) {
     const PeriodicImage& image = images_[k];
-    PackedRecord& r = records_[padded_size() + k];
+    NeighborRecord& r = records_[padded_size() + k];
     r = records_[image.source];
     r.x += to_units(image.dx, 0, unit_);
     r.y += to_units(image.dy, 0, unit_);
@@ -160,7 +160,7 @@ void NeighborLists::sort_records() {
   column_begin_.assign(std::size_t{n_cols_} * n_rows_ + 1, 0);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t r = k < n_particles_ ? k : padded_size() + k - n_particles_;
-    const PackedRecord& p = records_[r];
+    const NeighborRecord& p = records_[r];
     const auto column = column_of(origin_[0] + p.x * unit_, origin_[1] + p.y * unit_);
     keys_[k] =
         (std::uint64_t{column} << 32) | std::uint64_t(std::int64_t{p.z} + (std::int64_t{1} << 31));
@@ -182,7 +182,7 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
   const int n = static_cast<int>(std::min<std::size_t>(group_size, n_particles_ - first));
   std::int64_t lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
   for (int k = 0; k < n; ++k) {
-    const PackedRecord& p = records_[first + k];
+    const NeighborRecord& p = records_[first + k];
     const std::int64_t c[3] = {p.x, p.y, p.z};
     for (int d = 0; d < 3; ++d) {
       lo[d] = k ? std::min(lo[d], c[d]) : c[d];
@@ -207,7 +207,7 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
       it = std::lower_bound(it, last, lo[2] - reach_units,
                             [&](std::uint32_t r, std::int64_t z) { return records_[r].z < z; });
       for (; it != last && records_[*it].z <= hi[2] + reach_units; ++it) {
-        const PackedRecord& p = records_[*it];
+        const NeighborRecord& p = records_[*it];
         if (p.x >= lo[0] - reach_units && p.x <= hi[0] + reach_units &&
             p.y >= lo[1] - reach_units && p.y <= hi[1] + reach_units)
           candidates.push_back(*it);
@@ -242,7 +242,7 @@ void NeighborLists::build_lists(int threads) {
   });
 }
 
-PackedView NeighborLists::view() const {
+NeighborView NeighborLists::view() const {
   return {records_.data(), n_particles_, blocks_.data(), list_end_.data(), unit_};
 }
 
@@ -255,7 +255,7 @@ std::size_t NeighborLists::n_entries() const {
 std::size_t NeighborLists::bytes() const {
   std::size_t blocks = 0;
   for (const auto& b : block_lists_) blocks += b.capacity() * sizeof(std::uint32_t);
-  return blocks + records_.capacity() * sizeof(PackedRecord) +
+  return blocks + records_.capacity() * sizeof(NeighborRecord) +
          keys_.capacity() * sizeof(std::uint64_t) +
          (order_.capacity() + sorted_.capacity() + column_begin_.capacity() +
           list_end_.capacity()) *

@@ -25,13 +25,13 @@ struct Thrown {
   double radius = 0.5;
 };
 
-/// Notes the velocities at the start of the step, as the pack pass of grain stress does.
+/// Notes the velocities at the start of the step, as the gather pass of grain stress does.
 class StartNote final : public Pass {
  public:
   explicit StartNote(Field& before) : before_(before) {}
   std::string_view name() const override { return "start of step"; }
   std::string_view effect() const override { return EffectName::bookkeeping; }
-  Stage stage() const override { return Stage::pack; }
+  Stage stage() const override { return Stage::gather; }
   void apply(State& s, double) override {
     before_.component = {s.grains().vx, s.grains().vy, s.grains().vz};
   }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/vec.hpp"
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 
 #include <Eigen/Dense>
 

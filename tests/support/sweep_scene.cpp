@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<std::array<int, 2>, 6> entries{
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
-PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
+NeighborRecord record_of(const SlowParticle& p, NeighborRecord r) {
   r.volume = static_cast<float>(p.volume);
   r.vx = static_cast<float>(p.velocity.x());
   r.vy = static_cast<float>(p.velocity.y());
@@ -103,7 +103,7 @@ struct Prepared {
       set.z[i] = particles[i].position.z();
     }
     lists.rebuild(set, domain, 1);
-    lists.pack_positions(set, 0, set.size());
+    lists.gather_positions(set, 0, set.size());
     rooms.emplace(lists.padded_size());
     kinetic.resize(lists.n_records_rounded());
     dense_group.assign(kinetic.size() / group_size, 1);

@@ -74,7 +74,7 @@ class WallPressure {
   const double* density_change_ = nullptr;
 };
 
-/// Velocities at the start of the step, as the pack pass left them.
+/// Velocities at the start of the step, as the gather pass left them.
 class StartVelocity {
  public:
   explicit StartVelocity(const ParticleSet& p)

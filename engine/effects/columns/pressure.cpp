@@ -35,17 +35,17 @@ class CellPass final : public Pass {
   std::shared_ptr<ColumnFlow> flow_;
 };
 
-/// Fills the records and finds how hard the ground presses.
+/// Gathers the neighbour records and finds how hard the ground presses.
 ///
 /// The reaction of the ground is g cos + v.kappa.v, spread along the way over the column's own
 /// thickness or the smoothing length: a flow thicker than a corner's radius goes round it, and
 /// still takes the whole momentum of the turn, q' = v.kappa.v - q |v|/l.
-class PackPass final : public Pass {
+class GatherPass final : public Pass {
  public:
-  explicit PackPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
-  std::string_view name() const override { return "column pack"; }
+  explicit GatherPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "column gather"; }
   std::string_view effect() const override { return EffectName::column_pressure; }
-  Stage stage() const override { return Stage::pack; }
+  Stage stage() const override { return Stage::gather; }
 
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[flow_->set];
@@ -57,7 +57,7 @@ class PackPass final : public Pass {
           press(p, ground, s.gravity, kick, begin, end, off);
         },
         [](double& total, double block) { total += block; });
-    fill_records(p, s.threads);
+    gather_records(p, s.threads);
   }
 
  private:
@@ -93,7 +93,7 @@ class PackPass final : public Pass {
     off += airborne;
   }
 
-  void fill_records(const MovingSet& p, int threads) {
+  void gather_records(const MovingSet& p, int threads) {
     const auto& reach = p.scalar(fields::support_radius);
     const auto& thickness = p.scalar(fields::thickness);
     const auto& g_n = p.scalar(fields::normal_gravity);
@@ -233,7 +233,7 @@ class SweepPass final : public Pass {
 
 void add_column_pressure(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
   step.add(std::make_unique<CellPass>(flow));
-  step.add(std::make_unique<PackPass>(flow));
+  step.add(std::make_unique<GatherPass>(flow));
   step.add(std::make_unique<SweepPass>(flow));
 }
 

@@ -95,7 +95,7 @@ inline double kick_length(const State& s, double dt) { return 0.5 * (s.previous_
 /// Puts columns from `first` on that entered during the run on the ground, without neighbours yet.
 void enter_columns(const State&, ColumnFlow&, MovingSet&, std::size_t first);
 
-void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, pack, sweep
+void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
 void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< base, drift
 
 }  // namespace sturz

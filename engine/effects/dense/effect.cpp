@@ -92,14 +92,14 @@ class NeighborPass final : public Pass {
   std::int64_t isolated_ns_ = 0, all_ns_ = 0;  // of this step
 };
 
-/// Fills the records of the pair sweep. Velocities go in extrapolated by half a step to v_{n+1/2}:
+/// Gathers the neighbour records of the pair sweep. Velocities go in extrapolated by half a step to v_{n+1/2}:
 /// stress rates taken from v_{n-1/2} would feed energy into sound waves (forward Euler).
-class PackPass final : public Pass {
+class GatherPass final : public Pass {
  public:
-  explicit PackPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
-  std::string_view name() const override { return "pack"; }
+  explicit GatherPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "gather"; }
   std::string_view effect() const override { return EffectName::grain_stress; }
-  Stage stage() const override { return Stage::pack; }
+  Stage stage() const override { return Stage::gather; }
 
   void apply(State& s, double dt) override {
     NeighborLists& lists = shared_->lists;
@@ -113,10 +113,10 @@ class PackPass final : public Pass {
     const auto& viscous = p.scalar(fields::viscous_ratio);
     parallel_ranges(p.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) {
-                      lists.pack_positions(p, begin, end);
-                      PackedRecord* records = lists.records();
+                      lists.gather_positions(p, begin, end);
+                      NeighborRecord* records = lists.records();
                       for (std::size_t i = begin; i < end; ++i) {
-                        PackedRecord& r = records[i];
+                        NeighborRecord& r = records[i];
                         const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
                         r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
                         r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
@@ -185,7 +185,7 @@ class SweepPass final : public Pass {
                                    g.spacing,
                                    shared_->smoothing_now,
                                    g.ratio_floor()};
-    const PackedView view = shared_->lists.view();
+    const NeighborView view = shared_->lists.view();
     SweepOutput out = shared_->output();
     out.ax = p.ax.data(), out.ay = p.ay.data(), out.az = p.az.data();
     out.wall_share = p.boundary.share.data();
@@ -211,7 +211,7 @@ class SweepPass final : public Pass {
  private:
   /// The sweep of a mass whose grains may disperse, and which part of its time those take that do: two
   /// looks at the clock for 16 groups, and one where the kind of group changes.
-  void timed_kinetic(const PackedView& view, const SweepConstants& constants,
+  void timed_kinetic(const NeighborView& view, const SweepConstants& constants,
                      const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
                      std::size_t end) {
     DispersedClock clock{&now_ns};
@@ -341,7 +341,7 @@ std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::siz
   p.sound_speed = first.sound_speed;
   if (follows) add_sound_speed(step, shared, settings.sound_speed);
   step.add(std::make_unique<NeighborPass>(shared));
-  step.add(std::make_unique<PackPass>(shared));
+  step.add(std::make_unique<GatherPass>(shared));
   step.add(std::make_unique<SweepPass>(shared));
   step.add(std::make_unique<StressPass>(shared));
   return shared;

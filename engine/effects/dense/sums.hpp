@@ -13,7 +13,7 @@
 #pragma once
 
 #include "engine/core/lanes.hpp"
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 
 namespace sturz::STURZ_ISA {
 
@@ -69,7 +69,7 @@ struct RatioSums {
   Lanes xx, yy, zz, xy, yz, zx, weight;
 
   void clear() { xx = yy = zz = xy = yz = zx = weight = Lanes::all(0); }
-  void add(const PackedRecord& j, const DenseScale& k, Lanes w) {
+  void add(const NeighborRecord& j, const DenseScale& k, Lanes w) {
     // In the order of finish_ratio, or a uniform ratio would not cancel to the last bit.
     const Lanes v = w * Lanes::all(1 / (k.ratio_floor - third * (j.sxx + j.syy + j.szz)));
     xx = fma(v, Lanes::all(j.sxx), xx), yy = fma(v, Lanes::all(j.syy), yy);
@@ -96,7 +96,7 @@ struct DenseSums {
   /// Adds one neighbour to all lanes. A particle outside the support or the lane itself adds zero.
   /// \param viscosity  DenseScale::viscosity in the share that acts between the pair
   /// \return the weight V_j t^3
-  Lanes add(const DenseSelf& i, const PackedRecord& j, const DenseScale& k, Lanes viscosity) {
+  Lanes add(const DenseSelf& i, const NeighborRecord& j, const DenseScale& k, Lanes viscosity) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes r2 = fma(rx, rx, fma(ry, ry, rz * rz));
     const Lanes t = max(Lanes::all(0), fnma(sqrt(r2), Lanes::all(k.to_s), Lanes::all(1)));

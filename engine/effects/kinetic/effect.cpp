@@ -13,13 +13,13 @@
 namespace sturz {
 namespace {
 
-/// Fills the kinetic records, after the records themselves.
-class KineticPack final : public Pass {
+/// Gathers the kinetic records, after the neighbour records.
+class KineticGather final : public Pass {
  public:
-  explicit KineticPack(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
-  std::string_view name() const override { return "kinetic pack"; }
+  explicit KineticGather(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "kinetic gather"; }
   std::string_view effect() const override { return dispersed_effect(shared_->settings); }
-  Stage stage() const override { return Stage::pack; }
+  Stage stage() const override { return Stage::gather; }
 
   void apply(State& s, double) override {
     const MovingSet& p = s.sets[shared_->set];
@@ -49,7 +49,7 @@ class KineticPack final : public Pass {
     const Field* theta = p.find(fields::granular_temperature);
     const Field* stress = p.find(fields::kinetic_stress);
     const auto& support_completeness = p.scalar(fields::support_completeness);
-    const PackedRecord* records = g.lists.records();
+    const NeighborRecord* records = g.lists.records();
     for (std::size_t i = begin; i < end; ++i) {
       KineticRecord& k = g.kinetic[i];
       const double e = density_change[i], temperature = theta ? theta->component[0][i] : 0;
@@ -184,7 +184,7 @@ void add_grain_states(Step& step, State& state, const std::shared_ptr<GrainStres
   MovingSet& p = state.sets[shared->set];
   p.add(fields::state);
   p.add(fields::support_completeness);
-  step.add(std::make_unique<KineticPack>(shared));
+  step.add(std::make_unique<KineticGather>(shared));
   step.add(std::make_unique<StatePass>(shared));
 }
 

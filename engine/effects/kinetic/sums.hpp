@@ -32,7 +32,7 @@ struct KineticSums {
     count = Lanes::all(-1);  // the lane itself
   }
   /// \param w  what DenseSums::add gave back for the pair
-  void add(const DenseSelf& i, const KineticSelf& self, const PackedRecord& j,
+  void add(const DenseSelf& i, const KineticSelf& self, const NeighborRecord& j,
            const KineticRecord& k, Lanes w) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes zero = Lanes::all(0), one = Lanes::all(1);

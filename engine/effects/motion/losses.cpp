@@ -8,7 +8,7 @@
 namespace sturz {
 namespace {
 
-/// At the start of the step, as the pack pass left it.
+/// At the start of the step, as the gather pass left it.
 Vec3 start_velocity(const ParticleSet& p, std::size_t i) {
   const Field* before = p.find(fields::velocity_before);
   if (!before) return {p.vx[i], p.vy[i], p.vz[i]};

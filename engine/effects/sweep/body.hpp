@@ -15,9 +15,9 @@ struct GroupRows {
   alignas(64) float sxy[group_size], syz[group_size], szx[group_size];
   alignas(64) float viscosity[group_size], tension[group_size];
 
-  explicit GroupRows(const PackedRecord* first) {
+  explicit GroupRows(const NeighborRecord* first) {
     for (int k = 0; k < group_size; ++k) {
-      const PackedRecord& p = first[k];
+      const NeighborRecord& p = first[k];
       x[k] = p.x, y[k] = p.y, z[k] = p.z, volume[k] = p.volume;
       vx[k] = p.vx, vy[k] = p.vy, vz[k] = p.vz, density_change[k] = p.density_change;
       sxx[k] = p.sxx, syy[k] = p.syy, szz[k] = p.szz;
@@ -214,7 +214,7 @@ inline DenseSelf self_of(const GroupRows& rows, int lane) {
 /// \tparam completeness  whether SweepOutput::support_completeness is wanted
 /// \tparam tension  whether artificial stress acts
 template <bool smooth, bool completeness, bool tension>
-inline void dense_group(const PackedView& view, const DenseScale& scale, const BoundaryView& wall,
+inline void dense_group(const NeighborView& view, const DenseScale& scale, const BoundaryView& wall,
                         const SweepOutput& out, std::size_t group) {
   const std::size_t first = group * group_size;
   const GroupRows rows(view.records + first);
@@ -252,7 +252,7 @@ inline auto pick_dense(const SweepConstants& c) {
   return c.tension ? &dense_group<false, completeness, true> : &dense_group<false, completeness, false>;
 }
 
-inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
+inline void dense_sweep(const NeighborView& view, const SweepConstants& constants,
                         const BoundaryView& wall, const SweepOutput& out, std::size_t first_group,
                         std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
@@ -262,7 +262,7 @@ inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
 
 /// A group in which some grain is dispersed, or a neighbour is.
 template <bool smooth, bool tension>
-inline void kinetic_group(const PackedView& view, const KineticView& dispersed,
+inline void kinetic_group(const NeighborView& view, const KineticView& dispersed,
                           const DenseScale& scale, const BoundaryView& wall, const SweepOutput& out,
                           std::size_t group) {
   const std::size_t first = group * group_size;
@@ -307,7 +307,7 @@ inline auto pick_kinetic(const SweepConstants& c) {
 }
 
 /// Whether no grain in the group or near it is dispersed.
-inline bool dense_around(const PackedView& view, const KineticView& dispersed, std::size_t group) {
+inline bool dense_around(const NeighborView& view, const KineticView& dispersed, std::size_t group) {
   const std::uint32_t* list = view.list(group);
   const std::size_t n = view.list_size(group);
   unsigned dense_group = dispersed.dense_group[group];
@@ -325,7 +325,7 @@ inline void write_dense_group(const SweepOutput& out, std::size_t group) {
   }
 }
 
-inline void kinetic_sweep(const PackedView& view, const KineticView& dispersed,
+inline void kinetic_sweep(const NeighborView& view, const KineticView& dispersed,
                           const SweepConstants& constants, const BoundaryView& wall,
                           const SweepOutput& out, std::size_t first_group, std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
@@ -353,18 +353,18 @@ inline void kinetic_sweep(const PackedView& view, const KineticView& dispersed,
   turn(false);
 }
 
-inline std::size_t tight_list(const PackedRecord* records, std::size_t first, int n_in_group,
+inline std::size_t tight_list(const NeighborRecord* records, std::size_t first, int n_in_group,
                               const std::uint32_t* candidates, std::size_t n_candidates,
                               float reach_units, std::uint32_t* out) {
   alignas(64) std::int32_t x[group_size], y[group_size], z[group_size];
   for (int k = 0; k < group_size; ++k) {
-    const PackedRecord& p = records[first + (k < n_in_group ? k : 0)];
+    const NeighborRecord& p = records[first + (k < n_in_group ? k : 0)];
     x[k] = p.x, y[k] = p.y, z[k] = p.z;
   }
   const Lanes reach2 = Lanes::all(reach_units * reach_units);
   std::size_t n = 0;
   for (std::size_t c = 0; c < n_candidates; ++c) {
-    const PackedRecord& j = records[candidates[c]];
+    const NeighborRecord& j = records[candidates[c]];
     bool near = false;
     for (int lane = 0; lane < group_size && !near; lane += Lanes::width) {
       const Lanes rx = difference(IntLanes::load(x + lane), j.x);

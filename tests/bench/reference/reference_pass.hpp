@@ -51,7 +51,7 @@ struct ReferenceList {
 struct ReferencePass {
   const char* name;
   /// Writes the records.
-  void (*pack_records)(const ReferenceColumns&, const ReferenceNumbers&, float* records);
+  void (*gather_records)(const ReferenceColumns&, const ReferenceNumbers&, float* records);
   /// One pass over the lists: velocity gradient, stress force, artificial viscosity.
   void (*sum_pairs)(const ReferenceColumns&, const ReferenceNumbers&, const ReferenceList&);
   /// Continuity, then elastic + mu(I) with the stress turned along (Jaumann), then the kick.

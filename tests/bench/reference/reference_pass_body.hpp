@@ -8,7 +8,7 @@
 
 namespace sturz::bench::STURZ_REFERENCE {
 
-inline void pack_records(const ReferenceColumns& p, const ReferenceNumbers& k, float* records) {
+inline void gather_records(const ReferenceColumns& p, const ReferenceNumbers& k, float* records) {
   for (std::size_t i = 0; i < p.n; ++i) {
     float* r = records + record_floats * i;
     r[0] = p.x[i], r[1] = p.y[i], r[2] = p.z[i];

@@ -104,7 +104,7 @@ void ReferenceSlide::rebuild() {
 /// Times both on the first lists; the sums are only written, so nothing moves.
 void ReferenceSlide::choose_pass() {
   const ReferenceColumns c = columns();
-  pass_->pack_records(c, numbers_, records_.data());
+  pass_->gather_records(c, numbers_, records_.data());
   double least = 1e300;
   for (int round = 0; round < 3; ++round)
     for (const ReferencePass* pass : {&reference_gathers, &reference_single_loads}) {
@@ -117,7 +117,7 @@ void ReferenceSlide::step(double step_s) {
   const auto dt = static_cast<float>(step_s);
   if (moved_ >= skin_) rebuild();
   const ReferenceColumns c = columns();
-  pass_->pack_records(c, numbers_, records_.data());
+  pass_->gather_records(c, numbers_, records_.data());
   pass_->sum_pairs(c, numbers_, list());
   pass_->update_particles(c, numbers_, dt);
   pass_->meet_ground(c, numbers_, ground_, dt);

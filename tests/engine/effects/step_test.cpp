@@ -50,7 +50,7 @@ TEST(Step, AppliesPassesByStageAndThenInTheOrderInWhichTheyCame) {
   const std::pair<const char*, Stage> given[] = {
       {"drift", Stage::move},      {"first force", Stage::force},  {"kick", Stage::kick},
       {"lists", Stage::neighbors}, {"second force", Stage::force}, {"ground", Stage::boundary},
-      {"yield", Stage::stress},    {"friction", Stage::contact},   {"records", Stage::pack}};
+      {"yield", Stage::stress},    {"friction", Stage::contact},   {"records", Stage::gather}};
   for (const auto& [name, stage] : given) step.add(std::make_unique<Note>(name, stage, &heard));
   State state = empty_state();
   step.apply(state, 0.1);
@@ -135,7 +135,7 @@ TEST(Step, GrainScenesHoldTheirPassesInOrder) {
   EXPECT_THAT(
       made.step.pass_names(),
       testing::ElementsAre("neighbors: neighbor lists", "boundary: ground and wall support",
-                           "pack: pack", "force: pair sweep", "kick: gravity and kick",
+                           "gather: gather", "force: pair sweep", "kick: gravity and kick",
                            "contact: terrain contact", "stress: stress update", "move: motion"));
 }
 

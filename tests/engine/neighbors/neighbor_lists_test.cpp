@@ -53,8 +53,8 @@ std::vector<Copy> copies(const ParticleSet& set, const Domain& d) {
 /// A list's entry where it is now: from the fixed-point offset to a particle that is known.
 Vec3 entry_place(const NeighborLists& lists, const ParticleSet& set, std::size_t anchor,
                  std::uint32_t entry) {
-  const PackedView view = lists.view();
-  const PackedRecord &a = view.records[anchor], &b = view.records[entry];
+  const NeighborView view = lists.view();
+  const NeighborRecord &a = view.records[anchor], &b = view.records[entry];
   const Vec3 units(double(b.x) - a.x, double(b.y) - a.y, double(b.z) - a.z);
   return place(set, anchor) + units * view.unit_m;
 }
@@ -62,7 +62,7 @@ Vec3 entry_place(const NeighborLists& lists, const ParticleSet& set, std::size_t
 /// All pairs closer than `range` must be listed, each once; nothing else than neighbours may be.
 void expect_complete(const NeighborLists& lists, const ParticleSet& set, const Domain& domain,
                      double range, double allowed) {
-  const PackedView view = lists.view();
+  const NeighborView view = lists.view();
   const auto everyone = copies(set, domain);
   std::size_t missing = 0, strangers = 0;
   for (std::size_t g = 0; g < lists.n_groups(); ++g) {
@@ -207,7 +207,7 @@ TEST(NeighborLists, OrderDoesNotDependOnStorageOrThreads) {
   b.rebuild(two, domain, 2);
   EXPECT_EQ(one.id, two.id);
   ASSERT_EQ(a.n_entries(), b.n_entries());
-  const PackedView va = a.view(), vb = b.view();
+  const NeighborView va = a.view(), vb = b.view();
   for (std::size_t g = 0; g < a.n_groups(); ++g) {
     ASSERT_EQ(va.list_size(g), vb.list_size(g));
     EXPECT_TRUE(std::equal(va.list(g), va.list(g) + va.list_size(g), vb.list(g)));
@@ -231,7 +231,7 @@ TEST(NeighborLists, MissNoNeighbourAfterMovesWithinTheSkin) {
       moved.y[i] += step.y() + 1.0 * move;
       moved.z[i] += step.z();
     }
-    lists.pack_positions(moved, 0, moved.size());
+    lists.gather_positions(moved, 0, moved.size());
     lists.copy_images();
     expect_complete(lists, moved, domain, support, reach + skin);
   }

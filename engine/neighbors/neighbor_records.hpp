@@ -10,12 +10,12 @@ namespace sturz {
 
 /// Particles per group: they sit in lanes while their common neighbours are broadcast.
 inline constexpr int group_size = 16;
-/// Groups whose lists are kept together, see PackedView.
+/// Groups whose lists are kept together, see NeighborView.
 inline constexpr std::size_t groups_per_block = 32;
 
 /// One particle as neighbour. Positions are fixed point (differences are exact however far the
-/// scene's origin is); the unit is PackedView::unit_m.
-struct alignas(64) PackedRecord {
+/// scene's origin is); the unit is NeighborView::unit_m.
+struct alignas(64) NeighborRecord {
   std::int32_t x, y, z;
   float volume;                        ///< m / rho [m^3]
   float vx, vy, vz;                    ///< [m/s]
@@ -24,28 +24,28 @@ struct alignas(64) PackedRecord {
   float viscosity;                     ///< share of the artificial viscosity that acts [-]
   float tension;  ///< artificial pressure against clumps in tension [Pa], see TensionSums
 };
-static_assert(sizeof(PackedRecord) == 64);
+static_assert(sizeof(NeighborRecord) == 64);
 
-/// What a dispersed grain brings besides its PackedRecord (B.6, B.9). The
+/// What a dispersed grain brings besides its NeighborRecord (B.6, B.9). The
 /// record's volume and stress are those of enduring contacts, which dilated grains do
 /// not have; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
-  float dilation_ratio = 1;  ///< true volume over PackedRecord::volume [-]
+  float dilation_ratio = 1;  ///< true volume over NeighborRecord::volume [-]
   /// Takes the place of `dilation_ratio` in pairs: sqrt(dilation_ratio/support_completeness) makes the sums over a cloud's few
   /// neighbours complete, and keeps pairs symmetric.
   float weight = 1;
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
   float theta = 0;                                       ///< granular temperature [m^2/s^2]
   float resistance = 1e30f;  ///< 1/k_theta; huge: no conduction [m s/kg]
-  float viscosity = 1;       ///< takes the place of PackedRecord::viscosity [-]
+  float viscosity = 1;       ///< takes the place of NeighborRecord::viscosity [-]
   float spare = 0;
 };
 static_assert(sizeof(KineticRecord) == 48);
 
 /// Everything a sweep needs to read. Group g holds particles g*16 .. g*16+15 of storage order;
 /// records n_particles .. n_records-1 are periodic images and padding.
-struct PackedView {
-  const PackedRecord* records = nullptr;
+struct NeighborView {
+  const NeighborRecord* records = nullptr;
   std::size_t n_particles = 0;
   /// Record numbers near group g: from list(g) to list(g) + list_size(g). Lists are kept in blocks
   /// of `groups_per_block` groups; list_end[g] counts from the start of g's block.
@@ -68,7 +68,7 @@ struct SweepConstants {
   double sound_speed = 1;          ///< c0 [m/s]
   double viscosity = 0.1;          ///< alpha_v
   double density_diffusion = 0.1;  ///< delta
-  bool tension = false;            ///< whether PackedRecord::tension is in this sweep
+  bool tension = false;            ///< whether NeighborRecord::tension is in this sweep
   double spacing = 1;              ///< dx [m]; read where tension is
   double stress_smoothing = 0;     ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
   double ratio_floor = 0;          ///< p_c [Pa]; read where the ratio is smoothed
@@ -95,7 +95,7 @@ struct DispersedClock {
 
 /// For a mass whose grains may disperse.
 struct KineticView {
-  const KineticRecord* records = nullptr;  ///< as many as PackedView::records
+  const KineticRecord* records = nullptr;  ///< as many as NeighborView::records
   const std::uint8_t* dense_group = nullptr;      ///< by record/group_size: 1 where no grain is dispersed
   DispersedClock* clock = nullptr;            ///< may be null
 };
