@@ -26,7 +26,7 @@ struct Ledger {
   double kinetic_0 = 0, elastic_0 = 0, spring_0 = 0;  ///< at release
 
   double gravity_work = 0;
-  double stress_work = 0;    ///< by pair forces and the wall's share of the pressure field
+  double stress_work = 0;    ///< by pair forces and the mirrored pressure of walls
   double stress_power = 0;   ///< integral of V sigma : D
   double frictional = 0;     ///< stored by the frictional pressure of grains that separate
   double granular = 0;       ///< of granular temperature, now

@@ -33,7 +33,7 @@ struct ContactEnergy {
 /// Applies one contact to a velocity.
 /// \param distance  to the surface along its normal, may be negative      [m]
 /// \param nx,ny,nz  unit normal into the free side
-/// \param pressure_acceleration  the wall's share of the pressure field, >= 0 [m/s^2]
+/// \param pressure_acceleration  mirrored pressure of the wall, >= 0 [m/s^2]
 /// \param before    velocity at the start of the step                      [m/s]
 /// \param vx,vy,vz  in and out                                             [m/s]
 inline ContactEnergy apply_contact(const ContactLaw& law, double distance, double nx, double ny,

@@ -21,7 +21,7 @@ inline constexpr double leave_dense_fraction = 0.58;    ///< a dense grain stays
 inline constexpr double reenter_dense_fraction = 0.60;  ///< and becomes so again above
 inline constexpr double detach_fraction = 0.02;         ///< below this, or with
 inline constexpr int detach_neighbors = 4;              ///< fewer neighbours than this,
-inline constexpr int detach_steps = 5;                  ///< for so many steps on end: a isolated particle
+inline constexpr int detach_steps = 5;                  ///< for so many steps on end: an isolated particle
 inline constexpr double attach_fraction = 0.03;         ///< above this, and with
 inline constexpr int attach_neighbors = 8;  ///< at least so many neighbours: a grain again
 

@@ -75,9 +75,9 @@ struct SweepConstants {
 };
 
 /// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep
-/// takes their mirror image in the share n.M.n / 0.25 (at most 1) of the support that neighbours
+/// takes their mirror contribution with the weight n.M.n / 0.25 (at most 1) of the support that neighbours
 /// give along the normal: a grain with nothing above it has no pressure field to be mirrored, and
-/// would bounce off its own image without loss.
+/// would bounce off its own mirror image without loss.
 struct BoundaryView {
   const float* distance;      ///< to the ground [m]; 2h and more: no effect
   const float *nx, *ny, *nz;  ///< the ground's normal, finite everywhere
@@ -115,7 +115,7 @@ struct SweepOutput {
   float* lzy;
   float* lzz;
   float* diffusion;   ///< d(density_change)/dt by delta-SPH [1/s]
-  float* wall_share;  ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
+  float* mirror_weight;  ///< 0..1: how much of a wall's mirror contribution acts, see BoundaryView
   /// Written where a KineticView is given: how full the support is of neighbours and ground (1
   /// inside a dense mass, about a half at its surface), how many neighbours there are, and the granular
   /// energy that is conducted to it per volume of the record [W/m^3].

@@ -100,17 +100,17 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       if (&b != &a) add(b);
     for (const SlowParticle& b : images) add(b);
     bool own_corrected = true;
-    // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no image.
+    // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no mirror contribution.
     rates.support_completeness = moment.trace() / 3;
     gradient *= a.dilation_ratio;  // neighbours that dilated alike leave too little
     const Matrix3d grown = a.dilation_ratio * moment;
     const double along = grown.cwiseProduct(a.wall_moment).sum();
-    rates.wall_share = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
-    const Matrix3d imaged = grown + rates.wall_share * a.wall_moment;
-    rates.gradient = (gradient + rates.wall_share * a.wall_gradient) *
-                     (clouds ? correction_in_a_cloud(imaged, a.dilation_ratio, rates.corrected)
-                             : correction(imaged, rates.corrected));
-    rates.support_completeness += rates.wall_share * a.wall_moment.trace() / (3 * a.dilation_ratio);
+    rates.mirror_weight = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
+    const Matrix3d mirrored = grown + rates.mirror_weight * a.wall_moment;
+    rates.gradient = (gradient + rates.mirror_weight * a.wall_gradient) *
+                     (clouds ? correction_in_a_cloud(mirrored, a.dilation_ratio, rates.corrected)
+                             : correction(mirrored, rates.corrected));
+    rates.support_completeness += rates.mirror_weight * a.wall_moment.trace() / (3 * a.dilation_ratio);
     const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // gradient of the density change
     rates.acceleration = force;
     // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.

@@ -20,7 +20,7 @@ struct SlowParticle {
   double viscosity_share = 1;                             ///< of the artificial viscosity that acts
   Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();  ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
-  double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
+  double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's mirror contribution itself [m]
   Vec3 ground_normal{0, 0, 1};
   // For dispersed grains, see KineticRecord:
   double tension = 0;  ///< artificial pressure [Pa]
@@ -32,7 +32,7 @@ struct SlowRates {
   Vec3 acceleration{0, 0, 0};
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< corrected dv_a/dx_b
   double diffusion = 0;
-  double wall_share = 0;  ///< of the mirror image
+  double mirror_weight = 0;  ///< of the mirror contribution
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d pair_gradient = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
   double conducted = 0;  ///< conducted granular energy, per volume that the grain takes up [W/m^3]

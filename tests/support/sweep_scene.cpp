@@ -44,7 +44,7 @@ struct Rooms {
                        &o.lyy, &o.lyz, &o.lzx, &o.lzy, &o.lzz, &o.diffusion};
     for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
-    o.wall_share = results[19].data();
+    o.mirror_weight = results[19].data();
     o.support_completeness = results[20].data(), o.neighbors = results[21].data(), o.conducted = results[22].data();
     for (int k = 0; k < 6; ++k) o.pair_gradient[k] = results[23 + k].data();
     return o;
@@ -61,7 +61,7 @@ struct Rooms {
       for (int m = 0; m < 3; ++m) r.gradient(k, m) = results[3 + 3 * k + m][i];
     }
     r.diffusion = results[12][i];
-    r.wall_share = results[19][i];
+    r.mirror_weight = results[19][i];
     r.support_completeness = results[20][i], r.conducted = results[22][i];
     r.neighbors = static_cast<int>(results[21][i]);
     for (int k = 0; k < 6; ++k) {

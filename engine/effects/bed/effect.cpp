@@ -38,7 +38,7 @@ double plane_integral(double d, double h) {
   return y > 0 ? 10.5 / h * y5 * (1 + y * (-1.5 + y * (4.0 / 7.0))) : 0;
 }
 
-/// The mirrored half's share of the pressure force: a = 2 p_n W_plane(d) / rho along n. With it
+/// The mirror contribution to the pressure force: a = 2 p_n W_plane(d) / rho along n. With it
 /// the bottom layers carry the pressure of the column above, and the spring only guards the gap.
 class WallPressure {
  public:
@@ -50,7 +50,7 @@ class WallPressure {
       for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
     density_change_ = p.scalar(fields::density_change).data();
     density_ = c.reference_density;
-    share_ = p.boundary.share.data();
+    mirror_weight_ = p.boundary.mirror_weight.data();
   }
   /// \param plane  plane_integral at the particle's distance [1/m]
   double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
@@ -58,7 +58,7 @@ class WallPressure {
     double snn = normal(stress_, i, nx, ny, nz);
     if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
     if (snn >= 0) return 0;
-    return -2 * snn * plane * share_[i] / (density_ * (1 + density_change_[i]));
+    return -2 * snn * plane * mirror_weight_[i] / (density_ * (1 + density_change_[i]));
   }
 
  private:
@@ -68,7 +68,7 @@ class WallPressure {
   }
 
   double density_ = 1;
-  const float* share_ = nullptr;
+  const float* mirror_weight_ = nullptr;
   const double* stress_[6] = {};
   const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
   const double* density_change_ = nullptr;

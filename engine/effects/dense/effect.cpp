@@ -85,7 +85,7 @@ class NeighborPass final : public Pass {
     if (shared_->settings.states)
       for (auto& r : shared_->dispersed) r.resize(padded);
     const std::size_t all = std::max(padded, p.size());
-    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.share}) a->resize(all);
+    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.mirror_weight}) a->resize(all);
   }
 
   std::shared_ptr<GrainStress> shared_;
@@ -188,7 +188,7 @@ class SweepPass final : public Pass {
     const NeighborView view = shared_->lists.view();
     SweepOutput out = shared_->output();
     out.ax = p.ax.data(), out.ay = p.ay.data(), out.az = p.az.data();
-    out.wall_share = p.boundary.share.data();
+    out.mirror_weight = p.boundary.mirror_weight.data();
     const BoundaryView wall = boundary_view(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
     constexpr std::size_t groups_per_range = 16;

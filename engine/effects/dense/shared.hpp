@@ -42,7 +42,7 @@ struct GrainStress {
         lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
               sweeps(s.instruction_set).tight_list) {}
 
-  /// Without accelerations and the image's share, which live in the state.
+  /// Without accelerations and mirror weights, which live in the state.
   SweepOutput output() {
     SweepOutput out{};
     float** slots[] = {&out.lxx, &out.lxy, &out.lxz, &out.lyx, &out.lyy,

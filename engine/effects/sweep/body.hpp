@@ -28,7 +28,7 @@ struct GroupRows {
 };
 
 /// M : nn / 0.25, between 0 and 1, with nn from the walls' own moment.
-inline Lanes wall_share(const DenseSums& s, const Lanes w[6], Lanes scale) {
+inline Lanes mirror_weight(const DenseSums& s, const Lanes w[6], Lanes scale) {
   const Lanes trace = w[0] + w[1] + w[2];
   const Lanes along = fma(s.mxx, w[0], fma(s.myy, w[1], s.mzz * w[2])) +
                       Lanes::all(2) * fma(s.mxy, w[3], fma(s.myz, w[4], s.mzx * w[5]));
@@ -40,10 +40,10 @@ inline Lanes wall_share(const DenseSums& s, const Lanes w[6], Lanes scale) {
 /// What ground and walls add to the moment matrix and, before correction, to the velocity gradient:
 /// 2 W_plane(d) d n n and 2 W_plane(d) v_n n n (SmoothingKernel::plane_integral), xx yy zz xy yz
 /// zx.
-struct Image {
+struct MirrorContribution {
   Lanes moment[6], gradient[6];
 
-  Image(const BoundaryView& wall, const GroupRows& rows, int lane, const DenseScale& k,
+  MirrorContribution(const BoundaryView& wall, const GroupRows& rows, int lane, const DenseScale& k,
         std::size_t at) {
     const Lanes zero = Lanes::all(0);
     const Lanes d = max(Lanes::load(wall.distance + at), zero);
@@ -87,16 +87,17 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
   (factor * fma(sxy, s.gx, fma(syy, s.gy, fma(syz, s.gz, s.ay)))).store(out.ay + at);
   (factor * fma(szx, s.gx, fma(syz, s.gy, fma(szz, s.gz, s.az)))).store(out.az + at);
 
-  Image image(wall, rows, lane, k, at);
-  Lanes(&w)[6] = image.moment;
+  const MirrorContribution mirror(wall, rows, lane, k, at);
+  Lanes w[6];
+  for (int c = 0; c < 6; ++c) w[c] = mirror.moment[c];
   const Lanes moment = Lanes::all(k.moment) * dilation_ratio;
-  const Lanes share = wall_share(s, w, moment);
-  share.store(out.wall_share + at);
+  const Lanes share = mirror_weight(s, w, moment);
+  share.store(out.mirror_weight + at);
   for (Lanes& c : w) c = share * c;
-  const Lanes imaged = w[0] + w[1] + w[2];
+  const Lanes mirror_trace = w[0] + w[1] + w[2];
   const Correction b =
       dispersed ? Correction::in_a_cloud(s, moment, w, dilation_ratio) : Correction(s, moment, w);
-  for (int c = 0; c < 6; ++c) w[c] = share * image.gradient[c];
+  for (int c = 0; c < 6; ++c) w[c] = share * mirror.gradient[c];
   const Lanes scale = Lanes::all(k.gradient) * dilation_ratio;
   auto row = [&](Lanes x, Lanes y, Lanes z, float* ox, float* oy, float* oz) {
     fma(x, b.xx, fma(y, b.xy, z * b.zx)).store(ox + at);
@@ -110,7 +111,7 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
   row(fma(scale, s.lzx, w[5]), fma(scale, s.lzy, w[4]), fma(scale, s.lzz, w[2]), out.lzx, out.lzy,
       out.lzz);
 
-  // Density has no mirror image (it goes on rising towards the bed): its gradient is taken from
+  // Density is not mirrored (it goes on rising towards the bed): its gradient is taken from
   // the neighbours alone.
   for (Lanes& c : w) c = Lanes::all(0);
   const Correction own(s, Lanes::all(k.moment), w);
@@ -119,13 +120,13 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
   const Lanes bz = fma(own.zx, s.nx, fma(own.yz, s.ny, own.zz * s.nz));
   const Lanes linear = Lanes::all(k.moment) * fma(bx, s.gx, fma(by, s.gy, bz * s.gz));
   (Lanes::all(k.diffusion) * (s.d - linear)).store(out.diffusion + at);
-  return imaged;
+  return mirror_trace;
 }
 
 /// A third of the moment's trace: 1 inside a dense mass, about a half at its surface.
-inline Lanes support_completeness(const DenseSums& s, const DenseScale& k, Lanes imaged) {
+inline Lanes support_completeness(const DenseSums& s, const DenseScale& k, Lanes mirror_trace) {
   const Lanes trace = Lanes::all(k.moment) * (s.mxx + s.myy + s.mzz);
-  return Lanes::all(1.0f / 3) * (trace + imaged);
+  return Lanes::all(1.0f / 3) * (trace + mirror_trace);
 }
 
 /// What the artificial stress adds to the acceleration.
@@ -160,7 +161,7 @@ struct KineticRows {
 
 /// What kinetic stresses add to the acceleration, conducted granular energy, and how complete the support is.
 inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const GroupRows& rows,
-                           const KineticRows& own, int lane, const DenseScale& k, Lanes imaged,
+                           const KineticRows& own, int lane, const DenseScale& k, Lanes mirror_trace,
                            const SweepOutput& out, std::size_t at) {
   const Lanes dilation_ratio = Lanes::load(own.dilation_ratio + lane), weight = Lanes::load(own.weight + lane);
   const Lanes density =
@@ -180,7 +181,7 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
   (pair_gradient * s.exx).store(out.pair_gradient[0] + at), (pair_gradient * s.eyy).store(out.pair_gradient[1] + at);
   (pair_gradient * s.ezz).store(out.pair_gradient[2] + at), (half * pair_gradient * s.exy).store(out.pair_gradient[3] + at);
   (half * pair_gradient * s.eyz).store(out.pair_gradient[4] + at), (half * pair_gradient * s.ezx).store(out.pair_gradient[5] + at);
-  support_completeness(dense, k, imaged / dilation_ratio).store(out.support_completeness + at);
+  support_completeness(dense, k, mirror_trace / dilation_ratio).store(out.support_completeness + at);
   s.count.store(out.neighbors + at);
 }
 
@@ -236,9 +237,9 @@ inline void dense_group(const NeighborView& view, const DenseScale& scale, const
       if constexpr (smooth) ratio.add(view.records[*j], scale, w);
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
-    const Lanes imaged =
+    const Lanes mirror_trace =
         finish_dense<false>(sums, rows, lane, scale, wall, out, first + lane, Lanes::all(1));
-    if constexpr (completeness) support_completeness(sums, scale, imaged).store(out.support_completeness + first + lane);
+    if constexpr (completeness) support_completeness(sums, scale, mirror_trace).store(out.support_completeness + first + lane);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, first + lane);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, first + lane);
   }
@@ -292,9 +293,9 @@ inline void kinetic_group(const NeighborView& view, const KineticView& dispersed
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const std::size_t at = first + lane;
-    const Lanes imaged =
+    const Lanes mirror_trace =
         finish_dense<true>(sums, rows, lane, scale, wall, out, at, Lanes::load(own.dilation_ratio + lane));
-    finish_kinetic(more, sums, rows, own, lane, scale, imaged, out, at);
+    finish_kinetic(more, sums, rows, own, lane, scale, mirror_trace, out, at);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, at);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, at);
   }

@@ -70,7 +70,7 @@ SweepOutput SweepAlone::output() {
                      &o.lyy, &o.lyz, &o.lzx, &o.lzy, &o.lzz, &o.diffusion};
   for (int k = 0; k < 13; ++k) *slots[k] = results_[k].data();
   for (int k = 0; k < 6; ++k) o.smooth[k] = results_[13 + k].data();
-  o.wall_share = results_[19].data();
+  o.mirror_weight = results_[19].data();
   return o;
 }
 

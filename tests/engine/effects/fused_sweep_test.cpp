@@ -24,7 +24,7 @@ const std::vector<Part> parts{
     {"acceleration", [](const SlowRates& r) -> Eigen::MatrixXd { return r.acceleration; }},
     {"gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; }},
     {"diffusion", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.diffusion, 0, 0); }},
-    {"wall share", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.wall_share, 0, 0); }},
+    {"mirror weight", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.mirror_weight, 0, 0); }},
     {"smoothing", [](const SlowRates& r) -> Eigen::MatrixXd { return r.smoothing; }}};
 
 /// A block with free surfaces all around and walls' terms on some of the particles.
@@ -194,7 +194,7 @@ TEST(FusedSweep, LinearVelocityGivesTheExactGradientBesideAWall) {
   EXPECT_GT(beside, 200);
 }
 
-TEST(FusedSweep, GroundMakesTheSameImageAsAWall) {
+TEST(FusedSweep, GroundMirrorsAsAWallDoes) {
   const auto constants = test::usual_constants(dx);
   const Vec3 n = Vec3(-0.4, 0.1, 1).normalized();
   auto beside_wall = test::lattice({7, 7, 6}, dx, 0.1);
@@ -211,13 +211,13 @@ TEST(FusedSweep, GroundMakesTheSameImageAsAWall) {
   const auto ground = test::fast_sweep(on_ground, constants, fastest()).rates;
   const auto gradient = [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; };
   EXPECT_LT(test::relative_error(ground, wall, gradient), 1e-6);
-  // Far off, both moments are rounding: what counts is how much of the image acts.
+  // Far off, both moments are rounding: what counts is how much of the mirror contribution acts.
   for (std::size_t i = 0; i < wall.size(); ++i)
-    EXPECT_NEAR((ground[i].wall_share - wall[i].wall_share) * beside_wall[i].wall_moment.trace(), 0,
+    EXPECT_NEAR((ground[i].mirror_weight - wall[i].mirror_weight) * beside_wall[i].wall_moment.trace(), 0,
                 1e-6);
 }
 
-TEST(FusedSweep, WithoutGrainsAboveAWallHasNoImage) {
+TEST(FusedSweep, WithoutGrainsAboveAWallIsNotMirrored) {
   const auto constants = test::usual_constants(dx);
   auto sheet = test::lattice({9, 9, 1}, dx, 0);
   auto layers = test::lattice({9, 9, 4}, dx, 0);
@@ -227,10 +227,10 @@ TEST(FusedSweep, WithoutGrainsAboveAWallHasNoImage) {
       add_wall(p, {0, 0, 1}, {0, 0, (*cloud)[0].position.z() - 0.5 * dx}, constants.h);
     }
   const auto alone = test::fast_sweep(sheet, constants, fastest()).rates[40];
-  EXPECT_NEAR(alone.wall_share, 0, 1e-6);
+  EXPECT_NEAR(alone.mirror_weight, 0, 1e-6);
   EXPECT_NEAR(alone.gradient(2, 2), 0, 1e-6);
   const auto carried = test::fast_sweep(layers, constants, fastest()).rates[40 * 4];
-  EXPECT_EQ(carried.wall_share, 1);
+  EXPECT_EQ(carried.mirror_weight, 1);
   EXPECT_LT(carried.gradient(2, 2), -0.1);
 }
 
