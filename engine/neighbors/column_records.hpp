@@ -15,7 +15,7 @@ struct alignas(16) ColumnRecord {
   std::int32_t x, y, z;
   float volume;         ///< [m^3]
   float vx, vy, vz;     ///< [m/s]
-  float inverse_reach;  ///< one over the support radius [1/m]
+  float inverse_radius;  ///< one over the support radius [1/m]
   float thickness;      ///< along the ground's normal [m]
   float lateral;        ///< K g_n: lateral pressure over density and thickness [m/s^2]
   float wave_speed;     ///< sqrt(K g_n thickness) [m/s]

@@ -71,12 +71,12 @@ void NeighborLists::choose_frame(const ParticleSet& set, const Domain& domain) {
   while (bits > 10 && (extent + 4 * support_) / support_ * std::ldexp(1.0, bits) > 1.0e9) --bits;
   unit_ = std::ldexp(support_, -bits);
 
-  const double reach = support_ + skin_;
-  width_ = reach;
-  west_ = lo[0] - 2 * reach;
-  south_ = lo[1] - 2 * reach;
+  const double search_radius = support_ + skin_;
+  width_ = search_radius;
+  west_ = lo[0] - 2 * search_radius;
+  south_ = lo[1] - 2 * search_radius;
   auto count = [&](int k) {
-    return static_cast<std::uint32_t>((hi[k] - lo[k] + 4 * reach) / width_) + 1;
+    return static_cast<std::uint32_t>((hi[k] - lo[k] + 4 * search_radius) / width_) + 1;
   };
   // A few far particles must not cost a table of empty columns.
   while (double(count(0)) * count(1) > 8.0 * n_particles_ + 4096) width_ *= 2;
@@ -112,13 +112,13 @@ void NeighborLists::sort_particles(ParticleSet& set) {
 void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
   images_.clear();
   if (!domain.x.active && !domain.y.active) return;
-  const double reach = support_ + skin_;
+  const double search_radius = support_ + skin_;
   auto shifts = [&](const Period& p, double position, double out[3]) {
     int n = 0;
     out[n++] = 0;
     if (!p.active) return n;
-    if (position < p.min + reach) out[n++] = 1;
-    if (position >= p.max - reach) out[n++] = -1;
+    if (position < p.min + search_radius) out[n++] = 1;
+    if (position >= p.max - search_radius) out[n++] = -1;
     return n;
   };
   for (std::size_t i = 0; i < n_particles_; ++i) {
@@ -189,10 +189,10 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
       hi[d] = k ? std::max(hi[d], c[d]) : c[d];
     }
   }
-  const double reach = support_ + skin_;
-  const auto reach_units = static_cast<std::int64_t>(reach / unit_) + 1;
-  const double x0 = origin_[0] + lo[0] * unit_ - reach, x1 = origin_[0] + hi[0] * unit_ + reach;
-  const double y0 = origin_[1] + lo[1] * unit_ - reach, y1 = origin_[1] + hi[1] * unit_ + reach;
+  const double search_radius = support_ + skin_;
+  const auto radius_units = static_cast<std::int64_t>(search_radius / unit_) + 1;
+  const double x0 = origin_[0] + lo[0] * unit_ - search_radius, x1 = origin_[0] + hi[0] * unit_ + search_radius;
+  const double y0 = origin_[1] + lo[1] * unit_ - search_radius, y1 = origin_[1] + hi[1] * unit_ + search_radius;
   auto clamp_index = [&](double v, double edge, std::uint32_t count) {
     return std::min<std::int64_t>(count - 1,
                                   std::max<std::int64_t>(0, std::int64_t((v - edge) / width_)));
@@ -204,19 +204,19 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
       const std::size_t column = row * n_cols_ + (row % 2 ? n_cols_ - 1 - col : col);
       auto it = sorted_.begin() + column_begin_[column];
       const auto last = sorted_.begin() + column_begin_[column + 1];
-      it = std::lower_bound(it, last, lo[2] - reach_units,
+      it = std::lower_bound(it, last, lo[2] - radius_units,
                             [&](std::uint32_t r, std::int64_t z) { return records_[r].z < z; });
-      for (; it != last && records_[*it].z <= hi[2] + reach_units; ++it) {
+      for (; it != last && records_[*it].z <= hi[2] + radius_units; ++it) {
         const NeighborRecord& p = records_[*it];
-        if (p.x >= lo[0] - reach_units && p.x <= hi[0] + reach_units &&
-            p.y >= lo[1] - reach_units && p.y <= hi[1] + reach_units)
+        if (p.x >= lo[0] - radius_units && p.x <= hi[0] + radius_units &&
+            p.y >= lo[1] - radius_units && p.y <= hi[1] + radius_units)
           candidates.push_back(*it);
       }
     }
   const std::size_t start = out.size();
   out.resize(start + candidates.size());
   const std::size_t found = tight_(records_.data(), first, n, candidates.data(), candidates.size(),
-                                   static_cast<float>(reach / unit_), out.data() + start);
+                                   static_cast<float>(search_radius / unit_), out.data() + start);
   out.resize(start + found);
   return found;
 }

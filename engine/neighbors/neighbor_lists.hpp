@@ -17,7 +17,7 @@ namespace sturz {
 /// Finds those of the candidates that are near a group; see Sweeps::tight_list.
 using TightList = std::size_t (*)(const NeighborRecord*, std::size_t first, int n_in_group,
                                   const std::uint32_t* candidates, std::size_t n_candidates,
-                                  float reach_units, std::uint32_t* out);
+                                  float radius_units, std::uint32_t* out);
 
 /// A periodic image: record `source` moved by a whole period.
 struct PeriodicImage {
@@ -29,7 +29,7 @@ struct PeriodicImage {
 /// relative to each other since the last build.
 class NeighborLists {
  public:
-  /// \param support 2h [m]; \param skin extra reach [m]
+  /// \param support 2h [m]; \param skin extra radius [m]
   NeighborLists(double support, double skin, TightList tight);
 
   bool needs_rebuild() const { return stale_ || moved_ >= skin_; }

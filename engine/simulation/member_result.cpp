@@ -10,7 +10,7 @@ constexpr std::array<PeakLayerInfo, n_peak_layers> layer_infos{{
     {"peak_energy", "largest kinetic energy per area over time", "J m-2", 0},
     {"peak_pressure", "largest dynamic pressure (density times mean speed squared) over time", "Pa",
      0},
-    {"arrival_time", "time at which the thickness first exceeds the reach limit", "s", nan_f},
+    {"arrival_time", "time at which the thickness first exceeds the runout limit", "s", nan_f},
     {"deposit_thickness", "vertical thickness at the end", "m", 0},
 }};
 
@@ -25,9 +25,9 @@ constexpr std::array scalar_infos{
                &M::com_travel_m},
     ScalarInfo{"drop_m", "m", "highest release elevation minus lowest deposit elevation",
                &M::drop_m},
-    ScalarInfo{"reached_area_m2", "m2", "area of cells above the reach limit at any time",
+    ScalarInfo{"reached_area_m2", "m2", "area of cells above the runout limit at any time",
                &M::reached_area_m2},
-    ScalarInfo{"deposit_area_m2", "m2", "area of cells above the reach limit at the end",
+    ScalarInfo{"deposit_area_m2", "m2", "area of cells above the runout limit at the end",
                &M::deposit_area_m2},
     ScalarInfo{"max_speed_m_s", "m s-1", "speed of the fastest particle over time",
                &M::max_speed_m_s},

@@ -35,7 +35,7 @@ struct MemberScalars {
   double front_travel_m = 0;   ///< farthest horizontal displacement of a particle from its start
   double com_travel_m = 0;     ///< horizontal displacement of the centre of mass
   double drop_m = 0;           ///< highest release elevation minus lowest deposit elevation
-  double reached_area_m2 = 0;  ///< cells with smoothed thickness above the reach limit at any time
+  double reached_area_m2 = 0;  ///< cells with smoothed thickness above the runout limit at any time
   double deposit_area_m2 = 0;  ///< the same at the end
   double max_speed_m_s = 0;    ///< fastest particle (99.9 % quantile of mass when > 1000 particles)
   double max_mean_speed_m_s = 0;  ///< largest mass-averaged speed

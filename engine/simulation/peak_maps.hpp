@@ -14,10 +14,10 @@ namespace sturz {
 
 struct PeakMapSettings {
   Grid grid;                    ///< the whole hazard grid
-  double reach_limit_m = 0.05;  ///< smoothed thickness that counts as reached: max(0.05, dx/10)
-  /// Width of a particle with a field "reach" (a column) over that reach: one and a half mean
+  double runout_limit_m = 0.05;  ///< smoothed thickness that counts as reached: max(0.05, dx/10)
+  /// Width of a particle with a field "support_radius" (a column) over that radius: one and a half mean
   /// distances of columns, so that a lattice leaves no pattern on the map.
-  double width_per_reach = 0.375;
+  double width_per_radius = 0.375;
 };
 
 /// Thickness over spacing, weighted by mass, at one instant.
@@ -64,7 +64,7 @@ class PeakMaps {
   struct Width {
     double cells = 1;               ///< of the B-spline; the largest where it varies
     int n_weights = 3;              ///< cells that one particle can touch per direction
-    const double* reach = nullptr;  ///< of columns, each its own
+    const double* support_radius = nullptr;  ///< of columns, each its own
   };
   Width width_of(const MovingSet&) const;
   Window cover(const ParticleSet&, const Width&) const;

@@ -130,26 +130,26 @@ SurfacePoint Terrain::surface(double x, double y) const {
   return surface_outside(x, y);
 }
 
-bool Terrain::distance_inside(const Vec3& p, double reach, SurfaceDistance& out) const {
+bool Terrain::distance_inside(const Vec3& p, double contact_distance, SurfaceDistance& out) const {
   Block b;
   if (!find(p.x(), p.y(), b)) return false;
   const Slope s = evaluate(b, per_cell_);
   if (!std::isfinite(s.z)) return false;
   const double above = p.z() - s.z;
   // The block's bounds hold within one cell; farther away only the whole ground's do.
-  const SurfaceBound& bound = reach <= cell_m_ ? *b.bound : roughest_;
-  if (bound.bend_per_m * reach <= 0.2 || above * bound.min_normal_z > reach) {
+  const SurfaceBound& bound = contact_distance <= cell_m_ ? *b.bound : roughest_;
+  if (bound.bend_per_m * contact_distance <= 0.2 || above * bound.min_normal_z > contact_distance) {
     const Vec3 normal = upward_normal(s.east, s.north);
     out = {above * normal.z(), normal};
   } else {
-    out = closest(p, s, reach);
+    out = closest(p, s, contact_distance);
   }
   return true;
 }
 
-SurfaceDistance Terrain::distance(const Vec3& p, double reach) const {
+SurfaceDistance Terrain::distance(const Vec3& p, double contact_distance) const {
   SurfaceDistance found;
-  if (distance_inside(p, reach, found)) return found;
+  if (distance_inside(p, contact_distance, found)) return found;
   const SurfacePoint level = surface_outside(p.x(), p.y());
   return {p.z() - level.z, level.normal};
 }

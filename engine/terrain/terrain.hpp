@@ -102,15 +102,15 @@ class Terrain {
   /// unknown cells the bilinear surface stands in, without curvature.
   CurvedSurface curved(double x, double y) const;
   /// Distance of `p` to the surface, negative below it: (z - z_s) n_z where the ground within
-  /// `reach` is smooth. Where its slope exceeds 45 degrees or its curvature times `reach` 0.2, a
+  /// `contact_distance` is smooth. Where its slope exceeds 45 degrees or its curvature times `contact_distance` 0.2, a
   /// point that may touch gets the distance to the closest point (two Newton steps on every patch
-  /// within reach), so that a cliff beside a particle counts. The sign is always that of z - z_s.
-  /// \param reach  the contact distance [m]; farther up the tangent plane's distance is returned.
+  /// within the contact distance), so that a cliff beside a particle counts. The sign is always that of z - z_s.
+  /// \param contact_distance  [m]; farther up the tangent plane's distance is returned.
   ///               Up to one cell costs 20-40 ns; more (or a whole smoothing support) makes nearly
   ///               all of a mountain count as bent and costs several times as much
-  SurfaceDistance distance(const Vec3& p, double reach) const;
+  SurfaceDistance distance(const Vec3& p, double contact_distance) const;
   /// The same where the ground is known; false off it, and `out` untouched.
-  bool distance_inside(const Vec3& p, double reach, SurfaceDistance& out) const;
+  bool distance_inside(const Vec3& p, double contact_distance, SurfaceDistance& out) const;
   /// No point of the ground and no rim of the known ground is nearer than this [m]: the height
   /// above ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
   double clearance(const Vec3& p) const;
@@ -139,10 +139,10 @@ class Terrain {
   static Slope evaluate(const Block& block, double per_cell);
   std::optional<Vec2> nearest_inside(double x, double y) const;
   SurfacePoint surface_outside(double x, double y) const;
-  SurfaceDistance closest(const Vec3& p, const Slope& below, double reach) const;
+  SurfaceDistance closest(const Vec3& p, const Slope& below, double contact_distance) const;
   void try_block(int row, int col, const Vec3& p, Closest& best) const;
   void search_blocks(const Vec3& p, double radius, Closest& best) const;
-  void search_compass(const Vec3& p, double reach, Closest& best) const;
+  void search_compass(const Vec3& p, double contact_distance, Closest& best) const;
 
   std::shared_ptr<const Raster<double>> base_;
   std::shared_ptr<const std::vector<SurfaceBound>> bounds_;  ///< per block, at its NW node's index

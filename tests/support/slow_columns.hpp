@@ -14,7 +14,7 @@ namespace sturz::test {
 struct SlowColumn {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};
   double volume = 1;      ///< [m^3]
-  double reach = 4;       ///< support radius R [m]
+  double support_radius = 4;       ///< support radius R [m]
   double thickness = 1;   ///< h [m]
   double lateral = 9.81;  ///< K g_n [m/s^2]
 };

@@ -161,9 +161,9 @@ class BoundaryPass final : public Pass {
     b.nx[i] = static_cast<float>(gap.normal.x());
     b.ny[i] = static_cast<float>(gap.normal.y());
     b.nz[i] = static_cast<float>(gap.normal.z());
-    const double reach = 2 * settings_.smoothing_length;
-    if (gap.distance > reach)  // how long it need not be looked at again
-      b.distance[i] = static_cast<float>(std::fmax(reach, s.terrain.clearance(at)));
+    const double support_radius = 2 * settings_.smoothing_length;
+    if (gap.distance > support_radius)  // how long it need not be looked at again
+      b.distance[i] = static_cast<float>(std::fmax(support_radius, s.terrain.clearance(at)));
     if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
       p.fate[i] = Fate::underground;
       out.leaked += p.mass[i];
@@ -221,11 +221,11 @@ class GroundContact final : public Pass {
       ContactLaw& law = laws_.emplace_back();
       law.stiffness = c.stiffness;
       law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
-      law.reach = 0.5 * c.spacing;
+      law.contact_distance = 0.5 * c.spacing;
       law.friction = zone.friction_coefficient * (1 - zone.pore_pressure_ratio);
       // A particle in the first layer stands on an area of V/dx.
       law.cohesion_rate = zone.cohesion_pa / (c.reference_density * c.spacing);
-      law.cohesion_reach = zone.cohesion_pa > 0 ? c.spacing : -1;
+      law.cohesion_distance = zone.cohesion_pa > 0 ? c.spacing : -1;
     }
   }
   std::string_view name() const override { return "terrain contact"; }
@@ -241,13 +241,13 @@ class GroundContact final : public Pass {
     const BoundarySupport& b = p.boundary;
     const WallPressure pressure(p, settings_);
     const StartVelocity start(p);
-    const double reach = 2 * settings_.smoothing_length;
+    const double support_radius = 2 * settings_.smoothing_length;
     const bool zoned = settings_.zones.any();
     const ContactSums sums = ordered_reduce(
         p.size(), s.threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (p.fate[i] != Fate::stays || b.distance[i] >= reach) continue;
+            if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
             const double plane = plane_integral(b.distance[i], settings_.smoothing_length);
             const double support = pressure.acceleration(i, plane, b.nx[i], b.ny[i], b.nz[i]);
             const ContactLaw& law = laws_[zoned ? zone_of(s.domain, p, i) : 0];
@@ -287,9 +287,9 @@ class WallContact final : public Pass {
       ContactLaw law;
       law.stiffness = settings_.stiffness;
       law.damping = 2 * damping_ratio(settings_.restitution) * std::sqrt(settings_.stiffness);
-      law.reach = 0.5 * settings_.spacing;
+      law.contact_distance = 0.5 * settings_.spacing;
       law.friction = wall.friction_coefficient;
-      law.cohesion_reach = -1;
+      law.cohesion_distance = -1;
       press(s.sets[set_], wall, law, dt, s.threads);
     }
   }
@@ -298,14 +298,14 @@ class WallContact final : public Pass {
   void press(MovingSet& p, const Wall& wall, const ContactLaw& law, double dt, int threads) const {
     const WallPressure pressure(p, settings_);
     const StartVelocity start(p);
-    const double reach = 2 * settings_.smoothing_length;
+    const double support_radius = 2 * settings_.smoothing_length;
     const Vec3 n = wall.normal;
     const ContactSums sums = ordered_reduce(
         p.size(), threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
             const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
-            if (d >= reach) continue;
+            if (d >= support_radius) continue;
             const double support = pressure.acceleration(
                 i, plane_integral(d, settings_.smoothing_length), n.x(), n.y(), n.z());
             out.add(apply_contact(law, d, n.x(), n.y(), n.z(), support, dt, start(i).data(),

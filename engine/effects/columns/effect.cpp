@@ -12,7 +12,7 @@ namespace sturz {
 namespace {
 
 /// Thickness that a column without neighbours gives to itself: the floor at release.
-double single_thickness(double volume, double reach) { return 2.2281692 * volume / (reach * reach); }
+double single_thickness(double volume, double support_radius) { return 2.2281692 * volume / (support_radius * support_radius); }
 
 /// Rates that set the length of the first step [1/s].
 struct FirstRates {
@@ -30,12 +30,12 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   p.any_leaving |= !known;
   const Vec3 n = ground[i].normal();
   // A map lattice on a slope stands 1/n_z farther apart along it.
-  const double reach =
-      set.reach_per_spacing * set.spacing * std::min(set.most_reach, std::sqrt(1 / n.z()));
+  const double support_radius =
+      set.radius_per_spacing * set.spacing * std::min(set.most_radius, std::sqrt(1 / n.z()));
   const double thickness =
-      std::max(vertical_thickness * n.z(), single_thickness(p.mass[i] / set.density, reach));
+      std::max(vertical_thickness * n.z(), single_thickness(p.mass[i] / set.density, support_radius));
   const double g_n = s.gravity * n.z();
-  p.scalar(fields::support_radius)[i] = reach;
+  p.scalar(fields::support_radius)[i] = support_radius;
   p.scalar(fields::thickness)[i] = thickness;
   p.scalar(fields::normal_gravity)[i] = g_n;
   const int zone = flow.zone_of(s.domain, p, i);
@@ -46,7 +46,7 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
   first.rate =
       std::max(first.rate, set.base[zone].rate(v0.norm(), thickness, set.density, s.gravity));
-  first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (reach * reach));
+  first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (support_radius * support_radius));
   const Velocity v = Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
   p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
 }

@@ -41,23 +41,23 @@ double HalfSupport::between(const std::array<double, n + 1>& table, double d) {
 }
 
 double ColumnWalls::thickness_factor(const Domain& domain, double time, const Vec3& place,
-                                     double reach) const {
-  return 1 / share_in_front(domain, time, place, reach, nullptr);
+                                     double support_radius) const {
+  return 1 / share_in_front(domain, time, place, support_radius, nullptr);
 }
 
 double ColumnWalls::share_in_front(const Domain& domain, double time, const Vec3& place,
-                                   double reach, const Wall* but) const {
+                                   double support_radius, const Wall* but) const {
   double share = 1;
   for (const Wall& wall : domain.walls)
     if (&wall != but && time < wall.remove_at_s)
-      share *= 1 - support_.beyond(distance(wall, place) / reach);
+      share *= 1 - support_.beyond(distance(wall, place) / support_radius);
   return share;
 }
 
 Vec3 ColumnWalls::pressure(const Domain& domain, double time, const Wall& wall,
                            const ColumnAtWall& c) const {
-  const double line = support_.line(distance(wall, c.place) / c.reach) / c.reach *
-                      share_in_front(domain, time, c.place, c.reach, &wall);
+  const double line = support_.line(distance(wall, c.place) / c.support_radius) / c.support_radius *
+                      share_in_front(domain, time, c.place, c.support_radius, &wall);
   return c.lateral * c.thickness * line * wall.normal;
 }
 

@@ -27,7 +27,7 @@ struct DenseScale {
   float diffusion;      ///< 2 delta h c0 C
   float density;        ///< rho_ref
   float smoothing;      ///< 2 zeta h c0 C
-  float inv_reach;      ///< 1/(2h) [1/m]
+  float inv_support;      ///< 1/(2h) [1/m]
   float ratio_floor;    ///< p_c of the smoothed ratio [Pa]
   float laplacian;      ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
   float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
@@ -47,7 +47,7 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
   s.smoothing =
       static_cast<float>(2 * c.stress_smoothing * c.h * c.sound_speed * c.gradient_factor);
   s.ratio_floor = static_cast<float>(c.ratio_floor);
-  s.inv_reach = static_cast<float>(0.5 / c.h);
+  s.inv_support = static_cast<float>(0.5 / c.h);
   s.laplacian = static_cast<float>(c.gradient_factor);
   const double t = 1 - c.spacing / (2 * c.h);
   s.inv_w_spacing = static_cast<float>(1 / (t * t * t * t * (5 - 4 * t)));

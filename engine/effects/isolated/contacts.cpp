@@ -91,8 +91,8 @@ class IsolatedContacts final : public Pass {
   void choose(const Domain& domain, const MovingSet& p, double dt) {
     // A hit may turn a particle round and, by a heavy one, make it faster: twice the largest
     // speed for each of two.
-    const double reach = 4 * max_speed_ * dt + 1e-9;
-    const std::vector<NearPair>& pairs = search_.find(spheres_, reach, domain);
+    const double max_gap = 4 * max_speed_ * dt + 1e-9;
+    const std::vector<NearPair>& pairs = search_.find(spheres_, max_gap, domain);
     groups_.start(spheres_.size());
     bool any = false;
     for (const NearPair& pair : pairs) {
@@ -103,7 +103,7 @@ class IsolatedContacts final : public Pass {
     }
     for (std::uint32_t k = 0; settings_.on_ground && k < spheres_.size(); ++k) {
       const double gap = ground_gap(p, k);
-      if (!(gap < reach)) continue;
+      if (!(gap < max_gap)) continue;
       const double rise = spheres_[k].velocity.dot(ground_normal(p, k));
       if (gap + dt * std::min(rise, 0.0) > 0) continue;
       groups_.want(k);
@@ -116,7 +116,7 @@ class IsolatedContacts final : public Pass {
     for (const NearPair& pair : pairs)
       if (groups_.wanted(pair.a)) add_contact(pair);
     for (std::uint32_t k = 0; settings_.on_ground && k < spheres_.size(); ++k)
-      if (groups_.wanted(k) && ground_gap(p, k) < reach) add_ground(p, k);
+      if (groups_.wanted(k) && ground_gap(p, k) < max_gap) add_ground(p, k);
   }
 
   void add_body(const MovingSet& p, std::uint32_t k) {

@@ -68,7 +68,7 @@ class NeighborhoodSurvey {
       : domain_(domain),
         set_(set),
         g_(g),
-        reach_(2 * g.smoothing_length),
+        support_radius_(2 * g.smoothing_length),
         factor_(SmoothingKernel{g.smoothing_length}.discrete_gradient_factor()),
         volume_(g.spacing * g.spacing * g.spacing),
         around_(set.size() - set.n_listed) {}
@@ -94,7 +94,7 @@ class NeighborhoodSurvey {
     std::vector<IsolatedSphere> spheres;
     for (std::size_t i = p.n_listed; i < p.size(); ++i)
       spheres.push_back({Vec3(p.x[i], p.y[i], p.z[i]), Vec3(0, 0, 0), 0, p.id[i]});
-    const std::vector<NearPair>& pairs = search.find(spheres, reach_, domain_);
+    const std::vector<NearPair>& pairs = search.find(spheres, support_radius_, domain_);
     std::vector<char> rejoins(spheres.size(), 1);
     const std::vector<Surroundings> among_grains = around_;
     for (bool all = false; !all;) {
@@ -102,7 +102,7 @@ class NeighborhoodSurvey {
       for (const NearPair& pair : pairs) {
         const double r2 =
             (spheres[pair.a].place - spheres[pair.b].place - pair.image).squaredNorm();
-        if (r2 >= reach_ * reach_ || !rejoins[pair.a] || !rejoins[pair.b]) continue;
+        if (r2 >= support_radius_ * support_radius_ || !rejoins[pair.a] || !rejoins[pair.b]) continue;
         count(around_[pair.a], r2);
         count(around_[pair.b], r2);
       }
@@ -115,7 +115,7 @@ class NeighborhoodSurvey {
 
  private:
   double count(Surroundings& found, double r2) const {
-    const double t = 1 - std::sqrt(r2) / reach_, w = volume_ * t * t * t;
+    const double t = 1 - std::sqrt(r2) / support_radius_, w = volume_ * t * t * t;
     ++found.neighbors;
     found.support_completeness += factor_ * w * r2 / 3;
     return w;
@@ -124,7 +124,7 @@ class NeighborhoodSurvey {
   const Domain& domain_;
   const MovingSet& set_;
   const GrainStressSettings& g_;
-  double reach_, factor_, volume_;
+  double support_radius_, factor_, volume_;
   std::vector<Surroundings> around_;  // by isolated particle
 };
 

@@ -65,9 +65,9 @@ void IsolatedSearch::enter(const std::vector<IsolatedSphere>& spheres, const Dom
   });
 }
 
-bool IsolatedSearch::still_good(const std::vector<IsolatedSphere>& spheres, double reach) const {
+bool IsolatedSearch::still_good(const std::vector<IsolatedSphere>& spheres, double max_gap) const {
   if (spheres.size() != searched_.size()) return false;
-  const double slack = 0.5 * (searched_reach_ - reach);
+  const double slack = 0.5 * (searched_gap_ - max_gap);
   if (!(slack > 0)) return false;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
     const IsolatedSphere &now = spheres[k], &then = searched_[k];
@@ -79,27 +79,27 @@ bool IsolatedSearch::still_good(const std::vector<IsolatedSphere>& spheres, doub
 }
 
 const std::vector<NearPair>& IsolatedSearch::find(const std::vector<IsolatedSphere>& spheres,
-                                                double reach, const Domain& domain) {
+                                                double max_gap, const Domain& domain) {
   pairs_.clear();
   if (spheres.size() < 2) return pairs_;
-  if (!still_good(spheres, reach)) search(spheres, reach, domain);
+  if (!still_good(spheres, max_gap)) search(spheres, max_gap, domain);
   for (const NearPair& p : within_) {
     const IsolatedSphere &a = spheres[p.a], &b = spheres[p.b];
-    const double limit = a.radius + b.radius + reach;
+    const double limit = a.radius + b.radius + max_gap;
     if ((b.place + p.image - a.place).squaredNorm() < limit * limit) pairs_.push_back(p);
   }
   return pairs_;
 }
 
-void IsolatedSearch::search(const std::vector<IsolatedSphere>& spheres, double reach,
+void IsolatedSearch::search(const std::vector<IsolatedSphere>& spheres, double max_gap,
                           const Domain& domain) {
   double radius = 0;
   for (const IsolatedSphere& s : spheres) radius = std::max(radius, s.radius);
   ++n_grids_;
   within_.clear();
   searched_ = spheres;
-  searched_reach_ = reach + radius;
-  cell_ = 2 * radius + searched_reach_;
+  searched_gap_ = max_gap + radius;
+  cell_ = 2 * radius + searched_gap_;
   enter(spheres, domain, cell_);
 
   const auto before = [](const Entry& e, std::uint64_t cell) { return e.cell < cell; };
@@ -114,7 +114,7 @@ void IsolatedSearch::search(const std::vector<IsolatedSphere>& spheres, double r
       for (; other != entries_.end() && other->cell <= last; ++other) {
         const IsolatedSphere& b = spheres[other->sphere];
         if (a.id >= b.id) continue;  // found from the other side
-        const double limit = a.radius + b.radius + searched_reach_;
+        const double limit = a.radius + b.radius + searched_gap_;
         if (!((e.place - other->place).squaredNorm() < limit * limit)) continue;
         const Vec3 image = (other->place - b.place) - (e.place - a.place);
         within_.push_back({e.sphere, other->sphere, image});
@@ -150,9 +150,9 @@ std::uint32_t IsolatedGroups::root(std::uint32_t a) {
 
 bool may_touch(const IsolatedSphere& a, const IsolatedSphere& b, const Vec3& image, double dt) {
   const Vec3 way = b.place + image - a.place, speed = b.velocity - a.velocity;
-  const double reach = a.radius + b.radius, v2 = speed.squaredNorm();
+  const double contact_distance = a.radius + b.radius, v2 = speed.squaredNorm();
   const double t = v2 > 0 ? std::clamp(-way.dot(speed) / v2, 0.0, dt) : 0;  // nearest
-  return (way + t * speed).squaredNorm() <= reach * reach;
+  return (way + t * speed).squaredNorm() <= contact_distance * contact_distance;
 }
 
 }  // namespace sturz

@@ -26,10 +26,10 @@ struct NearPair {
 
 class IsolatedSearch {
  public:
-  /// All pairs whose surfaces are closer than `reach` > 0 [m], in the order of their ids, so that
+  /// All pairs whose surfaces are closer than `max_gap` > 0 [m], in the order of their ids, so that
   /// whoever sums over them does so in the same order whatever the storage. In periodic
-  /// directions the boxes must be longer than twice (three largest radii plus `reach`).
-  const std::vector<NearPair>& find(const std::vector<IsolatedSphere>&, double reach, const Domain&);
+  /// directions the boxes must be longer than twice (three largest radii plus `max_gap`).
+  const std::vector<NearPair>& find(const std::vector<IsolatedSphere>&, double max_gap, const Domain&);
 
   std::size_t n_grids() const { return n_grids_; }  ///< made so far
   std::size_t bytes() const;
@@ -42,8 +42,8 @@ class IsolatedSearch {
     Vec3 place{0, 0, 0};
   };
 
-  bool still_good(const std::vector<IsolatedSphere>&, double reach) const;
-  void search(const std::vector<IsolatedSphere>&, double reach, const Domain&);
+  bool still_good(const std::vector<IsolatedSphere>&, double max_gap) const;
+  void search(const std::vector<IsolatedSphere>&, double max_gap, const Domain&);
   void enter(const std::vector<IsolatedSphere>&, const Domain&, double margin);
   void add_images(const Period&, int axis, double margin);
   std::uint64_t cell_of(const Vec3& place, int dx, int dy, int dz) const;
@@ -52,9 +52,9 @@ class IsolatedSearch {
   double cell_ = 1;
   std::vector<Entry> entries_;
   std::vector<IsolatedSphere> searched_;  // as they were
-  double searched_reach_ = 0;
+  double searched_gap_ = 0;
   std::size_t n_grids_ = 0;
-  std::vector<NearPair> within_;  // searched_reach_ of each other then
+  std::vector<NearPair> within_;  // searched_gap_ of each other then
   std::vector<NearPair> pairs_;
 };
 

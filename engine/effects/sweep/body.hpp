@@ -47,7 +47,7 @@ struct MirrorContribution {
         std::size_t at) {
     const Lanes zero = Lanes::all(0);
     const Lanes d = max(Lanes::load(wall.distance + at), zero);
-    const Lanes y = max(fnma(d, Lanes::all(k.inv_reach), Lanes::all(1)), zero), y2 = y * y;
+    const Lanes y = max(fnma(d, Lanes::all(k.inv_support), Lanes::all(1)), zero), y2 = y * y;
     const Lanes tail = fma(y, fma(y, Lanes::all(4.0f / 7), Lanes::all(-1.5f)), Lanes::all(1));
     const Lanes plane = Lanes::all(k.plane) * y2 * y2 * y * tail;
     const Lanes nx = Lanes::load(wall.nx + at), ny = Lanes::load(wall.ny + at);
@@ -356,13 +356,13 @@ inline void kinetic_sweep(const NeighborView& view, const KineticView& dispersed
 
 inline std::size_t tight_list(const NeighborRecord* records, std::size_t first, int n_in_group,
                               const std::uint32_t* candidates, std::size_t n_candidates,
-                              float reach_units, std::uint32_t* out) {
+                              float radius_units, std::uint32_t* out) {
   alignas(64) std::int32_t x[group_size], y[group_size], z[group_size];
   for (int k = 0; k < group_size; ++k) {
     const NeighborRecord& p = records[first + (k < n_in_group ? k : 0)];
     x[k] = p.x, y[k] = p.y, z[k] = p.z;
   }
-  const Lanes reach2 = Lanes::all(reach_units * reach_units);
+  const Lanes radius2 = Lanes::all(radius_units * radius_units);
   std::size_t n = 0;
   for (std::size_t c = 0; c < n_candidates; ++c) {
     const NeighborRecord& j = records[candidates[c]];
@@ -371,7 +371,7 @@ inline std::size_t tight_list(const NeighborRecord* records, std::size_t first, 
       const Lanes rx = difference(IntLanes::load(x + lane), j.x);
       const Lanes ry = difference(IntLanes::load(y + lane), j.y);
       const Lanes rz = difference(IntLanes::load(z + lane), j.z);
-      near = any_less(fma(rx, rx, fma(ry, ry, rz * rz)), reach2);
+      near = any_less(fma(rx, rx, fma(ry, ry, rz * rz)), radius2);
     }
     out[n] = candidates[c];
     n += near;

@@ -23,7 +23,7 @@ struct ReferenceNumbers {
   float static_friction, dynamic_friction;
   float slowness;  ///< G I_0 / (d_p sqrt(rho_p)) [Pa^(1/2)/s]
   float gravity;
-  float spring, damping, reach, basal_friction;  ///< of the ground [1/s^2], [1/s], [m], [-]
+  float spring, damping, contact_distance, basal_friction;  ///< of the ground [1/s^2], [1/s], [m], [-]
 };
 
 /// Nodes of the ground; node (0, 0) in the south-west.

@@ -119,11 +119,11 @@ inline void meet_ground(const ReferenceColumns& p, const ReferenceNumbers& k,
     const float z_s = south[0] + a * (south[1] - south[0]);
     const float z_n = north[0] + a * (north[1] - north[0]);
     const float height = p.z[i] - (z_s + b * (z_n - z_s));
-    if (height > 2 * k.reach) continue;
+    if (height > 2 * k.contact_distance) continue;
     const float east = ((1 - b) * (south[1] - south[0]) + b * (north[1] - north[0])) / g.cell;
     const float up = (z_n - z_s) / g.cell;
     const float nz = 1 / sqrtf(1 + east * east + up * up), nx = -east * nz, ny = -up * nz;
-    const float overlap = k.reach - height * nz;
+    const float overlap = k.contact_distance - height * nz;
     if (overlap <= 0) continue;
     const float vn = p.vx[i] * nx + p.vy[i] * ny + p.vz[i] * nz;
     const float push = k.spring * overlap - k.damping * vn;

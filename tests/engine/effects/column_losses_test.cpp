@@ -73,7 +73,7 @@ TEST(ColumnLosses, EverythingThatBelongsToAColumnLeavesWithIt) {
 }
 
 TEST(ColumnLosses, KineticEnergyLeavesAsItWas) {
-  // Two columns out of each other's reach; the eastern one leaves.
+  // Two columns outside of each other's support; the eastern one leaves.
   HandMade made = columns_on(even_ground(16), {{6, 0, 0}, {-6, 0, 0}}, 0.7, {9, 0, 0});
   const ParticleSet& p = made.state.grains();
   const Ledger& book = made.state.grains().ledger;

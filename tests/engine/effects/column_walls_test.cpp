@@ -56,7 +56,7 @@ TEST(HalfSupport, BeyondIsTheIntegralOfLine) {
   }
 }
 
-TEST(HalfSupport, IsNothingFromTheReachOnAndNoMoreBehindTheLine) {
+TEST(HalfSupport, IsNothingFromTheSupportRadiusOnAndNoMoreBehindTheLine) {
   const HalfSupport half;
   for (const double d : {1.0, 1.5, 1e9}) {
     EXPECT_EQ(half.line(d), 0);
@@ -123,7 +123,7 @@ TEST(ColumnWalls, PressureBalancesALevelLayer) {
   }
 }
 
-TEST(ColumnWalls, DoNothingBeyondTheReach) {
+TEST(ColumnWalls, DoNothingBeyondTheSupport) {
   const ColumnWalls walls;
   const Domain domain = bounded_by({west_wall(0.5)});
   const ColumnAtWall column{{4, 0, 0}, {0, 0, 1}, 4, 2, 9.81};

@@ -109,7 +109,7 @@ TEST(IsolatedBodies, HandTheirContactsOnFromStepToStep) {
 
 using IdPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-IdPairs by_brute_force(const std::vector<IsolatedSphere>& spheres, double reach, const Domain& d) {
+IdPairs by_brute_force(const std::vector<IsolatedSphere>& spheres, double max_gap, const Domain& d) {
   IdPairs all;
   const int p = d.x.active ? 2 : 0, q = d.y.active ? 2 : 0;
   for (const IsolatedSphere& a : spheres)
@@ -117,7 +117,7 @@ IdPairs by_brute_force(const std::vector<IsolatedSphere>& spheres, double reach,
       for (int i = -p; i <= p; ++i)
         for (int j = -q; j <= q; ++j) {
           const Vec3 period(d.x.length() * i, d.y.length() * j, d.x.rise * i + d.y.rise * j);
-          const double limit = a.radius + b.radius + reach;
+          const double limit = a.radius + b.radius + max_gap;
           if (a.id < b.id && (b.place + period - a.place).norm() < limit)
             all.emplace_back(a.id, b.id);
         }
@@ -141,16 +141,16 @@ TEST(IsolatedSearch, FindsEveryPairAndNoOtherWhileTheyMove) {
       spheres[i] = {place, velocity, 0.2 + 0.3 * unit(random), 199 - i};
     }
     IsolatedSearch search;
-    const double reach = 0.25;
+    const double max_gap = 0.25;
     for (int n = 0; n < 10; ++n) {
       IdPairs found;
-      for (const NearPair& p : search.find(spheres, reach, domain)) {
+      for (const NearPair& p : search.find(spheres, max_gap, domain)) {
         const IsolatedSphere &a = spheres[p.a], &b = spheres[p.b];
-        EXPECT_LT((b.place + p.image - a.place).norm(), a.radius + b.radius + reach);
+        EXPECT_LT((b.place + p.image - a.place).norm(), a.radius + b.radius + max_gap);
         found.emplace_back(a.id, b.id);
       }
       EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
-      ASSERT_EQ(found, by_brute_force(spheres, reach, domain)) << n;
+      ASSERT_EQ(found, by_brute_force(spheres, max_gap, domain)) << n;
       EXPECT_GT(found.size(), 50u);
       for (IsolatedSphere& s : spheres) s.place += 0.2 * s.velocity;
     }

@@ -124,7 +124,7 @@ TEST(ContactImpulse, SpringNeverPulls) {
   EXPECT_EQ(t.apply().z(), 3);
 }
 
-TEST(ContactImpulse, OutOfReachNothingHappens) {
+TEST(ContactImpulse, BeyondTheContactDistanceNothingHappens) {
   Touch t;
   t.law = {100, 5, 0.5, 0.6, 10, 1};
   t.distance = 1.0;

@@ -15,7 +15,7 @@
 namespace sturz {
 namespace {
 
-constexpr double support = 2.6, skin = 0.195, reach = support + skin;
+constexpr double support = 2.6, skin = 0.195, search_radius = support + skin;
 
 NeighborLists make_lists() {
   return NeighborLists(support, skin, sweeps(best_instruction_set()).tight_list);
@@ -106,7 +106,7 @@ void build_and_check(const std::vector<Vec3>& points, const Domain& domain = {})
   NeighborLists lists = make_lists();
   lists.rebuild(set, domain, 1);
   ASSERT_EQ(lists.n_groups(), (points.size() + group_size - 1) / group_size);
-  expect_complete(lists, set, domain, reach, reach);
+  expect_complete(lists, set, domain, search_radius, search_radius);
 }
 
 std::vector<Vec3> box(std::size_t n, const Vec3& from, const Vec3& to, unsigned seed = 1) {
@@ -188,7 +188,7 @@ TEST(NeighborLists, LongPeriodsDoNotAlias) {
   ParticleSet set = set_of({{0.5, 0, 0}, {1.5, 0, 0}, {2.5, 1, 0}});
   NeighborLists lists = make_lists();
   lists.rebuild(set, domain, 1);
-  expect_complete(lists, set, domain, reach, reach);
+  expect_complete(lists, set, domain, search_radius, search_radius);
   EXPECT_EQ(lists.n_entries(), 3u);
 }
 
@@ -233,7 +233,7 @@ TEST(NeighborLists, MissNoNeighbourAfterMovesWithinTheSkin) {
     }
     lists.gather_positions(moved, 0, moved.size());
     lists.copy_images();
-    expect_complete(lists, moved, domain, support, reach + skin);
+    expect_complete(lists, moved, domain, support, search_radius + skin);
   }
 }
 
@@ -259,7 +259,7 @@ TEST(NeighborLists, FollowAChangingNumberOfParticles) {
   for (std::size_t n : {100, 300, 7, 40}) {
     ParticleSet set = set_of(box(n, {0, 0, 0}, {6, 6, 6}, static_cast<unsigned>(n)));
     lists.rebuild(set, {}, 1);
-    expect_complete(lists, set, {}, reach, reach);
+    expect_complete(lists, set, {}, search_radius, search_radius);
   }
 }
 

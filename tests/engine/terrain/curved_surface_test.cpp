@@ -200,7 +200,7 @@ TEST(CurvedSurface, IsBilinearBesideUnknownCells) {
   nodes.at(7, 9) = nan_d;
   const Terrain t = ground_of(nodes);
   const double x = grid.x_center(9), y = grid.y_center(7);
-  // Outside the four blocks that the unknown node spoils, within reach of the stencil.
+  // Outside the four blocks that the unknown node spoils, within the stencil.
   expect_bilinear(t, x + 1.2 * cell, y);
   expect_bilinear(t, x - 1.4 * cell, y + 0.3 * cell);
   expect_bilinear(t, x + 1.1 * cell, y - 1.1 * cell);

@@ -61,13 +61,13 @@ struct Meeting {
 Meeting meet(const Scene& scene, double speed, double offset, double steps, double start) {
   const Softened soft(2);
   const double dt = steps * soft.fine_step, z = scene.ground ? radius_m : 100;
-  const double reach = std::sqrt(4 * radius_m * radius_m - offset * offset);
-  const double half = 0.5 * (reach + speed * dt * (3 + start));
+  const double chord = std::sqrt(4 * radius_m * radius_m - offset * offset);
+  const double half = 0.5 * (chord + speed * dt * (3 + start));
   Flight f({{{-half, 0, z}, {0.5 * speed, 0, 0}}, {{half, offset, z}, {-0.5 * speed, 0, 0}}},
            scene);
   Meeting m;
   double pushed = 0, pulled = 0, last = -speed;
-  const double touching = impact_duration(soft.law, speed * reach / (2 * radius_m));
+  const double touching = impact_duration(soft.law, speed * chord / (2 * radius_m));
   for (double t = 0; t < 5 * dt + 3 * touching; t += dt) {
     f.advance(dt);
     const double now = f.velocity(1).x() - f.velocity(0).x();
