@@ -43,7 +43,7 @@ struct Ledger {
   double rest_damping = 0;  ///< dissipated below the speed of rest (docs/physics.md I4)
   double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the rim
 
-  double take_off = 0;  ///< mass times time on ground that bends away faster than it falls [kg s]
+  double detachment = 0;  ///< mass times time on ground that curves away faster than it falls [kg s]
 
   /// Sum of m a dt of pair forces alone: zero but for rounding.
   double stress_impulse[3] = {0, 0, 0};
@@ -81,7 +81,7 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
       &Ledger::collisions,          &Ledger::granular_lost,  &Ledger::plastic,
       &Ledger::diffusion,           &Ledger::contact_work,   &Ledger::isolated_work,
       &Ledger::rotational,          &Ledger::isolated_elastic, &Ledger::friction,
-      &Ledger::rest_damping,        &Ledger::lost_energy,    &Ledger::take_off,
+      &Ledger::rest_damping,        &Ledger::lost_energy,    &Ledger::detachment,
       &Ledger::stress_impulse_scale};
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));

@@ -51,8 +51,8 @@ inline constexpr FieldKey thickness{"thickness", 1, "m", "column pressure"};
 inline constexpr FieldKey support_radius{"support_radius", 1, "m", "column pressure"};
 /// Normal reaction of the ground per mass.
 inline constexpr FieldKey normal_gravity{"normal_gravity", 1, "m s-2", "column pressure"};
-/// Centripetal momentum per mass: curvature met over the thickness.
-inline constexpr FieldKey turning{"turning", 1, "m s-1", "column pressure"};
+/// Momentum per mass of curvature met and not yet borne by the ground.
+inline constexpr FieldKey centripetal_momentum{"centripetal_momentum", 1, "m s-1", "column pressure"};
 /// Slope east and north [-], second derivatives ee, en, nn [1/m] of the ground below.
 inline constexpr FieldKey ground{"ground", 5, "mixed", "column pressure"};
 /// Lateral over normal stress.

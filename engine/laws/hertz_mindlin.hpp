@@ -61,7 +61,7 @@ struct ContactForce {
 /// \param overlap   delta > 0 [m]; without overlap there is no force and no history
 /// \param normal    unit, into the body that feels the force
 /// \param velocity  of that body's contact point relative to the other's, spins included [m/s]
-/// \param slip      way of that point relative to the other since the last call, velocity times
+/// \param slip      displacement of that point relative to the other since the last call, velocity times
 ///                  dt; its normal part does not count [m]
 /// \param history   xi, the stretched tangential spring, in and out [m]
 inline ContactForce press_contact(const ContactPair& pair, double overlap, const Vec3& normal,
@@ -127,7 +127,7 @@ inline GrainMaterial softened(GrainMaterial material, double modulus) {
   return material;
 }
 
-/// T_R = pi R sqrt(rho/G)/(0.1631 nu + 0.8766): a surface wave's way round half a sphere [s].
+/// T_R = pi R sqrt(rho/G)/(0.1631 nu + 0.8766): a surface wave's path round half a sphere [s].
 inline double rayleigh_time(const GrainMaterial& material, double radius) {
   return std::numbers::pi * radius * std::sqrt(material.density / material.shear_modulus()) /
          (0.1631 * material.poisson_ratio + 0.8766);

@@ -31,13 +31,13 @@ static_assert(sizeof(NeighborRecord) == 64);
 /// not have; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
   float dilation_ratio = 1;  ///< true volume over NeighborRecord::volume [-]
-  /// Takes the place of `dilation_ratio` in pairs: sqrt(dilation_ratio/support_completeness) makes the sums over a cloud's few
+  /// Replaces `dilation_ratio` in pairs: sqrt(dilation_ratio/support_completeness) makes the sums over a cloud's few
   /// neighbours complete, and keeps pairs symmetric.
   float weight = 1;
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
   float theta = 0;                                       ///< granular temperature [m^2/s^2]
   float resistance = 1e30f;  ///< 1/k_theta; huge: no conduction [m s/kg]
-  float viscosity = 1;       ///< takes the place of NeighborRecord::viscosity [-]
+  float viscosity = 1;       ///< replaces NeighborRecord::viscosity [-]
   float spare = 0;
 };
 static_assert(sizeof(KineticRecord) == 48);

@@ -8,7 +8,7 @@
 
 namespace sturz {
 
-/// One instant, of the mass that is still on the terrain. Travel is the horizontal way of a
+/// One instant, of the mass that is still on the terrain. Travel is the horizontal displacement of a
 /// particle from where it started.
 struct HistoryRow {
   float time_s = 0;

@@ -56,7 +56,7 @@ constexpr std::array scalar_infos{
                "cell thickness / spacing that 90 % of the mass exceeds, time average while moving",
                &M::layers_p10},
     ScalarInfo{"take_off_fraction", "1",
-               "share of mass and time on ground that bends away faster than the mass falls",
+               "share of mass and time on ground that curves away faster than the mass falls",
                &M::take_off_fraction},
     ScalarInfo{"max_mach", "1", "speed of the fastest particle / sound speed", &M::max_mach},
     ScalarInfo{"max_density_error", "1",

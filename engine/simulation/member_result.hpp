@@ -54,7 +54,7 @@ struct MemberScalars {
       0;                  ///< cell thickness / spacing that half of the mass exceeds, time average
   double layers_p10 = 0;  ///< the same for 90 % of the mass
   double take_off_fraction =
-      0;  ///< mass and time on ground that bends away faster than it falls; depth_averaged
+      0;  ///< mass and time on ground that curves away faster than it falls; depth_averaged
   double max_mach = 0;           ///< fastest particle / sound speed
   double max_density_error = 0;  ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
   double end_time_s = 0;         ///< simulated

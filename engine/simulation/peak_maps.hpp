@@ -39,7 +39,7 @@ class PeakMaps {
 
   /// Takes in one instant of all sets; a particle's volume is its mass over its set's bulk density,
   /// so volume is exact. Serial, summed in double and in storage order: bitwise reproducible for
-  /// a given particle order. Particles without a finite place and speed are left out.
+  /// a given particle order. Particles without a finite position and speed are left out.
   void record(std::span<const MovingSet>, double time_s);
   /// Writes window, layers (deposit from `final_state`) and the map scalars (reached and deposit
   /// area, maxima) into `result`. Record the final state first, as any other instant.

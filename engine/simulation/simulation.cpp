@@ -259,7 +259,7 @@ class Run {
     m.mass_error = (mass_on_terrain(s) + book.lost_mass - brought) / brought;
     const double released = book.released_energy();
     m.energy_residual = released > 0 ? book.residual() / released : 0;
-    m.take_off_fraction = s.time > 0 ? book.take_off / (book.released_mass * s.time) : 0;
+    m.take_off_fraction = s.time > 0 ? book.detachment / (book.released_mass * s.time) : 0;
     std::size_t created = 0;
     for (const MovingSet& set : s.sets) created += set.n_created();
     m.n_particles = static_cast<double>(created);

@@ -17,9 +17,9 @@ struct Displacement {
   double lowest = 0;      ///< elevation of the lowest particle [m]
 };
 
-/// One particle's way since the start.
+/// Displacement of one particle since the start.
 struct ParticleTravel {
-  double way2 = 0;   ///< horizontal displacement squared [m^2]
+  double displacement2 = 0;   ///< horizontal displacement squared [m^2]
   double speed = 0;  ///< [m/s]
   double mass = 0;   ///< [kg]
 };

@@ -32,19 +32,19 @@ CurvedSurface Terrain::curved(double x, double y) const {
     const double* corner = patched ? &patch_[static_cast<std::size_t>(r) * patch_cols_ + c]
                                    : &base_->values[g.index(row - 1, col - 1)];
     const Weights east(u - col), south(v - row);
-    double z[3], rise[3], bend[3];
+    double z[3], rise[3], curvature[3];
     for (int k = 0; k < 3; ++k) {
       const double* n = corner + k * stride;
-      z[k] = east.sum(n), rise[k] = east.rise(n), bend[k] = second(n);
+      z[k] = east.sum(n), rise[k] = east.rise(n), curvature[k] = second(n);
     }
     out.z = south.sum(z);
     if (std::isfinite(out.z)) {
       const double per_area = per_cell_ * per_cell_;
       out.east = south.sum(rise) * per_cell_;
       out.north = -south.rise(z) * per_cell_;
-      out.bend_ee = south.sum(bend) * per_area;
-      out.bend_en = -south.rise(rise) * per_area;
-      out.bend_nn = second(z) * per_area;
+      out.curvature_ee = south.sum(curvature) * per_area;
+      out.curvature_en = -south.rise(rise) * per_area;
+      out.curvature_nn = second(z) * per_area;
       return out;
     }
   }

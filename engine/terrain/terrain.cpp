@@ -138,7 +138,7 @@ bool Terrain::distance_inside(const Vec3& p, double contact_distance, SurfaceDis
   const double above = p.z() - s.z;
   // The block's bounds hold within one cell; farther away only the whole ground's do.
   const SurfaceBound& bound = contact_distance <= cell_m_ ? *b.bound : roughest_;
-  if (bound.bend_per_m * contact_distance <= 0.2 || above * bound.min_normal_z > contact_distance) {
+  if (bound.curvature_per_m * contact_distance <= 0.2 || above * bound.min_normal_z > contact_distance) {
     const Vec3 normal = upward_normal(s.east, s.north);
     out = {above * normal.z(), normal};
   } else {

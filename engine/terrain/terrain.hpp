@@ -33,12 +33,12 @@ struct SurfacePoint {
 struct CurvedSurface {
   double z = 0;                                  ///< [m]
   double east = 0, north = 0;                    ///< slope [-]
-  double bend_ee = 0, bend_en = 0, bend_nn = 0;  ///< second derivatives [1/m]
+  double curvature_ee = 0, curvature_en = 0, curvature_nn = 0;  ///< second derivatives [1/m]
   bool known = true;                             ///< false off the known ground (level there)
 
   /// d2z/ds2 times speed squared, for a horizontal velocity [m/s^2].
-  double bend(double vx, double vy) const {
-    return bend_ee * vx * vx + 2 * bend_en * vx * vy + bend_nn * vy * vy;
+  double curvature(double vx, double vy) const {
+    return curvature_ee * vx * vx + 2 * curvature_en * vx * vy + curvature_nn * vy * vy;
   }
 };
 

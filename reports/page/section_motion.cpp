@@ -90,7 +90,7 @@ std::string motion_html(const ReportInput& input) {
       "<section id=\"motion\"><h2>Motion over time</h2><div class=\"charts motion\">";
   for (const MotionChart& chart : charts) html += figure_html(chart, times);
   return html +
-         "</div><p class=\"note\">Travel is the horizontal way of each particle from where "
+         "</div><p class=\"note\">Travel is the horizontal displacement of each particle from where "
          "it started, of the mass still on the terrain. " +
          html_escape(states_text(input.members.front().scalars, *input.history)) + "</p></section>";
 }

@@ -267,7 +267,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
 
   plan.reference_fraction = s.grains->solid_fraction.value;
   if (s.grains->states && !formulation.depth_averaged && plan.reference_fraction < dense_fraction) {
-    // A looser mass carries no load: it is set down as the packing it settles to at once.
+    // A looser mass carries no load: it is deposited as the packing it settles to at once.
     for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
     plan.reference_fraction = dense_fraction;
   }

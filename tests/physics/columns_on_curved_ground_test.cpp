@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth-averaged flow on bent ground: V2, V21, a frictionless bowl, the ramp against full stress,
+// Depth-averaged flow on curved ground: V2, V21, a frictionless bowl, the ramp against full stress,
 // and the same bits on any number of threads.
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/descent.hpp"

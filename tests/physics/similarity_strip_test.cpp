@@ -101,12 +101,12 @@ void compare(const std::string& name, Simulation simulation, double half_toleran
              double front_tolerance) {
   const Finished f = run(std::move(simulation));
   const Ridge ridge(f.simulation.parts().state.grains());
-  const double way =
+  const double travel =
       0.5 * gravity_m_s2 * (sin35 - std::tan(25 * degree) * cos35) * end_time * end_time;
   const double a = spread();
   const Line half = line(name + ", half-length", ridge.half, a, half_tolerance);
-  const Line front = line(name + ", x99", ridge.x99, way + front_share() * a, front_tolerance);
-  record(line(name + ", centre", ridge.centre, way, reported_only), f);
+  const Line front = line(name + ", x99", ridge.x99, travel + front_share() * a, front_tolerance);
+  record(line(name + ", centre", ridge.centre, travel, reported_only), f);
   std::isnan(half_tolerance) ? record(half, f) : expect_within(half, f);
   std::isnan(front_tolerance) ? record(front, f) : expect_within(front, f);
   expect_conserved(f);

@@ -21,7 +21,7 @@ namespace sturz::test {
 constexpr double contact_density = 2600;
 
 struct Thrown {
-  Vec3 place, velocity;
+  Vec3 position, velocity;
   double radius = 0.5;
 };
 
@@ -76,7 +76,7 @@ class Flight {
   Vec3 velocity(std::size_t i) const {
     return {state.grains().vx[i], state.grains().vy[i], state.grains().vz[i]};
   }
-  Vec3 place(std::size_t i) const {
+  Vec3 position(std::size_t i) const {
     return {state.grains().x[i], state.grains().y[i], state.grains().z[i]};
   }
   Vec3 spin(std::size_t i) const {
@@ -96,7 +96,7 @@ class Flight {
     Vec3 sum(0, 0, 0);
     for (std::size_t i = 0; i < state.grains().size(); ++i)
       sum += state.grains().mass[i] *
-             (place(i).cross(velocity(i)) + 0.4 * radius(i) * radius(i) * spin(i));
+             (position(i).cross(velocity(i)) + 0.4 * radius(i) * radius(i) * spin(i));
     return sum;
   }
   /// Of motion, spins and springs [J].
@@ -111,7 +111,7 @@ class Flight {
  private:
   void put(std::size_t i, const Thrown& t) {
     MovingSet& p = state.grains();
-    p.x[i] = t.place.x(), p.y[i] = t.place.y(), p.z[i] = t.place.z();
+    p.x[i] = t.position.x(), p.y[i] = t.position.y(), p.z[i] = t.position.z();
     p.vx[i] = t.velocity.x(), p.vy[i] = t.velocity.y(), p.vz[i] = t.velocity.z();
     p.mass[i] = 4.0 / 3 * std::numbers::pi * contact_density * t.radius * t.radius * t.radius;
   }
@@ -132,13 +132,13 @@ inline std::vector<Thrown> bag(int n, double speed, std::uint32_t seed = 3) {
   std::vector<Thrown> particles;
   while (static_cast<int>(particles.size()) < n) {
     Thrown t;
-    t.place = 3.5 * Vec3(unit(random), unit(random), unit(random));
+    t.position = 3.5 * Vec3(unit(random), unit(random), unit(random));
     t.radius = 0.45 + 0.15 * unit(random);
     t.velocity =
-        -speed / 3.5 * t.place + 0.3 * speed * Vec3(unit(random), unit(random), unit(random));
-    t.place += Vec3(1, -2, 100);
+        -speed / 3.5 * t.position + 0.3 * speed * Vec3(unit(random), unit(random), unit(random));
+    t.position += Vec3(1, -2, 100);
     const bool free = std::none_of(particles.begin(), particles.end(), [&](const Thrown& o) {
-      return (o.place - t.place).norm() < o.radius + t.radius + 0.02;
+      return (o.position - t.position).norm() < o.radius + t.radius + 0.02;
     });
     if (free) particles.push_back(t);
   }

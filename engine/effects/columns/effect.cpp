@@ -102,7 +102,7 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   expect(!settings.base.empty() && settings.base.size() == settings.earth_pressure.size(),
          "base and earth pressure for every zone");
   for (const FieldKey* key : {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
-                              &fields::turning, &fields::ground, &fields::velocity_before})
+                              &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
     p.add(*key);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
   if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))

@@ -19,7 +19,7 @@ class BasePass final : public Pass {
   Stage stage() const override { return Stage::contact; }
 
   void apply(State& s, double dt) override {
-    const double kick = kick_length(s, dt);
+    const double kick = kick_interval(s, dt);
     MovingSet& p = s.sets[flow_->set];
     const GroundColumns ground(p);
     const auto& g_n = p.scalar(fields::normal_gravity);
@@ -95,7 +95,7 @@ class BasePass final : public Pass {
 
 struct DriftSums {
   double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a rim that is a wall
-  double settled = 0;                    // what the kicks had left out of gravity's work
+  double projected = 0;                    // work of gravity that kicks left out
   double later = 0;                      // sum of m dz of the second half of the step
   bool any_leaving = false;
 };
@@ -112,7 +112,7 @@ class ColumnMotion final : public Pass {
     const double v = s.sets[flow_->set].motion.max_speed, g = s.gravity,
                  cell = s.terrain.grid().cell_m;
     out.push_back({"terrain cell", cell / (v + std::sqrt(v * v + g * cell))});
-    // From rest with short steps that may grow: where the step changes fast, kicks and ways do not
+    // From rest with short steps that may grow: where the step changes fast, kicks and displacements do not
     // fit together, and energy is lost or found.
     if (s.n_steps == 0) out.push_back({"start", flow_->start_dt});
   }
@@ -120,13 +120,13 @@ class ColumnMotion final : public Pass {
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[flow_->set];
     if (p.any_leaving) remove_outside(s, p, keep_);
-    refresh_motion(s, p, kick_length(s, dt));
-    drift(s, p, dt);
+    refresh_motion(s, p, kick_interval(s, dt));
+    advance(s, p, dt);
   }
 
  private:
   /// In separate loops: the arithmetic four columns side by side, the look-ups one by one.
-  void drift(const State& s, MovingSet& p, double dt) {
+  void advance(const State& s, MovingSet& p, double dt) {
     const GroundColumns ground(p);
     p.fate.resize(p.size());
     climb_.resize(p.size());
@@ -137,27 +137,27 @@ class ColumnMotion final : public Pass {
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
           turn_to_mid_step(p, ground, dt, begin, end);
           if (rim) hold_at_rim(s, p, ground, dt, begin, end, out);
-          go(s, p, ground, dt, begin, end, out);
-          settle(p, ground, s.gravity, dt, begin, end, out);
+          drift(s, p, ground, dt, begin, end, out);
+          project(p, ground, s.gravity, dt, begin, end, out);
         },
         [](DriftSums& total, const DriftSums& block) {
           total.risen += block.risen;
           total.stopped_energy += block.stopped_energy;
-          total.settled += block.settled;
+          total.projected += block.projected;
           total.later += block.later;
           total.any_leaving |= block.any_leaving;
         });
     p.any_leaving = sums.any_leaving;
-    // The next kick counts the second half of the way: until then the books leave it out too.
+    // The next kick counts the second half of the displacement: until then the books leave it out too.
     p.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
     later_rise_ = sums.later;
     p.ledger.lost_energy += sums.stopped_energy;
-    p.ledger.gravity_work -= sums.settled;
+    p.ledger.gravity_work -= sums.projected;
     // Both were taken after the step's works were summed up.
-    p.ledger.kinetic -= sums.stopped_energy + sums.settled;
+    p.ledger.kinetic -= sums.stopped_energy + sums.projected;
   }
 
-  /// The slopes at the middle of the step make the way second order.
+  /// The slopes at the middle of the step make the displacement second order.
   void turn_to_mid_step(ParticleSet& p, const GroundColumns& ground, double dt, std::size_t begin,
                         std::size_t end) {
     const double *east = ground.component[0], *north = ground.component[1];
@@ -189,7 +189,7 @@ class ColumnMotion final : public Pass {
     }
   }
 
-  void go(const State& s, MovingSet& p, const GroundColumns& ground, double dt, std::size_t begin,
+  void drift(const State& s, MovingSet& p, const GroundColumns& ground, double dt, std::size_t begin,
           std::size_t end, DriftSums& out) {
     for (std::size_t i = begin; i < end; ++i) {
       const double z = p.z[i];
@@ -205,25 +205,25 @@ class ColumnMotion final : public Pass {
   /// Turns to the slopes at the end of the step. Kicks count gravity's work by the slopes at both
   /// ends of a step; over a kink or a cliff the ground fell or rose by something else. The speed
   /// pays the difference, so a column never has more energy than its fall gave it.
-  void settle(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
+  void project(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
               std::size_t begin, std::size_t end, DriftSums& out) const {
     const double *east = ground.component[0], *north = ground.component[1];
     const double *climb = climb_.data(), *rise = rise_.data(), *mass = p.mass.data();
     double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data();
-    double settled = 0, later = 0, risen = 0;
+    double projected = 0, later = 0, risen = 0;
     const double half = 0.5 * dt;
-#pragma omp simd reduction(+ : settled, later, risen)
+#pragma omp simd reduction(+ : projected, later, risen)
     for (std::size_t i = begin; i < end; ++i) {
       const Velocity v = Velocity{vx[i], vy[i], vz[i]}.turned(east[i], north[i]);
       const double v2 = v.norm2(), missed = gravity * (rise[i] - half * (climb[i] + v.z));
       const double paid = v2 - 2 * missed, left = v2 > 0 && paid > 0 ? paid : 0;
       const double share = v2 > 0 ? left / v2 : 0, factor = std::sqrt(share);
       vx[i] = v.x * factor, vy[i] = v.y * factor, vz[i] = v.z * factor;
-      settled += 0.5 * mass[i] * (v2 - left);
+      projected += 0.5 * mass[i] * (v2 - left);
       later += mass[i] * half * vz[i];
       risen += mass[i] * rise[i];
     }
-    out.settled += settled;
+    out.projected += projected;
     out.later += later;
     out.risen += risen;
   }

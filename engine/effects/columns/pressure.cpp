@@ -37,7 +37,7 @@ class CellPass final : public Pass {
 
 /// Gathers the neighbour records and finds how hard the ground presses.
 ///
-/// The reaction of the ground is g cos + v.kappa.v, spread along the way over the column's own
+/// The reaction of the ground is g cos + v.kappa.v, spread along the path over the column's own
 /// thickness or the smoothing length: a flow thicker than a corner's radius goes round it, and
 /// still takes the whole momentum of the turn, q' = v.kappa.v - q |v|/l.
 class GatherPass final : public Pass {
@@ -50,8 +50,8 @@ class GatherPass final : public Pass {
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[flow_->set];
     const GroundColumns ground(p);
-    const double kick = kick_length(s, dt);
-    p.ledger.take_off += ordered_reduce(
+    const double kick = kick_interval(s, dt);
+    p.ledger.detachment += ordered_reduce(
         p.size(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& off) {
           press(p, ground, s.gravity, kick, begin, end, off);
@@ -72,7 +72,7 @@ class GatherPass final : public Pass {
     auto& before = p.components(fields::velocity_before);
     double *bx = before[0].data(), *by = before[1].data(), *bz = before[2].data();
     double* normal_gravity = p.scalar(fields::normal_gravity).data();
-    double* turning = p.scalar(fields::turning).data();
+    double* centripetal = p.scalar(fields::centripetal_momentum).data();
     const double* support_radius = p.scalar(fields::support_radius).data();
     const double* thickness = p.scalar(fields::thickness).data();
     double airborne = 0;
@@ -83,9 +83,9 @@ class GatherPass final : public Pass {
       const double upright = 1 / std::sqrt(1 + east[i] * east[i] + north[i] * north[i]);
       const double half_radius = 0.5 * support_radius[i], h = thickness[i];
       const double per_s = std::sqrt(x * x + y * y + z * z) / (h > half_radius ? h : half_radius);
-      const double bend = ee[i] * x * x + 2 * en[i] * x * y + nn[i] * y * y;
-      const double turned = (turning[i] + kick * upright * bend) / (1 + kick * per_s);
-      turning[i] = turned;
+      const double curvature = ee[i] * x * x + 2 * en[i] * x * y + nn[i] * y * y;
+      const double turned = (centripetal[i] + kick * upright * curvature) / (1 + kick * per_s);
+      centripetal[i] = turned;
       const double reaction = upright * gravity + per_s * turned;
       normal_gravity[i] = reaction > 0 ? reaction : 0;
       airborne += reaction < 0 ? mass[i] * kick : 0;
@@ -152,14 +152,14 @@ class SweepPass final : public Pass {
                     [&](std::size_t begin, std::size_t end) {
                       loops.columns(view, constants, out, begin, end);
                     });
-    take_in(s, p, out, dt);
+    accumulate(s, p, out, dt);
     if (!s.domain.walls.empty()) mirror_at_walls(s, p);
   }
   std::size_t bytes() const override { return 7 * sizeof(float) * flow_->cells.size(); }
 
  private:
   /// Sums back to the columns: accelerations, thickness, support radius, earth pressure, limits.
-  void take_in(const State& s, MovingSet& p, const ColumnSweepOutput& out, double dt) {
+  void accumulate(const State& s, MovingSet& p, const ColumnSweepOutput& out, double dt) {
     const ColumnCells& cells = flow_->cells;
     const DepthAveragedSettings& set = flow_->settings;
     auto& thickness = p.scalar(fields::thickness);

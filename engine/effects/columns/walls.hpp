@@ -30,14 +30,14 @@ class HalfSupport {
 
 /// A column as a wall meets it.
 struct ColumnAtWall {
-  Vec3 place, ground_normal;
+  Vec3 position, ground_normal;
   double support_radius = 1, thickness = 1, lateral = 0;  ///< [m], [m], K g_n [m/s^2]
 };
 
 class ColumnWalls {
  public:
-  /// Factor on the summed thickness of a column at `place`.
-  double thickness_factor(const Domain&, double time, const Vec3& place, double support_radius) const;
+  /// Factor on the summed thickness of a column at `position`.
+  double thickness_factor(const Domain&, double time, const Vec3& position, double support_radius) const;
   /// Acceleration by what one wall mirrors, in a corner only the part in front of the others
   /// [m/s^2].
   Vec3 pressure(const Domain&, double time, const Wall&, const ColumnAtWall&) const;
@@ -51,7 +51,7 @@ class ColumnWalls {
 
  private:
   /// Share of a column's support before all walls that stand, but one.
-  double share_in_front(const Domain&, double time, const Vec3& place, double support_radius,
+  double share_in_front(const Domain&, double time, const Vec3& position, double support_radius,
                         const Wall* but) const;
 
   HalfSupport support_;

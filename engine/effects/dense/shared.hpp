@@ -62,7 +62,7 @@ inline std::string_view dispersed_effect(const GrainStressSettings& g) {
 
 /// c0 of a mass that starts with the velocities it has, where it follows the flow [m/s].
 double sound_speed_at_start(const ParticleSet&, const GrainStressSettings&);
-/// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole way down [m/s]
+/// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole descent [m/s]
 void add_sound_speed(Step&, const std::shared_ptr<GrainStress>&, double planned);
 
 }  // namespace sturz

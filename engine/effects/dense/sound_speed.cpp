@@ -11,7 +11,7 @@ namespace sturz {
 namespace {
 
 /// Keeps c0 at `factor` times the present largest speed (so the Mach number stays at 1/factor),
-/// never under what the mass needs at rest and never over twice what its way down asks for.
+/// never under what the mass needs at rest and never over twice what its descent asks for.
 ///
 /// A change keeps every pressure and stress as it is: rho_new = rho_ref (1 + p/K_new). Elastic
 /// energy p^2/2K + tau^2/2G goes with 1/c0^2; the difference is booked as numerical.

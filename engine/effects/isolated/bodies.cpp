@@ -65,14 +65,14 @@ void press_all(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& 
 void measure(IsolatedContact& c, const std::vector<IsolatedBody>& bodies) {
   const IsolatedBody& a = bodies[c.a];
   if (c.b == IsolatedContact::ground) {
-    c.overlap = a.radius - c.height - (a.place - a.start).dot(c.normal);
+    c.overlap = a.radius - c.height - (a.position - a.start).dot(c.normal);
     return;
   }
   const IsolatedBody& b = bodies[c.b];
-  const Vec3 way = a.place - b.place - c.image;
-  const double distance = way.norm();
+  const Vec3 offset = a.position - b.position - c.image;
+  const double distance = offset.norm();
   c.overlap = a.radius + b.radius - distance;
-  if (distance > 0) c.normal = way / distance;
+  if (distance > 0) c.normal = offset / distance;
 }
 
 void step_bodies(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& contacts, double dt,
@@ -82,7 +82,7 @@ void step_bodies(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>
   for (int k = 0; k < n; ++k) {
     for (IsolatedBody& b : bodies) {
       kick(b, 0.5 * h);
-      b.place += h * b.velocity;
+      b.position += h * b.velocity;
     }
     press_all(bodies, contacts, h);
     for (IsolatedBody& b : bodies) kick(b, 0.5 * h);

@@ -14,7 +14,7 @@ class ContactMemory {
  public:
   /// Gives contacts their tangential springs back and measures them. What an overlap grew by since
   /// then came from no approach (a grain became isolated, the ground's plane jumped): that part
-  /// carries no load until it has opened again, so it sets no energy free. Rounding of places
+  /// carries no load until it has opened again, so it sets no energy free. Rounding of positions
   /// and of the ground's plane, 1e-4 of the radius, is left to the springs.
   void recall(std::vector<IsolatedContact>& contacts, const std::vector<IsolatedBody>& bodies) const {
     for (IsolatedContact& c : contacts) {

@@ -124,7 +124,7 @@ class IsolatedContacts final : public Pass {
     body_of_[k] = static_cast<std::uint32_t>(bodies_.size());
     IsolatedBody& b = bodies_.emplace_back();
     b.particle = static_cast<std::uint32_t>(p.n_listed + k);
-    b.start = b.place = sphere.place;
+    b.start = b.position = sphere.position;
     b.velocity = sphere.velocity;
     for (int c = 0; c < 3; ++c) b.spin[c] = spin_.component[c][b.particle];
     b.radius = sphere.radius;
@@ -164,7 +164,7 @@ class IsolatedContacts final : public Pass {
     return static_cast<int>(std::ceil(dt / fine));
   }
 
-  /// Velocities as they are now, and places from which the drift arrives where the bodies are.
+  /// Velocities as they are now, and positions from which the drift arrives where the bodies are.
   /// The work is taken with the mean velocity of the step, as Ledger has it: of what the kick
   /// and the ground did before, only the kick's work is booked later, with the velocity that
   /// this pass leaves.
@@ -178,7 +178,7 @@ class IsolatedContacts final : public Pass {
       if (later) mean -= 0.5 * dt * Vec3(p.ax[i], p.ay[i], p.az[i] - gravity);
       work += b.mass * change.dot(mean);
       p.vx[i] = b.velocity.x(), p.vy[i] = b.velocity.y(), p.vz[i] = b.velocity.z();
-      const Vec3 from = b.place - dt * b.velocity;
+      const Vec3 from = b.position - dt * b.velocity;
       risen += b.mass * (from.z() - p.z[i]);
       p.x[i] = from.x(), p.y[i] = from.y(), p.z[i] = from.z();
       for (int c = 0; c < 3; ++c) spin_.component[c][i] = b.spin[c];

@@ -28,7 +28,7 @@ struct IsolatedContactSettings {
 /// (3) [rad/s]. To be added after `add_terrain_contact`, whose impulses come first.
 ///
 /// Only particles that touch within the step, and those near them, are stepped finely, in
-/// n = ceil(dt / min(0.2 T_R, t_c/20)) steps of velocity Verlet; their place is handed on such
+/// n = ceil(dt / min(0.2 T_R, t_c/20)) steps of velocity Verlet; their position is handed on such
 /// that the drift of the step ends where the fine steps ended. The others are not touched at all.
 ///
 /// What a particle overlaps at the moment it becomes isolated carries no load until it has opened, so

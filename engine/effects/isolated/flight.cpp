@@ -101,7 +101,7 @@ class NeighborhoodSurvey {
       around_ = among_grains;
       for (const NearPair& pair : pairs) {
         const double r2 =
-            (spheres[pair.a].place - spheres[pair.b].place - pair.image).squaredNorm();
+            (spheres[pair.a].position - spheres[pair.b].position - pair.image).squaredNorm();
         if (r2 >= support_radius_ * support_radius_ || !rejoins[pair.a] || !rejoins[pair.b]) continue;
         count(around_[pair.a], r2);
         count(around_[pair.b], r2);

@@ -32,12 +32,12 @@ void IsolatedSearch::add_images(const Period& period, int axis, double margin) {
   for (std::size_t k = 0; k < n; ++k) {
     Entry image = entries_[k];
     image.own = false;
-    if (image.place[axis] < period.min + margin) {
-      image.place[axis] += period.length();
-      image.place.z() += period.rise;
-    } else if (image.place[axis] > period.max - margin) {
-      image.place[axis] -= period.length();
-      image.place.z() -= period.rise;
+    if (image.position[axis] < period.min + margin) {
+      image.position[axis] += period.length();
+      image.position.z() += period.rise;
+    } else if (image.position[axis] > period.max - margin) {
+      image.position[axis] -= period.length();
+      image.position.z() -= period.rise;
     } else {
       continue;
     }
@@ -49,17 +49,17 @@ void IsolatedSearch::enter(const std::vector<IsolatedSphere>& spheres, const Dom
                          double margin) {
   entries_.clear();
   for (std::uint32_t k = 0; k < spheres.size(); ++k) {
-    Entry e{0, k, true, spheres[k].place};
-    domain.wrap(e.place.x(), e.place.y(), e.place.z());
+    Entry e{0, k, true, spheres[k].position};
+    domain.wrap(e.position.x(), e.position.y(), e.position.z());
     entries_.push_back(e);
   }
   add_images(domain.x, 0, margin);
   add_images(domain.y, 1, margin);
-  origin_ = entries_.front().place;
+  origin_ = entries_.front().position;
   for (const Entry& e : entries_)
     for (int axis = 0; axis < 3; ++axis)
-      if (e.place[axis] < origin_[axis]) origin_[axis] = e.place[axis];
-  for (Entry& e : entries_) e.cell = cell_of(e.place, 0, 0, 0);
+      if (e.position[axis] < origin_[axis]) origin_[axis] = e.position[axis];
+  for (Entry& e : entries_) e.cell = cell_of(e.position, 0, 0, 0);
   std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
     return std::tie(a.cell, a.sphere) < std::tie(b.cell, b.sphere);
   });
@@ -71,9 +71,9 @@ bool IsolatedSearch::still_good(const std::vector<IsolatedSphere>& spheres, doub
   if (!(slack > 0)) return false;
   for (std::size_t k = 0; k < spheres.size(); ++k) {
     const IsolatedSphere &now = spheres[k], &then = searched_[k];
-    // A wrapped place has gone far, a NaN anywhere.
+    // A wrapped position is far off, a NaN anywhere.
     if (now.id != then.id || now.radius != then.radius) return false;
-    if (!((now.place - then.place).squaredNorm() <= slack * slack)) return false;
+    if (!((now.position - then.position).squaredNorm() <= slack * slack)) return false;
   }
   return true;
 }
@@ -86,7 +86,7 @@ const std::vector<NearPair>& IsolatedSearch::find(const std::vector<IsolatedSphe
   for (const NearPair& p : within_) {
     const IsolatedSphere &a = spheres[p.a], &b = spheres[p.b];
     const double limit = a.radius + b.radius + max_gap;
-    if ((b.place + p.image - a.place).squaredNorm() < limit * limit) pairs_.push_back(p);
+    if ((b.position + p.image - a.position).squaredNorm() < limit * limit) pairs_.push_back(p);
   }
   return pairs_;
 }
@@ -108,15 +108,15 @@ void IsolatedSearch::search(const std::vector<IsolatedSphere>& spheres, double m
     const IsolatedSphere& a = spheres[e.sphere];
     for (int row = 0; row < 9; ++row) {
       const int dy = row % 3 - 1, dz = row / 3 - 1;
-      const std::uint64_t last = cell_of(e.place, 1, dy, dz);
+      const std::uint64_t last = cell_of(e.position, 1, dy, dz);
       auto other =
-          std::lower_bound(entries_.begin(), entries_.end(), cell_of(e.place, -1, dy, dz), before);
+          std::lower_bound(entries_.begin(), entries_.end(), cell_of(e.position, -1, dy, dz), before);
       for (; other != entries_.end() && other->cell <= last; ++other) {
         const IsolatedSphere& b = spheres[other->sphere];
         if (a.id >= b.id) continue;  // found from the other side
         const double limit = a.radius + b.radius + searched_gap_;
-        if (!((e.place - other->place).squaredNorm() < limit * limit)) continue;
-        const Vec3 image = (other->place - b.place) - (e.place - a.place);
+        if (!((e.position - other->position).squaredNorm() < limit * limit)) continue;
+        const Vec3 image = (other->position - b.position) - (e.position - a.position);
         within_.push_back({e.sphere, other->sphere, image});
       }
     }
@@ -149,10 +149,10 @@ std::uint32_t IsolatedGroups::root(std::uint32_t a) {
 }
 
 bool may_touch(const IsolatedSphere& a, const IsolatedSphere& b, const Vec3& image, double dt) {
-  const Vec3 way = b.place + image - a.place, speed = b.velocity - a.velocity;
+  const Vec3 offset = b.position + image - a.position, speed = b.velocity - a.velocity;
   const double contact_distance = a.radius + b.radius, v2 = speed.squaredNorm();
-  const double t = v2 > 0 ? std::clamp(-way.dot(speed) / v2, 0.0, dt) : 0;  // nearest
-  return (way + t * speed).squaredNorm() <= contact_distance * contact_distance;
+  const double t = v2 > 0 ? std::clamp(-offset.dot(speed) / v2, 0.0, dt) : 0;  // nearest
+  return (offset + t * speed).squaredNorm() <= contact_distance * contact_distance;
 }
 
 }  // namespace sturz

@@ -12,16 +12,16 @@ namespace sturz {
 
 /// A isolated particle as a contact sees it.
 struct IsolatedSphere {
-  Vec3 place{0, 0, 0};     ///< [m]
+  Vec3 position{0, 0, 0};     ///< [m]
   Vec3 velocity{0, 0, 0};  ///< [m/s]
   double radius = 0;       ///< [m]
   std::uint32_t id = 0;    ///< of the particle
 };
 
-/// Two spheres by their place in the list; a has the smaller id.
+/// Two spheres by their index in the list; a has the smaller id.
 struct NearPair {
   std::uint32_t a = 0, b = 0;
-  Vec3 image{0, 0, 0};  ///< to add to b's place: periods between them [m]
+  Vec3 image{0, 0, 0};  ///< to add to b's position: periods between them [m]
 };
 
 class IsolatedSearch {
@@ -39,14 +39,14 @@ class IsolatedSearch {
     std::uint64_t cell = 0;
     std::uint32_t sphere = 0;
     bool own = true;  // false: an image beyond the box
-    Vec3 place{0, 0, 0};
+    Vec3 position{0, 0, 0};
   };
 
   bool still_good(const std::vector<IsolatedSphere>&, double max_gap) const;
   void search(const std::vector<IsolatedSphere>&, double max_gap, const Domain&);
   void enter(const std::vector<IsolatedSphere>&, const Domain&, double margin);
   void add_images(const Period&, int axis, double margin);
-  std::uint64_t cell_of(const Vec3& place, int dx, int dy, int dz) const;
+  std::uint64_t cell_of(const Vec3& position, int dx, int dy, int dz) const;
 
   Vec3 origin_{0, 0, 0};
   double cell_ = 1;
@@ -72,8 +72,8 @@ class IsolatedGroups {
   std::vector<std::uint8_t> wanted_;
 };
 
-/// Whether two spheres on straight ways touch within dt, or do already.
-/// \param image  to add to b's place [m]
+/// Whether two spheres on straight paths touch within dt, or do already.
+/// \param image  to add to b's position [m]
 bool may_touch(const IsolatedSphere& a, const IsolatedSphere& b, const Vec3& image, double dt);
 
 }  // namespace sturz

@@ -109,10 +109,10 @@ TEST(Arrivals, GiveTheSameBitsOnTwoThreads) {
 
 /// Columns get ground, support and thickness of their own when they enter.
 TEST(Arrivals, ColumnsEnterOnTheGround) {
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) places.emplace_back(i + 0.5, j + 0.5, 0);
-  HandMade made = columns_on(even_ground(60, 0.3), places, 1.0, {0, 0, 0});
+    for (int j = 0; j < 6; ++j) positions.emplace_back(i + 0.5, j + 0.5, 0);
+  HandMade made = columns_on(even_ground(60, 0.3), positions, 1.0, {0, 0, 0});
   MovingSet& p = made.state.grains();
   for (int step = 0; step < 20; ++step) made.advance();
   for (int k = 0; k < 12; ++k)

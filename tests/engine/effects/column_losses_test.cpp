@@ -133,10 +133,10 @@ Domain gate(double remove_at_s) {
 }
 
 TEST(ColumnLosses, AWallHoldsColumnsUntilItIsRemoved) {
-  const auto places = block({3, 3, 1}, {-2, -1.5, 0});
-  HandMade shut = columns_on(even_ground(30), places, 0.7, {6, 0, 0}, gate(1e9));
-  HandMade open = columns_on(even_ground(30), places, 0.7, {6, 0, 0}, gate(0.2));
-  HandMade free = columns_on(even_ground(30), places, 0.7, {6, 0, 0});
+  const auto positions = block({3, 3, 1}, {-2, -1.5, 0});
+  HandMade shut = columns_on(even_ground(30), positions, 0.7, {6, 0, 0}, gate(1e9));
+  HandMade open = columns_on(even_ground(30), positions, 0.7, {6, 0, 0}, gate(0.2));
+  HandMade free = columns_on(even_ground(30), positions, 0.7, {6, 0, 0});
   auto farthest = [](HandMade& made) {
     for (int n = 0; n < 80; ++n) {
       made.advance();

@@ -151,9 +151,9 @@ TEST(GrainStates, AnIsolatedParticleFollowsItsParabola) {
   EXPECT_NEAR(state.grains().x[i], x0 + vx * (state.time - t0), 1e-12);
 }
 
-/// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others
+/// Puts the first grains at rest on `positions`, in units of dx about a point high up, and the others
 /// far apart from everybody; all as isolated particles. \return how many are taken back as grains
-std::size_t taken_back(const std::vector<Vec3>& places) {
+std::size_t taken_back(const std::vector<Vec3>& positions) {
   Simulation simulation = explosion(IsolatedContactLaw::none);
   State& state = simulation.parts().state;
   MovingSet& p = state.grains();
@@ -162,7 +162,7 @@ std::size_t taken_back(const std::vector<Vec3>& places) {
   std::fill(membership.begin(), membership.end(), in_flight);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double above = 10.0 * static_cast<double>(i);
-    const Vec3 at = i < places.size() ? places[i] : Vec3(0, 0, 10 + above);
+    const Vec3 at = i < positions.size() ? positions[i] : Vec3(0, 0, 10 + above);
     p.x[i] = dx * at.x(), p.y[i] = dx * at.y(), p.z[i] = 100 + dx * at.z();
     p.vx[i] = p.vy[i] = p.vz[i] = 0;
     for (auto& before : p.components(fields::velocity_before)) before[i] = 0;
@@ -185,7 +185,7 @@ TEST(GrainStates, AParticleRejoinsOnlyAmongThoseThatRejoinToo) {
   EXPECT_EQ(taken_back(crowd), crowd.size());
 }
 
-/// A mass looser than a packing that carries load is set down as that packing.
+/// A mass looser than a packing that carries load is deposited as that packing.
 TEST(GrainStates, ALooseReleaseIsSetDownDense) {
   Scenario loose = with_states(pile(1)), dense = loose;
   loose.grains->solid_fraction = Uncertain(0.5);

@@ -14,9 +14,9 @@
 namespace sturz {
 namespace {
 
-IsolatedBody body(const Vec3& place, const Vec3& velocity, std::uint32_t id) {
+IsolatedBody body(const Vec3& position, const Vec3& velocity, std::uint32_t id) {
   IsolatedBody b;
-  b.start = b.place = place;
+  b.start = b.position = position;
   b.velocity = velocity;
   b.radius = 0.5;
   b.mass = 1000;
@@ -94,7 +94,7 @@ TEST(IsolatedBodies, HandTheirContactsOnFromStepToStep) {
     parts = begin;
     ContactMemory memory;
     for (int part = 0; part < 4; ++part) {
-      for (IsolatedBody& b : parts) b.start = b.place;
+      for (IsolatedBody& b : parts) b.start = b.position;
       contacts = {contact};
       if (part > 0) (forgets ? nothing : memory).recall(contacts, parts);
       step_bodies(parts, contacts, dt / 4, 200);
@@ -118,7 +118,7 @@ IdPairs by_brute_force(const std::vector<IsolatedSphere>& spheres, double max_ga
         for (int j = -q; j <= q; ++j) {
           const Vec3 period(d.x.length() * i, d.y.length() * j, d.x.rise * i + d.y.rise * j);
           const double limit = a.radius + b.radius + max_gap;
-          if (a.id < b.id && (b.place + period - a.place).norm() < limit)
+          if (a.id < b.id && (b.position + period - a.position).norm() < limit)
             all.emplace_back(a.id, b.id);
         }
   std::sort(all.begin(), all.end());
@@ -136,9 +136,9 @@ TEST(IsolatedSearch, FindsEveryPairAndNoOtherWhileTheyMove) {
     }
     std::vector<IsolatedSphere> spheres(200);
     for (std::uint32_t i = 0; i < spheres.size(); ++i) {
-      const Vec3 place(12 * unit(random) - 1, 10 * unit(random) - 2, 6 * unit(random));
+      const Vec3 position(12 * unit(random) - 1, 10 * unit(random) - 2, 6 * unit(random));
       const Vec3 velocity(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
-      spheres[i] = {place, velocity, 0.2 + 0.3 * unit(random), 199 - i};
+      spheres[i] = {position, velocity, 0.2 + 0.3 * unit(random), 199 - i};
     }
     IsolatedSearch search;
     const double max_gap = 0.25;
@@ -146,13 +146,13 @@ TEST(IsolatedSearch, FindsEveryPairAndNoOtherWhileTheyMove) {
       IdPairs found;
       for (const NearPair& p : search.find(spheres, max_gap, domain)) {
         const IsolatedSphere &a = spheres[p.a], &b = spheres[p.b];
-        EXPECT_LT((b.place + p.image - a.place).norm(), a.radius + b.radius + max_gap);
+        EXPECT_LT((b.position + p.image - a.position).norm(), a.radius + b.radius + max_gap);
         found.emplace_back(a.id, b.id);
       }
       EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
       ASSERT_EQ(found, by_brute_force(spheres, max_gap, domain)) << n;
       EXPECT_GT(found.size(), 50u);
-      for (IsolatedSphere& s : spheres) s.place += 0.2 * s.velocity;
+      for (IsolatedSphere& s : spheres) s.position += 0.2 * s.velocity;
     }
     EXPECT_GT(search.n_grids(), 2u);
     EXPECT_LT(search.n_grids(), 8u);
@@ -165,7 +165,7 @@ TEST(IsolatedSearch, SeesNewcomersAndWhoWasWrapped) {
   EXPECT_EQ(search.find(spheres, 0.1, {}).size(), 0u);
   spheres.push_back({{0, 0.9, 0}, {0, 0, 0}, 0.5, 1});
   EXPECT_EQ(search.find(spheres, 0.1, {}).size(), 1u);
-  spheres[1].place.x() -= 8.1;  // as a period takes it back
+  spheres[1].position.x() -= 8.1;  // as a period takes it back
   EXPECT_EQ(search.find(spheres, 0.1, {}).size(), 2u);
   std::swap(spheres[1].id, spheres[2].id);  // storage was sorted anew
   EXPECT_EQ(search.find(spheres, 0.1, {}).size(), 2u);
@@ -177,8 +177,8 @@ TEST(IsolatedSearch, SeesNewcomersAndWhoWasWrapped) {
 TEST(IsolatedSearch, SurvivesParticlesThatRanAway) {
   std::vector<IsolatedSphere> spheres(5);
   const double nowhere = std::numeric_limits<double>::quiet_NaN();
-  const Vec3 places[] = {{0, 0, 0}, {0.9, 0, 0}, {1e300, 0, 0}, {nowhere, 0, 0}, {-1e12, 5, 5}};
-  for (std::uint32_t i = 0; i < 5; ++i) spheres[i] = {places[i], {0, 0, 0}, 0.5, i};
+  const Vec3 positions[] = {{0, 0, 0}, {0.9, 0, 0}, {1e300, 0, 0}, {nowhere, 0, 0}, {-1e12, 5, 5}};
+  for (std::uint32_t i = 0; i < 5; ++i) spheres[i] = {positions[i], {0, 0, 0}, 0.5, i};
   IsolatedSearch search;
   const auto& pairs = search.find(spheres, 0.1, {});
   ASSERT_EQ(pairs.size(), 1u);

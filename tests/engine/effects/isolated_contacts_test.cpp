@@ -31,7 +31,7 @@ TEST(IsolatedContacts, TwoIsolatedParticlesKeepTheirMomentumAndTheBooksClose) {
     ASSERT_LT(std::abs(f.state.grains().ledger.residual()), 1e-12 * kinetic);
   }
   const Ledger& book = f.state.grains().ledger;
-  EXPECT_GT((f.place(1) - f.place(0)).norm(), 1.3 + 0.1);
+  EXPECT_GT((f.position(1) - f.position(0)).norm(), 1.3 + 0.1);
   EXPECT_GT(f.spin(0).norm(), 1);
   EXPECT_GT(book.rotational, 0);
   EXPECT_EQ(book.isolated_elastic, 0);
@@ -66,18 +66,18 @@ TEST(IsolatedContacts, TheStepOfTheRestDoesNotMatter) {
 }
 
 TEST(IsolatedContacts, ArriveWhereTheFineStepsEnded) {
-  // The drift of one long step takes them round the impact: no way is flown through each other.
+  // The drift of one long step takes them round the impact: they do not pass through each other.
   const std::vector<Thrown> two{{{-0.6, 0, 100}, {10, 0, 0}}, {{0.6, 0.2, 100}, {-10, 0, 0}}};
   Flight once(two, free_flight()), often(two, free_flight());
   once.advance(0.05);
   for (int n = 0; n < 100; ++n) often.advance(0.0005);
-  EXPECT_GT((once.place(1) - once.place(0)).norm(), 1);
+  EXPECT_GT((once.position(1) - once.position(0)).norm(), 1);
   EXPECT_GT(once.spin(0).norm(), 1);
   // What steps of t_c/20 leave open, see IsolatedBodies.FineStepsConverge; they meet at 20 m/s.
   for (std::size_t i : {0u, 1u}) {
     EXPECT_LT((once.velocity(i) - often.velocity(i)).norm(), 0.01 * 20);
     EXPECT_LT(0.5 * (once.spin(i) - often.spin(i)).norm(), 0.02 * 20);
-    EXPECT_LT((once.place(i) - often.place(i)).norm(), 0.01 * 20 * 0.05);
+    EXPECT_LT((once.position(i) - often.position(i)).norm(), 0.01 * 20 * 0.05);
   }
 }
 
@@ -142,9 +142,9 @@ TEST(IsolatedContacts, GiveTheSameBitsAgainAndInAnyStorageOrder) {
   ASSERT_LT(f.energy(), 0.8 * f.state.grains().ledger.kinetic_0);
   for (std::size_t k = 0; k < 50; ++k) {
     const std::uint32_t i = h.state.grains().id[k];
-    EXPECT_EQ(f.place(i), g.place(i));
+    EXPECT_EQ(f.position(i), g.position(i));
     EXPECT_EQ(f.spin(i), g.spin(i));
-    EXPECT_EQ(f.place(i), h.place(k));
+    EXPECT_EQ(f.position(i), h.position(k));
     EXPECT_EQ(f.velocity(i), h.velocity(k));
     EXPECT_EQ(f.spin(i), h.spin(k));
   }
@@ -154,12 +154,12 @@ TEST(IsolatedContacts, NobodyNearIsNotTouched) {
   // Bit by bit the flight without the pass: nobody is stepped finely, nothing is booked.
   Flight f({{{-5, 0, 100}, {3, 1, 0}}, {{0.3, 0.1, 101}, {3, 1, 0}}, {{9, 0, 99}, {-0.1, 0, 0}}},
            free_flight());
-  std::vector<Vec3> x{f.place(0), f.place(1), f.place(2)};
+  std::vector<Vec3> x{f.position(0), f.position(1), f.position(2)};
   for (int n = 0; n < 50; ++n) {
     f.advance(0.01);
     for (std::size_t i = 0; i < 3; ++i) {
       for (int c = 0; c < 3; ++c) x[i][c] += 0.01 * f.velocity(i)[c];
-      ASSERT_EQ(f.place(i), x[i]);
+      ASSERT_EQ(f.position(i), x[i]);
     }
   }
   EXPECT_EQ(f.state.grains().ledger.isolated_work, 0);
@@ -170,11 +170,11 @@ TEST(IsolatedContacts, OnlyTheGroupThatTouchesIsStepped) {
   // A far particle keeps its bits while two others collide.
   const Thrown far{{30, 0.1, 100.7}, {0.3, 0.7, 0.1}};
   Flight f({{{-0.6, 0, 100}, {10, 0, 0}}, {{0.6, 0, 100}, {-10, 0, 0}}, far}, free_flight());
-  Vec3 x = far.place;
+  Vec3 x = far.position;
   for (int n = 0; n < 10; ++n) {
     f.advance(0.007);
     for (int c = 0; c < 3; ++c) x[c] += 0.007 * far.velocity[c];
-    ASSERT_EQ(f.place(2), x);
+    ASSERT_EQ(f.position(2), x);
   }
   EXPECT_LT(f.velocity(0).x(), 0);
 }
@@ -192,7 +192,7 @@ TEST(IsolatedContacts, BecomingIsolatedSetsNoEnergyFree) {
   Flight rest({{{0, 0, 100}, {0, 0, 0}}, {{0.75, 0, 100}, {0, 0, 0}}}, free_flight());
   for (int n = 0; n < 20; ++n) rest.advance(0.01);
   EXPECT_EQ(rest.velocity(0), Vec3(0, 0, 0));
-  EXPECT_EQ(rest.place(1), Vec3(0.75, 0, 100));
+  EXPECT_EQ(rest.position(1), Vec3(0.75, 0, 100));
 
   // Flying into each other they bounce from where they are, and later from their full radius.
   Flight meet({{{0, 0, 100}, {2, 0, 0}}, {{0.75, 0, 100}, {-2, 0, 0}}}, free_flight(0.7));
@@ -207,13 +207,13 @@ TEST(IsolatedContacts, BecomingIsolatedSetsNoEnergyFree) {
   Flight part({{{0, 0, 100}, {-1, 0, 0}}, {{0.75, 0, 100}, {1, 0, 0}}}, free_flight(0.7));
   for (int n = 0; n < 10; ++n) part.advance(0.01);
   EXPECT_EQ(part.velocity(1), Vec3(1, 0, 0));
-  const double gap = part.place(1).x() - part.place(0).x();
+  const double gap = part.position(1).x() - part.position(0).x();
   ASSERT_LT(gap, 1);
   part.state.grains().vx = {1, -1};
   double nearest = gap;
   for (int n = 0; n < 40; ++n) {
     part.advance(0.01);
-    nearest = std::min(nearest, part.place(1).x() - part.place(0).x());
+    nearest = std::min(nearest, part.position(1).x() - part.position(0).x());
   }
   EXPECT_GT(nearest, gap - 0.03);
   EXPECT_NEAR(part.velocity(1).x(), 0.7, 0.02);
@@ -255,7 +255,7 @@ TEST(IsolatedContacts, KineticEnergyChangesOnlyByBookedWorksUnderGravity) {
                 1e-10 * book.kinetic_0)
         << n;
   }
-  // What is left is where within a step a hit falls: gravity's work over the way of half a step.
+  // What is left is where within a step a hit falls: gravity's work over the displacement of half a step.
   EXPECT_GT(book.isolated_dissipated(), 0.3 * book.kinetic_0);
   EXPECT_LT(std::abs(book.residual()), 0.005 * book.kinetic_0);
 }
@@ -306,7 +306,7 @@ TEST(IsolatedContacts, ASlidingParticleEndsUpRolling) {
   const double rolling = 5.0 * 5 / 7;
   EXPECT_NEAR(f.velocity(0).x(), rolling, 0.01 * rolling);
   EXPECT_NEAR(f.spin(0).y() * 0.5, rolling, 0.01 * rolling);
-  EXPECT_NEAR(f.place(0).z(), 0.5, 0.01);
+  EXPECT_NEAR(f.position(0).z(), 0.5, 0.01);
   EXPECT_NEAR(f.state.grains().ledger.isolated_dissipated(),
               2.0 / 7 * f.state.grains().ledger.kinetic_0,
               0.02 * f.state.grains().ledger.kinetic_0);

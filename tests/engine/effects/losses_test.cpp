@@ -82,9 +82,9 @@ TEST(Losses, ElasticEnergyIsBookedWhenItsParticleLeaves) {
 
 TEST(Losses, WhatSinksUnderTheGroundIsRemovedOnceWhateverTheRim) {
   for (NodataRule rule : {NodataRule::outflow, NodataRule::wall}) {
-    auto places = block({2, 2, 1});
-    places.push_back({-3, -3, -2.5});  // two and a half spacings under the ground
-    auto made = test::particles_on(even_ground(16, 0, rule), places, {0, 0, 0});
+    auto positions = block({2, 2, 1});
+    positions.push_back({-3, -3, -2.5});  // two and a half spacings under the ground
+    auto made = test::particles_on(even_ground(16, 0, rule), positions, {0, 0, 0});
     for (int n = 0; n < 20; ++n) made.advance();
     EXPECT_EQ(made.state.grains().size(), 4u);
     EXPECT_EQ(made.state.grains().ledger.leaked_mass, 1560);

@@ -172,7 +172,7 @@ TEST(HertzMindlin, ApartThereIsNoForceAndNoMemory) {
   EXPECT_EQ(history, Vec3(0, 0, 0));
 }
 
-TEST(HertzMindlin, SpringFollowsTheTurningPlane) {
+TEST(HertzMindlin, SpringFollowsTheRotatingPlane) {
   ContactPair pair = spheres(1);
   pair.friction = 10;
   Vec3 history(0, 0, 0);

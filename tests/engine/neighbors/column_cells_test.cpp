@@ -303,7 +303,7 @@ TEST(ColumnCells, AreTheSameAfterAnyHistory) {
 }
 
 TEST(ColumnCells, KeepTheStorageOrderWithinACell) {
-  // Three places that columns take turns to stand on: three cells.
+  // Three positions that columns take turns to stand on: three cells.
   Cloud c;
   for (int k = 0; k < 90; ++k) c.add(10 * (k % 3), 0, 4);
   ColumnCells cells;

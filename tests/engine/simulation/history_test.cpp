@@ -105,9 +105,9 @@ TEST(History, TheTableNamesEveryFieldOnceInOrder) {
 
 /// Particles in a row that have moved: particle i by i metres eastward, at i m/s.
 SimulationParts moved_row(int n) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < n; ++i) places.emplace_back(0, i, 0.5 * i);
-  test::HandMade made = test::particles_on(test::even_ground(2 * n + 4), places, {0, 0, 0});
+  std::vector<Vec3> positions;
+  for (int i = 0; i < n; ++i) positions.emplace_back(0, i, 0.5 * i);
+  test::HandMade made = test::particles_on(test::even_ground(2 * n + 4), positions, {0, 0, 0});
   SimulationParts parts{std::move(made.state), std::move(made.step),
                         PeakMaps({.grid = Grid{1, 1, 0, 1, 1, ""}}), StopRule({})};
   MovingSet& p = parts.state.grains();

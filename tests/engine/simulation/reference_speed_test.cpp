@@ -67,7 +67,7 @@ TEST(ReferenceSpeed, NeverFallsBelowTheThicknessOfTheRelease) {
 }
 
 TEST(ReferenceSpeed, NeverExceedsWhatGravityGives) {
-  // Cliffs, take-offs and noise of two metres from node to node.
+  // Cliffs, detachments and noise of two metres from node to node.
   const auto rough = [](double x, double y) {
     const int k = static_cast<int>(x / 5) * 31 + static_cast<int>(y / 5) * 17;
     return 400 - 0.2 * x - 80 * (x > 500) - 60 * (x > 900) + 2 * std::sin(k * 1.7);

@@ -105,8 +105,8 @@ TEST(ZonesOfTheBase, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
   HandMade made = test::particles_on_zones(even_ground(40), {{9, 0, 0.5}}, {6, 0, 0}, repeating(),
                                          {{0.2}, {0.6}}, rough_west);
   advance_to(made, 3);
-  const double way = 1 + (18 - 0.2 * g) / (0.6 * g);
-  EXPECT_NEAR(made.state.grains().x[0], 9 + way, 0.01 * way);
+  const double travel = 1 + (18 - 0.2 * g) / (0.6 * g);
+  EXPECT_NEAR(made.state.grains().x[0], 9 + travel, 0.01 * travel);
 }
 
 DepthAveragedSettings column_bases(std::vector<double> friction, ZoneMap zones) {
@@ -132,9 +132,9 @@ TEST(ZonesOfTheBase, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
   HandMade made = test::columns_on(even_ground(40), {{9, 0, 0}}, 0.5, {6, 0, 0}, repeating(),
                                    column_bases({0.2, 0.6}, rough_west));
   advance_to(made, 3);
-  const double way = 1 + (18 - 0.2 * g) / (0.6 * g);
+  const double travel = 1 + (18 - 0.2 * g) / (0.6 * g);
   const double wrapped = made.state.grains().x[0] + made.state.grains().wrapped_x[0];
-  EXPECT_NEAR(wrapped, 9 + way, 0.005 * way);
+  EXPECT_NEAR(wrapped, 9 + travel, 0.005 * travel);
 }
 
 TEST(ZonesOfTheBase, AnEarthPressureOtherThanOneIsFollowed) {

@@ -57,7 +57,7 @@ struct Meeting {
 };
 
 /// Two particles at `speed` towards each other, followed until long after they have touched.
-/// \param offset  of their ways, across [m]; \param steps  fine steps in one of the scene
+/// \param offset  of their paths, across [m]; \param steps  fine steps in one of the scene
 Meeting meet(const Scene& scene, double speed, double offset, double steps, double start) {
   const Softened soft(2);
   const double dt = steps * soft.fine_step, z = scene.ground ? radius_m : 100;
@@ -74,10 +74,10 @@ Meeting meet(const Scene& scene, double speed, double offset, double steps, doub
     (now > last ? pushed : pulled) += std::abs(now - last);
     last = now;
   }
-  const Vec3 way = f.place(1) - f.place(0), separation = f.velocity(1) - f.velocity(0);
+  const Vec3 offset = f.position(1) - f.position(0), separation = f.velocity(1) - f.velocity(0);
   m.restitution = last / speed;
   m.pulling_share = pulled / pushed;
-  m.separated = way.norm() > 2 * radius_m && separation.dot(way) > 0;
+  m.separated = offset.norm() > 2 * radius_m && separation.dot(offset) > 0;
   m.energy_gained = f.energy() / f.state.grains().ledger.kinetic_0 - 1;
   return m;
 }
@@ -140,7 +140,7 @@ Worst against_the_ground() {
       for (double t = 0; t < 5 * dt + 3 * impact_duration(soft.law, speed); t += dt) f.advance(dt);
       const double back = f.velocity(0).z() / speed;
       if (speed > 0.5e-3) worst.off = std::max(worst.off, std::abs(back - e.set));
-      worst.together += back > 0 && f.place(0).z() > radius_m ? 0 : 1;
+      worst.together += back > 0 && f.position(0).z() > radius_m ? 0 : 1;
     }
   }
   return worst;
