@@ -126,7 +126,7 @@ struct BasalSpec {
   Uncertain cohesion_pa{0};
   Uncertain restitution{0.2};                           ///< full_stress only
   std::optional<Uncertain> turbulent_coefficient_m_s2;  ///< Voellmy's xi; depth_averaged only
-  std::optional<Uncertain> viscosity_pa_s;   ///< laminar drag at the base; depth_averaged only
+  std::optional<Uncertain> viscosity_pa_s;   ///< laminar drag at the bed; depth_averaged only
   std::optional<Uncertain> yield_stress_pa;  ///< Bingham, with viscosity_pa_s; depth_averaged only
   std::vector<BasalZone> zones;              ///< where two overlap, the later one holds
   bool operator==(const BasalSpec&) const = default;

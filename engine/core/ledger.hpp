@@ -39,9 +39,9 @@ struct Ledger {
   double isolated_work = 0;    ///< by contacts of isolated particles, on their flight
   /// Now: spins of isolated particles, springs of their contacts.
   double rotational = 0, isolated_elastic = 0;
-  double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the base
+  double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the bed
   double rest_damping = 0;  ///< dissipated below the speed of rest (docs/physics.md I4)
-  double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the rim
+  double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the domain boundary
 
   double detachment = 0;  ///< mass times time on ground that curves away faster than it falls [kg s]
 

@@ -42,7 +42,7 @@ class NeighborLists {
   void rebuild(ParticleSet& set, const Domain& domain, int threads) {
     rebuild(set, domain, threads, set.size());
   }
-  /// The same for the first `n_listed` particles; the others keep their places behind them.
+  /// The same for the first `n_listed` particles; the others keep their positions behind them.
   void rebuild(ParticleSet&, const Domain&, int threads, std::size_t n_listed);
   /// Calls visit(record, r^2 [m^2]) for every listed particle or image within the support of a
   /// point, in a fixed order. An image's record stands for its source.

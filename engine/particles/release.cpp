@@ -39,7 +39,7 @@ std::size_t stack_size(double thickness, double spacing) {
 /// The even stack h/k (1/2, 3/2, ...) would put the lowest particle nearer to the bed than the
 /// contact distance dx/2 wherever the layers are thinner than dx or the bed is inclined (vertical
 /// dx/2 is dx/2 n_z along the normal): the contact spring would start compressed and throw the
-/// mass up. So the lowest starts at contact distance, the highest keeps its place, and the masses,
+/// mass up. So the lowest starts at contact distance, the highest keeps its position, and the masses,
 /// which carry the volume, stay as they are.
 struct Stack {
   double first, last;
@@ -90,7 +90,7 @@ class Filler {
     out_.thickness.push_back(c.thickness_m);
   }
 
-  /// A jittered point above the bed, counted by its place on the lattice so that the same particle
+  /// A jittered point above the bed, counted by its index on the lattice so that the same particle
   /// gets the same jitter whatever the extent of the release.
   Vec3 place(const ReleaseColumn& c, std::size_t layer, double x, double y, double offset) const {
     Vec3 p = jittered(c, layer, x, y, offset, settings_.jitter * settings_.spacing_m);
@@ -145,7 +145,7 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
           "release: spacing and bulk density must be positive (they give a particle its volume). "
           "Check numerics.spacing_m and the grains' density.");
   require(s.jitter >= 0 && s.jitter < 0.5,
-          "release: the jitter must be in 0..0.5 spacings (more would swap lattice places). Check "
+          "release: the jitter must be in 0..0.5 spacings (more would swap lattice positions). Check "
           "numerics.jitter.");
   const ReleaseColumns columns = release_columns(thickness, s.spacing_m);
   Release out;

@@ -41,7 +41,7 @@ constexpr std::array scalar_infos{
                &M::max_pressure_pa},
     ScalarInfo{"release_volume_m3", "m3", "bulk volume released", &M::release_volume_m3},
     ScalarInfo{"released_mass_kg", "kg", "mass released", &M::released_mass_kg},
-    ScalarInfo{"lost_mass_kg", "kg", "mass that left through the rim or was removed",
+    ScalarInfo{"lost_mass_kg", "kg", "mass that left through the domain boundary or was removed",
                &M::lost_mass_kg},
     ScalarInfo{"mass_error", "1", "(kept + lost - released) / released mass", &M::mass_error},
     ScalarInfo{"energy_residual", "1", "unexplained energy / released energy", &M::energy_residual},

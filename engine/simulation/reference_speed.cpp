@@ -57,7 +57,7 @@ class MassPoint {
     speed_ = speed;
   }
 
-  /// Largest speed until rest, rim or end.
+  /// Largest speed until rest, domain boundary or end.
   double fastest(double end_time) {
     const double cell = terrain_.grid().cell_m;
     const Grid& grid = terrain_.grid();

@@ -111,7 +111,7 @@ class Terrain {
   SurfaceDistance distance(const Vec3& p, double contact_distance) const;
   /// The same where the ground is known; false off it, and `out` untouched.
   bool distance_inside(const Vec3& p, double contact_distance, SurfaceDistance& out) const;
-  /// No point of the ground and no rim of the known ground is nearer than this [m]: the height
+  /// No point of the ground and no boundary of the known ground is nearer than this [m]: the height
   /// above ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
   double clearance(const Vec3& p) const;
 
@@ -152,7 +152,7 @@ class Terrain {
   double lowest_m_ = 0;
   bool all_known_ = true;  ///< no unknown node anywhere
   int patch_row_ = 0, patch_col_ = 0, patch_rows_ = 0,
-      patch_cols_ = 0;  ///< with a rim of base nodes
+      patch_cols_ = 0;  ///< with a margin of nodes of the base raster
   std::vector<double> patch_;
   std::vector<SurfaceBound> patch_bounds_;
   std::size_t n_changes_ = 0;

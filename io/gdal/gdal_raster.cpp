@@ -19,7 +19,7 @@
 namespace sturz {
 namespace {
 
-/// Cells count as square, and a wanted size as the file's own, when the rim moves less than this
+/// Cells count as square, and a wanted size as the file's own, when the outline moves less than this
 /// share of a cell.
 constexpr double placement_tolerance = 0.01;
 

@@ -32,7 +32,7 @@ const GrainStatesSpec* states_of(const Scenario& s) {
   return s.grains->states ? &*s.grains->states : nullptr;
 }
 
-Called base_called(const Scenario&, const ScenePlan&) {
+Called bed_called(const Scenario&, const ScenePlan&) {
   return {true, "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"};
 }
 Called walls_called(const Scenario& s, const ScenePlan&) {
@@ -111,7 +111,7 @@ void add_columns(SceneParts& p) {
 
 constexpr EffectRow table[] = {
     {EffectName::gravity, always, add_kick},
-    {EffectName::base, base_called, add_bed},
+    {EffectName::bed, bed_called, add_bed},
     {EffectName::walls, walls_called, add_walls},
     {EffectName::grain_stress, grain_stress_called, add_stress, grain_stress_bytes_per_particle},
     {EffectName::kinetic_theory, kinetic_theory_called, add_collisions},
@@ -119,9 +119,9 @@ constexpr EffectRow table[] = {
     {EffectName::isolated, isolated_called, add_isolated},
     {EffectName::isolated_contacts, contacts_called, add_contacts},
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
-    {"turbulent base", turbulence_called},
-    {"viscous base", viscosity_called},
-    {"zones of the base", zones_called},
+    {"turbulent bed", turbulence_called},
+    {"viscous bed", viscosity_called},
+    {"zones of the bed", zones_called},
     {"periodic images", periods_called},
     {EffectName::motion, always, add_drift},
     {"excavation", excavation_called},

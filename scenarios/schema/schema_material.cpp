@@ -81,7 +81,7 @@ void add_basal(std::vector<KeyInfo>& keys) {
                       "Coulomb friction coefficient between mass and ground."}));
   keys.push_back(key(basal, &BasalSpec::pore_pressure_ratio,
                      {"basal.pore_pressure_ratio", uncertain, "1", 0, 0.99,
-                      "Pore pressure over normal stress at the base, r_u."}));
+                      "Pore pressure over normal stress at the bed, r_u."}));
   keys.push_back(key(
       basal, &BasalSpec::cohesion_pa,
       {"basal.cohesion_pa", uncertain, "Pa", 0, no_limit, "Cohesion between mass and ground."}));
@@ -94,7 +94,7 @@ void add_basal(std::vector<KeyInfo>& keys) {
                                 "depth_averaged flow."})));
   keys.push_back(above_min(key(basal, &BasalSpec::viscosity_pa_s,
                                {"basal.viscosity_pa_s", uncertain, "Pa s", 0, no_limit,
-                                "Viscosity of the laminar drag at the base, in depth_averaged "
+                                "Viscosity of the laminar drag at the bed, in depth_averaged "
                                 "flow."})));
   keys.push_back(key(basal, &BasalSpec::yield_stress_pa,
                      {"basal.yield_stress_pa", uncertain, "Pa", 0, no_limit,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-averaged members from the corners of the scenario on ground that wants to break them. No
-// NaN, no column lost but over the rim, the ledger closed, no speed from nowhere.
+// NaN, no column lost but over the domain boundary, the ledger closed, no speed from nowhere.
 // STURZ_HARD_MEMBERS=500 runs as many; the usual number is for every change.
 #include "engine/core/constants.hpp"
 #include "engine/effects/fields.hpp"

@@ -229,7 +229,7 @@ TEST(CylinderCollapse, FrictionViscosityAndBaseAreReported) {
   for (const double angle : {25.0, 40.0}) {
     Scenario s = scene(1, 10);
     s.basal.friction_coefficient = std::tan(angle * degree);
-    reported(fmt::format("base {} deg", angle), s);
+    reported(fmt::format("bed {} deg", angle), s);
   }
 }
 

@@ -62,7 +62,7 @@ class Flight {
       ContactSettings looks;  // a contact distance at which nothing touches: only the look-up counts
       looks.spacing = 1e-6;
       looks.smoothing_length = 4;
-      looks.base = {{0, 0, 0}};
+      looks.bed = {{0, 0, 0}};
       add_terrain_contact(step, 0, looks);
       if (!state.domain.walls.empty()) add_wall_contact(step, 0, looks);
     }

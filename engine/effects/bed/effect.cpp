@@ -94,7 +94,7 @@ class BoundaryPass final : public Pass {
  public:
   BoundaryPass(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {}
   std::string_view name() const override { return "ground and wall support"; }
-  std::string_view effect() const override { return EffectName::base; }
+  std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::boundary; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
@@ -217,7 +217,7 @@ void book(MovingSet& p, const ContactSums& sums) {
 class GroundContact final : public Pass {
  public:
   GroundContact(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {
-    for (const GroundFriction& zone : c.base) {
+    for (const GroundFriction& zone : c.bed) {
       ContactLaw& law = laws_.emplace_back();
       law.stiffness = c.stiffness;
       law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
@@ -229,7 +229,7 @@ class GroundContact final : public Pass {
     }
   }
   std::string_view name() const override { return "terrain contact"; }
-  std::string_view effect() const override { return EffectName::base; }
+  std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::contact; }
 
   void limits(const State&, std::vector<StepLimit>& out) const override {

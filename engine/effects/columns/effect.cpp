@@ -45,7 +45,7 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   }
   const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
   first.rate =
-      std::max(first.rate, set.base[zone].rate(v0.norm(), thickness, set.density, s.gravity));
+      std::max(first.rate, set.bed[zone].rate(v0.norm(), thickness, set.density, s.gravity));
   first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (support_radius * support_radius));
   const Velocity v = Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
   p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
@@ -59,7 +59,7 @@ void start_columns(const State& s, MovingSet& p, ColumnFlow& flow,
   for (std::size_t i = 0; i < p.size(); ++i)
     start_column(s, p, flow, i, vertical_thickness[i], first);
   flow.fastest_wave = std::sqrt(first.wave2);
-  // A small part of the time to cross a cell in free fall, or to be braked by a viscous base; the
+  // A small part of the time to cross a cell in free fall, or to be braked by a viscous bed; the
   // least keeps a film that stands from taking for ever.
   flow.start_dt = std::max(0.05 / first.rate, 1e-5);
 }
@@ -99,8 +99,8 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
                         const DepthAveragedSettings& settings, std::span<const double> thickness) {
   MovingSet& p = state.sets[set];
   expect(thickness.size() == p.size(), "one thickness per column");
-  expect(!settings.base.empty() && settings.base.size() == settings.earth_pressure.size(),
-         "base and earth pressure for every zone");
+  expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
+         "bed and earth pressure for every zone");
   for (const FieldKey* key : {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
                               &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
     p.add(*key);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gravity, lateral pressure and the base do to a column, and where it goes.
+// What gravity, lateral pressure and the bed do to a column, and where it goes.
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/accounts.hpp"
@@ -10,12 +10,12 @@
 namespace sturz {
 namespace {
 
-/// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the base acts last and can stop it.
-class BasePass final : public Pass {
+/// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the bed acts last and can stop it.
+class BedPass final : public Pass {
  public:
-  explicit BasePass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
-  std::string_view name() const override { return "gravity and base"; }
-  std::string_view effect() const override { return EffectName::base; }
+  explicit BedPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "gravity and bed"; }
+  std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::contact; }
 
   void apply(State& s, double dt) override {
@@ -44,7 +44,7 @@ class BasePass final : public Pass {
 
  private:
   struct Works {
-    double friction = 0, contact = 0;  // taken by base and walls; done by walls [J/kg], [J]
+    double friction = 0, contact = 0;  // taken by bed and walls; done by walls [J/kg], [J]
   };
 
   /// \return works with the mean velocity of the step
@@ -54,13 +54,13 @@ class BasePass final : public Pass {
     Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
-    const BasalResistance& base = set.base[flow_->zone_of(s.domain, p, i)];
-    const double plastic = base.plastic(normal_gravity, thickness, set.density);
+    const BasalResistance& bed = set.bed[flow_->zone_of(s.domain, p, i)];
+    const double plastic = bed.plastic(normal_gravity, thickness, set.density);
     Vec3 after = braked(before, pull, plastic, 0, kick);
-    if (base.has_rate()) {
+    if (bed.has_rate()) {
       // The rate at the mean speed of the step, found from the rate at its start: a steady flow
       // keeps its exact speed at any length of step.
-      auto rate = [&](double v) { return base.rate(v, thickness, set.density, s.gravity); };
+      auto rate = [&](double v) { return bed.rate(v, thickness, set.density, s.gravity); };
       const double v0 = before.norm();
       const double v1 = braked(before, pull, plastic, rate(v0), kick).norm();
       after = braked(before, pull, plastic, rate(0.5 * (v0 + v1)), kick);
@@ -94,7 +94,7 @@ class BasePass final : public Pass {
 };
 
 struct DriftSums {
-  double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a rim that is a wall
+  double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a domain boundary that is a wall
   double projected = 0;                    // work of gravity that kicks left out
   double later = 0;                      // sum of m dz of the second half of the step
   bool any_leaving = false;
@@ -131,12 +131,12 @@ class ColumnMotion final : public Pass {
     p.fate.resize(p.size());
     climb_.resize(p.size());
     rise_.resize(p.size());
-    const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
+    const bool walled = s.terrain.nodata_rule() == NodataRule::wall;
     const DriftSums sums = ordered_reduce(
         p.size(), s.threads, DriftSums{},
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
           turn_to_mid_step(p, ground, dt, begin, end);
-          if (rim) hold_at_rim(s, p, ground, dt, begin, end, out);
+          if (walled) hold_at_domain_boundary(s, p, ground, dt, begin, end, out);
           drift(s, p, ground, dt, begin, end, out);
           project(p, ground, s.gravity, dt, begin, end, out);
         },
@@ -176,11 +176,11 @@ class ColumnMotion final : public Pass {
   }
 
   /// Takes the velocity that would lead off the known ground.
-  void hold_at_rim(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
+  void hold_at_domain_boundary(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
                    std::size_t begin, std::size_t end, DriftSums& out) const {
     for (std::size_t i = begin; i < end; ++i) {
       const Velocity v{p.vx[i], p.vy[i], p.vz[i]};
-      stop_at_rim(s, p, i, dt);
+      stop_at_domain_boundary(s, p, i, dt);
       if (p.vx[i] == v.x && p.vy[i] == v.y) continue;
       const ColumnGround mid = ground[i].ahead(0.5 * dt * v.x, 0.5 * dt * v.y);
       p.vz[i] = mid.east * p.vx[i] + mid.north * p.vy[i];
@@ -237,7 +237,7 @@ class ColumnMotion final : public Pass {
 }  // namespace
 
 void add_column_motion(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
-  step.add(std::make_unique<BasePass>(flow));
+  step.add(std::make_unique<BedPass>(flow));
   step.add(std::make_unique<ColumnMotion>(flow));
 }
 

@@ -96,6 +96,6 @@ inline double kick_interval(const State& s, double dt) { return 0.5 * (s.previou
 void enter_columns(const State&, ColumnFlow&, MovingSet&, std::size_t first);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
-void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< base, drift
+void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< bed, drift
 
 }  // namespace sturz

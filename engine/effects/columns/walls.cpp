@@ -72,7 +72,7 @@ ColumnWalls::Impulse ColumnWalls::impulse(const Wall& wall, const ColumnAtWall& 
   if (free < 1e-12 || (stop == 0 && pressed == 0)) return out;
   out.normal = stop / free * direction;
   const Vec3 after = velocity + out.normal;
-  const Vec3 sliding = after - after.dot(way) / free * direction;
+  const Vec3 sliding = after - after.dot(direction) / free * direction;
   const double slip = sliding.norm();
   const double most = wall.friction_coefficient * (stop / std::sqrt(free) + pressed);
   if (slip > 0) out.friction = -std::min(1.0, most / slip) * sliding;

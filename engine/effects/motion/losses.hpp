@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What leaves the scene over the rim of the known ground, and what the rim stops.
+/// What leaves the scene over the domain boundary, and what a walled boundary stops.
 #pragma once
 
 #include "engine/effects/state.hpp"
@@ -13,9 +13,9 @@ namespace sturz {
 /// \param keep  scratch
 void remove_outside(const State&, MovingSet&, std::vector<std::uint8_t>& keep);
 
-/// A rim that is a wall takes the velocity component that would lead particle i off the known
+/// A domain boundary that is a wall takes the velocity component that would lead particle i off the known
 /// ground within dt.
-/// \return kinetic energy per mass that the rim took, with the mean velocity of the step [J/kg]
-double stop_at_rim(const State&, MovingSet&, std::size_t i, double dt);
+/// \return kinetic energy per mass that the boundary took, with the mean velocity of the step [J/kg]
+double stop_at_domain_boundary(const State&, MovingSet&, std::size_t i, double dt);
 
 }  // namespace sturz

@@ -5,7 +5,7 @@
 ///
 /// Left out against the engine: the gradient's correction (moment matrix), density diffusion,
 /// stress smoothing, the mirror image at the ground, drag at rest, dilated grains, cohesion, walls,
-/// periods, zones, losses over the rim, the energy ledger, double precision of the state, sums
+/// periods, zones, losses over the domain boundary, the energy ledger, double precision of the state, sums
 /// whose bits do not depend on threads, limits of the time step, peak maps and the stop rule.
 #pragma once
 

@@ -30,7 +30,7 @@ ReferenceNumbers numbers_of(const ScenePlan& plan, double gravity) {
   k.spring = f(c.stiffness);
   k.damping = f(2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness));
   k.contact_distance = f(0.5 * c.spacing);
-  k.basal_friction = f(c.base[0].friction_coefficient * (1 - c.base[0].pore_pressure_ratio));
+  k.basal_friction = f(c.bed[0].friction_coefficient * (1 - c.bed[0].pore_pressure_ratio));
   return k;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Columns that leave the ground, rims and walls that hold them: booked once, and nobody else's
+/// Columns that leave the ground, domain boundaries and walls that hold them: booked once, and nobody else's
 /// books change.
 #include "engine/effects/fields.hpp"
 #include "tests/support/hand_made.hpp"
@@ -104,7 +104,7 @@ TEST(ColumnLosses, TheBooksCloseWhileAndAfterMassLeaves) {
   EXPECT_LT(worst_over(inclined, 200).residual, 1e-4);
 }
 
-TEST(ColumnLosses, AWallRimHoldsTheColumns) {
+TEST(ColumnLosses, AWalledBoundaryHoldsTheColumns) {
   HandMade made = slide(0, NodataRule::wall, {9, 4, 0});
   const Worst worst = worst_over(made, 100);
   const ParticleSet& p = made.state.grains();
@@ -117,12 +117,12 @@ TEST(ColumnLosses, AWallRimHoldsTheColumns) {
   EXPECT_LT(worst.residual, 1e-12);
 }
 
-TEST(ColumnLosses, AWallRimHoldsColumnsOnASlope) {
+TEST(ColumnLosses, AWalledBoundaryHoldsColumnsOnASlope) {
   HandMade made = slide(0.3, NodataRule::wall, {9, 4, 0});
   const Worst worst = worst_over(made, 100);
   EXPECT_EQ(made.state.grains().size(), 30u);
   EXPECT_LT(worst.unexplained, 1e-12);
-  EXPECT_LT(worst.residual, 5e-3);  // as the grains' rim; measured
+  EXPECT_LT(worst.residual, 5e-3);  // as the grains' domain boundary; measured
 }
 
 /// A gate across the way, two metres east of the columns.

@@ -40,7 +40,7 @@ IsolatedContact soft_contact(double restitution, double friction) {
 }
 
 struct After {
-  double restitution, rim_speed, energy;
+  double restitution, surface_speed, energy;
 };
 
 /// They meet at 20 m/s, with `across` [m/s] of it to the side each, n fine steps per impact; they
@@ -63,19 +63,19 @@ TEST(IsolatedBodies, FineStepsConverge) {
       if (across == 0) {
         EXPECT_NEAR(exact.restitution, e, 1e-4);
       }
-      double error[2] = {0, 0}, rim[2] = {0, 0};
+      double error[2] = {0, 0}, surface[2] = {0, 0};
       const int steps[2] = {20, 80};
       for (int k = 0; k < 2; ++k)
         for (double share = 0; share < 1; share += 0.1) {
           const After a = meet(e, across, steps[k], share);
           error[k] = std::max(error[k], std::abs(a.restitution - exact.restitution));
-          rim[k] = std::max(rim[k], std::abs(a.rim_speed - exact.rim_speed));
+          surface[k] = std::max(surface[k], std::abs(a.surface_speed - exact.surface_speed));
           EXPECT_LT(a.energy, 1000 * (100 + across * across));
         }
       EXPECT_LT(error[0], 0.015) << e << ' ' << across;
       EXPECT_LT(error[1], 0.4 * error[0]) << e << ' ' << across;
-      EXPECT_LT(rim[0], 0.02 * 20) << e << ' ' << across;
-      EXPECT_LE(rim[1], 0.5 * rim[0]) << e << ' ' << across;
+      EXPECT_LT(surface[0], 0.02 * 20) << e << ' ' << across;
+      EXPECT_LE(surface[1], 0.5 * surface[0]) << e << ' ' << across;
     }
 }
 

@@ -55,7 +55,7 @@ TEST(Losses, KineticEnergyChangesOnlyByBookedWorks) {
 }
 
 TEST(Losses, StoredAndKineticEnergyLeaveWithTheirParticle) {
-  // Thrown off the rim, never touching: what the books lose is what the particles had.
+  // Thrown over the domain boundary, never touching: what the books lose is what the particles had.
   auto made = test::grains_on(even_ground(16), block({2, 2, 2}, {7, 0, 30}), {20, 0, 0});
   Ledger& book = made.state.grains().ledger;
   double kinetic = 0, elastic = 0;
@@ -80,7 +80,7 @@ TEST(Losses, ElasticEnergyIsBookedWhenItsParticleLeaves) {
   EXPECT_NEAR(book.elastic, each, 1e-6 * each);
 }
 
-TEST(Losses, WhatSinksUnderTheGroundIsRemovedOnceWhateverTheRim) {
+TEST(Losses, WhatSinksUnderTheGroundIsRemovedOnceWhateverTheBoundary) {
   for (NodataRule rule : {NodataRule::outflow, NodataRule::wall}) {
     auto positions = block({2, 2, 1});
     positions.push_back({-3, -3, -2.5});  // two and a half spacings under the ground
@@ -92,7 +92,7 @@ TEST(Losses, WhatSinksUnderTheGroundIsRemovedOnceWhateverTheRim) {
   }
 }
 
-TEST(Losses, AWallRimHoldsTheMass) {
+TEST(Losses, AWalledBoundaryHoldsTheMass) {
   auto made = test::grains_on(even_ground(16, 0, NodataRule::wall), block({6, 5, 3}, {1, -2, 0}),
                               {9, 2, 0});
   for (int n = 0; n < 300; ++n) made.advance();

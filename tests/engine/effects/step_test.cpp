@@ -71,14 +71,14 @@ TEST(Step, TimesByPassAndByEffectHaveTheSameSum) {
   const std::vector<PassTime> passes = {{"lists", 1, "grain stress"},
                                         {"sweep", 8, "grain stress", dispersed, 3},
                                         {"warmth", 0.5, "kinetic theory"},
-                                        {"ground", 2, "base"}};
+                                        {"ground", 2, "bed"}};
   EXPECT_THAT(by_pass(passes),
               testing::ElementsAre(testing::Pair("lists", 1), testing::Pair("sweep", 5),
                                    testing::Pair("sweep, dispersed groups", 3),
                                    testing::Pair("warmth", 0.5), testing::Pair("ground", 2)));
   EXPECT_THAT(by_effect(passes),
               testing::ElementsAre(testing::Pair("grain stress", 6),
-                                   testing::Pair("kinetic theory", 3.5), testing::Pair("base", 2)));
+                                   testing::Pair("kinetic theory", 3.5), testing::Pair("bed", 2)));
 }
 
 TEST(Step, AdvancesTheClock) {

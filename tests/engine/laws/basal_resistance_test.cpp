@@ -12,7 +12,7 @@ namespace {
 
 constexpr double g = standard_gravity, density = 2000;
 
-/// A base with nothing but the named terms.
+/// A bed with nothing but the named terms.
 BasalResistance bare(double friction = 0) {
   BasalResistance b;
   b.friction_coefficient = friction;

@@ -110,7 +110,7 @@ class BruteForce {
       for (const Vec3& shift : shifts_)
         real.push_back(Vec3(p.x[j] - p.x[i], p.y[j] - p.y[i], p.z[j] - p.z[i]) + shift);
       for (const Vec3& offset : real) {
-        // On the rim itself a neighbour weighs nothing.
+        // On the edge of the support a neighbour weighs nothing.
         if (in_plan(offset) >= within * (1 - 1e-7)) continue;
         ++out.pairs;
         out.missing += !holds(seen, offset, found.tolerance());

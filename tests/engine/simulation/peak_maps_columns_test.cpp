@@ -141,7 +141,7 @@ TEST(ColumnMaps, WidthsThatJustTouchOneMoreCellStayInTheirRoom) {
       }
 }
 
-/// n x n particles of 1 m spacing on the centres of cells of 1 m: `layers` thick but at its rim.
+/// n x n particles of 1 m spacing on the centres of cells of 1 m: `layers` thick but at its edge.
 test::OneSetMaps plate(int n, double layers) {
   ParticleSet p;
   p.grow(static_cast<std::size_t>(n) * n);
@@ -161,9 +161,9 @@ TEST(LayerCount, AnEvenPlateHasItsLayers) {
 }
 
 TEST(LayerCount, ExactlyFourLayersAreNotThin) {
-  // The rim's cells carry 7/8 and 1/8 of four layers: they are thin.
-  const double rim = 1 - 58.0 * 58 / (60 * 60);
-  EXPECT_NEAR(plate(60, 4).layers().thin_fraction, rim, 1e-12);
+  // The edge's cells carry 7/8 and 1/8 of four layers: they are thin.
+  const double edge = 1 - 58.0 * 58 / (60 * 60);
+  EXPECT_NEAR(plate(60, 4).layers().thin_fraction, edge, 1e-12);
   EXPECT_NEAR(plate(60, 3.999).layers().thin_fraction, 1, 1e-12);
   EXPECT_LT(plate(60, 300).layers().thin_fraction, 1e-12);
 }

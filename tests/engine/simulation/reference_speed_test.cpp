@@ -84,7 +84,7 @@ TEST(ReferenceSpeed, NeverExceedsWhatGravityGives) {
   EXPECT_GT(reference_speed(t, point_at(t, 480, 150), 0.1, 5, 200), 20);
 }
 
-TEST(ReferenceSpeed, PitsNodataAndRimsAreSurvived) {
+TEST(ReferenceSpeed, PitsNodataAndBoundariesAreSurvived) {
   const Terrain pit = terrain_of([](double x, double y) {
     const double r = std::hypot(x - 500, y - 150);
     return r > 400 ? nan_d : 0.002 * r * r;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Zones of the base: which one a point lies in, and that particles and columns feel theirs.
+/// Zones of the bed: which one a point lies in, and that particles and columns feel theirs.
 #include "engine/core/constants.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/terrain/zone_map.hpp"
@@ -61,7 +61,7 @@ void advance_to(HandMade& made, double time) {
 /// A particle per strip, 6 m/s eastward.
 const std::vector<Vec3> one_per_strip{{-10, -10, 0.5}, {-10, 0, 0.5}, {-10, 10, 0.5}};
 
-TEST(ZonesOfTheBase, AParticleFeelsTheFrictionOfItsZone) {
+TEST(ZonesOfTheBed, AParticleFeelsTheFrictionOfItsZone) {
   HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
                                          {{0.2}, {0.6}, {0.6, 0.5}}, strips());
   advance_to(made, 0.8);
@@ -72,7 +72,7 @@ TEST(ZonesOfTheBase, AParticleFeelsTheFrictionOfItsZone) {
   EXPECT_NEAR(p.vx[2], 6 - 0.3 * g * 0.8, 0.01 * 0.3 * g) << "its pore pressure bears half";
 }
 
-TEST(ZonesOfTheBase, AParticleFeelsTheCohesionOfItsZone) {
+TEST(ZonesOfTheBed, AParticleFeelsTheCohesionOfItsZone) {
   HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
                                          {{0}, {0, 0, 1560 * 2.0}, {0}}, strips());
   advance_to(made, 0.8);
@@ -82,7 +82,7 @@ TEST(ZonesOfTheBase, AParticleFeelsTheCohesionOfItsZone) {
   EXPECT_EQ(made.state.grains().vx[2], 6);
 }
 
-TEST(ZonesOfTheBase, AParticleChangesZonesOnItsWay) {
+TEST(ZonesOfTheBed, AParticleChangesZonesOnItsWay) {
   const auto rough_east = zones_of([](double x, double) { return x >= 0; });
   HandMade made = test::particles_on_zones(even_ground(40), {{-3, 0, 0.5}}, {6, 0, 0}, {},
                                          {{0.2}, {0.6}}, rough_east);
@@ -101,7 +101,7 @@ Domain repeating() {
 }
 const auto rough_west = zones_of([](double x, double) { return x < 0; });
 
-TEST(ZonesOfTheBase, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
+TEST(ZonesOfTheBed, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
   HandMade made = test::particles_on_zones(even_ground(40), {{9, 0, 0.5}}, {6, 0, 0}, repeating(),
                                          {{0.2}, {0.6}}, rough_west);
   advance_to(made, 3);
@@ -111,14 +111,14 @@ TEST(ZonesOfTheBase, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
 
 DepthAveragedSettings column_bases(std::vector<double> friction, ZoneMap zones) {
   DepthAveragedSettings s;
-  s.base.clear();
-  for (double mu : friction) s.base.emplace_back().friction_coefficient = mu;
+  s.bed.clear();
+  for (double mu : friction) s.bed.emplace_back().friction_coefficient = mu;
   s.earth_pressure.assign(friction.size(), {});
   s.zones = std::move(zones);
   return s;
 }
 
-TEST(ZonesOfTheBase, AColumnFeelsTheFrictionOfItsZone) {
+TEST(ZonesOfTheBed, AColumnFeelsTheFrictionOfItsZone) {
   HandMade made = test::columns_on(even_ground(40), one_per_strip, 0.5, {6, 0, 0}, {},
                                    column_bases({0.2, 0.6, 0.3}, strips()));
   advance_to(made, 0.8);
@@ -128,7 +128,7 @@ TEST(ZonesOfTheBase, AColumnFeelsTheFrictionOfItsZone) {
     EXPECT_NEAR(made.state.grains().vx[i], 6 - mu * g * t, 1e-9) << i;
 }
 
-TEST(ZonesOfTheBase, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
+TEST(ZonesOfTheBed, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
   HandMade made = test::columns_on(even_ground(40), {{9, 0, 0}}, 0.5, {6, 0, 0}, repeating(),
                                    column_bases({0.2, 0.6}, rough_west));
   advance_to(made, 3);
@@ -137,8 +137,8 @@ TEST(ZonesOfTheBase, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
   EXPECT_NEAR(wrapped, 9 + travel, 0.005 * travel);
 }
 
-TEST(ZonesOfTheBase, AnEarthPressureOtherThanOneIsFollowed) {
-  // Over a base rougher than the mass K is constant, and not one.
+TEST(ZonesOfTheBed, AnEarthPressureOtherThanOneIsFollowed) {
+  // Over a bed rougher than the mass K is constant, and not one.
   DepthAveragedSettings rough = column_bases({0.4}, {});
   rough.earth_pressure = {EarthPressure(0.38, 0.4)};
   HandMade made =
