@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where mass, momentum and energy of a member went; every pass books what it did.
+/// Where mass, momentum and energy of a member went; every pass accounts for what it did.
 #pragma once
 
 #include <iterator>
@@ -8,7 +8,7 @@ namespace sturz {
 
 /// Energies in J, dissipation positive; impulses in N s; mass in kg.
 ///
-/// Kinetic energy changes only through booked works:
+/// Kinetic energy changes only through accounted works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
 ///   lost_energy + added_energy.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
@@ -20,7 +20,7 @@ struct Ledger {
   double added_mass = 0;                                     ///< by effects, after the release
   double added_energy = 0;                                   ///< kinetic energy that it brought
 
-  /// Now. Potential is the booked change since release: it counts what left as it was when it
+  /// Now. Potential is the accounted change since release: it counts what left as it was when it
   /// left, and a periodic image's jump not at all.
   double kinetic = 0, potential = 0, elastic = 0, spring = 0;
   double kinetic_0 = 0, elastic_0 = 0, spring_0 = 0;  ///< at release
@@ -60,7 +60,7 @@ struct Ledger {
   double damping() const { return -(contact_work - isolated_work) - (spring - spring_0); }
   /// Dissipated by contacts of isolated particles, or lost with a particle that was pressed or spun.
   double isolated_dissipated() const { return -isolated_work - rotational - isolated_elastic; }
-  /// Energy that no booking explains [J]: time integration of gravity and of the stress law.
+  /// Energy that no account explains [J]: time integration of gravity and of the stress law.
   double residual() const {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +

@@ -8,7 +8,7 @@
 
 namespace sturz::fields {
 
-// Of every set that keeps energy books.
+// Of every set that accounts for energy.
 /// Velocity at the start of the step.
 inline constexpr FieldKey velocity_before{"velocity_before", 3, "m s-1", "motion"};
 

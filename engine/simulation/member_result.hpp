@@ -45,7 +45,7 @@ struct MemberScalars {
   double max_pressure_pa = 0;
   double release_volume_m3 = 0;  ///< bulk
   double released_mass_kg = 0;
-  double lost_mass_kg = 0;     ///< left through the domain boundary or removed, booked
+  double lost_mass_kg = 0;     ///< left through the domain boundary or removed, accounted for
   double mass_error = 0;       ///< (kept + lost - released) / released; exactly 0 expected
   double energy_residual = 0;  ///< unexplained energy / released energy (see Ledger)
   double release_layers = 0;   ///< volume-weighted median vertical thickness / spacing at release

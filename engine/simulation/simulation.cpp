@@ -43,7 +43,7 @@ bool any_has(const State& state, const auto& key) {
                      [&](const MovingSet& set) { return set.has(key); });
 }
 
-/// One member's run: the bookkeeping around the step.
+/// One member's run: the accounts around the step.
 class Run {
  public:
   Run(SimulationParts& parts, const RunControl& control)
@@ -243,23 +243,23 @@ class Run {
     return std::move(result_);
   }
 
-  /// Release, mass and energy, by the books.
+  /// Release, mass and energy, by the ledger.
   void write_balance() {
     const State& s = parts_.state;
     MemberScalars& m = result_.scalars;
-    const Ledger book = s.ledger();
+    const Ledger ledger = s.ledger();
     const ReleaseFacts& release = parts_.facts.release;
-    const double brought = book.released_mass + book.added_mass;
+    const double brought = ledger.released_mass + ledger.added_mass;
     m.com_travel_m = now_.com;
     m.drop_m = release.top_m - now_.lowest;
     m.release_volume_m3 = release.volume_m3;
     m.release_layers = release.layers;
-    m.released_mass_kg = book.released_mass;
-    m.lost_mass_kg = book.lost_mass;
-    m.mass_error = (mass_on_terrain(s) + book.lost_mass - brought) / brought;
-    const double released = book.released_energy();
-    m.energy_residual = released > 0 ? book.residual() / released : 0;
-    m.take_off_fraction = s.time > 0 ? book.detachment / (book.released_mass * s.time) : 0;
+    m.released_mass_kg = ledger.released_mass;
+    m.lost_mass_kg = ledger.lost_mass;
+    m.mass_error = (mass_on_terrain(s) + ledger.lost_mass - brought) / brought;
+    const double released = ledger.released_energy();
+    m.energy_residual = released > 0 ? ledger.residual() / released : 0;
+    m.take_off_fraction = s.time > 0 ? ledger.detachment / (ledger.released_mass * s.time) : 0;
     std::size_t created = 0;
     for (const MovingSet& set : s.sets) created += set.n_created();
     m.n_particles = static_cast<double>(created);
@@ -286,13 +286,13 @@ class Run {
 
   void write_final_state() {
     const State& s = parts_.state;
-    const Ledger book = s.ledger();
+    const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
     result_.state_hash = hash_of(s);
-    if (is_valid(result_.outcome) && book.lost_mass > 0.01 * book.released_mass) {
+    if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.released_mass) {
       result_.outcome = Outcome::left_terrain;
-      result_.reason = std::to_string(100 * book.lost_mass / book.released_mass) +
+      result_.reason = std::to_string(100 * ledger.lost_mass / ledger.released_mass) +
                        " % of the mass left the terrain";
     }
   }

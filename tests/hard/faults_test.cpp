@@ -92,7 +92,7 @@ TEST_P(FaultInARun, EndsTheMemberByNameAfterItsLastGoodFrame) {
   EXPECT_GT(last, 0);
 }
 
-/// A finite absurdity that stops nothing must at least show in the books.
+/// A finite absurdity that stops nothing must at least show in the ledger.
 TEST(FaultInARunThatGoesOn, ShowsInTheEnergyResidual) {
   const MemberResult r = run_with({"Huge density change", field(fields::density_change, 0, 1e12), ""});
   EXPECT_TRUE(is_valid(r.outcome));

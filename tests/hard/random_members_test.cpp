@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Full-stress members from the priors' corners and random points: each one ends with a name, keeps
-// its books, and does nothing that gravity cannot do. STURZ_HARD_MEMBERS=1856 runs all.
+// its ledger, and does nothing that gravity cannot do. STURZ_HARD_MEMBERS=1856 runs all.
 #include "tests/hard/random_members.hpp"
 
 #include "tests/hard/expect_holds.hpp"

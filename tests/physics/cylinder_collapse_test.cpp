@@ -61,9 +61,9 @@ Simulation quarter_of(Scenario s) {
   const double mass = sum.value();
   p.start_x = p.x;
   p.start_y = p.y;
-  Ledger& book = state.grains().ledger;
-  book.elastic_0 = book.elastic *= mass / book.released_mass;
-  book.released_mass = mass;
+  Ledger& ledger = state.grains().ledger;
+  ledger.elastic_0 = ledger.elastic *= mass / ledger.released_mass;
+  ledger.released_mass = mass;
   return simulation;
 }
 

@@ -48,7 +48,7 @@ struct MeanMotion {
 };
 MeanMotion mean_motion(const ParticleSet&);
 
-/// V20: mass to the last bit, pair forces without net momentum, energy booked within 1 % of the
+/// V20: mass to the last bit, pair forces without net momentum, energy accounted for within 1 % of the
 /// energy that was set free.
 void expect_conserved(const Finished&);
 

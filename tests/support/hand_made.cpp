@@ -26,7 +26,7 @@ State state_of(Terrain ground, const std::vector<Vec3>& positions, const Vec3& v
   return s;
 }
 
-void open_books(State& s) {
+void open_ledger(State& s) {
   refresh_motion(s, s.grains(), 0);
   s.grains().ledger.kinetic_0 = s.grains().ledger.kinetic;
 }
@@ -41,7 +41,7 @@ void finish(HandMade& made, std::vector<GroundFriction> bed, ZoneMap zones) {
   add_terrain_contact(made.step, 0, contact);
   if (!made.state.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
   add_motion(made.step, 0, {1, h});
-  open_books(made.state);
+  open_ledger(made.state);
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ HandMade columns_on(Terrain ground, const std::vector<Vec3>& positions, double t
   settings.instruction_set = best_instruction_set();
   add_depth_averaged(made.step, made.state, 0, settings,
                      std::vector<double>(positions.size(), thickness));
-  open_books(made.state);
+  open_ledger(made.state);
   return made;
 }
 

@@ -42,7 +42,7 @@ class StartNote final : public Pass {
 
 struct Scene {
   double gravity = 0;
-  bool works = false;   ///< book works with the velocity before
+  bool works = false;   ///< account works with the velocity before
   bool ground = false;  ///< look the ground up
   Domain domain;
   IsolatedContactSettings contacts;

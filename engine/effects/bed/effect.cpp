@@ -164,7 +164,7 @@ class BoundaryPass final : public Pass {
     const double support_radius = 2 * settings_.smoothing_length;
     if (gap.distance > support_radius)  // how long it need not be looked at again
       b.distance[i] = static_cast<float>(std::fmax(support_radius, s.terrain.clearance(at)));
-    if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
+    if (gap.distance < -2 * settings_.spacing) {  // lost underground: accounted for, never repaired
       p.fate[i] = Fate::underground;
       out.leaked += p.mass[i];
     }
@@ -208,7 +208,7 @@ class BoundaryPass final : public Pass {
   std::size_t sorts_ = 0, n_ = 0, ground_changes_ = 0;  // of the step before
 };
 
-void book(MovingSet& p, const ContactSums& sums) {
+void account(MovingSet& p, const ContactSums& sums) {
   p.ledger.stress_work += sums.pressure_work;
   p.ledger.contact_work += sums.contact_work;
   p.ledger.friction += sums.friction;
@@ -257,7 +257,7 @@ class GroundContact final : public Pass {
           }
         },
         combine);
-    book(p, sums);
+    account(p, sums);
     p.ledger.spring = sums.spring;
   }
 
@@ -314,7 +314,7 @@ class WallContact final : public Pass {
           }
         },
         combine);
-    book(p, sums);
+    account(p, sums);
     p.ledger.spring += sums.spring;
   }
 

@@ -28,7 +28,7 @@ class BedPass final : public Pass {
         p.size(), s.threads, Works{},
         [&](std::size_t begin, std::size_t end, Works& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (s.leaves(p, i)) continue;  // the books take it as it was at the start of the step
+            if (s.leaves(p, i)) continue;  // the ledger takes it as it was at the start of the step
             const Works w = push(s, p, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
             out.friction += p.mass[i] * w.friction;
             out.contact += p.mass[i] * w.contact;
@@ -148,7 +148,7 @@ class ColumnMotion final : public Pass {
           total.any_leaving |= block.any_leaving;
         });
     p.any_leaving = sums.any_leaving;
-    // The next kick counts the second half of the displacement: until then the books leave it out too.
+    // The next kick counts the second half of the displacement: until then the ledger leaves it out too.
     p.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
     later_rise_ = sums.later;
     p.ledger.lost_energy += sums.stopped_energy;

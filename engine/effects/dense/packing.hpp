@@ -56,7 +56,7 @@ struct DilatantPacking {
   /// Largest e that so few neighbours hold: 0 up to `sparse`, 0.017 at a support completeness of 0.2, 0.13 in a
   /// corner (0.3), any from `surface` on; grains at rest stay below. Without it a handful of grains
   /// that hits the ground bounces as one elastic body and throws one of them off with what the
-  /// others lose. What the bound takes is booked with density diffusion, as a loss.
+  /// others lose. What the bound takes is accounted with density diffusion, as a loss.
   static double held(double completeness) {
     const double closed = smoothstep((completeness - sparse) / (surface - sparse));
     return 0.1 * closed / (1 - closed);

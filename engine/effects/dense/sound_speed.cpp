@@ -14,7 +14,7 @@ namespace {
 /// never under what the mass needs at rest and never over twice what its descent asks for.
 ///
 /// A change keeps every pressure and stress as it is: rho_new = rho_ref (1 + p/K_new). Elastic
-/// energy p^2/2K + tau^2/2G goes with 1/c0^2; the difference is booked as numerical.
+/// energy p^2/2K + tau^2/2G goes with 1/c0^2; the difference is accounted as numerical.
 class SoundSpeedPass final : public Pass {
  public:
   SoundSpeedPass(std::shared_ptr<GrainStress> shared, double planned)

@@ -44,7 +44,7 @@ class IsolatedContacts final : public Pass {
       hand_on(p, s.gravity, dt);
     }
     memory_.remember(contacts_, bodies_);
-    book_now(p);
+    account_now(p);
   }
 
   std::size_t bytes() const override {
@@ -166,7 +166,7 @@ class IsolatedContacts final : public Pass {
 
   /// Velocities as they are now, and positions from which the drift arrives where the bodies are.
   /// The work is taken with the mean velocity of the step, as Ledger has it: of what the kick
-  /// and the ground did before, only the kick's work is booked later, with the velocity that
+  /// and the ground did before, only the kick's work is accounted later, with the velocity that
   /// this pass leaves.
   void hand_on(MovingSet& p, double gravity, double dt) {
     const bool later = p.has(fields::velocity_before) && p.ax.size() >= p.size();
@@ -188,7 +188,7 @@ class IsolatedContacts final : public Pass {
     p.ledger.potential += gravity * risen;
   }
 
-  void book_now(MovingSet& p) const {
+  void account_now(MovingSet& p) const {
     double rotational = 0, elastic = 0;
     for (std::size_t k = 0; k < spheres_.size(); ++k) {
       const std::size_t i = p.n_listed + k;

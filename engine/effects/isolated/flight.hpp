@@ -10,7 +10,7 @@
 namespace sturz {
 
 /// Lets those go that were alone for `detach_steps` steps: their stress is gone, what it stored and
-/// their granular energy are booked. \return whether anybody went
+/// their granular energy are accounted for. \return whether anybody went
 bool detach_isolated(MovingSet&, const GrainStressSettings&);
 
 /// Takes back what has landed, as dense grains without load.

@@ -9,7 +9,7 @@
 namespace sturz {
 
 /// Takes out the particles that State::leaves names, with the kinetic energy they had at the start
-/// of the step: the works of this step are booked for those that stay.
+/// of the step: the works of this step are accounted for those that stay.
 /// \param keep  scratch
 void remove_outside(const State&, MovingSet&, std::vector<std::uint8_t>& keep);
 

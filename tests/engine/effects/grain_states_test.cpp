@@ -65,7 +65,7 @@ TEST(GrainStates, AreAbsentWhereTheSceneDoesNotNameThem) {
     EXPECT_FALSE(grains.has(*key)) << key->name;
 }
 
-TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
+TEST(GrainStates, AFallOverACliffClosesItsLedger) {
   Scenario s = short_cliff();
   Simulation simulation = made(s);
   const MemberResult result = simulation.run();

@@ -179,20 +179,20 @@ TEST(GrainStressUpdate, WorkIsStoredOrDissipated) {
 
 TEST(GrainStressUpdate, DragActsOnLoadedGrainsAtRestOnly) {
   const GrainStressSettings g = settings();
-  const auto speed_after = [&](double pressure, double speed, StressEnergies* booked = nullptr) {
+  const auto speed_after = [&](double pressure, double speed, StressEnergies* accounted = nullptr) {
     Grain grain;
     grain.set_stress(g, pressure, Matrix3d::Zero());
     grain.vx = 0, grain.vz = speed;
     const StressEnergies e = grain.update(g, 1e-3);
-    if (booked) *booked = e;
+    if (accounted) *accounted = e;
     return grain.vz;
   };
   const double slow = 0.5 * g.rest_speed();
-  StressEnergies booked;
-  const double kept = speed_after(1e4, slow, &booked);
+  StressEnergies accounted;
+  const double kept = speed_after(1e4, slow, &accounted);
   EXPECT_LT(kept, slow);
   EXPECT_GT(kept, 0);
-  EXPECT_NEAR(booked.rest, 0.5 * 1560 * (slow * slow - kept * kept), 1e-12);
+  EXPECT_NEAR(accounted.rest, 0.5 * 1560 * (slow * slow - kept * kept), 1e-12);
   EXPECT_EQ(speed_after(0, slow), slow);
   EXPECT_EQ(speed_after(1e4, 1.01 * g.rest_speed()), 1.01 * g.rest_speed());
 }

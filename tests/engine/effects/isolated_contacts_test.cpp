@@ -19,7 +19,7 @@ using test::free_flight;
 using test::Scene;
 using test::Thrown;
 
-TEST(IsolatedContacts, TwoIsolatedParticlesKeepTheirMomentumAndTheBooksClose) {
+TEST(IsolatedContacts, TwoIsolatedParticlesKeepTheirMomentumAndTheLedgerCloses) {
   // Unlike sizes, off centre: they slide, spin and part.
   Flight f({{{-1, 0, 100}, {6, 1, 0}, 0.5}, {{1, 0.3, 100.2}, {-5, 0, 0.5}, 0.8}}, free_flight());
   const Vec3 momentum = f.momentum(), angular = f.angular_momentum();
@@ -30,15 +30,15 @@ TEST(IsolatedContacts, TwoIsolatedParticlesKeepTheirMomentumAndTheBooksClose) {
     ASSERT_LT((f.angular_momentum() - angular).norm(), 1e-12 * 100 * scale);
     ASSERT_LT(std::abs(f.state.grains().ledger.residual()), 1e-12 * kinetic);
   }
-  const Ledger& book = f.state.grains().ledger;
+  const Ledger& ledger = f.state.grains().ledger;
   EXPECT_GT((f.position(1) - f.position(0)).norm(), 1.3 + 0.1);
   EXPECT_GT(f.spin(0).norm(), 1);
-  EXPECT_GT(book.rotational, 0);
-  EXPECT_EQ(book.isolated_elastic, 0);
-  EXPECT_GT(book.isolated_dissipated(), 0.1 * kinetic);
-  EXPECT_EQ(book.contact_work, book.isolated_work);
-  EXPECT_EQ(book.damping(), 0);
-  EXPECT_NEAR(book.kinetic + book.rotational + book.isolated_dissipated(), kinetic, 1e-12 * kinetic);
+  EXPECT_GT(ledger.rotational, 0);
+  EXPECT_EQ(ledger.isolated_elastic, 0);
+  EXPECT_GT(ledger.isolated_dissipated(), 0.1 * kinetic);
+  EXPECT_EQ(ledger.contact_work, ledger.isolated_work);
+  EXPECT_EQ(ledger.damping(), 0);
+  EXPECT_NEAR(ledger.kinetic + ledger.rotational + ledger.isolated_dissipated(), kinetic, 1e-12 * kinetic);
 }
 
 /// Relative speed after over before of two equal particles that meet head on.
@@ -151,7 +151,7 @@ TEST(IsolatedContacts, GiveTheSameBitsAgainAndInAnyStorageOrder) {
 }
 
 TEST(IsolatedContacts, NobodyNearIsNotTouched) {
-  // Bit by bit the flight without the pass: nobody is stepped finely, nothing is booked.
+  // Bit by bit the flight without the pass: no particle is stepped finely, nothing is accounted.
   Flight f({{{-5, 0, 100}, {3, 1, 0}}, {{0.3, 0.1, 101}, {3, 1, 0}}, {{9, 0, 99}, {-0.1, 0, 0}}},
            free_flight());
   std::vector<Vec3> x{f.position(0), f.position(1), f.position(2)};
@@ -242,22 +242,22 @@ TEST(IsolatedContacts, MeetAcrossAPeriod) {
   EXPECT_NEAR(f.velocity(1).z(), 0, 1e-9);
 }
 
-TEST(IsolatedContacts, KineticEnergyChangesOnlyByBookedWorksUnderGravity) {
+TEST(IsolatedContacts, KineticEnergyChangesOnlyByAccountedWorksUnderGravity) {
   Scene scene = free_flight();
   scene.gravity = 9.81;
   scene.works = true;
   Flight f(bag(50, 15), scene);
-  const Ledger& book = f.state.grains().ledger;
+  const Ledger& ledger = f.state.grains().ledger;
   f.advance(1e-12);  // the first kick takes half a step only
   for (int n = 0; n < 200; ++n) {
     f.advance(0.004);
-    ASSERT_NEAR(book.kinetic - book.kinetic_0, book.gravity_work + book.contact_work,
-                1e-10 * book.kinetic_0)
+    ASSERT_NEAR(ledger.kinetic - ledger.kinetic_0, ledger.gravity_work + ledger.contact_work,
+                1e-10 * ledger.kinetic_0)
         << n;
   }
   // What is left is where within a step a hit falls: gravity's work over the displacement of half a step.
-  EXPECT_GT(book.isolated_dissipated(), 0.3 * book.kinetic_0);
-  EXPECT_LT(std::abs(book.residual()), 0.005 * book.kinetic_0);
+  EXPECT_GT(ledger.isolated_dissipated(), 0.3 * ledger.kinetic_0);
+  EXPECT_LT(std::abs(ledger.residual()), 0.005 * ledger.kinetic_0);
 }
 
 TEST(IsolatedContacts, BounceFromTheGroundAsItsRestitutionSays) {

@@ -92,9 +92,9 @@ TEST(Simulation, PairForcesHaveNoDrift) {
   const Scenario s = small_slide();
   Simulation simulation = assemble(s, load_scene_inputs(s), 0, 1);
   simulation.run();
-  const Ledger& book = simulation.parts().state.grains().ledger;
-  for (double impulse : book.stress_impulse)
-    EXPECT_LT(std::abs(impulse), 1e-6 * book.stress_impulse_scale);
+  const Ledger& ledger = simulation.parts().state.grains().ledger;
+  for (double impulse : ledger.stress_impulse)
+    EXPECT_LT(std::abs(impulse), 1e-6 * ledger.stress_impulse_scale);
 }
 
 TEST(Simulation, TellsWhatBoundItsStep) {
