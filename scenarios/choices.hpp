@@ -36,10 +36,10 @@ constexpr auto words_of(LateralPressure) {
 }
 
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
-enum class StressMode { unified, seed };
+enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {
   using enum StressMode;
-  return std::array{Word{unified, "unified"}, Word{seed, "seed"}};
+  return std::array{Word{unified, "unified"}, Word{paper_switch, "paper_switch"}};
 }
 
 /// What isolated particles do when they meet.

@@ -7,7 +7,7 @@
 
 namespace sturz {
 
-/// Gao et al. section 4.2; docs/physics.md B.9. A label for output and for `stress_mode: seed`: the
+/// Gao et al. section 4.2; docs/physics.md B.9. A label for output and for `stress_mode: paper_switch`: the
 /// stress itself is one continuous law.
 enum class GrainState : std::uint8_t { dense, transition, dilute, ultradilute };
 

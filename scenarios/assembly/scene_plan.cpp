@@ -161,7 +161,7 @@ GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
     states.dilute = KineticTheory{s.grains->density_kg_m3.value, s.grains->diameter_m.value,
                                   spec.dilute->restitution.value, states.friction.max_fraction};
   states.ultradilute = spec.ultradilute.has_value();
-  states.switched = spec.stress_mode == StressMode::seed;
+  states.paper_switch = spec.stress_mode == StressMode::paper_switch;
   return states;
 }
 

@@ -120,6 +120,9 @@ void Checker::check_word(const std::string& word) const {
   if (has(key.later_choices))
     return add(shown +
                "not available in this version). Available: " + comma_separated(key.choices) + ".");
+  const auto renamed = key.renamed_choices.find(word);
+  if (renamed != key.renamed_choices.end())
+    return add(shown + "has a new name in this version). Write " + renamed->second + ".");
   const std::string near = nearest_name(word, key.choices);
   add(shown + "must be one of " + comma_separated(key.choices) + ")." +
       sentence(near.empty() ? "" : "Did you mean " + near + "?"));

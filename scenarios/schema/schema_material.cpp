@@ -45,8 +45,9 @@ void add_states(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
   keys.push_back(choice_key(
       states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode",
-      "unified: one continuous law from dense to dilute; seed: the paper's switch between "
+      "unified: one continuous law from dense to dilute; paper_switch: the paper's switch between "
       "laws, with relaxation."));
+  keys.back().renamed_choices = {{"seed", "paper_switch"}};
   keys.push_back(key(states, &GrainStatesSpec::max_fraction,
                      {"grains.states.max_fraction", uncertain, "1", 0.55, 0.95,
                       "Densest packing of the grains; by default solid_fraction + 0.08, at least "

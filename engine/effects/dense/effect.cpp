@@ -256,7 +256,7 @@ class StressPass final : public Pass {
     const GrainStressSettings& g = shared_->settings;
     columns.distance = p.boundary.distance.data();
     const StressUpdate update(g, dt, shared_->smoothing_now > 0);
-    if (g.states && g.states->switched) columns.state = p.flags(fields::state).data();
+    if (g.states && g.states->paper_switch) columns.state = p.flags(fields::state).data();
     const StressEnergies sums = ordered_reduce(
         p.n_listed, s.threads, StressEnergies{},
         [&](std::size_t begin, std::size_t end, StressEnergies& out) {
@@ -279,7 +279,7 @@ class StressPass final : public Pass {
   static DilatantPacking dilatant(const GrainStressSettings& g, double dt) {
     const GrainStatesSettings& s = *g.states;
     const double relaxation = 10 * g.smoothing_length / g.sound_speed;
-    return {g.bulk_modulus(), s.reference_fraction, s.friction, s.switched,
+    return {g.bulk_modulus(), s.reference_fraction, s.friction, s.paper_switch,
             std::exp(-dt / relaxation)};
   }
 

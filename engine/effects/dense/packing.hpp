@@ -45,7 +45,7 @@ struct DilatantPacking {
   double bulk;                             ///< K [Pa]
   double reference_fraction;               ///< alpha where e = 0
   FrictionalPressure friction;
-  bool switched;  ///< the paper's switch between laws instead of the sum
+  bool paper_switch;  ///< the paper's switch between laws instead of the sum
   double kept;    ///< exp(-dt/tau_r) of the switch's relaxation
 
   double fraction(double e) const { return reference_fraction * (1 + e); }
@@ -72,7 +72,7 @@ struct DilatantPacking {
   /// \param before  contact pressure at n [Pa]; \param state  GrainState at n
   double pressure(double e, double before, std::uint8_t state) const {
     const double squeezed = e > 0 ? bulk * e : 0;
-    if (!switched) return squeezed + friction.at(fraction(e));
+    if (!paper_switch) return squeezed + friction.at(fraction(e));
     const bool dense = state == static_cast<std::uint8_t>(GrainState::dense);
     const double target = dense ? squeezed : friction.at(fraction(e));
     return target + (before - target) * kept;

@@ -22,7 +22,7 @@ struct StressColumns {
   /// What the artificial viscosity would carry, over the friction of yielding grains [-]
   double* viscous_ratio = nullptr;
   const float* distance = nullptr;      ///< to the ground [m]; where grains may disperse
-  const std::uint8_t* state = nullptr;  ///< GrainState at n; read by the switched law only
+  const std::uint8_t* state = nullptr;  ///< GrainState at n; read by the paper's switch only
 };
 
 /// Sums over particles [J].

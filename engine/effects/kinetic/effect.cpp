@@ -73,7 +73,7 @@ class KineticGather final : public Pass {
       }
       // Artificial viscosity belongs to sound: that of contacts, or of the collisions in their
       // place.
-      const double apart = kinetic_share(fraction, states.switched);
+      const double apart = kinetic_share(fraction, states.paper_switch);
       k.viscosity *= static_cast<float>(
           1 - apart + apart * std::min(1.0, wave / g.settings.sound_speed) / dilation_ratio);
     }

@@ -16,7 +16,7 @@ struct GrainStatesSettings {
   bool ultradilute = false;             ///< isolated grains leave the continuum and fly
   /// Gao et al. sections 3.2 and 4.2: elastic pressure in the dense state, Eq. (23) alone in the
   /// transition, kinetic theory alone below; pressure relaxes to it within 10 h/c0.
-  bool switched = false;
+  bool paper_switch = false;
 };
 
 }  // namespace sturz

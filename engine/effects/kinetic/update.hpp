@@ -42,8 +42,8 @@ struct KineticTotals {
 
 /// Share of the kinetic stresses. The last twentieth of w_k is left out, so that grains that are
 /// all but dense (alpha > 0.587) count as dense in every sum.
-inline double kinetic_share(double fraction, bool switched) {
-  if (switched) return fraction < transition_fraction ? 1 : 0;
+inline double kinetic_share(double fraction, bool paper_switch) {
+  if (paper_switch) return fraction < transition_fraction ? 1 : 0;
   constexpr double trace = 0.05;
   return std::fmax(0.0, (kinetic_weight(fraction) - trace) / (1 - trace));
 }
@@ -81,7 +81,7 @@ class KineticUpdate {
              KineticTotals& out) const {
     for (std::size_t i = begin; i < end; ++i) {
       const double fraction = settings_.states->reference_fraction * (1 + c.density_change[i]);
-      const double share = kinetic_share(fraction, settings_.states->switched);
+      const double share = kinetic_share(fraction, settings_.states->paper_switch);
       if (share > 0 || c.theta[i] > 0)
         advance(c, r, i, fraction, share, out);
       else

@@ -8,8 +8,8 @@
 namespace sturz {
 namespace {
 
-DilatantPacking loose(bool switched = false) {
-  DilatantPacking p{2e7, 0.6, {}, switched, std::exp(-0.1)};
+DilatantPacking loose(bool paper_switch = false) {
+  DilatantPacking p{2e7, 0.6, {}, paper_switch, std::exp(-0.1)};
   p.friction.max_fraction = 0.68;
   return p;
 }
@@ -90,7 +90,7 @@ TEST(DilatantPacking, RatioIsNotSmoothedWhereCohesionAloneHolds) {
   EXPECT_TRUE(DilatantPacking::smooths(0.001, 2e4, law));
 }
 
-TEST(DilatantPacking, SwitchedPressureRelaxesToTheLawOfItsState) {
+TEST(DilatantPacking, PaperSwitchRelaxesThePressureToTheLawOfItsState) {
   const DilatantPacking p = loose(true);
   const auto dense = static_cast<double>(GrainState::dense);
   const auto transition = static_cast<double>(GrainState::transition);
