@@ -35,15 +35,17 @@ struct Ledger {
   double granular_lost = 0;  ///< with grains that left the continuum, less what came back
   double plastic = 0;        ///< dissipated by yielding
   double diffusion = 0;      ///< elastic energy added by density diffusion and stress smoothing
-  double contact_work = 0;   ///< by contact springs, dampers and the ground guard, isolated_work too
-  double isolated_work = 0;    ///< by contacts of isolated particles, on their flight
+  double contact_work = 0;  ///< by contact springs, dampers and the ground guard, isolated_work too
+  double isolated_work = 0;  ///< by contacts of isolated particles, on their flight
   /// Now: spins of isolated particles, springs of their contacts.
   double rotational = 0, isolated_elastic = 0;
   double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the bed
   double rest_damping = 0;  ///< dissipated below the speed of rest (docs/physics.md I4)
-  double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the domain boundary
+  double lost_energy =
+      0;  ///< kinetic and elastic energy that left or was taken by the domain boundary
 
-  double detachment = 0;  ///< mass times time on ground that curves away faster than it falls [kg s]
+  double detachment =
+      0;  ///< mass times time on ground that curves away faster than it falls [kg s]
 
   /// Sum of m a dt of pair forces alone: zero but for rounding.
   double stress_impulse[3] = {0, 0, 0};
@@ -58,7 +60,8 @@ struct Ledger {
   double numerical() const { return -stress_work - stress_power; }
   /// Dissipated in normal contact with ground and walls.
   double damping() const { return -(contact_work - isolated_work) - (spring - spring_0); }
-  /// Dissipated by contacts of isolated particles, or lost with a particle that was pressed or spun.
+  /// Dissipated by contacts of isolated particles, or lost with a particle that was pressed or
+  /// spun.
   double isolated_dissipated() const { return -isolated_work - rotational - isolated_elastic; }
   /// Energy that no account explains [J]: time integration of gravity and of the stress law.
   double residual() const {
@@ -72,16 +75,16 @@ struct Ledger {
 inline Ledger& Ledger::operator+=(const Ledger& other) {
   using Entry = double Ledger::*;
   constexpr Entry entries[] = {
-      &Ledger::released_mass,       &Ledger::lost_mass,      &Ledger::leaked_mass,
-      &Ledger::added_mass,          &Ledger::added_energy,   &Ledger::kinetic,
-      &Ledger::potential,           &Ledger::elastic,        &Ledger::spring,
-      &Ledger::kinetic_0,           &Ledger::elastic_0,      &Ledger::spring_0,
-      &Ledger::gravity_work,        &Ledger::stress_work,    &Ledger::stress_power,
-      &Ledger::frictional,          &Ledger::granular,       &Ledger::conducted,
-      &Ledger::collisions,          &Ledger::granular_lost,  &Ledger::plastic,
-      &Ledger::diffusion,           &Ledger::contact_work,   &Ledger::isolated_work,
+      &Ledger::released_mass,       &Ledger::lost_mass,        &Ledger::leaked_mass,
+      &Ledger::added_mass,          &Ledger::added_energy,     &Ledger::kinetic,
+      &Ledger::potential,           &Ledger::elastic,          &Ledger::spring,
+      &Ledger::kinetic_0,           &Ledger::elastic_0,        &Ledger::spring_0,
+      &Ledger::gravity_work,        &Ledger::stress_work,      &Ledger::stress_power,
+      &Ledger::frictional,          &Ledger::granular,         &Ledger::conducted,
+      &Ledger::collisions,          &Ledger::granular_lost,    &Ledger::plastic,
+      &Ledger::diffusion,           &Ledger::contact_work,     &Ledger::isolated_work,
       &Ledger::rotational,          &Ledger::isolated_elastic, &Ledger::friction,
-      &Ledger::rest_damping,        &Ledger::lost_energy,    &Ledger::detachment,
+      &Ledger::rest_damping,        &Ledger::lost_energy,      &Ledger::detachment,
       &Ledger::stress_impulse_scale};
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));

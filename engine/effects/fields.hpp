@@ -24,7 +24,8 @@ inline constexpr FieldKey viscous_ratio{"viscous_ratio", 1, "1", "grain stress"}
 /// GrainState by number.
 inline constexpr FlagKey state{"state", "states of the grains"};
 /// How complete the support is with neighbours and ground, 1 inside a dense mass.
-inline constexpr FieldKey support_completeness{"support_completeness", 1, "1", "states of the grains", 1.0};
+inline constexpr FieldKey support_completeness{"support_completeness", 1, "1",
+                                               "states of the grains", 1.0};
 inline constexpr FieldKey granular_temperature{"granular_temperature", 1, "m2 s-2",
                                                "kinetic theory"};
 /// Stress of collisions, tension positive.
@@ -52,7 +53,8 @@ inline constexpr FieldKey support_radius{"support_radius", 1, "m", "column press
 /// Normal reaction of the ground per mass.
 inline constexpr FieldKey normal_gravity{"normal_gravity", 1, "m s-2", "column pressure"};
 /// Momentum per mass of curvature met and not yet borne by the ground.
-inline constexpr FieldKey centripetal_momentum{"centripetal_momentum", 1, "m s-1", "column pressure"};
+inline constexpr FieldKey centripetal_momentum{"centripetal_momentum", 1, "m s-1",
+                                               "column pressure"};
 /// Slope east and north [-], second derivatives ee, en, nn [1/m] of the ground below.
 inline constexpr FieldKey ground{"ground", 5, "mixed", "column pressure"};
 /// Lateral over normal stress.

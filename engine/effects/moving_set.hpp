@@ -32,8 +32,8 @@ struct MotionBounds {
 struct BoundarySupport {
   std::vector<float> distance;    ///< to the ground along its normal; beyond 2h no more than it [m]
   std::vector<float> nx, ny, nz;  ///< that normal, up to date within 2h
-  std::vector<float> mirror_weight;       ///< 0..1, from the sweep: how much of the mirrored half acts
-  std::vector<float> moment[6];   ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
+  std::vector<float> mirror_weight;  ///< 0..1, from the sweep: how much of the mirrored half acts
+  std::vector<float> moment[6];  ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
   std::vector<float> gradient[6];  ///< the same order [1/s]
 };
 

@@ -10,12 +10,12 @@ namespace sturz {
 /// v_t <- v_t max(0, 1 - [mu (1 - r_u) J_n + c_b A dt / m] / |v_t|), so it can stop a particle
 /// but never turn it round, and sticking is exact.
 struct ContactLaw {
-  double stiffness = 1;       ///< k [1/s^2], per mass
-  double damping = 0;         ///< 2 zeta sqrt(k) [1/s]
+  double stiffness = 1;           ///< k [1/s^2], per mass
+  double damping = 0;             ///< 2 zeta sqrt(k) [1/s]
   double contact_distance = 0.5;  ///< dx/2 [m]
-  double friction = 0;        ///< mu (1 - r_u) [-]
-  double cohesion_rate = 0;   ///< c_b A / m [m/s^2], for particles within `cohesion_distance`
-  double cohesion_distance = 0;  ///< [m]
+  double friction = 0;            ///< mu (1 - r_u) [-]
+  double cohesion_rate = 0;       ///< c_b A / m [m/s^2], for particles within `cohesion_distance`
+  double cohesion_distance = 0;   ///< [m]
 };
 
 /// Damping ratio of a restitution: zeta = -ln e / sqrt(pi^2 + ln^2 e).

@@ -61,7 +61,8 @@ struct ContactForce {
 /// \param overlap   delta > 0 [m]; without overlap there is no force and no history
 /// \param normal    unit, into the body that feels the force
 /// \param velocity  of that body's contact point relative to the other's, spins included [m/s]
-/// \param slip      displacement of that point relative to the other since the last call, velocity times
+/// \param slip      displacement of that point relative to the other since the last call, velocity
+/// times
 ///                  dt; its normal part does not count [m]
 /// \param history   xi, the stretched tangential spring, in and out [m]
 inline ContactForce press_contact(const ContactPair& pair, double overlap, const Vec3& normal,

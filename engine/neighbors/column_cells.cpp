@@ -8,8 +8,8 @@
 namespace sturz {
 namespace {
 
-/// Cells are flat rows cut finely: sixteen columns in a row of half a support radius fill a patch about
-/// twice as long as high, and a run of neighbours ends near the circle around it.
+/// Cells are flat rows cut finely: sixteen columns in a row of half a support radius fill a patch
+/// about twice as long as high, and a run of neighbours ends near the circle around it.
 constexpr double height_per_radius = 0.5, width_per_radius = 0.125;
 
 /// A group ends at the end of its row, and at a gap of this many cells, beyond which it would
@@ -25,7 +25,8 @@ struct Extent {
 
 void ColumnCells::build(const ParticleSet& set, const Domain& domain,
                         const std::vector<double>& support_radius) {
-  const double longest = support_radius.empty() ? 0 : *std::max_element(support_radius.begin(), support_radius.end());
+  const double longest =
+      support_radius.empty() ? 0 : *std::max_element(support_radius.begin(), support_radius.end());
   const double mean = std::accumulate(support_radius.begin(), support_radius.end(), 0.0) /
                       static_cast<double>(std::max<std::size_t>(1, support_radius.size()));
   choose_frame(set, longest, mean);
@@ -74,9 +75,9 @@ void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double s
   };
   for (std::size_t i = 0; i < set.size(); ++i) add(i, 0, 0, 0);
   if (!domain.x.active && !domain.y.active) return;
-  // Images stand within one support radius of the period's edges; where the period is shorter than the
-  // support radius, several of them do. Those beyond the frame are nobody's neighbours and would not fit
-  // into the records' positions.
+  // Images stand within one support radius of the period's edges; where the period is shorter than
+  // the support radius, several of them do. Those beyond the frame are nobody's neighbours and
+  // would not fit into the records' positions.
   const double east = west_ + n_cols_ * width_, north = south_ + n_rows_ * height_;
   auto for_each_turn = [&](const Period& p, double position, auto&& visit) {
     visit(0);
@@ -150,14 +151,18 @@ void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>&
   }
 }
 
-/// In each row what lies within `support_radius` of the box, no farther along than the row's distance
-/// leaves.
+/// In each row what lies within `support_radius` of the box, no farther along than the row's
+/// distance leaves.
 void ColumnCells::add_runs(const Box& box, double support_radius) {
-  for (std::int32_t row = row_of(box.y.min - support_radius); row <= row_of(box.y.max + support_radius); ++row) {
+  for (std::int32_t row = row_of(box.y.min - support_radius);
+       row <= row_of(box.y.max + support_radius); ++row) {
     const double south = south_ + row * height_, north = south + height_;
     // A hair wider than the circle: cells are found with rounding.
-    const double off = std::max({0.0, box.y.min - north, south - box.y.max}) - 1e-9 * support_radius;
-    const double along = off > 0 ? std::sqrt(std::max(0.0, support_radius * support_radius - off * off)) : support_radius;
+    const double off =
+        std::max({0.0, box.y.min - north, south - box.y.max}) - 1e-9 * support_radius;
+    const double along = off > 0
+                             ? std::sqrt(std::max(0.0, support_radius * support_radius - off * off))
+                             : support_radius;
     const std::uint32_t* cells = cell_begin_.data() + std::ptrdiff_t{row} * n_cols_;
     const std::uint32_t begin = cells[col_of(box.x.min - along)];
     const std::uint32_t end = cells[col_of(box.x.max + along) + 1];

@@ -191,8 +191,10 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
   }
   const double search_radius = support_ + skin_;
   const auto radius_units = static_cast<std::int64_t>(search_radius / unit_) + 1;
-  const double x0 = origin_[0] + lo[0] * unit_ - search_radius, x1 = origin_[0] + hi[0] * unit_ + search_radius;
-  const double y0 = origin_[1] + lo[1] * unit_ - search_radius, y1 = origin_[1] + hi[1] * unit_ + search_radius;
+  const double x0 = origin_[0] + lo[0] * unit_ - search_radius,
+               x1 = origin_[0] + hi[0] * unit_ + search_radius;
+  const double y0 = origin_[1] + lo[1] * unit_ - search_radius,
+               y1 = origin_[1] + hi[1] * unit_ + search_radius;
   auto clamp_index = [&](double v, double edge, std::uint32_t count) {
     return std::min<std::int64_t>(count - 1,
                                   std::max<std::int64_t>(0, std::int64_t((v - edge) / width_)));

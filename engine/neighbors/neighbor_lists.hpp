@@ -96,7 +96,7 @@ class NeighborLists {
   std::size_t n_particles_ = 0, n_groups_ = 0;
   std::vector<PeriodicImage> images_;
   std::vector<NeighborRecord> records_;  // particles, padding to whole groups, images
-  std::vector<std::uint64_t> keys_;    // column and height of what is being sorted
+  std::vector<std::uint64_t> keys_;      // column and height of what is being sorted
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> sorted_;  // record numbers in column order
   std::vector<std::uint32_t> column_begin_;

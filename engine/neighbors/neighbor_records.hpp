@@ -19,7 +19,7 @@ struct alignas(64) NeighborRecord {
   std::int32_t x, y, z;
   float volume;                        ///< m / rho [m^3]
   float vx, vy, vz;                    ///< [m/s]
-  float density_change;                   ///< rho / rho_ref - 1 [-]
+  float density_change;                ///< rho / rho_ref - 1 [-]
   float sxx, syy, szz, sxy, syz, szx;  ///< stress, tension positive [Pa]
   float viscosity;                     ///< share of the artificial viscosity that acts [-]
   float tension;  ///< artificial pressure against clumps in tension [Pa], see TensionSums
@@ -31,8 +31,8 @@ static_assert(sizeof(NeighborRecord) == 64);
 /// not have; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
   float dilation_ratio = 1;  ///< true volume over NeighborRecord::volume [-]
-  /// Replaces `dilation_ratio` in pairs: sqrt(dilation_ratio/support_completeness) makes the sums over a cloud's few
-  /// neighbours complete, and keeps pairs symmetric.
+  /// Replaces `dilation_ratio` in pairs: sqrt(dilation_ratio/support_completeness) makes the sums
+  /// over a cloud's few neighbours complete, and keeps pairs symmetric.
   float weight = 1;
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
   float theta = 0;                                       ///< granular temperature [m^2/s^2]
@@ -75,9 +75,9 @@ struct SweepConstants {
 };
 
 /// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep
-/// takes their mirror contribution with the weight n.M.n / 0.25 (at most 1) of the support that neighbours
-/// give along the normal: a grain with nothing above it has no pressure field to be mirrored, and
-/// would bounce off its own mirror image without loss.
+/// takes their mirror contribution with the weight n.M.n / 0.25 (at most 1) of the support that
+/// neighbours give along the normal: a grain with nothing above it has no pressure field to be
+/// mirrored, and would bounce off its own mirror image without loss.
 struct BoundaryView {
   const float* distance;      ///< to the ground [m]; 2h and more: no effect
   const float *nx, *ny, *nz;  ///< the ground's normal, finite everywhere
@@ -86,8 +86,9 @@ struct BoundaryView {
   const float* gradient[6];  ///< to the velocity gradient before correction [1/s]
 };
 
-/// How long a sweep spends on groups in which some grain is dispersed or has a dispersed neighbour. A function
-/// of the caller because headers of the library must not be compiled for one instruction set.
+/// How long a sweep spends on groups in which some grain is dispersed or has a dispersed neighbour.
+/// A function of the caller because headers of the library must not be compiled for one instruction
+/// set.
 struct DispersedClock {
   std::int64_t (*now_ns)() = nullptr;
   std::int64_t spent_ns = 0;  ///< added to
@@ -96,8 +97,9 @@ struct DispersedClock {
 /// For a mass whose grains may disperse.
 struct KineticView {
   const KineticRecord* records = nullptr;  ///< as many as NeighborView::records
-  const std::uint8_t* dense_group = nullptr;      ///< by record/group_size: 1 where no grain is dispersed
-  DispersedClock* clock = nullptr;            ///< may be null
+  const std::uint8_t* dense_group =
+      nullptr;                      ///< by record/group_size: 1 where no grain is dispersed
+  DispersedClock* clock = nullptr;  ///< may be null
 };
 
 /// Results per particle, each [n_particles rounded up to whole groups].
@@ -114,14 +116,14 @@ struct SweepOutput {
   float* lzx;
   float* lzy;
   float* lzz;
-  float* diffusion;   ///< d(density_change)/dt by delta-SPH [1/s]
+  float* diffusion;      ///< d(density_change)/dt by delta-SPH [1/s]
   float* mirror_weight;  ///< 0..1: how much of a wall's mirror contribution acts, see BoundaryView
   /// Written where a KineticView is given: how full the support is of neighbours and ground (1
-  /// inside a dense mass, about a half at its surface), how many neighbours there are, and the granular
-  /// energy that is conducted to it per volume of the record [W/m^3].
+  /// inside a dense mass, about a half at its surface), how many neighbours there are, and the
+  /// granular energy that is conducted to it per volume of the record [W/m^3].
   float *support_completeness, *neighbors, *conducted;
-  /// Symmetric velocity gradient consistent with the pair forces of kinetic stresses, xx yy zz xy yz zx:
-  /// their work on the motion is V sigma_k : this, exactly [1/s].
+  /// Symmetric velocity gradient consistent with the pair forces of kinetic stresses, xx yy zz xy
+  /// yz zx: their work on the motion is V sigma_k : this, exactly [1/s].
   float* pair_gradient[6];
   static constexpr float uncounted = 1000;  ///< neighbours of a grain far from dispersed ones
   float* smooth[6];  ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]

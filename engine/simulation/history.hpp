@@ -8,8 +8,8 @@
 
 namespace sturz {
 
-/// One instant, of the mass that is still on the terrain. Travel is the horizontal displacement of a
-/// particle from where it started.
+/// One instant, of the mass that is still on the terrain. Travel is the horizontal displacement of
+/// a particle from where it started.
 struct HistoryRow {
   float time_s = 0;
   float front_travel_m = 0;   ///< of the farthest particle

@@ -100,7 +100,7 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
 }
 
 /// Widths of all sets, and the cells that they can touch.
-Window PeakMaps::look_at(std::span<const MovingSet> sets) {
+Window PeakMaps::bounds_of(std::span<const MovingSet> sets) {
   expect(!sets.empty() && (mass_.empty() || mass_.size() == sets.size()), "the sets stay the same");
   mass_.resize(sets.size());
   widths_.clear();
@@ -279,7 +279,7 @@ void PeakMaps::count_layers(double total_mass) {
 }
 
 void PeakMaps::record(std::span<const MovingSet> sets, double time_s) {
-  const Window w = look_at(sets);
+  const Window w = bounds_of(sets);
   if (w.n_cells() == 0) return;
   make_room(w);
   scatter<true>(sets);
@@ -344,7 +344,7 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
 
 void PeakMaps::finish(std::span<const MovingSet> final_state, MemberResult& result) {
   for (Peak& peak : peak_) peak.deposit = 0;
-  const Window w = look_at(final_state);
+  const Window w = bounds_of(final_state);
   if (w.n_cells() > 0) {
     make_room(w);
     scatter<false>(final_state);

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two looks at the motion at least [s]: a tenth of the time a particle takes to fall by
 /// its own size.
-double look_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
+double sample_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -51,13 +51,13 @@ class Run {
         control_(control),
         start_(Clock::now()),
         passes_before_(parts.step.timings()),
-        history_(look_interval(parts.facts.spacing_m)) {}
+        history_(sample_interval(parts.facts.spacing_m)) {}
 
   MemberResult operator()() {
     State& s = parts_.state;
     for (MovingSet& set : s.sets) set.ledger.kinetic_0 = set.ledger.kinetic;
     record();
-    look_at_motion();
+    sample_diagnostics();
     frame(true);
     while (!over()) {
       const StepLimit limit = parts_.step.limit(s);
@@ -106,9 +106,9 @@ class Run {
     const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
     if (travelled_ >= half_cell) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
-    if (s.time - looked_at_ > look_interval(parts_.facts.spacing_m) &&
-        s.n_steps - looked_at_step_ >= 4)
-      look_at_motion();
+    if (s.time - sampled_at_ > sample_interval(parts_.facts.spacing_m) &&
+        s.n_steps - sampled_step_ >= 4)
+      sample_diagnostics();
     frame(false);
     if (s.n_steps % 16 == 0) watch();
   }
@@ -126,14 +126,14 @@ class Run {
     travelled_ = 0;
   }
 
-  void look_at_motion() {
+  void sample_diagnostics() {
     const State& s = parts_.state;
     now_ = measure(s, each_);
     const StateShares shares = state_shares(s.sets);
-    state_times_.add(shares, s.time - looked_at_);
+    state_times_.add(shares, s.time - sampled_at_);
     if (s.n_particles() > 0 && history_.wants(s.time)) history_.add(history_row(shares));
-    looked_at_ = s.time;
-    looked_at_step_ = s.n_steps;
+    sampled_at_ = s.time;
+    sampled_step_ = s.n_steps;
     MemberScalars& m = result_.scalars;
     m.max_speed_m_s =
         std::max(m.max_speed_m_s, s.n_particles() > 1000 ? now_.high_speed : s.max_speed());
@@ -222,7 +222,7 @@ class Run {
     const bool sound = result_.outcome != Outcome::diverged;
     if (sound && s.n_particles() > 0) {
       record();
-      look_at_motion();
+      sample_diagnostics();
       history_.add_last(history_row(state_shares(s.sets)));
       frame(true);
     }
@@ -278,7 +278,8 @@ class Run {
     for (const MovingSet& set : s.sets)
       largest_temperature = std::max(largest_temperature, set.largest_granular_temperature);
     m.max_granular_temperature_m2_s2 = largest_temperature;
-    m.granular_ratio = m.max_speed_m_s > 0 ? largest_temperature / (m.max_speed_m_s * m.max_speed_m_s) : 0;
+    m.granular_ratio =
+        m.max_speed_m_s > 0 ? largest_temperature / (m.max_speed_m_s * m.max_speed_m_s) : 0;
     m.end_time_s = s.time;
     m.n_steps = static_cast<double>(s.n_steps);
     m.mean_dt_s = s.n_steps ? s.time / s.n_steps : 0;
@@ -342,8 +343,8 @@ class Run {
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
   bool ended_ = false;
-  std::size_t looked_at_step_ = 0;
-  double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
+  std::size_t sampled_step_ = 0;
+  double travelled_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
          p10_time_ = 0, progress_at_ = 0, next_frame_ = 0;
   std::vector<ParticleTravel> each_;
   std::vector<double> loaded_;

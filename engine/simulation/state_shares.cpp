@@ -25,7 +25,8 @@ void add_set(const MovingSet& set, Masses& sums, StateShares& out) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     const double m = set.mass[i];
     sums.all += m;
-    if (density_change && density_change->component[0][i] < dilated_density_change) sums.dilated += m;
+    if (density_change && density_change->component[0][i] < dilated_density_change)
+      sums.dilated += m;
     if (state) sums.in_state[std::min<int>(state->value[i], n_states - 1)] += m;
     if (theta) {
       sums.theta_sum += m * theta->component[0][i];

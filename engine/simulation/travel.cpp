@@ -15,7 +15,9 @@ constexpr double end_share = 0.01;   // of the mass: front and tail
 constexpr double tail_share = 0.05;  // of the mass: left behind
 
 bool by_speed(const ParticleTravel& a, const ParticleTravel& b) { return a.speed < b.speed; }
-bool by_displacement(const ParticleTravel& a, const ParticleTravel& b) { return a.displacement2 < b.displacement2; }
+bool by_displacement(const ParticleTravel& a, const ParticleTravel& b) {
+  return a.displacement2 < b.displacement2;
+}
 
 double mass_of(std::span<const ParticleTravel> some) {
   double mass = 0;
@@ -101,7 +103,8 @@ FrontAndTail front_and_tail(std::vector<ParticleTravel>& each) {
   // Where the cut falls inside a particle, or all mass is in one, the particle counts as front.
   out.front_speed = mean_speed_of(all.subspan(std::min(last, all.size() - 1)));
   const std::size_t behind = part_rearmost(all, tail_share * mass);
-  out.tail_travel = std::sqrt(std::max_element(all.begin(), all.begin() + behind, by_displacement)->displacement2);
+  out.tail_travel = std::sqrt(
+      std::max_element(all.begin(), all.begin() + behind, by_displacement)->displacement2);
   out.tail_speed = mean_speed_of(all.first(part_rearmost(all, end_share * mass)));
   return out;
 }

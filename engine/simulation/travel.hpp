@@ -19,9 +19,9 @@ struct Displacement {
 
 /// Displacement of one particle since the start.
 struct ParticleTravel {
-  double displacement2 = 0;   ///< horizontal displacement squared [m^2]
-  double speed = 0;  ///< [m/s]
-  double mass = 0;   ///< [kg]
+  double displacement2 = 0;  ///< horizontal displacement squared [m^2]
+  double speed = 0;          ///< [m/s]
+  double mass = 0;           ///< [kg]
 };
 
 /// Looks at all particles; whole periods count. \param each  is filled anew, in no order

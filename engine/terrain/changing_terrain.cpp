@@ -38,7 +38,8 @@ void Terrain::cover(int row0, int col0, int row1, int col1) {
 
 void Terrain::refresh_bounds(int row0, int col0, int row1, int col1) {
   const Grid& g = grid();
-  const int top = std::max(0, row0 - 2 * bound_stencil), left = std::max(0, col0 - 2 * bound_stencil);
+  const int top = std::max(0, row0 - 2 * bound_stencil),
+            left = std::max(0, col0 - 2 * bound_stencil);
   const int bottom = std::min(g.n_rows, row1 + 1 + 2 * bound_stencil);
   const int right = std::min(g.n_cols, col1 + 1 + 2 * bound_stencil);
   const int n_cols = right - left;

@@ -3,7 +3,8 @@
 //
 //        p .          A tangent plane sees only the ground straight below (b). Where a cliff
 //         /|          stands beside the particle, the nearest point is q on the next patch.
-//    q __/ |          Every patch within the contact distance is asked for its closest point and the nearest
+//    q __/ |          Every patch within the contact distance is asked for its closest point and
+//    the nearest
 //     |    b          wins: continuous across the seams, so that contact makes no energy.
 //     |____|____
 #include "engine/terrain/terrain.hpp"
@@ -26,10 +27,12 @@ struct Terrain::Closest {
 namespace {
 
 constexpr int newton_steps = 2;
-/// Below ground the way out is looked for this many contact distances far, and at most so many cells.
+/// Below ground the way out is looked for this many contact distances far, and at most so many
+/// cells.
 constexpr double deep_distances = 4;
 constexpr int most_cells = 8;
-/// On a seam closer than this part of the contact distance, the line to the particle has no safe direction.
+/// On a seam closer than this part of the contact distance, the line to the particle has no safe
+/// direction.
 constexpr double seam_share = 0.02;
 
 /// Gauss-Newton step of half the squared distance over the plane (du, dv), du eastward and dv
@@ -122,8 +125,8 @@ void Terrain::try_block(int row, int col, const Vec3& p, Closest& best) const {
   }
 }
 
-/// For ground finer than the contact distance: looks in eight directions, then walks to the closest point
-/// across the patches. A patch-by-patch search would cost as much as the rest of the step.
+/// For ground finer than the contact distance: looks in eight directions, then walks to the closest
+/// point across the patches. A patch-by-patch search would cost as much as the rest of the step.
 void Terrain::search_compass(const Vec3& p, double contact_distance, Closest& best) const {
   auto look = [&](double x, double y) -> bool {
     Block b;

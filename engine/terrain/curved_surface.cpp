@@ -24,8 +24,8 @@ CurvedSurface Terrain::curved(double x, double y) const {
   CurvedSurface out;
   if (u >= 0.5 && v >= 0.5 && u < g.n_cols - 1.5 && v < g.n_rows - 1.5) {
     const int col = static_cast<int>(u + 0.5), row = static_cast<int>(v + 0.5);
-    // A patch carries a margin of nodes of the base raster: three rows and columns that are not wholly inside it
-    // touch nothing that it changed.
+    // A patch carries a margin of nodes of the base raster: three rows and columns that are not
+    // wholly inside it touch nothing that it changed.
     const int r = row - 1 - patch_row_, c = col - 1 - patch_col_;
     const bool patched = r >= 0 && c >= 0 && r + 2 < patch_rows_ && c + 2 < patch_cols_;
     const std::ptrdiff_t stride = patched ? patch_cols_ : g.n_cols;

@@ -14,10 +14,10 @@ double larger(double a, double b) { return b > a ? b : a; }
 
 /// Greatest absolute differences of the nodes that the blocks of one row see, per block column.
 struct RowTerms {
-  std::vector<double> step_x;   ///< first differences along the row
-  std::vector<double> step_y;   ///< first differences to the next row
+  std::vector<double> step_x;        ///< first differences along the row
+  std::vector<double> step_y;        ///< first differences to the next row
   std::vector<double> curvature_at;  ///< second differences centred on the row, both ways
-  std::vector<double> twist;    ///< mixed differences between the row and the next one
+  std::vector<double> twist;         ///< mixed differences between the row and the next one
 
   explicit RowTerms(std::size_t n) : step_x(n), step_y(n), curvature_at(n), twist(n) {}
 };
@@ -70,7 +70,7 @@ SurfaceBound bound_of(double step_x, double step_y, double curvature, double cel
   const double slope2 = (step_x * step_x + step_y * step_y) / (cell_m * cell_m);
   SurfaceBound b;
   b.curvature_per_m = slope2 > 1 ? std::numeric_limits<float>::infinity()
-                            : static_cast<float>(curvature / (cell_m * cell_m));
+                                 : static_cast<float>(curvature / (cell_m * cell_m));
   // The margin keeps it a lower bound after rounding to float.
   b.min_normal_z = static_cast<float>((1 - 1e-6) / std::sqrt(1 + slope2));
   return b;
@@ -105,9 +105,11 @@ std::vector<SurfaceBound> surface_bounds(std::span<const double> nodes, int n_ro
     for (int c = 0; c < n_blocks; ++c) {
       const double step_x = std::max({t0.step_x[c], t1.step_x[c], t2.step_x[c], t3.step_x[c]});
       const double step_y = std::max({t0.step_y[c], t1.step_y[c], t2.step_y[c]});
-      const double curvature = std::max({t0.curvature_at[c], t0.twist[c], t1.curvature_at[c], t1.twist[c],
-                                    t2.curvature_at[c], t2.twist[c], t3.curvature_at[c]});
-      bounds[static_cast<std::size_t>(b) * n_cols + c] = bound_of(step_x, step_y, curvature, cell_m);
+      const double curvature =
+          std::max({t0.curvature_at[c], t0.twist[c], t1.curvature_at[c], t1.twist[c],
+                    t2.curvature_at[c], t2.twist[c], t3.curvature_at[c]});
+      bounds[static_cast<std::size_t>(b) * n_cols + c] =
+          bound_of(step_x, step_y, curvature, cell_m);
     }
   }
   return bounds;

@@ -11,7 +11,8 @@ namespace sturz {
 
 /// Bounds for a block of four nodes and its eight neighbours (all that lies within one cell).
 struct SurfaceBound {
-  float curvature_per_m = 0;    ///< greatest curvature [1/m]; infinite where a slope exceeds 45 degrees
+  float curvature_per_m =
+      0;                   ///< greatest curvature [1/m]; infinite where a slope exceeds 45 degrees
   float min_normal_z = 1;  ///< least n_z: height above ground * this <= distance to the ground
 };
 

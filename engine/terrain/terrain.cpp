@@ -63,8 +63,10 @@ Terrain Terrain::with_patch(int row0, int col0, int n_rows, int n_cols,
          "a patch has one value per cell");
   Terrain out = *this;
   if (n_rows == 0 || n_cols == 0) return out;
-  int top = std::max(0, row0 - patch_margin), bottom = std::min(g.n_rows, row0 + n_rows + patch_margin);
-  int left = std::max(0, col0 - patch_margin), right = std::min(g.n_cols, col0 + n_cols + patch_margin);
+  int top = std::max(0, row0 - patch_margin),
+      bottom = std::min(g.n_rows, row0 + n_rows + patch_margin);
+  int left = std::max(0, col0 - patch_margin),
+      right = std::min(g.n_cols, col0 + n_cols + patch_margin);
   if (patch_rows_ > 0) {
     top = std::min(top, patch_row_), bottom = std::max(bottom, patch_row_ + patch_rows_);
     left = std::min(left, patch_col_), right = std::max(right, patch_col_ + patch_cols_);
@@ -138,7 +140,8 @@ bool Terrain::distance_inside(const Vec3& p, double contact_distance, SurfaceDis
   const double above = p.z() - s.z;
   // The block's bounds hold within one cell; farther away only the whole ground's do.
   const SurfaceBound& bound = contact_distance <= cell_m_ ? *b.bound : roughest_;
-  if (bound.curvature_per_m * contact_distance <= 0.2 || above * bound.min_normal_z > contact_distance) {
+  if (bound.curvature_per_m * contact_distance <= 0.2 ||
+      above * bound.min_normal_z > contact_distance) {
     const Vec3 normal = upward_normal(s.east, s.north);
     out = {above * normal.z(), normal};
   } else {

@@ -31,10 +31,10 @@ struct SurfacePoint {
 /// The ground rounded over about two cells: one smooth surface with its first and second
 /// derivatives, for what slides on it as a depth-averaged column.
 struct CurvedSurface {
-  double z = 0;                                  ///< [m]
-  double east = 0, north = 0;                    ///< slope [-]
+  double z = 0;                                                 ///< [m]
+  double east = 0, north = 0;                                   ///< slope [-]
   double curvature_ee = 0, curvature_en = 0, curvature_nn = 0;  ///< second derivatives [1/m]
-  bool known = true;                             ///< false off the known ground (level there)
+  bool known = true;  ///< false off the known ground (level there)
 
   /// d2z/ds2 times speed squared, for a horizontal velocity [m/s^2].
   double curvature(double vx, double vy) const {
@@ -102,10 +102,11 @@ class Terrain {
   /// unknown cells the bilinear surface stands in, without curvature.
   CurvedSurface curved(double x, double y) const;
   /// Distance of `p` to the surface, negative below it: (z - z_s) n_z where the ground within
-  /// `contact_distance` is smooth. Where its slope exceeds 45 degrees or its curvature times `contact_distance` 0.2, a
-  /// point that may touch gets the distance to the closest point (two Newton steps on every patch
-  /// within the contact distance), so that a cliff beside a particle counts. The sign is always that of z - z_s.
-  /// \param contact_distance  [m]; farther up the tangent plane's distance is returned.
+  /// `contact_distance` is smooth. Where its slope exceeds 45 degrees or its curvature times
+  /// `contact_distance` 0.2, a point that may touch gets the distance to the closest point (two
+  /// Newton steps on every patch within the contact distance), so that a cliff beside a particle
+  /// counts. The sign is always that of z - z_s. \param contact_distance  [m]; farther up the
+  /// tangent plane's distance is returned.
   ///               Up to one cell costs 20-40 ns; more (or a whole smoothing support) makes nearly
   ///               all of a mountain count as bent and costs several times as much
   SurfaceDistance distance(const Vec3& p, double contact_distance) const;

@@ -90,7 +90,8 @@ std::string motion_html(const ReportInput& input) {
       "<section id=\"motion\"><h2>Motion over time</h2><div class=\"charts motion\">";
   for (const MotionChart& chart : charts) html += figure_html(chart, times);
   return html +
-         "</div><p class=\"note\">Travel is the horizontal displacement of each particle from where "
+         "</div><p class=\"note\">Travel is the horizontal displacement of each particle from "
+         "where "
          "it started, of the mass still on the terrain. " +
          html_escape(states_text(input.members.front().scalars, *input.history)) + "</p></section>";
 }
@@ -103,7 +104,8 @@ std::string left_out_html(const std::vector<MemberSummary>& members) {
   if (dilated.empty()) return {};
   std::sort(dilated.begin(), dilated.end());
   return fmt::format(
-      "<div><h3>What was left out</h3><p>Grains that separate and meet again: at most {} of the mass "
+      "<div><h3>What was left out</h3><p>Grains that separate and meet again: at most {} of the "
+      "mass "
       "and time was {} in the median member, {} in the worst. Where that is much, ask for "
       "grains.states.</p></div>",
       share_text(dilated[dilated.size() / 2]), looser_text(), share_text(dilated.back()));

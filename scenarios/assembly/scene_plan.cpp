@@ -177,8 +177,7 @@ IsolatedContactSettings plan_isolated_contacts(const Scenario& s, double speed) 
   return contacts;
 }
 
-void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed,
-                      ScenePlan& plan) {
+void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed, ScenePlan& plan) {
   const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
   double least_friction = bed[0].effective_friction();
   for (const BasalResistance& b : bed)
@@ -216,7 +215,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
     stress.states->friction.limit_slope(softest.bulk_modulus() / plan.reference_fraction);
     if (s.grains->states->ultradilute &&
         s.grains->states->ultradilute->contacts != IsolatedContactLaw::none)
-      plan.isolated_contacts = plan_isolated_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
+      plan.isolated_contacts =
+          plan_isolated_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
   }
 
   ContactSettings& contact = plan.contact;

@@ -25,8 +25,8 @@ struct ScenePlan {
   Release release;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
-  GrainStressSettings stress;                            ///< full_stress
-  ContactSettings contact;                               ///< full_stress
+  GrainStressSettings stress;                                ///< full_stress
+  ContactSettings contact;                                   ///< full_stress
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;    ///< depth_averaged

@@ -94,7 +94,8 @@ TEST_P(FaultInARun, EndsTheMemberByNameAfterItsLastGoodFrame) {
 
 /// A finite absurdity that stops nothing must at least show in the ledger.
 TEST(FaultInARunThatGoesOn, ShowsInTheEnergyResidual) {
-  const MemberResult r = run_with({"Huge density change", field(fields::density_change, 0, 1e12), ""});
+  const MemberResult r =
+      run_with({"Huge density change", field(fields::density_change, 0, 1e12), ""});
   EXPECT_TRUE(is_valid(r.outcome));
   EXPECT_GT(std::abs(r.scalars.energy_residual), 1);
 }

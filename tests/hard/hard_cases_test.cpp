@@ -59,7 +59,9 @@ TEST(HardStates, StepStaysBoundedUpToTheLargestFraction) {
 TEST(HardStates, MassThatFliesApartFollowsItsParabola) { expect_holds(jet_breaks_up(States::all)); }
 
 // I14
-TEST(HardStates, IsolatedParticlesThatTouchSlowlySeparateAgain) { expect_holds(slow_contacts_part(States::all)); }
+TEST(HardStates, IsolatedParticlesThatTouchSlowlySeparateAgain) {
+  expect_holds(slow_contacts_part(States::all));
+}
 
 // I15
 TEST(HardStates, ParticlesOfAMemberAreAlikeInMass) { expect_holds(masses_mix(States::all)); }

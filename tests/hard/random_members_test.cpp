@@ -31,8 +31,9 @@ TEST(RandomMembers, SurviveSteepGround) {
     expect_survival(RandomMembers::on_steep_ground(states), spread(hard_members(20) / 4));
 }
 
-/// 58 diverged and 419 threw a grain at nine times the speed of free fall where isolated particles came
-/// back; in 206 a handful of grains bounced off the foot of the slope and threw one at 1.2 times.
+/// 58 diverged and 419 threw a grain at nine times the speed of free fall where isolated particles
+/// came back; in 206 a handful of grains bounced off the foot of the slope and threw one at 1.2
+/// times.
 TEST(RandomMembers, IsolatedParticlesThatRejoinAndGrainsThatHitTheGroundAreNotThrown) {
   expect_survival(RandomMembers::on_steep_ground(States::all), {58, 206, 419});
 }

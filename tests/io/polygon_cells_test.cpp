@@ -92,7 +92,7 @@ TEST(PolygonCells, NeighboursShareNoCellAndLeaveNone) {
   const Grid grid{40, 40, 0, 40, 1, ""};
   std::vector<int> owners(grid.n_cells(), 0);
   const std::vector<Vec2> edge = {{0, 0},   {20, 0},  {40, 0}, {40, 20},
-                                 {40, 40}, {20, 40}, {0, 40}, {0, 20}};
+                                  {40, 40}, {20, 40}, {0, 40}, {0, 20}};
   const Vec2 middle(20.5, 19.5);
   for (std::size_t i = 0; i < edge.size(); ++i)
     for (const std::size_t cell : cells_of(grid, {{middle, edge[i], edge[(i + 1) % edge.size()]}}))

@@ -18,7 +18,8 @@ Scenario columns(Scenario s) {
 /// The single column follows the mass point; the bend presses it on (a regression test too: every
 /// normal impulse counts for friction).
 TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
-  // The bend of 40 m is spread over two spacings of 8 m: there the point of equal energy is 2.1 % off.
+  // The bend of 40 m is spread over two spacings of 8 m: there the point of equal energy is 2.1 %
+  // off.
   for (const double spacing : {4.0, 2.0, 1.0}) {
     const Descent d = descend(columns(ramp_slide(90, spacing)));
     const EnergyLine line(d.s0, true), straight(d.s0, false);

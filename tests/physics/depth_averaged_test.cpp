@@ -218,8 +218,8 @@ TEST_P(SteadySheet, ReachesTheSpeedOfTheFilm) {
     const double plug = stress * sheared * sheared / (2 * bed.viscosity);
     expected = plug * (1 - sheared / (3 * h));
   }
-  expect_within(relative(fmt::format("{} sheet, steady speed", bed.name), "m/s",
-                         final_speed(f, 30), expected, 0.01),
+  expect_within(relative(fmt::format("{} sheet, steady speed", bed.name), "m/s", final_speed(f, 30),
+                         expected, 0.01),
                 f);
   expect_conserved(f);
 }

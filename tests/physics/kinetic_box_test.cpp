@@ -80,7 +80,8 @@ void place(const Cloud& c, ParticleSet& p) {
 }
 
 void warm_up(const Cloud& c, State& s) {
-  for (double& e : s.grains().scalar(fields::density_change)) e = c.fraction / reference_fraction - 1;
+  for (double& e : s.grains().scalar(fields::density_change))
+    e = c.fraction / reference_fraction - 1;
   for (auto& component : s.grains().components(fields::stress))
     std::fill(component.begin(), component.end(), 0.0);
   for (double& theta : s.grains().scalar(fields::granular_temperature)) theta = c.theta;
@@ -117,7 +118,8 @@ double total_granular_energy(const State& s) {
   return sum;
 }
 
-/// Largest deviation of the cloud's granular energy from Haff's law theta_0/(1 + t/tau)^2 within 3 tau.
+/// Largest deviation of the cloud's granular energy from Haff's law theta_0/(1 + t/tau)^2 within 3
+/// tau.
 struct Cooling {
   double worst = 0;
   double stirred = 0;  ///< kinetic energy at the end over the granular energy at the start

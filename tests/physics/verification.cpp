@@ -65,7 +65,8 @@ void expect_conserved(const Finished& f) {
   // Columns of a sheet push each other hard and no one moves: there rounding weighs more.
   const bool columns = f.result.formulation == to_string(Formulation::depth_averaged);
   const double limit = ledger.lost_mass > 0 ? 1e-5 : columns ? 1e-6 : 1e-7;
-  EXPECT_LE(std::sqrt(impulse2), limit * ledger.stress_impulse_scale) << "pair forces push the whole";
+  EXPECT_LE(std::sqrt(impulse2), limit * ledger.stress_impulse_scale)
+      << "pair forces push the whole";
   EXPECT_LE(std::abs(f.result.scalars.energy_residual), 0.01);
 }
 

@@ -263,10 +263,10 @@ ReportInput MadeUpResults::ensemble_input() const {
   in.description = {"full_stress  2 841 particles of 7 m, about 18 000 steps",
                     "gravity         on   always", "grain_stress    on   the scene has grains",
                     "fluid           off  no fluid block"};
-  in.timings = {{"grain stress", 361},  {"bed", 74},
-                {"kinetic theory", 31}, {"motion", 12},
-                {"bookkeeping", 5.2},   {"gravity", 1.9},
-                {"isolated particles", 0.4},  {"states of the grains", 0.3}};
+  in.timings = {{"grain stress", 361},       {"bed", 74},
+                {"kinetic theory", 31},      {"motion", 12},
+                {"bookkeeping", 5.2},        {"gravity", 1.9},
+                {"isolated particles", 0.4}, {"states of the grains", 0.3}};
   in.elapsed_s = 251;
   in.resolved_thickness_m = 3.5;
   return in;

@@ -86,12 +86,13 @@ HandMade grains_on(Terrain ground, const std::vector<Vec3>& positions, const Vec
 }
 
 HandMade particles_on(Terrain ground, const std::vector<Vec3>& positions, const Vec3& velocity,
-                    const Domain& domain, double friction) {
+                      const Domain& domain, double friction) {
   return particles_on_zones(std::move(ground), positions, velocity, domain, {{friction}}, {});
 }
 
-HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& positions, const Vec3& velocity,
-                          const Domain& domain, std::vector<GroundFriction> bed, ZoneMap zones) {
+HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& positions,
+                            const Vec3& velocity, const Domain& domain,
+                            std::vector<GroundFriction> bed, ZoneMap zones) {
   HandMade made{state_of(std::move(ground), positions, velocity, domain), {}};
   finish(made, std::move(bed), std::move(zones));
   return made;

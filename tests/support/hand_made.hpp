@@ -35,11 +35,12 @@ HandMade grains_on(Terrain ground, const std::vector<Vec3>& positions, const Vec
 
 /// Particles without stress: gravity, contact and motion alone.
 HandMade particles_on(Terrain ground, const std::vector<Vec3>& positions, const Vec3& velocity,
-                    const Domain& domain = {}, double friction = 0.4);
+                      const Domain& domain = {}, double friction = 0.4);
 
 /// The same with a bed of its own in each zone.
-HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& positions, const Vec3& velocity,
-                          const Domain& domain, std::vector<GroundFriction> bed, ZoneMap zones);
+HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& positions,
+                            const Vec3& velocity, const Domain& domain,
+                            std::vector<GroundFriction> bed, ZoneMap zones);
 
 /// Depth-averaged columns of density 1560 kg/m^3 on a lattice of 1 m (z of the positions does not
 /// count), each with the vertical `thickness` [m].

@@ -59,7 +59,8 @@ class Flight {
     add_gravity(step, state, 0);
     if (scene.works) step.add(std::make_unique<StartNote>(p.add(fields::velocity_before)));
     if (scene.ground) {
-      ContactSettings looks;  // a contact distance at which nothing touches: only the look-up counts
+      ContactSettings
+          looks;  // a contact distance at which nothing touches: only the look-up counts
       looks.spacing = 1e-6;
       looks.smoothing_length = 4;
       looks.bed = {{0, 0, 0}};

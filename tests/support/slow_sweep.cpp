@@ -100,7 +100,8 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       if (&b != &a) add(b);
     for (const SlowParticle& b : images) add(b);
     bool own_corrected = true;
-    // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no mirror contribution.
+    // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no mirror
+    // contribution.
     rates.support_completeness = moment.trace() / 3;
     gradient *= a.dilation_ratio;  // neighbours that dilated alike leave too little
     const Matrix3d grown = a.dilation_ratio * moment;
@@ -110,8 +111,10 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
     rates.gradient = (gradient + rates.mirror_weight * a.wall_gradient) *
                      (clouds ? correction_in_a_cloud(mirrored, a.dilation_ratio, rates.corrected)
                              : correction(mirrored, rates.corrected));
-    rates.support_completeness += rates.mirror_weight * a.wall_moment.trace() / (3 * a.dilation_ratio);
-    const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // gradient of the density change
+    rates.support_completeness +=
+        rates.mirror_weight * a.wall_moment.trace() / (3 * a.dilation_ratio);
+    const Vec3 rise =
+        correction(moment, own_corrected) * density_gradient;  // gradient of the density change
     rates.acceleration = force;
     // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.
     rates.diffusion =

@@ -15,12 +15,13 @@ namespace sturz::test {
 struct SlowParticle {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};
   double volume = 1;                                      ///< m/rho [m^3]
-  double density_change = 0;                                 ///< rho/rho_ref - 1
+  double density_change = 0;                              ///< rho/rho_ref - 1
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();       ///< [Pa], tension positive
   double viscosity_share = 1;                             ///< of the artificial viscosity that acts
   Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();  ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
-  double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's mirror contribution itself [m]
+  double ground_distance =
+      1e9;  ///< for the fast sweep, which makes the ground's mirror contribution itself [m]
   Vec3 ground_normal{0, 0, 1};
   // For dispersed grains, see KineticRecord:
   double tension = 0;  ///< artificial pressure [Pa]
@@ -34,7 +35,8 @@ struct SlowRates {
   double diffusion = 0;
   double mirror_weight = 0;  ///< of the mirror contribution
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d pair_gradient = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
+  Eigen::Matrix3d pair_gradient =
+      Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
   double conducted = 0;  ///< conducted granular energy, per volume that the grain takes up [W/m^3]
   double support_completeness = 0;  ///< a third of the moment's trace
   int neighbors = 0;

@@ -45,7 +45,8 @@ struct Rooms {
     for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
     o.mirror_weight = results[19].data();
-    o.support_completeness = results[20].data(), o.neighbors = results[21].data(), o.conducted = results[22].data();
+    o.support_completeness = results[20].data(), o.neighbors = results[21].data(),
+    o.conducted = results[22].data();
     for (int k = 0; k < 6; ++k) o.pair_gradient[k] = results[23 + k].data();
     return o;
   }
@@ -67,8 +68,8 @@ struct Rooms {
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
       r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
-      r.pair_gradient(entries[k][0], entries[k][1]) = r.pair_gradient(entries[k][1], entries[k][0]) =
-          results[23 + k][i];
+      r.pair_gradient(entries[k][0], entries[k][1]) =
+          r.pair_gradient(entries[k][1], entries[k][0]) = results[23 + k][i];
     }
     return r;
   }

@@ -12,7 +12,9 @@ namespace sturz {
 namespace {
 
 /// Thickness that a column without neighbours gives to itself: the floor at release.
-double single_thickness(double volume, double support_radius) { return 2.2281692 * volume / (support_radius * support_radius); }
+double single_thickness(double volume, double support_radius) {
+  return 2.2281692 * volume / (support_radius * support_radius);
+}
 
 /// Rates that set the length of the first step [1/s].
 struct FirstRates {
@@ -32,8 +34,8 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   // A map lattice on a slope stands 1/n_z farther apart along it.
   const double support_radius =
       set.radius_per_spacing * set.spacing * std::min(set.most_radius, std::sqrt(1 / n.z()));
-  const double thickness =
-      std::max(vertical_thickness * n.z(), single_thickness(p.mass[i] / set.density, support_radius));
+  const double thickness = std::max(vertical_thickness * n.z(),
+                                    single_thickness(p.mass[i] / set.density, support_radius));
   const double g_n = s.gravity * n.z();
   p.scalar(fields::support_radius)[i] = support_radius;
   p.scalar(fields::thickness)[i] = thickness;
@@ -101,8 +103,9 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   expect(thickness.size() == p.size(), "one thickness per column");
   expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
          "bed and earth pressure for every zone");
-  for (const FieldKey* key : {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
-                              &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
+  for (const FieldKey* key :
+       {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
+        &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
     p.add(*key);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
   if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))

@@ -95,7 +95,7 @@ class BedPass final : public Pass {
 
 struct DriftSums {
   double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a domain boundary that is a wall
-  double projected = 0;                    // work of gravity that kicks left out
+  double projected = 0;                  // work of gravity that kicks left out
   double later = 0;                      // sum of m dz of the second half of the step
   bool any_leaving = false;
 };
@@ -112,8 +112,8 @@ class ColumnMotion final : public Pass {
     const double v = s.sets[flow_->set].motion.max_speed, g = s.gravity,
                  cell = s.terrain.grid().cell_m;
     out.push_back({"terrain cell", cell / (v + std::sqrt(v * v + g * cell))});
-    // From rest with short steps that may grow: where the step changes fast, kicks and displacements do not
-    // fit together, and energy is lost or found.
+    // From rest with short steps that may grow: where the step changes fast, kicks and
+    // displacements do not fit together, and energy is lost or found.
     if (s.n_steps == 0) out.push_back({"start", flow_->start_dt});
   }
 
@@ -148,7 +148,8 @@ class ColumnMotion final : public Pass {
           total.any_leaving |= block.any_leaving;
         });
     p.any_leaving = sums.any_leaving;
-    // The next kick counts the second half of the displacement: until then the ledger leaves it out too.
+    // The next kick counts the second half of the displacement: until then the ledger leaves it out
+    // too.
     p.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
     later_rise_ = sums.later;
     p.ledger.lost_energy += sums.stopped_energy;
@@ -177,7 +178,7 @@ class ColumnMotion final : public Pass {
 
   /// Takes the velocity that would lead off the known ground.
   void hold_at_domain_boundary(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
-                   std::size_t begin, std::size_t end, DriftSums& out) const {
+                               std::size_t begin, std::size_t end, DriftSums& out) const {
     for (std::size_t i = begin; i < end; ++i) {
       const Velocity v{p.vx[i], p.vy[i], p.vz[i]};
       stop_at_domain_boundary(s, p, i, dt);
@@ -189,8 +190,8 @@ class ColumnMotion final : public Pass {
     }
   }
 
-  void drift(const State& s, MovingSet& p, const GroundColumns& ground, double dt, std::size_t begin,
-          std::size_t end, DriftSums& out) {
+  void drift(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
+             std::size_t begin, std::size_t end, DriftSums& out) {
     for (std::size_t i = begin; i < end; ++i) {
       const double z = p.z[i];
       p.x[i] += dt * p.vx[i];
@@ -206,7 +207,7 @@ class ColumnMotion final : public Pass {
   /// ends of a step; over a kink or a cliff the ground fell or rose by something else. The speed
   /// pays the difference, so a column never has more energy than its fall gave it.
   void project(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
-              std::size_t begin, std::size_t end, DriftSums& out) const {
+               std::size_t begin, std::size_t end, DriftSums& out) const {
     const double *east = ground.component[0], *north = ground.component[1];
     const double *climb = climb_.data(), *rise = rise_.data(), *mass = p.mass.data();
     double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data();

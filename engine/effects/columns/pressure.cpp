@@ -176,9 +176,10 @@ class SweepPass final : public Pass {
             if (cells.is_image(c)) continue;
             const std::size_t i = cells.source(c);
             p.ax[i] = out.ax[c], p.ay[i] = out.ay[c], p.az[i] = out.az[c];
-            const double whole = walls ? flow_->walls.thickness_factor(
-                                             s.domain, s.time, {p.x[i], p.y[i], p.z[i]}, support_radius[i])
-                                       : 1;
+            const double whole =
+                walls ? flow_->walls.thickness_factor(s.domain, s.time, {p.x[i], p.y[i], p.z[i]},
+                                                      support_radius[i])
+                      : 1;
             thickness[i] = whole * out.thickness[c];
             if (k)
               k[i] = strained(s.domain, p, i, k[i], out.divergence[c] / thickness[i] * dt,

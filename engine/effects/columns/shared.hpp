@@ -48,8 +48,8 @@ struct ColumnGround {
   Vec3 normal() const { return upward_normal(east, north); }
   /// The slopes a horizontal displacement (x, y) farther on.
   ColumnGround ahead(double x, double y) const {
-    return {east + curvature_ee * x + curvature_en * y, north + curvature_en * x + curvature_nn * y, curvature_ee, curvature_en,
-            curvature_nn};
+    return {east + curvature_ee * x + curvature_en * y, north + curvature_en * x + curvature_nn * y,
+            curvature_ee, curvature_en, curvature_nn};
   }
 };
 
@@ -66,7 +66,8 @@ struct GroundColumns {
   }
   void set(std::size_t i, const CurvedSurface& g) const {
     component[0][i] = g.east, component[1][i] = g.north;
-    component[2][i] = g.curvature_ee, component[3][i] = g.curvature_en, component[4][i] = g.curvature_nn;
+    component[2][i] = g.curvature_ee, component[3][i] = g.curvature_en,
+    component[4][i] = g.curvature_nn;
   }
 };
 

@@ -56,7 +56,8 @@ double ColumnWalls::share_in_front(const Domain& domain, double time, const Vec3
 
 Vec3 ColumnWalls::pressure(const Domain& domain, double time, const Wall& wall,
                            const ColumnAtWall& c) const {
-  const double line = support_.line(distance(wall, c.position) / c.support_radius) / c.support_radius *
+  const double line = support_.line(distance(wall, c.position) / c.support_radius) /
+                      c.support_radius *
                       share_in_front(domain, time, c.position, c.support_radius, &wall);
   return c.lateral * c.thickness * line * wall.normal;
 }

@@ -13,7 +13,8 @@
 
 namespace sturz {
 
-/// Integrals of the smoothing function with support radius 1 over a line and over what lies beyond it.
+/// Integrals of the smoothing function with support radius 1 over a line and over what lies beyond
+/// it.
 class HalfSupport {
  public:
   HalfSupport();
@@ -37,7 +38,8 @@ struct ColumnAtWall {
 class ColumnWalls {
  public:
   /// Factor on the summed thickness of a column at `position`.
-  double thickness_factor(const Domain&, double time, const Vec3& position, double support_radius) const;
+  double thickness_factor(const Domain&, double time, const Vec3& position,
+                          double support_radius) const;
   /// Acceleration by what one wall mirrors, in a corner only the part in front of the others
   /// [m/s^2].
   Vec3 pressure(const Domain&, double time, const Wall&, const ColumnAtWall&) const;

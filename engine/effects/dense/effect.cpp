@@ -92,8 +92,8 @@ class NeighborPass final : public Pass {
   std::int64_t isolated_ns_ = 0, all_ns_ = 0;  // of this step
 };
 
-/// Gathers the neighbour records of the pair sweep. Velocities go in extrapolated by half a step to v_{n+1/2}:
-/// stress rates taken from v_{n-1/2} would feed energy into sound waves (forward Euler).
+/// Gathers the neighbour records of the pair sweep. Velocities go in extrapolated by half a step to
+/// v_{n+1/2}: stress rates taken from v_{n-1/2} would feed energy into sound waves (forward Euler).
 class GatherPass final : public Pass {
  public:
   explicit GatherPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
@@ -111,34 +111,34 @@ class GatherPass final : public Pass {
     const auto& density_change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
     const auto& viscous = p.scalar(fields::viscous_ratio);
-    parallel_ranges(p.n_listed, reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      lists.gather_positions(p, begin, end);
-                      NeighborRecord* records = lists.records();
-                      for (std::size_t i = begin; i < end; ++i) {
-                        NeighborRecord& r = records[i];
-                        const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
-                        r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
-                        r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
-                        r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
-                        r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
-                        r.density_change = static_cast<float>(e);
-                        const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
-                        const ViscousShare v = viscous_share(viscous[i]);
-                        const double share = 1 - v.carried, mean = -v.carried * pressure;
-                        r.viscosity = static_cast<float>(v.acting);
-                        r.sxx = static_cast<float>(share * stress[0][i] + mean);
-                        r.syy = static_cast<float>(share * stress[1][i] + mean);
-                        r.szz = static_cast<float>(share * stress[2][i] + mean);
-                        r.sxy = static_cast<float>(share * stress[3][i]);
-                        r.syz = static_cast<float>(share * stress[4][i]);
-                        r.szx = static_cast<float>(share * stress[5][i]);
-                        if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
-                        before[0][i] = p.vx[i];
-                        before[1][i] = p.vy[i];
-                        before[2][i] = p.vz[i];
-                      }
-                    });
+    parallel_ranges(
+        p.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+          lists.gather_positions(p, begin, end);
+          NeighborRecord* records = lists.records();
+          for (std::size_t i = begin; i < end; ++i) {
+            NeighborRecord& r = records[i];
+            const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
+            r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
+            r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
+            r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
+            r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
+            r.density_change = static_cast<float>(e);
+            const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
+            const ViscousShare v = viscous_share(viscous[i]);
+            const double share = 1 - v.carried, mean = -v.carried * pressure;
+            r.viscosity = static_cast<float>(v.acting);
+            r.sxx = static_cast<float>(share * stress[0][i] + mean);
+            r.syy = static_cast<float>(share * stress[1][i] + mean);
+            r.szz = static_cast<float>(share * stress[2][i] + mean);
+            r.sxy = static_cast<float>(share * stress[3][i]);
+            r.syz = static_cast<float>(share * stress[4][i]);
+            r.szx = static_cast<float>(share * stress[5][i]);
+            if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
+            before[0][i] = p.vx[i];
+            before[1][i] = p.vy[i];
+            before[2][i] = p.vz[i];
+          }
+        });
     lists.copy_images();
     for (std::size_t i = p.n_listed; i < p.size(); ++i)
       before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
@@ -209,16 +209,16 @@ class SweepPass final : public Pass {
   std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
 
  private:
-  /// The sweep of a mass whose grains may disperse, and which part of its time those take that do: two
-  /// looks at the clock for 16 groups, and one where the kind of group changes.
+  /// The sweep of a mass whose grains may disperse, and which part of its time those take that do:
+  /// two looks at the clock for 16 groups, and one where the kind of group changes.
   void timed_kinetic(const NeighborView& view, const SweepConstants& constants,
                      const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
                      std::size_t end) {
     DispersedClock clock{&now_ns};
     const std::int64_t start = now_ns();
     sweeps(shared_->settings.instruction_set)
-        .kinetic(view, {shared_->kinetic.data(), shared_->dense_group.data(), &clock}, constants, wall,
-                 out, begin, end);
+        .kinetic(view, {shared_->kinetic.data(), shared_->dense_group.data(), &clock}, constants,
+                 wall, out, begin, end);
     all_ns_.fetch_add(now_ns() - start, std::memory_order_relaxed);
     dispersed_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
   }

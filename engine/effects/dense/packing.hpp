@@ -32,31 +32,33 @@ struct DensePacking {
 /// The density of the continuity equation drifts where neighbours are few. It is kept between what
 /// the support completeness allows: not under 0.85 of it where that is nearly full (so a grain that
 /// is packed in again counts as such), and not over eight times of it (so a grain that has lost its
-/// neighbours does not count as dense: the surface of a dense mass has a support completeness of about a half, a
-/// corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make it too
-/// uneven to correct by.
-/// Few neighbours do not hold a grain under pressure either: see held().
-/// A grain that lies on the ground with hardly anybody around is a sheet thinner than a spacing,
-/// not a cloud: it stays dense, without load, so that it carries at once when others run up on it.
+/// neighbours does not count as dense: the surface of a dense mass has a support completeness of
+/// about a half, a corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make
+/// it too uneven to correct by. Few neighbours do not hold a grain under pressure either: see
+/// held(). A grain that lies on the ground with hardly anybody around is a sheet thinner than a
+/// spacing, not a cloud: it stays dense, without load, so that it carries at once when others run
+/// up on it.
 struct DilatantPacking {
   static constexpr bool dilates = true;
-  static constexpr double sparse = 0.12;   ///< support completeness below which no grain is dense
-  static constexpr double surface = 0.45;  ///< support completeness from which a grain bears any load
-  double bulk;                             ///< K [Pa]
-  double reference_fraction;               ///< alpha where e = 0
+  static constexpr double sparse = 0.12;  ///< support completeness below which no grain is dense
+  static constexpr double surface =
+      0.45;                   ///< support completeness from which a grain bears any load
+  double bulk;                ///< K [Pa]
+  double reference_fraction;  ///< alpha where e = 0
   FrictionalPressure friction;
   bool paper_switch;  ///< the paper's switch between laws instead of the sum
-  double kept;    ///< exp(-dt/tau_r) of the switch's relaxation
+  double kept;        ///< exp(-dt/tau_r) of the switch's relaxation
 
   double fraction(double e) const { return reference_fraction * (1 + e); }
   /// e after dt of the continuity equation; never -1. \param strain  dt tr L
   static double carried(double e, double strain) {
     return strain > 0 ? (1 + e) / (1 + strain) - 1 : (1 + e) * (1 - strain) - 1;
   }
-  /// Largest e that so few neighbours hold: 0 up to `sparse`, 0.017 at a support completeness of 0.2, 0.13 in a
-  /// corner (0.3), any from `surface` on; grains at rest stay below. Without it a handful of grains
-  /// that hits the ground bounces as one elastic body and throws one of them off with what the
-  /// others lose. What the bound takes is accounted with density diffusion, as a loss.
+  /// Largest e that so few neighbours hold: 0 up to `sparse`, 0.017 at a support completeness of
+  /// 0.2, 0.13 in a corner (0.3), any from `surface` on; grains at rest stay below. Without it a
+  /// handful of grains that hits the ground bounces as one elastic body and throws one of them off
+  /// with what the others lose. What the bound takes is accounted with density diffusion, as a
+  /// loss.
   static double held(double completeness) {
     const double closed = smoothstep((completeness - sparse) / (surface - sparse));
     return 0.1 * closed / (1 - closed);
@@ -66,7 +68,8 @@ struct DilatantPacking {
     const double packed = touching ? 1 : 0.85 * completeness * smoothstep(2 * (completeness - 0.3));
     const double least = std::fmin(packed - 1, GrainStressSettings::separation_threshold);
     const double lifted = std::fmax(e, least);
-    const double most = completeness < sparse && !touching ? completeness / sparse - 1 : held(completeness);
+    const double most =
+        completeness < sparse && !touching ? completeness / sparse - 1 : held(completeness);
     return std::fmax(std::fmin(lifted, most), -0.999);
   }
   /// \param before  contact pressure at n [Pa]; \param state  GrainState at n

@@ -67,7 +67,8 @@ struct GrainStressSettings {
     const double squeezed = bulk_modulus() * std::fmax(0.0, e);
     return states ? squeezed + states->friction.at(states->reference_fraction * (1 + e)) : squeezed;
   }
-  /// Relative density change >= 0 that carries a pressure; 0 where the frictional pressure alone does.
+  /// Relative density change >= 0 that carries a pressure; 0 where the frictional pressure alone
+  /// does.
   double density_change_at(double pressure) const {
     double e = std::fmax(0.0, pressure / bulk_modulus());
     if (!states) return e;

@@ -30,7 +30,8 @@ struct GrainStress {
   std::vector<float> results[10];  // velocity gradient, density diffusion
   std::vector<float> smooth[6];
   // Only where grains may disperse:
-  std::vector<float> dispersed[9];  // support completeness, neighbours, conduction, pair gradient; see SweepOutput
+  std::vector<float>
+      dispersed[9];  // support completeness, neighbours, conduction, pair gradient; see SweepOutput
   std::vector<KineticRecord> kinetic;
   std::vector<std::uint8_t> dense_group;
   std::unique_ptr<ListChanges> changes;  // isolated particles, where the scene calls for them
@@ -49,7 +50,8 @@ struct GrainStress {
                        &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
     for (int k = 0; k < 10; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
-    out.support_completeness = dispersed[0].data(), out.neighbors = dispersed[1].data(), out.conducted = dispersed[2].data();
+    out.support_completeness = dispersed[0].data(), out.neighbors = dispersed[1].data(),
+    out.conducted = dispersed[2].data();
     for (int k = 0; k < 6; ++k) out.pair_gradient[k] = dispersed[3 + k].data();
     return out;
   }

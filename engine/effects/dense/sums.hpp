@@ -27,7 +27,7 @@ struct DenseScale {
   float diffusion;      ///< 2 delta h c0 C
   float density;        ///< rho_ref
   float smoothing;      ///< 2 zeta h c0 C
-  float inv_support;      ///< 1/(2h) [1/m]
+  float inv_support;    ///< 1/(2h) [1/m]
   float ratio_floor;    ///< p_c of the smoothed ratio [Pa]
   float laplacian;      ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
   float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
@@ -143,7 +143,8 @@ struct Correction {
   /// surface of a dense mass, where pair forces lack the same share that M does: a full gradient
   /// there would make the stress dissipate what no force takes.
   /// \param dilation_ratio  dilation ratio of the grain, 1: dense
-  static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6], Lanes dilation_ratio) {
+  static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6],
+                               Lanes dilation_ratio) {
     const Lanes xx = fma(s.mxx, scale, wall[0]), yy = fma(s.myy, scale, wall[1]);
     const Lanes zz = fma(s.mzz, scale, wall[2]), one = Lanes::all(1);
     const Lanes least = max(one / (dilation_ratio * dilation_ratio), Lanes::all(0.5f));

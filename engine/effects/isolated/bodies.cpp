@@ -50,7 +50,8 @@ void kick(IsolatedBody& b, double dt) {
 }
 
 /// Forces where the bodies are; tangential springs stretch by the velocities times dt.
-void press_all(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& contacts, double dt) {
+void press_all(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& contacts,
+               double dt) {
   for (IsolatedBody& b : bodies) {
     b.velocity_ahead = b.velocity + 0.5 * dt / b.mass * b.force;
     b.spin_ahead = b.spin + 0.5 * dt / b.inertia() * b.torque;
@@ -75,8 +76,8 @@ void measure(IsolatedContact& c, const std::vector<IsolatedBody>& bodies) {
   if (distance > 0) c.normal = offset / distance;
 }
 
-void step_bodies(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& contacts, double dt,
-                 int n) {
+void step_bodies(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& contacts,
+                 double dt, int n) {
   const double h = dt / n;
   press_all(bodies, contacts, 0);
   for (int k = 0; k < n; ++k) {

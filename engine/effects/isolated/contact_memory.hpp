@@ -16,7 +16,8 @@ class ContactMemory {
   /// then came from no approach (a grain became isolated, the ground's plane jumped): that part
   /// carries no load until it has opened again, so it sets no energy free. Rounding of positions
   /// and of the ground's plane, 1e-4 of the radius, is left to the springs.
-  void recall(std::vector<IsolatedContact>& contacts, const std::vector<IsolatedBody>& bodies) const {
+  void recall(std::vector<IsolatedContact>& contacts,
+              const std::vector<IsolatedBody>& bodies) const {
     for (IsolatedContact& c : contacts) {
       const Entry key = entry(c, bodies);
       const auto found = std::lower_bound(entries_.begin(), entries_.end(), key, before);
@@ -31,7 +32,8 @@ class ContactMemory {
     }
   }
 
-  void remember(const std::vector<IsolatedContact>& contacts, const std::vector<IsolatedBody>& bodies) {
+  void remember(const std::vector<IsolatedContact>& contacts,
+                const std::vector<IsolatedBody>& bodies) {
     entries_.clear();
     for (const IsolatedContact& c : contacts)
       if (c.overlap > 0) entries_.push_back(entry(c, bodies));

@@ -49,8 +49,8 @@ class IsolatedContacts final : public Pass {
 
   std::size_t bytes() const override {
     return search_.bytes() + spheres_.capacity() * sizeof(IsolatedSphere) +
-           bodies_.capacity() * sizeof(IsolatedBody) + contacts_.capacity() * sizeof(IsolatedContact) +
-           memory_.bytes();
+           bodies_.capacity() * sizeof(IsolatedBody) +
+           contacts_.capacity() * sizeof(IsolatedContact) + memory_.bytes();
   }
 
  private:
@@ -87,7 +87,8 @@ class IsolatedContacts final : public Pass {
     return {p.boundary.nx[i], p.boundary.ny[i], p.boundary.nz[i]};
   }
 
-  /// Bodies and contacts of all groups in which two particles touch, or one the ground, within the step.
+  /// Bodies and contacts of all groups in which two particles touch, or one the ground, within the
+  /// step.
   void choose(const Domain& domain, const MovingSet& p, double dt) {
     // A hit may turn a particle round and, by a heavy one, make it faster: twice the largest
     // speed for each of two.

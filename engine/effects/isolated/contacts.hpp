@@ -31,10 +31,11 @@ struct IsolatedContactSettings {
 /// n = ceil(dt / min(0.2 T_R, t_c/20)) steps of velocity Verlet; their position is handed on such
 /// that the drift of the step ends where the fine steps ended. The others are not touched at all.
 ///
-/// What a particle overlaps at the moment it becomes isolated carries no load until it has opened, so
-/// becoming isolated sets no energy free (ContactMemory).
+/// What a particle overlaps at the moment it becomes isolated carries no load until it has opened,
+/// so becoming isolated sets no energy free (ContactMemory).
 ///
-/// Ledger: contact_work and isolated_work, rotational, isolated_elastic. Serial, in the order of ids.
+/// Ledger: contact_work and isolated_work, rotational, isolated_elastic. Serial, in the order of
+/// ids.
 void add_isolated_contacts(Step&, State&, std::size_t set, const IsolatedContactSettings&);
 
 }  // namespace sturz

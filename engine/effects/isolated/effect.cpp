@@ -58,7 +58,8 @@ class IsolationPass final : public Pass {
             const double fraction = reference * (1 + density_change[i]);
             const bool few = fraction < detach_fraction || out.neighbors[i] < detach_neighbors;
             const bool isolated = few && p.boundary.distance[i] >= touching;
-            alone[i] = isolated ? static_cast<std::uint8_t>(std::min(alone[i] + 1, detach_steps)) : 0;
+            alone[i] =
+                isolated ? static_cast<std::uint8_t>(std::min(alone[i] + 1, detach_steps)) : 0;
           }
         });
     land(p, s.gravity, touching);

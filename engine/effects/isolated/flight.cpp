@@ -52,16 +52,18 @@ struct GrainFields {
 /// The neighbourhood of an isolated particle.
 struct Surroundings {
   int neighbors = 0;
-  double support_completeness = 0;              ///< of its support, 1 inside a dense mass
-  double weight = 0, warm = 0;  ///< of the grains among them: sum of weights, and times theta
+  double support_completeness = 0;  ///< of its support, 1 inside a dense mass
+  double weight = 0, warm = 0;      ///< of the grains among them: sum of weights, and times theta
 
   double theta() const { return weight > 0 ? warm / weight : 0; }
   bool enough(const GrainStressSettings& g) const {
-    return neighbors >= attach_neighbors && support_completeness * g.states->reference_fraction > attach_fraction;
+    return neighbors >= attach_neighbors &&
+           support_completeness * g.states->reference_fraction > attach_fraction;
   }
 };
 
-/// Surveys the neighbourhood of every isolated particle: listed grains and other isolated particles.
+/// Surveys the neighbourhood of every isolated particle: listed grains and other isolated
+/// particles.
 class NeighborhoodSurvey {
  public:
   NeighborhoodSurvey(const Domain& domain, const MovingSet& set, const GrainStressSettings& g)
@@ -102,7 +104,8 @@ class NeighborhoodSurvey {
       for (const NearPair& pair : pairs) {
         const double r2 =
             (spheres[pair.a].position - spheres[pair.b].position - pair.image).squaredNorm();
-        if (r2 >= support_radius_ * support_radius_ || !rejoins[pair.a] || !rejoins[pair.b]) continue;
+        if (r2 >= support_radius_ * support_radius_ || !rejoins[pair.a] || !rejoins[pair.b])
+          continue;
         count(around_[pair.a], r2);
         count(around_[pair.b], r2);
       }
@@ -187,7 +190,8 @@ bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& 
     const Surroundings& around = survey.of(i);
     const double reference = g.states->reference_fraction;
     f.support_completeness[i] = around.support_completeness;
-    f.density_change[i] = std::fmin(around.support_completeness - 1, GrainStressSettings::separation_threshold);
+    f.density_change[i] =
+        std::fmin(around.support_completeness - 1, GrainStressSettings::separation_threshold);
     f.set(i, grain_state(reference * (1 + f.density_change[i])), Membership::listed);
     if (f.theta) {
       f.theta->component[0][i] = around.theta();

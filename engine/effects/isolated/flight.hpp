@@ -19,9 +19,9 @@ void attach_landed(MovingSet&);
 /// Puts the grains of the continuum first in storage and sets MovingSet::n_listed.
 void put_listed_first(MovingSet&);
 
-/// Takes back isolated particles that have come among at least `attach_neighbors` others, listed or isolated,
-/// that fill more than `attach_fraction`, with the granular temperature of the grains found there.
-/// Lists must be fresh. \return whether anybody came
+/// Takes back isolated particles that have come among at least `attach_neighbors` others, listed or
+/// isolated, that fill more than `attach_fraction`, with the granular temperature of the grains
+/// found there. Lists must be fresh. \return whether anybody came
 bool attach_near(const Domain&, MovingSet&, const GrainStressSettings&, const NeighborLists&,
                  IsolatedSearch&);
 

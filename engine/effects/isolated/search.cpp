@@ -46,7 +46,7 @@ void IsolatedSearch::add_images(const Period& period, int axis, double margin) {
 }
 
 void IsolatedSearch::enter(const std::vector<IsolatedSphere>& spheres, const Domain& domain,
-                         double margin) {
+                           double margin) {
   entries_.clear();
   for (std::uint32_t k = 0; k < spheres.size(); ++k) {
     Entry e{0, k, true, spheres[k].position};
@@ -79,7 +79,7 @@ bool IsolatedSearch::still_good(const std::vector<IsolatedSphere>& spheres, doub
 }
 
 const std::vector<NearPair>& IsolatedSearch::find(const std::vector<IsolatedSphere>& spheres,
-                                                double max_gap, const Domain& domain) {
+                                                  double max_gap, const Domain& domain) {
   pairs_.clear();
   if (spheres.size() < 2) return pairs_;
   if (!still_good(spheres, max_gap)) search(spheres, max_gap, domain);
@@ -92,7 +92,7 @@ const std::vector<NearPair>& IsolatedSearch::find(const std::vector<IsolatedSphe
 }
 
 void IsolatedSearch::search(const std::vector<IsolatedSphere>& spheres, double max_gap,
-                          const Domain& domain) {
+                            const Domain& domain) {
   double radius = 0;
   for (const IsolatedSphere& s : spheres) radius = std::max(radius, s.radius);
   ++n_grids_;
@@ -109,8 +109,8 @@ void IsolatedSearch::search(const std::vector<IsolatedSphere>& spheres, double m
     for (int row = 0; row < 9; ++row) {
       const int dy = row % 3 - 1, dz = row / 3 - 1;
       const std::uint64_t last = cell_of(e.position, 1, dy, dz);
-      auto other =
-          std::lower_bound(entries_.begin(), entries_.end(), cell_of(e.position, -1, dy, dz), before);
+      auto other = std::lower_bound(entries_.begin(), entries_.end(),
+                                    cell_of(e.position, -1, dy, dz), before);
       for (; other != entries_.end() && other->cell <= last; ++other) {
         const IsolatedSphere& b = spheres[other->sphere];
         if (a.id >= b.id) continue;  // found from the other side

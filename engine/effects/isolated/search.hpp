@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which isolated particles come near each other: by a grid, made anew once a particle has moved enough.
+/// Which isolated particles come near each other: by a grid, made anew once a particle has moved
+/// enough.
 #pragma once
 
 #include "engine/core/domain.hpp"
@@ -12,7 +13,7 @@ namespace sturz {
 
 /// A isolated particle as a contact sees it.
 struct IsolatedSphere {
-  Vec3 position{0, 0, 0};     ///< [m]
+  Vec3 position{0, 0, 0};  ///< [m]
   Vec3 velocity{0, 0, 0};  ///< [m/s]
   double radius = 0;       ///< [m]
   std::uint32_t id = 0;    ///< of the particle
@@ -29,7 +30,8 @@ class IsolatedSearch {
   /// All pairs whose surfaces are closer than `max_gap` > 0 [m], in the order of their ids, so that
   /// whoever sums over them does so in the same order whatever the storage. In periodic
   /// directions the boxes must be longer than twice (three largest radii plus `max_gap`).
-  const std::vector<NearPair>& find(const std::vector<IsolatedSphere>&, double max_gap, const Domain&);
+  const std::vector<NearPair>& find(const std::vector<IsolatedSphere>&, double max_gap,
+                                    const Domain&);
 
   std::size_t n_grids() const { return n_grids_; }  ///< made so far
   std::size_t bytes() const;

@@ -58,7 +58,8 @@ class KineticGather final : public Pass {
       if (e >= GrainStressSettings::separation_threshold && temperature == 0) continue;
       g.dense_group[i / group_size] = 0;
       const double fraction = states.reference_fraction * (1 + e);
-      const double dilation_ratio = (1 + std::max(e, GrainStressSettings::separation_threshold)) / (1 + e);
+      const double dilation_ratio =
+          (1 + std::max(e, GrainStressSettings::separation_threshold)) / (1 + e);
       k.dilation_ratio = static_cast<float>(dilation_ratio);
       k.weight = static_cast<float>(pair_weight(dilation_ratio, support_completeness[i]));
       double wave = 0;

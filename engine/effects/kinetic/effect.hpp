@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Grains that separate and meet again: states of the grains, and kinetic theory of those that collide.
+/// Grains that separate and meet again: states of the grains, and kinetic theory of those that
+/// collide.
 #pragma once
 
 #include "engine/effects/step.hpp"

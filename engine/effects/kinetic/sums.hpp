@@ -6,10 +6,10 @@
 ///   pair gradient     E += (v_i - v_j) (x) D, symmetric part: what that force's work goes with
 ///   conduction        H += W 4/(1/k_i + 1/k_j) (theta_j - theta_i)                            B.6
 ///   neighbours        N += 1 inside the support
-/// Every sum takes the product of both weights, so that momentum, energy and granular energy of a pair cancel.
-/// Production by the corrected gradient instead would make energy: where neighbours are few it is up
-/// to twice the gradient that the force works on. Contact stresses stay with the record's volumes: see
-/// KineticRecord.
+/// Every sum takes the product of both weights, so that momentum, energy and granular energy of a
+/// pair cancel. Production by the corrected gradient instead would make energy: where neighbours
+/// are few it is up to twice the gradient that the force works on. Contact stresses stay with the
+/// record's volumes: see KineticRecord.
 #pragma once
 
 #include "engine/effects/dense/tension_sums.hpp"

@@ -15,8 +15,8 @@ namespace sturz {
 struct KineticColumns {
   const double* mass = nullptr;
   const double* density_change = nullptr;  ///< at n+1
-  double* theta = nullptr;              ///< [m^2/s^2]
-  double* stress[6] = {};               ///< kinetic, xx yy zz xy yz zx, tension positive [Pa]
+  double* theta = nullptr;                 ///< [m^2/s^2]
+  double* stress[6] = {};                  ///< kinetic, xx yy zz xy yz zx, tension positive [Pa]
 };
 
 /// Sums and extremes over particles.
@@ -51,8 +51,8 @@ inline double kinetic_share(double fraction, bool paper_switch) {
 /// KineticRecord::weight: sums are completed to the whole, but not from less than 0.4 of it. One
 /// neighbour fills at most 1/23 of a support, so grains that have dilated further than `most` have
 /// no sum to complete. Without this bound the first neighbour of such a grain would count hundreds
-/// of times over: the support completeness is that of the step before, and was zero. \param dilation_ratio  volume over
-/// that of the record; \param completeness  of the support
+/// of times over: the support completeness is that of the step before, and was zero. \param
+/// dilation_ratio  volume over that of the record; \param completeness  of the support
 inline double pair_weight(double dilation_ratio, double completeness) {
   constexpr double most = 30;
   const double told = std::fmin(dilation_ratio, most);
@@ -107,10 +107,12 @@ class KineticUpdate {
     if (trace > 0) k.bulk_viscosity = std::min(k.bulk_viscosity, k.pressure * s0 / trace);
 
     // Gains what the pair forces take from the motion, no more: see SweepOutput::pair_gradient.
-    const Symmetric pair_gradient{r.pair_gradient[0][i], r.pair_gradient[1][i], r.pair_gradient[2][i],
-                         r.pair_gradient[3][i], r.pair_gradient[4][i], r.pair_gradient[5][i]};
+    const Symmetric pair_gradient{r.pair_gradient[0][i], r.pair_gradient[1][i],
+                                  r.pair_gradient[2][i], r.pair_gradient[3][i],
+                                  r.pair_gradient[4][i], r.pair_gradient[5][i]};
     const double opened = pair_gradient.trace();
-    double a = share * (2 * k.shear_viscosity * d.dot(pair_gradient) + k.bulk_viscosity * trace * opened) /
+    double a = share *
+               (2 * k.shear_viscosity * d.dot(pair_gradient) + k.bulk_viscosity * trace * opened) /
                (3 * density);
     double b = share * k.pressure * opened / (3 * density);
     if (a < 0) {  // uneven surroundings: it cools, as fast as its granular energy allows
@@ -134,7 +136,8 @@ class KineticUpdate {
     c.stress[3][i] = after.xy, c.stress[4][i] = after.yz, c.stress[5][i] = after.zx;
 
     const double mass = c.mass[i];
-    const double work = mass / density * dt_ * 0.5 * (before.dot(pair_gradient) + after.dot(pair_gradient));
+    const double work =
+        mass / density * dt_ * 0.5 * (before.dot(pair_gradient) + after.dot(pair_gradient));
     out.power += work;
     out.granular += 1.5 * mass * theta1;
     out.conducted += mass * conducted;

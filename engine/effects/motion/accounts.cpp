@@ -35,7 +35,7 @@ void combine(MotionSums& total, const MotionSums& block) {
 /// Works are taken with the mean velocity of the step: then a particle that is held at rest works
 /// on nothing, and the sum of all works is the change of kinetic energy.
 void account_step(const MovingSet& p, double gravity, const double* const before[3], std::size_t i,
-               double dt, MotionSums& out) {
+                  double dt, MotionSums& out) {
   const double bx = before[0][i], by = before[1][i], bz = before[2][i];
   const double dx = p.vx[i] - bx, dy = p.vy[i] - by, dz = p.vz[i] - bz;
   const double mx = bx + 0.5 * dx, my = by + 0.5 * dy, mz = bz + 0.5 * dz;

@@ -13,9 +13,9 @@ namespace sturz {
 /// \param keep  scratch
 void remove_outside(const State&, MovingSet&, std::vector<std::uint8_t>& keep);
 
-/// A domain boundary that is a wall takes the velocity component that would lead particle i off the known
-/// ground within dt.
-/// \return kinetic energy per mass that the boundary took, with the mean velocity of the step [J/kg]
+/// A domain boundary that is a wall takes the velocity component that would lead particle i off the
+/// known ground within dt. \return kinetic energy per mass that the boundary took, with the mean
+/// velocity of the step [J/kg]
 double stop_at_domain_boundary(const State&, MovingSet&, std::size_t i, double dt);
 
 }  // namespace sturz

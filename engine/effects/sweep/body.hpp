@@ -44,7 +44,7 @@ struct MirrorContribution {
   Lanes moment[6], gradient[6];
 
   MirrorContribution(const BoundaryView& wall, const GroupRows& rows, int lane, const DenseScale& k,
-        std::size_t at) {
+                     std::size_t at) {
     const Lanes zero = Lanes::all(0);
     const Lanes d = max(Lanes::load(wall.distance + at), zero);
     const Lanes y = max(fnma(d, Lanes::all(k.inv_support), Lanes::all(1)), zero), y2 = y * y;
@@ -68,8 +68,8 @@ struct MirrorContribution {
 };
 
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
-/// \param dilation_ratio  true volume over that of the records, 1 in a dense mass: sums over neighbours
-/// that
+/// \param dilation_ratio  true volume over that of the records, 1 in a dense mass: sums over
+/// neighbours that
 ///                dilated alike are too small by it
 /// \tparam dispersed  whether the group may be a cloud
 /// \return trace of the moment that ground and walls add
@@ -159,11 +159,13 @@ struct KineticRows {
   }
 };
 
-/// What kinetic stresses add to the acceleration, conducted granular energy, and how complete the support is.
+/// What kinetic stresses add to the acceleration, conducted granular energy, and how complete the
+/// support is.
 inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const GroupRows& rows,
-                           const KineticRows& own, int lane, const DenseScale& k, Lanes mirror_trace,
-                           const SweepOutput& out, std::size_t at) {
-  const Lanes dilation_ratio = Lanes::load(own.dilation_ratio + lane), weight = Lanes::load(own.weight + lane);
+                           const KineticRows& own, int lane, const DenseScale& k,
+                           Lanes mirror_trace, const SweepOutput& out, std::size_t at) {
+  const Lanes dilation_ratio = Lanes::load(own.dilation_ratio + lane),
+              weight = Lanes::load(own.weight + lane);
   const Lanes density =
       Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.density_change + lane));
   const Lanes factor = Lanes::all(-k.gradient) * weight / density;
@@ -178,10 +180,14 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
   const Lanes share = weight / dilation_ratio, half = Lanes::all(0.5f);
   (Lanes::all(k.laplacian) * share * s.conducted).store(out.conducted + at);
   const Lanes pair_gradient = Lanes::all(k.gradient) * share;
-  (pair_gradient * s.exx).store(out.pair_gradient[0] + at), (pair_gradient * s.eyy).store(out.pair_gradient[1] + at);
-  (pair_gradient * s.ezz).store(out.pair_gradient[2] + at), (half * pair_gradient * s.exy).store(out.pair_gradient[3] + at);
-  (half * pair_gradient * s.eyz).store(out.pair_gradient[4] + at), (half * pair_gradient * s.ezx).store(out.pair_gradient[5] + at);
-  support_completeness(dense, k, mirror_trace / dilation_ratio).store(out.support_completeness + at);
+  (pair_gradient * s.exx).store(out.pair_gradient[0] + at),
+      (pair_gradient * s.eyy).store(out.pair_gradient[1] + at);
+  (pair_gradient * s.ezz).store(out.pair_gradient[2] + at),
+      (half * pair_gradient * s.exy).store(out.pair_gradient[3] + at);
+  (half * pair_gradient * s.eyz).store(out.pair_gradient[4] + at),
+      (half * pair_gradient * s.ezx).store(out.pair_gradient[5] + at);
+  support_completeness(dense, k, mirror_trace / dilation_ratio)
+      .store(out.support_completeness + at);
   s.count.store(out.neighbors + at);
 }
 
@@ -206,9 +212,12 @@ inline void finish_ratio(const RatioSums& r, const GroupRows& rows, int lane, co
 
 /// The lanes' own values of a group.
 inline DenseSelf self_of(const GroupRows& rows, int lane) {
-  return {IntLanes::load(rows.x + lane),       IntLanes::load(rows.y + lane),
-          IntLanes::load(rows.z + lane),       Lanes::load(rows.vx + lane),
-          Lanes::load(rows.vy + lane),         Lanes::load(rows.vz + lane),
+  return {IntLanes::load(rows.x + lane),
+          IntLanes::load(rows.y + lane),
+          IntLanes::load(rows.z + lane),
+          Lanes::load(rows.vx + lane),
+          Lanes::load(rows.vy + lane),
+          Lanes::load(rows.vz + lane),
           Lanes::load(rows.density_change + lane)};
 }
 
@@ -239,7 +248,9 @@ inline void dense_group(const NeighborView& view, const DenseScale& scale, const
     }
     const Lanes mirror_trace =
         finish_dense<false>(sums, rows, lane, scale, wall, out, first + lane, Lanes::all(1));
-    if constexpr (completeness) support_completeness(sums, scale, mirror_trace).store(out.support_completeness + first + lane);
+    if constexpr (completeness)
+      support_completeness(sums, scale, mirror_trace)
+          .store(out.support_completeness + first + lane);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, first + lane);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, first + lane);
   }
@@ -249,8 +260,10 @@ inline void dense_group(const NeighborView& view, const DenseScale& scale, const
 template <bool completeness>
 inline auto pick_dense(const SweepConstants& c) {
   if (c.stress_smoothing > 0)
-    return c.tension ? &dense_group<true, completeness, true> : &dense_group<true, completeness, false>;
-  return c.tension ? &dense_group<false, completeness, true> : &dense_group<false, completeness, false>;
+    return c.tension ? &dense_group<true, completeness, true>
+                     : &dense_group<true, completeness, false>;
+  return c.tension ? &dense_group<false, completeness, true>
+                   : &dense_group<false, completeness, false>;
 }
 
 inline void dense_sweep(const NeighborView& view, const SweepConstants& constants,
@@ -293,8 +306,8 @@ inline void kinetic_group(const NeighborView& view, const KineticView& dispersed
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const std::size_t at = first + lane;
-    const Lanes mirror_trace =
-        finish_dense<true>(sums, rows, lane, scale, wall, out, at, Lanes::load(own.dilation_ratio + lane));
+    const Lanes mirror_trace = finish_dense<true>(sums, rows, lane, scale, wall, out, at,
+                                                  Lanes::load(own.dilation_ratio + lane));
     finish_kinetic(more, sums, rows, own, lane, scale, mirror_trace, out, at);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, at);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, at);
@@ -308,7 +321,8 @@ inline auto pick_kinetic(const SweepConstants& c) {
 }
 
 /// Whether no grain in the group or near it is dispersed.
-inline bool dense_around(const NeighborView& view, const KineticView& dispersed, std::size_t group) {
+inline bool dense_around(const NeighborView& view, const KineticView& dispersed,
+                         std::size_t group) {
   const std::uint32_t* list = view.list(group);
   const std::size_t n = view.list_size(group);
   unsigned dense_group = dispersed.dense_group[group];

@@ -23,10 +23,12 @@ struct Sweeps {
   /// diffusion (terms/dense_sums.hpp).
   void (*dense)(const NeighborView&, const SweepConstants&, const BoundaryView&, const SweepOutput&,
                 std::size_t first_group, std::size_t last_group);
-  /// The same where grains may disperse: kinetic stresses, conduction of granular temperature, how full
-  /// each support is (terms/kinetic_sums.hpp). Groups without dispersed grains in or near them take `dense`.
-  void (*kinetic)(const NeighborView&, const KineticView&, const SweepConstants&, const BoundaryView&,
-                  const SweepOutput&, std::size_t first_group, std::size_t last_group);
+  /// The same where grains may disperse: kinetic stresses, conduction of granular temperature, how
+  /// full each support is (terms/kinetic_sums.hpp). Groups without dispersed grains in or near them
+  /// take `dense`.
+  void (*kinetic)(const NeighborView&, const KineticView&, const SweepConstants&,
+                  const BoundaryView&, const SweepOutput&, std::size_t first_group,
+                  std::size_t last_group);
   /// Appends to `out` those of `candidates` that lie within `radius_units` of any particle of the
   /// group that starts at record `first`, in the given order. Returns how many.
   std::size_t (*tight_list)(const NeighborRecord* records, std::size_t first, int n_in_group,

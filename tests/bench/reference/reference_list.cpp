@@ -13,8 +13,8 @@ ReferenceNeighbors::Place ReferenceNeighbors::place_of(float x, float y, float z
           static_cast<int>((z - low_[2]) / edge_)};
 }
 
-/// Cells of half a search radius, numbered so that those above each other follow each other; two empty
-/// ones all around, so that nobody has to ask where the table ends.
+/// Cells of half a search radius, numbered so that those above each other follow each other; two
+/// empty ones all around, so that nobody has to ask where the table ends.
 const std::vector<int>& ReferenceNeighbors::sort(const std::vector<float>& x,
                                                  const std::vector<float>& y,
                                                  const std::vector<float>& z) {

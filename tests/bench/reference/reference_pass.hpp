@@ -5,8 +5,9 @@
 ///
 /// Left out against the engine: the gradient's correction (moment matrix), density diffusion,
 /// stress smoothing, the mirror image at the ground, drag at rest, dilated grains, cohesion, walls,
-/// periods, zones, losses over the domain boundary, the energy ledger, double precision of the state, sums
-/// whose bits do not depend on threads, limits of the time step, peak maps and the stop rule.
+/// periods, zones, losses over the domain boundary, the energy ledger, double precision of the
+/// state, sums whose bits do not depend on threads, limits of the time step, peak maps and the stop
+/// rule.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,8 @@ struct ReferenceNumbers {
   float static_friction, dynamic_friction;
   float slowness;  ///< G I_0 / (d_p sqrt(rho_p)) [Pa^(1/2)/s]
   float gravity;
-  float spring, damping, contact_distance, basal_friction;  ///< of the ground [1/s^2], [1/s], [m], [-]
+  float spring, damping, contact_distance,
+      basal_friction;  ///< of the ground [1/s^2], [1/s], [m], [-]
 };
 
 /// Nodes of the ground; node (0, 0) in the south-west.

@@ -75,9 +75,20 @@ ReferenceSlide::ReferenceSlide(const SimulationParts& parts, const ScenePlan& pl
 }
 
 ReferenceColumns ReferenceSlide::columns() {
-  ReferenceColumns c{
-      size(),       x_.data(),           y_.data(),  z_.data(),  vx_.data(), vy_.data(), vz_.data(),
-      mass_.data(), density_change_.data(), ax_.data(), ay_.data(), az_.data(), {},         {}};
+  ReferenceColumns c{size(),
+                     x_.data(),
+                     y_.data(),
+                     z_.data(),
+                     vx_.data(),
+                     vy_.data(),
+                     vz_.data(),
+                     mass_.data(),
+                     density_change_.data(),
+                     ax_.data(),
+                     ay_.data(),
+                     az_.data(),
+                     {},
+                     {}};
   for (int k = 0; k < 6; ++k) c.stress[k] = stress_[k].data();
   for (int k = 0; k < 9; ++k) c.gradient[k] = gradient_[k].data();
   return c;

@@ -86,7 +86,8 @@ TEST(Arrivals, BringMassAndEnergyIntoTheLedger) {
   EXPECT_NEAR(f.ledger.added_mass, 50 * 1560.0, 1e-9);
   EXPECT_NEAR(f.ledger.added_energy, 50 * 0.5 * 1560 * 1.5 * 1.5, 1e-6);
   EXPECT_LT(std::abs(f.result.scalars.mass_error), 1e-13);
-  EXPECT_LT(std::abs(f.ledger.residual()), 0.02 * (f.ledger.released_energy() + f.ledger.added_energy));
+  EXPECT_LT(std::abs(f.ledger.residual()),
+            0.02 * (f.ledger.released_energy() + f.ledger.added_energy));
 }
 
 TEST(Arrivals, AreFollowedByIdInTravelAndFrames) {

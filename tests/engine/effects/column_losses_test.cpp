@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Columns that leave the ground, domain boundaries and walls that hold them: accounted once, and no other account
-/// changes.
+/// Columns that leave the ground, domain boundaries and walls that hold them: accounted once, and
+/// no other account changes.
 #include "engine/effects/fields.hpp"
 #include "tests/support/hand_made.hpp"
 
@@ -22,8 +22,8 @@ double total(const std::vector<double>& v) { return std::accumulate(v.begin(), v
 
 /// d(kinetic) that the accounted works do not explain, see Ledger [J].
 double unexplained(const Ledger& ledger) {
-  return ledger.kinetic - ledger.kinetic_0 - ledger.gravity_work - ledger.stress_work - ledger.contact_work +
-         ledger.friction + ledger.rest_damping + ledger.lost_energy;
+  return ledger.kinetic - ledger.kinetic_0 - ledger.gravity_work - ledger.stress_work -
+         ledger.contact_work + ledger.friction + ledger.rest_damping + ledger.lost_energy;
 }
 
 /// Thirty columns that slide east over ground of 16 x 16 m around the origin.

@@ -138,7 +138,8 @@ TEST(ColumnSweep, ALoneColumnMeetsOnlyItself) {
   auto flow = rough_flow(40, 20, 20);
   flow.push_back(flow[0]);
   flow.back().position += Vec3(900, -700, 50);
-  const ColumnRates single = test::fast_columns(flow, constants, best_instruction_set()).rates.back();
+  const ColumnRates single =
+      test::fast_columns(flow, constants, best_instruction_set()).rates.back();
   const double own = 7 / (std::numbers::pi * flow[0].support_radius * flow[0].support_radius);
   EXPECT_NEAR(single.density, own, 1e-6 * own);
   EXPECT_NEAR(single.thickness, flow[0].volume * own, 1e-6 * flow[0].volume * own);

@@ -24,7 +24,8 @@ const std::vector<Part> parts{
     {"acceleration", [](const SlowRates& r) -> Eigen::MatrixXd { return r.acceleration; }},
     {"gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; }},
     {"diffusion", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.diffusion, 0, 0); }},
-    {"mirror weight", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.mirror_weight, 0, 0); }},
+    {"mirror weight",
+     [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.mirror_weight, 0, 0); }},
     {"smoothing", [](const SlowRates& r) -> Eigen::MatrixXd { return r.smoothing; }}};
 
 /// A block with free surfaces all around and walls' terms on some of the particles.
@@ -105,7 +106,8 @@ TEST(FusedSweep, PairForcesKeepMomentum) {
   Vec3 sum(0, 0, 0);
   double scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double mass = constants.reference_density * (1 + cloud[i].density_change) * cloud[i].volume;
+    const double mass =
+        constants.reference_density * (1 + cloud[i].density_change) * cloud[i].volume;
     sum += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
   }
@@ -213,8 +215,9 @@ TEST(FusedSweep, GroundMirrorsAsAWallDoes) {
   EXPECT_LT(test::relative_error(ground, wall, gradient), 1e-6);
   // Far off, both moments are rounding: what counts is how much of the mirror contribution acts.
   for (std::size_t i = 0; i < wall.size(); ++i)
-    EXPECT_NEAR((ground[i].mirror_weight - wall[i].mirror_weight) * beside_wall[i].wall_moment.trace(), 0,
-                1e-6);
+    EXPECT_NEAR(
+        (ground[i].mirror_weight - wall[i].mirror_weight) * beside_wall[i].wall_moment.trace(), 0,
+        1e-6);
 }
 
 TEST(FusedSweep, WithoutGrainsAboveAWallIsNotMirrored) {

@@ -58,8 +58,8 @@ TEST(GrainStates, AreAbsentWhereTheSceneDoesNotNameThem) {
   s.grains->states.reset();
   const Simulation simulation = made(s);
   const MovingSet& grains = simulation.parts().state.grains();
-  for (const FieldKey* key :
-       {&fields::support_completeness, &fields::granular_temperature, &fields::kinetic_stress, &fields::spin})
+  for (const FieldKey* key : {&fields::support_completeness, &fields::granular_temperature,
+                              &fields::kinetic_stress, &fields::spin})
     EXPECT_FALSE(grains.has(*key)) << key->name;
   for (const FlagKey* key : {&fields::state, &fields::steps_alone, &fields::membership})
     EXPECT_FALSE(grains.has(*key)) << key->name;
@@ -151,8 +151,9 @@ TEST(GrainStates, AnIsolatedParticleFollowsItsParabola) {
   EXPECT_NEAR(state.grains().x[i], x0 + vx * (state.time - t0), 1e-12);
 }
 
-/// Puts the first grains at rest on `positions`, in units of dx about a point high up, and the others
-/// far apart from everybody; all as isolated particles. \return how many are taken back as grains
+/// Puts the first grains at rest on `positions`, in units of dx about a point high up, and the
+/// others far apart from everybody; all as isolated particles. \return how many are taken back as
+/// grains
 std::size_t taken_back(const std::vector<Vec3>& positions) {
   Simulation simulation = explosion(IsolatedContactLaw::none);
   State& state = simulation.parts().state;

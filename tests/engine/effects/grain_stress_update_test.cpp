@@ -169,12 +169,14 @@ TEST(GrainStressUpdate, WorkIsStoredOrDissipated) {
     grain.diffusion = static_cast<float>(1e-3 * u(random));
     const StressEnergies e = grain.update(g, 1e-4);
     EXPECT_GE(e.plastic, -1e-9 * stiff);
-    EXPECT_NEAR(e.elastic, elastic_energy(g, 1, grain.density_change, grain.tau()), 1e-9 * e.elastic);
+    EXPECT_NEAR(e.elastic, elastic_energy(g, 1, grain.density_change, grain.tau()),
+                1e-9 * e.elastic);
     error += std::abs(e.elastic - stored - (e.power - e.plastic + e.diffusion));
     scale += std::abs(e.power);
     stored = e.elastic;
   }
-  EXPECT_LT(error, 0.01 * scale);  // volumes are taken at rho_ref: first order in the density change
+  EXPECT_LT(error,
+            0.01 * scale);  // volumes are taken at rho_ref: first order in the density change
 }
 
 TEST(GrainStressUpdate, DragActsOnLoadedGrainsAtRestOnly) {

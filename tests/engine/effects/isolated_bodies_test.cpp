@@ -49,7 +49,7 @@ After meet(double restitution, double across, int n, double share) {
   std::vector<IsolatedContact> contacts{soft_contact(restitution, 0.5)};
   const double h = impact_duration(contacts[0].law, 20) / n, x = 0.5 + share * h * 10;
   std::vector<IsolatedBody> two{body({-x, 0, 0}, {10, across, 0}, 0),
-                              body({x, 0, 0}, {-10, -across, 0}, 1)};
+                                body({x, 0, 0}, {-10, -across, 0}, 1)};
   step_bodies(two, contacts, (2 * n + 2) * h, 2 * n + 2);
   const IsolatedBody& b = two[0];
   return {-b.velocity.x() / 10, b.spin.z() * b.radius,
@@ -84,7 +84,7 @@ TEST(IsolatedBodies, HandTheirContactsOnFromStepToStep) {
   const IsolatedContact contact = soft_contact(0.7, 0.5);
   const double dt = 1.5 * impact_duration(contact.law, 20), start = 0.499;
   const std::vector<IsolatedBody> begin{body({-start, 0, 0}, {10, 2, 0}, 7),
-                                      body({start, 0, 0}, {-10, 0, 1}, 3)};
+                                        body({start, 0, 0}, {-10, 0, 1}, 3)};
   std::vector<IsolatedBody> whole = begin, parts = begin;
   std::vector<IsolatedContact> contacts{contact};
   step_bodies(whole, contacts, dt, 800);
@@ -109,7 +109,8 @@ TEST(IsolatedBodies, HandTheirContactsOnFromStepToStep) {
 
 using IdPairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-IdPairs by_brute_force(const std::vector<IsolatedSphere>& spheres, double max_gap, const Domain& d) {
+IdPairs by_brute_force(const std::vector<IsolatedSphere>& spheres, double max_gap,
+                       const Domain& d) {
   IdPairs all;
   const int p = d.x.active ? 2 : 0, q = d.y.active ? 2 : 0;
   for (const IsolatedSphere& a : spheres)
@@ -160,7 +161,8 @@ TEST(IsolatedSearch, FindsEveryPairAndNoOtherWhileTheyMove) {
 }
 
 TEST(IsolatedSearch, SeesNewcomersAndWhoWasWrapped) {
-  std::vector<IsolatedSphere> spheres{{{0, 0, 0}, {0, 0, 0}, 0.5, 4}, {{9, 0, 0}, {0, 0, 0}, 0.5, 2}};
+  std::vector<IsolatedSphere> spheres{{{0, 0, 0}, {0, 0, 0}, 0.5, 4},
+                                      {{9, 0, 0}, {0, 0, 0}, 0.5, 2}};
   IsolatedSearch search;
   EXPECT_EQ(search.find(spheres, 0.1, {}).size(), 0u);
   spheres.push_back({{0, 0.9, 0}, {0, 0, 0}, 0.5, 1});

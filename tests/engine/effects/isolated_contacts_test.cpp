@@ -38,7 +38,8 @@ TEST(IsolatedContacts, TwoIsolatedParticlesKeepTheirMomentumAndTheLedgerCloses) 
   EXPECT_GT(ledger.isolated_dissipated(), 0.1 * kinetic);
   EXPECT_EQ(ledger.contact_work, ledger.isolated_work);
   EXPECT_EQ(ledger.damping(), 0);
-  EXPECT_NEAR(ledger.kinetic + ledger.rotational + ledger.isolated_dissipated(), kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(ledger.kinetic + ledger.rotational + ledger.isolated_dissipated(), kinetic,
+              1e-12 * kinetic);
 }
 
 /// Relative speed after over before of two equal particles that meet head on.
@@ -255,7 +256,8 @@ TEST(IsolatedContacts, KineticEnergyChangesOnlyByAccountedWorksUnderGravity) {
                 1e-10 * ledger.kinetic_0)
         << n;
   }
-  // What is left is where within a step a hit falls: gravity's work over the displacement of half a step.
+  // What is left is where within a step a hit falls: gravity's work over the displacement of half a
+  // step.
   EXPECT_GT(ledger.isolated_dissipated(), 0.3 * ledger.kinetic_0);
   EXPECT_LT(std::abs(ledger.residual()), 0.005 * ledger.kinetic_0);
 }

@@ -46,7 +46,8 @@ const std::vector<Part> parts{
     {"diffusion", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.diffusion, 0, 0); }},
     {"conducted", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.conducted, 0, 0); }},
     {"pair_gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.pair_gradient; }},
-    {"support_completeness", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.support_completeness, 0, 0); }},
+    {"support_completeness",
+     [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.support_completeness, 0, 0); }},
     {"smoothing", [](const SlowRates& r) -> Eigen::MatrixXd { return r.smoothing; }}};
 
 TEST(KineticSweep, EqualsTheSlowTwin) {
@@ -102,7 +103,8 @@ TEST(KineticSweep, KeepsMomentumGranularEnergyAndEnergy) {
   Vec3 force(0, 0, 0);
   double scale = 0, conducted = 0, conducted_scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double mass = cloud[i].volume * constants.reference_density * (1 + cloud[i].density_change);
+    const double mass =
+        cloud[i].volume * constants.reference_density * (1 + cloud[i].density_change);
     force += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
     conducted += cloud[i].volume * cloud[i].dilation_ratio * fast[i].conducted;
@@ -118,7 +120,8 @@ TEST(KineticSweep, KeepsMomentumGranularEnergyAndEnergy) {
     const SlowParticle& p = cloud[i];
     const double mass = p.volume * constants.reference_density * (1 + p.density_change);
     work += mass * (fast[i].acceleration - without[i].acceleration).dot(p.velocity);
-    power += p.volume * p.dilation_ratio * p.kinetic_stress.cwiseProduct(fast[i].pair_gradient).sum();
+    power +=
+        p.volume * p.dilation_ratio * p.kinetic_stress.cwiseProduct(fast[i].pair_gradient).sum();
     size += p.volume * p.dilation_ratio * p.kinetic_stress.norm() * fast[i].pair_gradient.norm();
   }
   EXPECT_LT(std::abs(work + power), 1e-4 * size);
@@ -168,8 +171,8 @@ TEST(KineticSweep, LinearVelocityGivesTheExactGradientInAnExpandedCloud) {
   }
 }
 
-/// A grain that finds its first neighbour: the support completeness of the step before does not include it, and the
-/// density follows later still.
+/// A grain that finds its first neighbour: the support completeness of the step before does not
+/// include it, and the density follows later still.
 TEST(KineticSweep, APairThatMeetsInEmptySpaceIsNotFeltManyTimesOver) {
   const auto constants = test::usual_constants(dx);
   for (const double dilation_ratio : {5.0, 30.0, 100.0, 1000.0}) {
@@ -180,13 +183,15 @@ TEST(KineticSweep, APairThatMeetsInEmptySpaceIsNotFeltManyTimesOver) {
     }
     pair[0].velocity = Vec3(0, 0, 0), pair[1].velocity = Vec3(-1, 0, 0);
     const auto fast = test::kinetic_sweep(pair, constants, best_instruction_set()).rates;
-    EXPECT_LT(fast[0].pair_gradient.norm(), 11 / dx) << dilation_ratio;  // 1/dx is what there is; it was 330
+    EXPECT_LT(fast[0].pair_gradient.norm(), 11 / dx)
+        << dilation_ratio;  // 1/dx is what there is; it was 330
     EXPECT_GT(fast[0].pair_gradient.norm(), 0) << dilation_ratio;
   }
   for (const double dilation_ratio : {5.0, 30.0})
     for (const double filled : {0.4, 1.0, 3.0}) {
       const double weight = pair_weight(dilation_ratio, filled / dilation_ratio);
-      EXPECT_NEAR(weight * weight / dilation_ratio * (filled / dilation_ratio), 1, 1e-12);  // the sums are whole
+      EXPECT_NEAR(weight * weight / dilation_ratio * (filled / dilation_ratio), 1,
+                  1e-12);  // the sums are whole
     }
 }
 

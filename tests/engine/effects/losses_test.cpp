@@ -17,8 +17,8 @@ double total(const std::vector<double>& v) { return std::accumulate(v.begin(), v
 
 /// d(kinetic) that the accounted works do not explain, see Ledger [J].
 double unexplained(const Ledger& ledger) {
-  return ledger.kinetic - ledger.kinetic_0 - ledger.gravity_work - ledger.stress_work - ledger.contact_work +
-         ledger.friction + ledger.rest_damping + ledger.lost_energy;
+  return ledger.kinetic - ledger.kinetic_0 - ledger.gravity_work - ledger.stress_work -
+         ledger.contact_work + ledger.friction + ledger.rest_damping + ledger.lost_energy;
 }
 
 TEST(Losses, MassThatLeavesIsAccountedForExactly) {
@@ -35,8 +35,8 @@ TEST(Losses, MassThatLeavesIsAccountedForExactly) {
 
 TEST(Losses, AccelerationsFollowTheirParticles) {
   // Works are accounted after the removal: each with the acceleration of its particle.
-  auto made =
-      test::particles_on(even_ground(16), {{20, 0, 5}, {0, 0, 5}, {30, 0, 5}, {3, 0, 5}}, {0, 0, 0});
+  auto made = test::particles_on(even_ground(16), {{20, 0, 5}, {0, 0, 5}, {30, 0, 5}, {3, 0, 5}},
+                                 {0, 0, 0});
   made.state.grains().ax = {1, 2, 3, 4};
   made.advance();
   EXPECT_EQ(made.state.grains().id, (std::vector<std::uint32_t>{1, 3}));
@@ -55,7 +55,8 @@ TEST(Losses, KineticEnergyChangesOnlyByAccountedWorks) {
 }
 
 TEST(Losses, StoredAndKineticEnergyLeaveWithTheirParticle) {
-  // Thrown over the domain boundary, never touching: what the ledger loses is what the particles had.
+  // Thrown over the domain boundary, never touching: what the ledger loses is what the particles
+  // had.
   auto made = test::grains_on(even_ground(16), block({2, 2, 2}, {7, 0, 30}), {20, 0, 0});
   Ledger& ledger = made.state.grains().ledger;
   double kinetic = 0, elastic = 0;

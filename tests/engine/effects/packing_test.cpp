@@ -52,8 +52,8 @@ TEST(DilatantPacking, DensityStaysWhatTheSurroundingsAllow) {
 }
 
 TEST(DilatantPacking, FewNeighboursHoldLittlePressure) {
-  // Five grains in flight that hit the ground at 90 m/s: compressed by 9 % at a support completeness of 0.19, they
-  // threw one of them off at 1.1 times the speed of free fall.
+  // Five grains in flight that hit the ground at 90 m/s: compressed by 9 % at a support
+  // completeness of 0.19, they threw one of them off at 1.1 times the speed of free fall.
   for (const bool touching : {false, true})
     EXPECT_LT(DilatantPacking::bounded(0.09, 0.19, touching), 0.015);
   double before = 0;

@@ -87,8 +87,8 @@ int turns(const Period& p, double support_radius) {
   return p.active ? 1 + static_cast<int>(std::ceil(support_radius / p.length())) : 0;
 }
 
-/// Pairs within the smaller support radius of the two, images included; those of them that are missing, and
-/// neighbours that are seen where nobody stands.
+/// Pairs within the smaller support radius of the two, images included; those of them that are
+/// missing, and neighbours that are seen where nobody stands.
 struct PairCount {
   long pairs = 0, missing = 0, phantoms = 0;
 };

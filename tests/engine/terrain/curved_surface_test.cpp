@@ -59,7 +59,8 @@ TEST(CurvedSurface, IsExactOnPlanesOfAnyTilt) {
         EXPECT_NEAR(s.z, plane(p.x(), p.y()), 1e-11);
         EXPECT_NEAR(s.east, east, 1e-12);
         EXPECT_NEAR(s.north, north, 1e-12);
-        for (const double curvature : {s.curvature_ee, s.curvature_en, s.curvature_nn}) EXPECT_NEAR(curvature, 0, 1e-12);
+        for (const double curvature : {s.curvature_ee, s.curvature_en, s.curvature_nn})
+          EXPECT_NEAR(curvature, 0, 1e-12);
       }
     }
 }

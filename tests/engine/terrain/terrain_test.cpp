@@ -72,7 +72,8 @@ TEST(Terrain, DistanceToAPlaneIsExactAtAnySlopeAndSide) {
             const Vec3 foot(50 + shift, -40 - 0.7 * shift,
                             a * (50 + shift) - b * (40 + 0.7 * shift));
             const SurfaceDistance s = t.distance(foot + d * contact_distance * n, contact_distance);
-            EXPECT_NEAR(s.distance, d * contact_distance, 1e-9) << slope << ' ' << turn << ' ' << contact_distance;
+            EXPECT_NEAR(s.distance, d * contact_distance, 1e-9)
+                << slope << ' ' << turn << ' ' << contact_distance;
             EXPECT_LT((s.normal - n).norm(), 1e-6) << slope << ' ' << turn << ' ' << d;
           }
     }
@@ -155,7 +156,9 @@ TEST(Terrain, GroundFinerThanTheContactDistanceKeepsItsCliffs) {
   const double contact_distance = 3;
   for (double x : {17.0, 18.0, 19.0, 19.9}) {
     const double exact = std::min(2.5, ((20 - x) * tan60 + 2.5) * 0.5);
-    EXPECT_NEAR(t.distance({x, -15, 2.5}, contact_distance).distance, exact, 0.12 * contact_distance) << x;
+    EXPECT_NEAR(t.distance({x, -15, 2.5}, contact_distance).distance, exact,
+                0.12 * contact_distance)
+        << x;
   }
 }
 

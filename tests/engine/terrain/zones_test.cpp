@@ -63,7 +63,7 @@ const std::vector<Vec3> one_per_strip{{-10, -10, 0.5}, {-10, 0, 0.5}, {-10, 10, 
 
 TEST(ZonesOfTheBed, AParticleFeelsTheFrictionOfItsZone) {
   HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
-                                         {{0.2}, {0.6}, {0.6, 0.5}}, strips());
+                                           {{0.2}, {0.6}, {0.6, 0.5}}, strips());
   advance_to(made, 0.8);
   const ParticleSet& p = made.state.grains();
   // What bounces does not weigh: the contact's first millimetres are the one per cent.
@@ -74,7 +74,7 @@ TEST(ZonesOfTheBed, AParticleFeelsTheFrictionOfItsZone) {
 
 TEST(ZonesOfTheBed, AParticleFeelsTheCohesionOfItsZone) {
   HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
-                                         {{0}, {0, 0, 1560 * 2.0}, {0}}, strips());
+                                           {{0}, {0, 0, 1560 * 2.0}, {0}}, strips());
   advance_to(made, 0.8);
   // A particle of 1 m^3 and 1560 kg on 1 m^2: 2 m/s^2.
   EXPECT_EQ(made.state.grains().vx[0], 6);
@@ -85,7 +85,7 @@ TEST(ZonesOfTheBed, AParticleFeelsTheCohesionOfItsZone) {
 TEST(ZonesOfTheBed, AParticleChangesZonesOnItsWay) {
   const auto rough_east = zones_of([](double x, double) { return x >= 0; });
   HandMade made = test::particles_on_zones(even_ground(40), {{-3, 0, 0.5}}, {6, 0, 0}, {},
-                                         {{0.2}, {0.6}}, rough_east);
+                                           {{0.2}, {0.6}}, rough_east);
   advance_to(made, 3);
   // v^2/2 = 18: three metres take 0.2 g each, the rest 0.6 g.
   const double stop = (18 - 3 * 0.2 * g) / (0.6 * g);
@@ -103,7 +103,7 @@ const auto rough_west = zones_of([](double x, double) { return x < 0; });
 
 TEST(ZonesOfTheBed, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
   HandMade made = test::particles_on_zones(even_ground(40), {{9, 0, 0.5}}, {6, 0, 0}, repeating(),
-                                         {{0.2}, {0.6}}, rough_west);
+                                           {{0.2}, {0.6}}, rough_west);
   advance_to(made, 3);
   const double travel = 1 + (18 - 0.2 * g) / (0.6 * g);
   EXPECT_NEAR(made.state.grains().x[0], 9 + travel, 0.01 * travel);

@@ -125,8 +125,8 @@ std::pair<double, double> off_centre() {
   return {together, gained};
 }
 
-/// A particle against the ground as its partner. The ground's distance is a float: below 1e-3 m/s its
-/// rounding shows in the restitution, but particles leave at any speed.
+/// A particle against the ground as its partner. The ground's distance is a float: below 1e-3 m/s
+/// its rounding shows in the restitution, but particles leave at any speed.
 Worst against_the_ground() {
   Worst worst;
   const Softened soft(1);
