@@ -17,7 +17,7 @@ struct EffectName {
   static constexpr std::string_view column_pressure = "lateral pressure of columns";
   static constexpr std::string_view walls = "walls";
   static constexpr std::string_view motion = "motion";
-  /// Nobody asks for it: peak maps, history, limits of the time step.
+  /// No scenario key asks for it: peak maps, history, limits of the time step.
   static constexpr std::string_view bookkeeping = "bookkeeping";
 };
 

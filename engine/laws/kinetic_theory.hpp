@@ -39,7 +39,7 @@ struct KineticCoefficients {
 /// `longest_path` is this project's own bound, not in the paper. mu_kin and the first part of
 /// k_theta are what grains carry along their mean free path l = d/(6 sqrt(2) alpha g0). As alpha
 /// falls they tend to constants, so mu/(alpha rho_p) ~ l s grows without bound and takes the time
-/// step with it, although grains that meet nobody within a smoothing length do not exchange
+/// step with it, although grains without neighbours within a smoothing length do not exchange
 /// momentum at that rate. Where l is longer than the bound these parts are multiplied by
 /// longest_path/l; then mu/(alpha rho_p) tends to 5 sqrt(2 pi) longest_path s/(8 (1+e)).
 ///

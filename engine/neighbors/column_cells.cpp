@@ -76,7 +76,7 @@ void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double s
   for (std::size_t i = 0; i < set.size(); ++i) add(i, 0, 0, 0);
   if (!domain.x.active && !domain.y.active) return;
   // Images stand within one support radius of the period's edges; where the period is shorter than
-  // the support radius, several of them do. Those beyond the frame are nobody's neighbours and
+  // the support radius, several of them do. Those beyond the frame are neighbours of no column and
   // would not fit into the records' positions.
   const double east = west_ + n_cols_ * width_, north = south_ + n_rows_ * height_;
   auto for_each_turn = [&](const Period& p, double position, auto&& visit) {

@@ -41,7 +41,7 @@ void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads,
   ++n_rebuilds_;
 }
 
-/// Nobody to list.
+/// No particle to list.
 void NeighborLists::rest() {
   images_.clear();
   records_.clear();

@@ -38,7 +38,7 @@ struct HistoryColumn {
 /// Every column in file order, time first; the one table that netCDF and report share.
 std::span<const HistoryColumn> history_table();
 
-/// Not part of any hash: it says when someone looked, the state says what happened.
+/// Not part of any hash: it depends on when the state was sampled, not on what happened.
 struct MemberHistory {
   std::vector<HistoryRow> rows;  ///< time rises strictly
   bool has_states = false;       ///< grains.states was asked for

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double most_time_ratio = 1.02;
 
-/// A member under test, whoever put it together.
+/// A member under test, however it was put together.
 struct Moving {
   std::shared_ptr<void> owner;
   State* state = nullptr;

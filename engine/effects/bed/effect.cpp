@@ -176,7 +176,7 @@ class BoundaryPass final : public Pass {
                  std::size_t end) const {
     BoundarySupport& b = p.boundary;
     const Field* before = p.find(fields::velocity_before);
-    if (!before) return;  // nobody sums gradients
+    if (!before) return;  // no effect sums gradients
     const double ahead = s.extrapolation(dt);
     for (int c = 0; c < 6; ++c) {
       std::fill(b.moment[c].begin() + begin, b.moment[c].begin() + end, 0.0f);

@@ -56,7 +56,7 @@ class NeighborPass final : public Pass {
     // Asked when the pass is added, before isolated particles are.
     const auto& states = shared_->settings.states;
     if (!states || !states->ultradilute) return {};
-    return {EffectName::isolated, "who leaves and comes back", ratio(isolated_ns_, all_ns_)};
+    return {EffectName::isolated, "leaving and rejoining", ratio(isolated_ns_, all_ns_)};
   }
   std::size_t bytes() const override { return shared_->lists.bytes(); }
 

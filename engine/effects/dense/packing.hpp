@@ -35,7 +35,7 @@ struct DensePacking {
 /// neighbours does not count as dense: the surface of a dense mass has a support completeness of
 /// about a half, a corner 0.3, a row of grains 0.1). In between the few neighbours of a cloud make
 /// it too uneven to correct by. Few neighbours do not hold a grain under pressure either: see
-/// held(). A grain that lies on the ground with hardly anybody around is a sheet thinner than a
+/// held(). A grain that lies on the ground with hardly any neighbours is a sheet thinner than a
 /// spacing, not a cloud: it stays dense, without load, so that it carries at once when others run
 /// up on it.
 struct DilatantPacking {

@@ -11,14 +11,14 @@
 
 namespace sturz {
 
-/// Changes of who belongs to the continuum, made when neighbours are sorted. A scene in which all
+/// Changes of which particles belong to the continuum, made when neighbours are sorted. A scene in which all
 /// grains always do has none.
 class ListChanges {
  public:
   virtual ~ListChanges() = default;
   /// Puts the grains of the continuum first in storage and sets MovingSet::n_listed.
   virtual void before_sorting(MovingSet&) = 0;
-  /// With fresh lists. \return whether somebody came back, so that the lists must be made again
+  /// With fresh lists. \return whether a particle rejoined, so that the lists must be made again
   virtual bool after_sorting(const Domain&, MovingSet&, const NeighborLists&) = 0;
 };
 

@@ -16,7 +16,7 @@ namespace {
 
 using fields::Membership;
 
-/// Who leaves the continuum and who comes back, whenever neighbours are sorted.
+/// Which particles leave the continuum and which rejoin it, whenever neighbours are sorted.
 class Flight final : public ListChanges {
  public:
   explicit Flight(const GrainStressSettings& settings) : settings_(settings) {}
@@ -37,7 +37,7 @@ class Flight final : public ListChanges {
   IsolatedSearch search_;
 };
 
-/// Counts for how long every grain has been alone, and sees who has landed.
+/// Counts for how long every grain has been alone, and marks those that have landed.
 class IsolationPass final : public Pass {
  public:
   explicit IsolationPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}

@@ -28,7 +28,7 @@ struct NearPair {
 class IsolatedSearch {
  public:
   /// All pairs whose surfaces are closer than `max_gap` > 0 [m], in the order of their ids, so that
-  /// whoever sums over them does so in the same order whatever the storage. In periodic
+  /// sums over them have the same order whatever the storage. In periodic
   /// directions the boxes must be longer than twice (three largest radii plus `max_gap`).
   const std::vector<NearPair>& find(const std::vector<IsolatedSphere>&, double max_gap,
                                     const Domain&);

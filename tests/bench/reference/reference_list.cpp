@@ -14,7 +14,7 @@ ReferenceNeighbors::Place ReferenceNeighbors::place_of(float x, float y, float z
 }
 
 /// Cells of half a search radius, numbered so that those above each other follow each other; two
-/// empty ones all around, so that nobody has to ask where the table ends.
+/// empty ones all around, so that no bound of the table need be checked.
 const std::vector<int>& ReferenceNeighbors::sort(const std::vector<float>& x,
                                                  const std::vector<float>& y,
                                                  const std::vector<float>& z) {

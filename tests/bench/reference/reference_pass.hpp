@@ -67,7 +67,7 @@ struct ReferencePass {
 
 /// Both for this very processor: vectors as wide as it has, filled by its gather instructions; and
 /// vectors of 32 bytes filled float by float. Which is faster differs by a factor of two either
-/// way, so whoever uses them tries both.
+/// way, so their user tries both.
 extern const ReferencePass reference_gathers, reference_single_loads;
 
 }  // namespace sturz::bench

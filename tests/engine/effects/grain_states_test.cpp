@@ -152,7 +152,7 @@ TEST(GrainStates, AnIsolatedParticleFollowsItsParabola) {
 }
 
 /// Puts the first grains at rest on `positions`, in units of dx about a point high up, and the
-/// others far apart from everybody; all as isolated particles. \return how many are taken back as
+/// others far apart from all grains; all as isolated particles. \return how many are taken back as
 /// grains
 std::size_t taken_back(const std::vector<Vec3>& positions) {
   Simulation simulation = explosion(IsolatedContactLaw::none);
@@ -173,7 +173,7 @@ std::size_t taken_back(const std::vector<Vec3>& positions) {
   return state.grains().n_listed;
 }
 
-/// B.9: eight neighbours among the grains. One that stays in flight is nobody's neighbour.
+/// B.9: eight neighbours among the grains. One that stays in flight is a neighbour of none.
 TEST(GrainStates, AParticleRejoinsOnlyAmongThoseThatRejoinToo) {
   std::vector<Vec3> star{Vec3(0, 0, 0)}, crowd;
   for (const double x : {-1.04, 1.04})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Fine steps of spheres in contact, what they remember, and the search for who is near.
+/// Fine steps of spheres in contact, what they remember, and the search for near pairs.
 #include "engine/effects/isolated/bodies.hpp"
 #include "engine/effects/isolated/contact_memory.hpp"
 #include "engine/effects/isolated/search.hpp"

@@ -151,7 +151,7 @@ TEST(IsolatedContacts, GiveTheSameBitsAgainAndInAnyStorageOrder) {
   }
 }
 
-TEST(IsolatedContacts, NobodyNearIsNotTouched) {
+TEST(IsolatedContacts, ParticlesOutOfContactAreNotTouched) {
   // Bit by bit the flight without the pass: no particle is stepped finely, nothing is accounted.
   Flight f({{{-5, 0, 100}, {3, 1, 0}}, {{0.3, 0.1, 101}, {3, 1, 0}}, {{9, 0, 99}, {-0.1, 0, 0}}},
            free_flight());

@@ -37,14 +37,14 @@ TEST(DilatantPacking, ExpansionNeverEmptiesAGrain) {
 
 TEST(DilatantPacking, DensityStaysWhatTheSurroundingsAllow) {
   constexpr double separation_threshold = GrainStressSettings::separation_threshold;
-  // Inside a full support nobody is dilute, and nobody is pressed by being called dense.
+  // Inside a full support no grain is dilute, and none is pressed by being called dense.
   EXPECT_NEAR(DilatantPacking::bounded(-0.9, 1, false), -0.15, 1e-12);
   EXPECT_LE(DilatantPacking::bounded(-0.9, 1.5, false), separation_threshold);
   // Loaded or surface grains are left alone.
   for (const double e : {-0.05, 0.0, 0.02})
     for (const double completeness : {0.45, 0.7, 1.0})
       EXPECT_EQ(DilatantPacking::bounded(e, completeness, false), e);
-  // Without neighbours nobody is dense, but on the ground.
+  // Without neighbours no grain is dense, except on the ground.
   EXPECT_NEAR(DilatantPacking::bounded(0.01, 0.1 * DilatantPacking::sparse, false), -0.9, 1e-12);
   EXPECT_EQ(DilatantPacking::bounded(-0.9, 0.03, true), separation_threshold);
   EXPECT_EQ(DilatantPacking::bounded(0.01, 0.03, true), 0);

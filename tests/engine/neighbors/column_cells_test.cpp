@@ -88,7 +88,7 @@ int turns(const Period& p, double support_radius) {
 }
 
 /// Pairs within the smaller support radius of the two, images included; those of them that are
-/// missing, and neighbours that are seen where nobody stands.
+/// missing, and neighbours that are seen where there is no column.
 struct PairCount {
   long pairs = 0, missing = 0, phantoms = 0;
 };

@@ -63,7 +63,7 @@ Vec3 entry_place(const NeighborLists& lists, const ParticleSet& set, std::size_t
 void expect_complete(const NeighborLists& lists, const ParticleSet& set, const Domain& domain,
                      double range, double allowed) {
   const NeighborView view = lists.view();
-  const auto everyone = copies(set, domain);
+  const auto all = copies(set, domain);
   std::size_t missing = 0, strangers = 0;
   for (std::size_t g = 0; g < lists.n_groups(); ++g) {
     const std::size_t first = g * group_size, last = std::min(set.size(), first + group_size);
@@ -82,7 +82,7 @@ void expect_complete(const NeighborLists& lists, const ParticleSet& set, const D
       strangers += gap(at) > allowed + 1e-5;
       if (entry >= lists.padded_size()) images.push_back(at);
     }
-    for (const Copy& c : everyone) {
+    for (const Copy& c : all) {
       const Vec3 at = place(set, c.source) + c.shift;
       if (gap(at) >= range - 1e-5) continue;
       if (c.shift.isZero(0)) {
@@ -92,7 +92,7 @@ void expect_complete(const NeighborLists& lists, const ParticleSet& set, const D
       const auto here = [&](const Vec3& p) { return (p - at).norm() < 1e-4; };
       const auto listed = std::count_if(images.begin(), images.end(), here);
       const auto expected =
-          std::count_if(everyone.begin() + set.size(), everyone.end(),
+          std::count_if(all.begin() + set.size(), all.end(),
                         [&](const Copy& o) { return here(place(set, o.source) + o.shift); });
       missing += listed != expected;
     }

@@ -111,7 +111,7 @@ TEST(SimulationHistory, EndsWithTheLastOfTheMass) {
   s.numerics.end_time_s = 30;
   const MemberResult r = run(s);
   ASSERT_EQ(r.outcome, Outcome::left_terrain);
-  EXPECT_GT(r.history.rows.back().front_travel_m, 5) << "nobody is left to measure";
+  EXPECT_GT(r.history.rows.back().front_travel_m, 5) << "no particle is left to measure";
 }
 
 TEST(SimulationHistory, FramesShowStatesWhereThereAreStates) {

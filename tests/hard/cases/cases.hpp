@@ -30,7 +30,7 @@ CaseReport same_bits(States);
 CaseReport breathing(States);
 /// I6: a loose layer hits the ground at 10 m/s and is pressed up to the largest fraction.
 CaseReport pressed_to_the_limit(States);
-/// I13: a mass that flies apart, until nobody has a neighbour.
+/// I13: a mass that flies apart, until no particle has a neighbour.
 CaseReport jet_breaks_up(States);
 /// I14: particles that touch at 1e-6 to 1 m/s separate again, with the restitution that was set.
 CaseReport slow_contacts_part(States);
