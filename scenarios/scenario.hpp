@@ -133,7 +133,7 @@ struct BasalSpec {
 };
 
 struct NumericsSpec {
-  double spacing_m = 0;  ///< particle spacing dx; 0 = not given (an error)
+  double spacing_m = 0;  ///< initial particle spacing dx; 0 = not given (an error)
   double end_time_s = 120;
   double courant = 0.25;           ///< dt <= courant h / (c0 + |v|)
   double sound_speed_factor = 10;  ///< c0 = factor * expected flow speed

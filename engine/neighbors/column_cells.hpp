@@ -19,7 +19,7 @@ class ColumnCells {
  public:
   /// Sorts the columns and their periodic images by cell and fills the records' positions; within
   /// a cell they keep their storage order. Positions must lie inside the domain's periods.
-  /// \param support_radius  support radius of each column [m], [n]; its largest bounds what images
+  /// \param support_radius  of each column [m], [n]; its largest bounds what images
   /// exist
   void build(const ParticleSet&, const Domain&, const std::vector<double>& support_radius);
 

@@ -69,7 +69,7 @@ struct SweepConstants {
   double viscosity = 0.1;          ///< alpha_v
   double density_diffusion = 0.1;  ///< delta
   bool tension = false;            ///< whether NeighborRecord::tension is in this sweep
-  double spacing = 1;              ///< dx [m]; read where tension is
+  double spacing = 1;              ///< initial particle spacing dx [m]; read where tension is
   double stress_smoothing = 0;     ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
   double ratio_floor = 0;          ///< p_c [Pa]; read where the ratio is smoothed
 };

@@ -32,8 +32,9 @@ struct FrontAndTail {
   double tail_speed = 0;   ///< mean of the rearmost 1 % of the mass [m/s]
   double tail_travel = 0;  ///< that 5 % of the mass have not passed [m]
 };
-/// Foremost are the particles that have come farthest, rearmost those that have come least far; at least one particle each.
-/// Takes time in proportion to their number. \param each  is put into another order
+/// Foremost are the particles that have come farthest, rearmost those that have come least far; at
+/// least one particle each. Takes time in proportion to their number. \param each  is put into
+/// another order
 FrontAndTail front_and_tail(std::vector<ParticleTravel>& each);
 
 }  // namespace sturz

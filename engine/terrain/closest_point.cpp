@@ -3,8 +3,7 @@
 //
 //        p .          A tangent plane sees only the ground straight below (b). Where a cliff
 //         /|          stands beside the particle, the nearest point is q on the next patch.
-//    q __/ |          Every patch within the contact distance is asked for its closest point and
-//    the nearest
+//    q __/ |          Every near patch is asked for its closest point and the nearest
 //     |    b          wins: continuous across the seams, so that contact makes no energy.
 //     |____|____
 #include "engine/terrain/terrain.hpp"

@@ -99,8 +99,8 @@ Marginal::Marginal(const Distribution& d, const std::string& path) {
     else
       quantile_ = [ot = open_turns(d)](double u) { return ot.computeQuantile(u)[0]; };
   } catch (const OT::Exception& error) {
-    throw SetupError(
-        fmt::format("{}: no such distribution ({}). Correct its parameters.", subject, error.what()));
+    throw SetupError(fmt::format("{}: no such distribution ({}). Correct its parameters.", subject,
+                                 error.what()));
   }
   std::tie(lower_, upper_) = support(d);
 }

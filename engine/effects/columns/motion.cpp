@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gravity, lateral pressure and the bed do to a column, and where it goes.
+// What gravity, lateral pressure and the bed do to a column, and its displacement.
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/accounts.hpp"

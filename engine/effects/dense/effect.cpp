@@ -209,8 +209,8 @@ class SweepPass final : public Pass {
   std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
 
  private:
-  /// The sweep of a mass whose grains may disperse, and which part of its time those take that do:
-  /// two looks at the clock for 16 groups, and one where the kind of group changes.
+  /// The sweep of a mass whose grains may disperse, and which part of its time dispersed groups
+  /// take: two looks at the clock for 16 groups, and one where the kind of group changes.
   void timed_kinetic(const NeighborView& view, const SweepConstants& constants,
                      const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
                      std::size_t end) {

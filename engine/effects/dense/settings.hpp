@@ -15,7 +15,7 @@ namespace sturz {
 struct GrainStressSettings {
   MuIRheology law;
   std::optional<GrainStatesSettings> states;  ///< absent: every grain is dense
-  double spacing = 1;                         ///< dx [m]
+  double spacing = 1;                         ///< initial particle spacing dx [m]
   double smoothing_length = 1.3;              ///< h [m]
   double reference_density = 1560;            ///< rho_ref = alpha_init rho_p [kg/m^3]
   double sound_speed = 100;  ///< c0 of compressional waves, sqrt((K + 4G/3)/rho) [m/s]

@@ -11,8 +11,8 @@
 
 namespace sturz {
 
-/// Changes of which particles belong to the continuum, made when neighbours are sorted. A scene in which all
-/// grains always do has none.
+/// Changes of which particles belong to the continuum, made when neighbours are sorted. A scene in
+/// which all grains always do has none.
 class ListChanges {
  public:
   virtual ~ListChanges() = default;

@@ -142,7 +142,7 @@ struct Correction {
   /// there M is judged, and where it is poor replaced, in units of its mean diagonal. Not so at the
   /// surface of a dense mass, where pair forces lack the same share that M does: a full gradient
   /// there would make the stress dissipate what no force takes.
-  /// \param dilation_ratio  dilation ratio of the grain, 1: dense
+  /// \param dilation_ratio  of the grain, 1: dense
   static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6],
                                Lanes dilation_ratio) {
     const Lanes xx = fma(s.mxx, scale, wall[0]), yy = fma(s.myy, scale, wall[1]);

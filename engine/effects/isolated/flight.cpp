@@ -52,7 +52,7 @@ struct GrainFields {
 /// The neighbourhood of an isolated particle.
 struct Surroundings {
   int neighbors = 0;
-  double support_completeness = 0;  ///< of its support, 1 inside a dense mass
+  double support_completeness = 0;  ///< 1 inside a dense mass
   double weight = 0, warm = 0;      ///< of the grains among them: sum of weights, and times theta
 
   double theta() const { return weight > 0 ? warm / weight : 0; }

@@ -9,8 +9,8 @@
 
 namespace sturz {
 
-/// Lets those go that were alone for `detach_steps` steps: their stress is gone, what it stored and
-/// their granular energy are accounted for. \return whether a particle left
+/// Detaches grains that were alone for `detach_steps` steps: their stress is gone, what it stored
+/// and their granular energy are accounted for. \return whether a particle left
 bool detach_isolated(MovingSet&, const GrainStressSettings&);
 
 /// Takes back what has landed, as dense grains without load.
@@ -19,7 +19,7 @@ void attach_landed(MovingSet&);
 /// Puts the grains of the continuum first in storage and sets MovingSet::n_listed.
 void put_listed_first(MovingSet&);
 
-/// Takes back isolated particles that have at least `attach_neighbors` others, listed or
+/// Takes back isolated particles that have at least `attach_neighbors` neighbours, listed or
 /// isolated, that fill more than `attach_fraction`, with the granular temperature of the grains
 /// found there. Lists must be fresh. \return whether a particle rejoined
 bool attach_near(const Domain&, MovingSet&, const GrainStressSettings&, const NeighborLists&,

@@ -11,7 +11,7 @@
 
 namespace sturz {
 
-/// A isolated particle as a contact sees it.
+/// An isolated particle as a contact sees it.
 struct IsolatedSphere {
   Vec3 position{0, 0, 0};  ///< [m]
   Vec3 velocity{0, 0, 0};  ///< [m/s]
@@ -28,8 +28,8 @@ struct NearPair {
 class IsolatedSearch {
  public:
   /// All pairs whose surfaces are closer than `max_gap` > 0 [m], in the order of their ids, so that
-  /// sums over them have the same order whatever the storage. In periodic
-  /// directions the boxes must be longer than twice (three largest radii plus `max_gap`).
+  /// sums over them have the same order whatever the storage. In periodic directions the boxes must
+  /// be longer than twice (three largest radii plus `max_gap`).
   const std::vector<NearPair>& find(const std::vector<IsolatedSphere>&, double max_gap,
                                     const Domain&);
 

@@ -69,8 +69,7 @@ struct MirrorContribution {
 
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
 /// \param dilation_ratio  true volume over that of the records, 1 in a dense mass: sums over
-/// neighbours that
-///                dilated alike are too small by it
+///                neighbours that dilated alike are too small by it
 /// \tparam dispersed  whether the group may be a cloud
 /// \return trace of the moment that ground and walls add
 template <bool dispersed>

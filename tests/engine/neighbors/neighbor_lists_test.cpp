@@ -91,9 +91,9 @@ void expect_complete(const NeighborLists& lists, const ParticleSet& set, const D
       }
       const auto here = [&](const Vec3& p) { return (p - at).norm() < 1e-4; };
       const auto listed = std::count_if(images.begin(), images.end(), here);
-      const auto expected =
-          std::count_if(all.begin() + set.size(), all.end(),
-                        [&](const Copy& o) { return here(place(set, o.source) + o.shift); });
+      const auto expected = std::count_if(all.begin() + set.size(), all.end(), [&](const Copy& o) {
+        return here(place(set, o.source) + o.shift);
+      });
       missing += listed != expected;
     }
   }
