@@ -5,6 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . scripts/packages.sh
+. scripts/build_quietly.sh
 
 stage="start"
 trap 'code=$?; [ $code -eq 0 ] || echo "quickstart.sh stopped while: $stage (exit code $code)." >&2' EXIT
@@ -23,13 +24,15 @@ mkdir -p build
 cmake --preset release -DSTURZ_TESTS=OFF >build/configure.log 2>&1 ||
   { tail -n 20 build/configure.log >&2
     echo "cmake could not configure; the whole text is in build/configure.log." >&2; exit 1; }
-cmake --build build/release --target sturz
+echo "Building for about $(build_forecast) on $(nproc) cores, less if it was built before."
+build_quietly build/build.log cmake --build build/release --target sturz
 build_time=$(seconds_since "$begin")
 
 stage="running the shipped ensemble"
 begin=$SECONDS
 out=out/zhangjiawan
-build/release/ensemble/app/sturz ensemble scenarios/cases/zhangjiawan/scenario.yaml -o "$out"
+program=build/release/ensemble/app/sturz
+"$program" ensemble scenarios/cases/zhangjiawan/scenario.yaml -o "$out"
 run_time=$(seconds_since "$begin")
 
 stage="looking for the results"
@@ -46,6 +49,11 @@ Results are in $PWD/$out
   hazard/*.tif  the same maps as cloud-optimised GeoTIFF
   members.csv   one row per member: what was drawn, how it ended, how far it went
 
-Next: copy scenarios/cases/zhangjiawan/scenario.yaml, put your own terrain in, and run
-  build/release/ensemble/app/sturz describe my.yaml
+Next: a slope of your own. This puts a scenario with its README into my_slope; add your terrain and
+the outline of the mass as the README says, and ask what will be computed:
+  $program cases template -o my_slope
+  $program describe my_slope/scenario.yaml
+
+To have the command \`sturz\` with manual page and completion (another --prefix needs no sudo):
+  sudo cmake --install build/release
 TEXT

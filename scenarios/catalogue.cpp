@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/catalogue.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "scenarios/schema/suggest.hpp"
 
@@ -11,7 +12,6 @@
 namespace sturz {
 namespace {
 
-constexpr double gravity_m_s2 = 9.81;
 constexpr double degree = std::numbers::pi / 180;
 
 /// A scene on synthetic ground with mu(I) grains; only the release is left to say.
@@ -21,7 +21,7 @@ Scenario on_ground(std::string title, std::string shape, double cell_m,
   s.title = std::move(title);
   s.terrain.synthetic = SyntheticTerrain{std::move(shape), cell_m, std::move(parameters)};
   s.grains.emplace().friction.emplace();
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;  // single particles and sheets among them are on purpose
   return s;
 }
@@ -69,7 +69,7 @@ Scenario column_collapse(double aspect, int particles_along) {
   s.domain.periodic = {"y"};
   s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt}};
   s.numerics.spacing_m = spacing;
-  s.numerics.end_time_s = 8 * std::sqrt(aspect * length / gravity_m_s2);
+  s.numerics.end_time_s = 8 * std::sqrt(aspect * length / standard_gravity);
   return s;
 }
 
@@ -85,7 +85,7 @@ Scenario cylinder_collapse(double aspect, int particles_along) {
   s.grains->diameter_m = 0.002;
   s.basal.friction_coefficient = std::tan(27.4 * degree);
   s.numerics.spacing_m = spacing;
-  s.numerics.end_time_s = 8 * std::sqrt(aspect * radius / gravity_m_s2);
+  s.numerics.end_time_s = 8 * std::sqrt(aspect * radius / standard_gravity);
   return s;
 }
 
@@ -166,7 +166,7 @@ Scenario similarity_slide(double spacing_m) {
   const double cos35 = std::cos(35 * degree);
   Scenario s = on_ground("Savage and Hutter's parabolic cap on an even slope", "plane", 4,
                          {{"slope_deg", 35}, {"length_m", 560}, {"width_m", 320}});
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.release.paraboloid = ReleaseParaboloid{{-120, 0}, {80 * cos35, 80}};
   s.release.thickness_m = Uncertain(4 / cos35);
   s.basal.friction_coefficient = std::tan(25 * degree);

@@ -2,6 +2,7 @@
 /// What a scene is: the plain data of one scenario file. Presence of a block switches an effect on.
 #pragma once
 
+#include "scenarios/choices.hpp"
 #include "scenarios/uncertain.hpp"
 
 #include <array>
@@ -26,7 +27,7 @@ struct TerrainSpec {
   std::optional<SyntheticTerrain> synthetic;
   std::string crs;  ///< given by the user where the file has none (or a wrong one)
   std::optional<double> cell_size_m;  ///< working grid; default: the raster's own
-  std::string nodata = "outflow";     ///< outflow | wall
+  TerrainEdge nodata = TerrainEdge::outflow;
   bool operator==(const TerrainSpec&) const = default;
 };
 
@@ -57,9 +58,9 @@ struct ReleaseSpec {
   std::optional<ReleaseBox> box;
   std::optional<ReleaseParaboloid> paraboloid;
   std::optional<ReleaseCylinder> cylinder;
-  std::optional<Uncertain> thickness_m;  ///< vertical thickness of polygon, box, ...
-  std::optional<Uncertain> volume_m3;    ///< bulk; scales the thickness
-  std::string surface = "bed";  ///< bed: terrain is the bed; pre_failure: bed = terrain - thickness
+  std::optional<Uncertain> thickness_m;          ///< vertical thickness of polygon, box, ...
+  std::optional<Uncertain> volume_m3;            ///< bulk; scales the thickness
+  ReleaseSurface surface = ReleaseSurface::bed;  ///< pre_failure: bed = terrain - thickness
   std::array<double, 3> velocity_m_s{0, 0, 0};
   bool operator==(const ReleaseSpec&) const = default;
 };
@@ -80,7 +81,7 @@ struct DiluteSpec {
 
 /// Grains that have lost their neighbours: parcels in free flight.
 struct UltradiluteSpec {
-  std::string contacts = "none";        ///< none | hertz_mindlin
+  ParcelContactLaw contacts = ParcelContactLaw::none;
   Uncertain restitution{0.7};           ///< of two parcels, where they meet
   Uncertain friction_coefficient{0.5};  ///< of two parcels
   double youngs_modulus_pa = 5e10;      ///< softened to the speeds of the scene
@@ -91,7 +92,7 @@ struct UltradiluteSpec {
 struct GrainStatesSpec {
   std::optional<DiluteSpec> dilute;
   std::optional<UltradiluteSpec> ultradilute;
-  std::string stress_mode = "unified";     ///< unified | seed: the paper's switch between laws
+  StressMode stress_mode = StressMode::unified;
   std::optional<Uncertain> max_fraction;   ///< alpha_max; default max(0.64, solid_fraction + 0.08)
   Uncertain frictional_pressure_pa{0.05};  ///< Fr of the paper's Eq. (23)
   bool operator==(const GrainStatesSpec&) const = default;
@@ -106,8 +107,8 @@ struct GrainsSpec {
       friction_angle_deg;  ///< ... or this: mu = tan(angle), no rate dependence
   Uncertain cohesion_pa{0};
   Uncertain poisson_ratio{0.3};
-  std::string earth_pressure = "isotropic";  ///< isotropic | active_passive; depth_averaged only
-  std::optional<GrainStatesSpec> states;     ///< absent: every grain is dense
+  LateralPressure earth_pressure = LateralPressure::isotropic;  ///< depth_averaged only
+  std::optional<GrainStatesSpec> states;                        ///< absent: every grain is dense
   bool operator==(const GrainsSpec&) const = default;
 };
 
@@ -161,9 +162,9 @@ struct DomainSpec {
 };
 
 struct EnsembleSpec {
-  std::string design = "latin_hypercube";  ///< monte_carlo | latin_hypercube | sobol | table
-  std::string table;                       ///< CSV of a user's design (design: table)
-  int members = 0;                         ///< 0 = not given
+  Design design = Design::latin_hypercube;
+  std::string table;  ///< CSV of a user's design (design: table)
+  int members = 0;    ///< 0 = not given
   std::uint64_t seed = 1;
   std::map<std::string, double> correlation;  ///< "path/path" -> Gaussian copula correlation
   double max_failed_fraction = 0.05;
@@ -186,7 +187,7 @@ struct Scenario {
   ReleaseSpec release;
   std::optional<GrainsSpec> grains;
   BasalSpec basal;
-  std::string formulation = "auto";  ///< auto | full_stress | depth_averaged
+  Formulation formulation = Formulation::automatic;
   NumericsSpec numerics;
   DomainSpec domain;
   EnsembleSpec ensemble;

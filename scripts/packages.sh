@@ -1,18 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian 12 packages, kept in one place; sourced by quickstart.sh and test.sh.
+# Debian 12 packages, kept in one place; sourced by quickstart.sh, test.sh and test_package.sh.
 # libopenblas0-pthread stands beside libopenturns-dev on purpose: alone, OpenTURNS pulls ATLAS in
 # and makes it the BLAS of the whole machine.
 
 build_packages=(
   g++ cmake ninja-build ccache mold pkg-config git ca-certificates python3
   libgdal-dev libnetcdf-dev libhdf5-dev libtbb-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libfmt-dev
-  zlib1g-dev libcli11-dev nlohmann-json3-dev librandom123-dev libopenturns-dev libopenblas0-pthread
+  zlib1g-dev libcli11-dev nlohmann-json3-dev libssl-dev libutfcpp-dev librandom123-dev libopenturns-dev libopenblas0-pthread
 )
 test_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev libomp-14-dev llvm
   libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 gdal-bin netcdf-bin
-  chromium
+  chromium man-db
 )
+# For scripts/test_package.sh only.
+packaging_packages=(dpkg-dev mmdebstrap)
 
 # missing_packages NAME...: those that dpkg does not know as installed.
 missing_packages() {

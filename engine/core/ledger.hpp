@@ -2,19 +2,23 @@
 /// Where mass, momentum and energy of a member went; every pass books what it did.
 #pragma once
 
+#include <iterator>
+
 namespace sturz {
 
 /// Energies in J, dissipation positive; impulses in N s; mass in kg.
 ///
 /// Kinetic energy changes only through booked works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
-///   lost_energy.
+///   lost_energy + added_energy.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
 /// and among lone parcels -(change of rotational and parcel_elastic + parcel_dissipated).
 struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
+  double added_mass = 0;                                     ///< by effects, after the release
+  double added_energy = 0;                                   ///< kinetic energy that it brought
 
   /// Now. Potential is the booked change since release: it counts what left as it was when it
   /// left, and a periodic image's jump not at all.
@@ -33,17 +37,20 @@ struct Ledger {
   double diffusion = 0;      ///< elastic energy added by density diffusion and stress smoothing
   double contact_work = 0;   ///< by contact springs, dampers and the ground guard, parcel_work too
   double parcel_work = 0;    ///< by contacts of lone parcels, on their flight
-  double rotational = 0,
-         parcel_elastic = 0;  ///< now: spins of lone parcels, their contacts' springs
-  double friction = 0;        ///< dissipated by Coulomb friction and cohesion at the base
-  double rest_damping = 0;    ///< dissipated below the speed of rest (physics.md I4)
-  double lost_energy = 0;     ///< kinetic and elastic energy that left or was taken by the rim
+  /// Now: spins of isolated particles, springs of their contacts.
+  double rotational = 0, parcel_elastic = 0;
+  double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the base
+  double rest_damping = 0;  ///< dissipated below the speed of rest (docs/physics.md I4)
+  double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the rim
 
   double take_off = 0;  ///< mass times time on ground that bends away faster than it falls [kg s]
 
-  double stress_impulse[3] = {0, 0,
-                              0};   ///< sum of m a dt of pair forces alone: zero but for rounding
+  /// Sum of m a dt of pair forces alone: zero but for rounding.
+  double stress_impulse[3] = {0, 0, 0};
   double stress_impulse_scale = 0;  ///< sum of |m a dt|
+
+  /// The accounts of another particle set beside these.
+  Ledger& operator+=(const Ledger& other);
 
   /// Potential energy set free so far, plus what the mass started with [J].
   double released_energy() const { return kinetic_0 + elastic_0 - potential; }
@@ -58,8 +65,29 @@ struct Ledger {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +
            rest_damping + damping() + rotational + parcel_elastic + parcel_dissipated() +
-           numerical() - diffusion + lost_energy;
+           numerical() - diffusion + lost_energy - added_energy;
   }
 };
+
+inline Ledger& Ledger::operator+=(const Ledger& other) {
+  using Entry = double Ledger::*;
+  constexpr Entry entries[] = {
+      &Ledger::released_mass,       &Ledger::lost_mass,      &Ledger::leaked_mass,
+      &Ledger::added_mass,          &Ledger::added_energy,   &Ledger::kinetic,
+      &Ledger::potential,           &Ledger::elastic,        &Ledger::spring,
+      &Ledger::kinetic_0,           &Ledger::elastic_0,      &Ledger::spring_0,
+      &Ledger::gravity_work,        &Ledger::stress_work,    &Ledger::stress_power,
+      &Ledger::frictional,          &Ledger::granular,       &Ledger::conducted,
+      &Ledger::collisions,          &Ledger::granular_lost,  &Ledger::plastic,
+      &Ledger::diffusion,           &Ledger::contact_work,   &Ledger::parcel_work,
+      &Ledger::rotational,          &Ledger::parcel_elastic, &Ledger::friction,
+      &Ledger::rest_damping,        &Ledger::lost_energy,    &Ledger::take_off,
+      &Ledger::stress_impulse_scale};
+  // An entry that is added above but forgotten here would silently miss from every total.
+  static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));
+  for (const Entry entry : entries) this->*entry += other.*entry;
+  for (int k = 0; k < 3; ++k) stress_impulse[k] += other.stress_impulse[k];
+  return *this;
+}
 
 }  // namespace sturz

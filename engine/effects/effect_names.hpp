@@ -12,8 +12,8 @@ struct EffectName {
   static constexpr std::string_view grain_stress = "grain stress";
   static constexpr std::string_view states = "states of the grains";
   static constexpr std::string_view kinetic_theory = "kinetic theory";
-  static constexpr std::string_view lone_parcels = "lone parcels";
-  static constexpr std::string_view parcel_contacts = "contacts of lone parcels";
+  static constexpr std::string_view isolated = "isolated particles";
+  static constexpr std::string_view isolated_contacts = "contacts of isolated particles";
   static constexpr std::string_view column_pressure = "lateral pressure of columns";
   static constexpr std::string_view walls = "walls";
   static constexpr std::string_view motion = "motion";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/step.hpp"
 
+#include "engine/effects/arrivals.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <limits>
@@ -50,8 +52,17 @@ StepLimit Step::limit(const State& state) const {
   return least;
 }
 
+void Step::let_in(State& state) {
+  for (std::size_t set = 0; set < state.sets.size(); ++set) {
+    if (state.sets[set].arrivals.empty()) continue;
+    const std::size_t first = enter_arrivals(state.domain, state.sets[set]);
+    for (const auto& pass : passes_) pass->entered(state, set, first);
+  }
+}
+
 void Step::apply(State& state, double dt) {
   using Clock = std::chrono::steady_clock;
+  let_in(state);
   auto before = Clock::now();
   for (std::size_t k = 0; k < passes_.size(); ++k) {
     passes_[k]->apply(state, dt);

@@ -51,6 +51,9 @@ class Pass {
   /// Appends this pass's limits; none by default.
   virtual void limits(const State&, std::vector<StepLimit>&) const {}
   virtual void apply(State&, double dt) = 0;  ///< dt in [s]
+  /// Particles [first, size) of a set are new: a pass whose effect owns fields that must not start
+  /// at their initial value fills them.
+  virtual void entered(State&, std::size_t /*set*/, std::size_t /*first*/) {}
   /// Memory beyond the particle set's own fields [bytes].
   virtual std::size_t bytes() const { return 0; }
 };
@@ -77,7 +80,7 @@ class Step {
 
   /// The smallest limit of all passes. \return name and dt [s]
   StepLimit limit(const State&) const;
-  /// Applies all passes in order and advances the clock.
+  /// Lets in what arrives, applies all passes in order and advances the clock.
   void apply(State&, double dt);
 
   std::vector<std::string> pass_names() const;
@@ -85,6 +88,8 @@ class Step {
   std::size_t bytes() const;
 
  private:
+  void let_in(State&);
+
   std::vector<std::unique_ptr<Pass>> passes_;
   std::vector<PassTime> timings_;
   mutable std::vector<StepLimit> limits_;

@@ -9,10 +9,10 @@
 namespace sturz {
 
 /// Shear stress at the base over density and thickness is a deceleration:
-///   Coulomb    mu (1 - r_u) g_n                  Hungr's form, physics.md A.8
+///   Coulomb    mu (1 - r_u) g_n                  Hungr's form, docs/physics.md A.8
 ///   cohesion   c / (rho h)
 ///   Voellmy    g v^2 / (xi h)
-///   laminar    3 eta v / (rho h^2)               physics.md A.8 (Eq. 32)
+///   laminar    3 eta v / (rho h^2)               docs/physics.md A.8 (Eq. 32)
 ///   Bingham    tau_b / (rho h) with 2 tau_b^3 - 3 (tau_y + 2 eta v/h) tau_b^2 + tau_y^3 = 0, the
 ///              depth-averaged velocity of a Bingham film (Laigle & Coussot 1997 [M])
 struct BasalResistance {

@@ -6,7 +6,7 @@
 
 namespace sturz {
 
-/// physics.md A.8 and B.10. Friction follows Gao et al. Eq. (31) as an impulse:
+/// docs/physics.md A.8 and B.10. Friction follows Gao et al. Eq. (31) as an impulse:
 /// v_t <- v_t max(0, 1 - [mu (1 - r_u) J_n + c_b A dt / m] / |v_t|), so it can stop a particle
 /// but never turn it round, and sticking is exact.
 struct ContactLaw {

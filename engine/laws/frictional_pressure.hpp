@@ -9,7 +9,7 @@
 namespace sturz {
 
 /// p = Fr (alpha - alpha_min)_+^2 / max(alpha_max - alpha, 0.02)^5, Gao et al. Eq. (23) after
-/// Johnson & Jackson; physics.md A.7. Never falls with alpha. The fifth power makes it stiffer
+/// Johnson & Jackson; docs/physics.md A.7. Never falls with alpha. The fifth power makes it stiffer
 /// than anything a time step can follow, hence `limit_slope`.
 struct FrictionalPressure {
   static constexpr double smallest_gap = 0.02;  ///< floor of alpha_max - alpha [-]

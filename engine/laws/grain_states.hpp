@@ -7,7 +7,7 @@
 
 namespace sturz {
 
-/// Gao et al. section 4.2; physics.md B.9. A label for output and for `stress_mode: seed`: the
+/// Gao et al. section 4.2; docs/physics.md B.9. A label for output and for `stress_mode: seed`: the
 /// stress itself is one continuous law.
 enum class GrainState : std::uint8_t { dense, transition, dilute, ultradilute };
 
@@ -16,7 +16,7 @@ inline constexpr double dense_fraction = 0.60;        ///< above: dense
 inline constexpr double transition_fraction = 0.50;   ///< above: enduring contacts carry load
 inline constexpr double ultradilute_fraction = 0.02;  ///< below: lone parcels
 
-/// Hysteresis of the labels, so that no grain flips each step (physics.md B.9, I5).
+/// Hysteresis of the labels, so that no grain flips each step (docs/physics.md B.9, I5).
 inline constexpr double leave_dense_fraction = 0.58;    ///< a dense grain stays so down to here
 inline constexpr double reenter_dense_fraction = 0.60;  ///< and becomes so again above
 inline constexpr double detach_fraction = 0.02;         ///< below this, or with
@@ -39,7 +39,7 @@ inline double smoothstep(double x) {
   return y * y * (3 - 2 * y);
 }
 
-/// w_k: share of the kinetic stresses, 1 up to alpha = 0.50 and 0 from 0.60 (physics.md B.9).
+/// w_k: share of the kinetic stresses, 1 up to alpha = 0.50 and 0 from 0.60 (docs/physics.md B.9).
 inline double kinetic_weight(double fraction) {
   return 1 - smoothstep((fraction - transition_fraction) / (dense_fraction - transition_fraction));
 }

@@ -29,7 +29,7 @@ struct ContactPair {
   double damping = 0;        ///< b = -ln e/sqrt(ln^2 e + pi^2), see damping_ratio [-]
   double friction = 0;       ///< mu_c [-]
   /// Cuts F_n off at zero. By default the damper may pull while grains part: only so does the
-  /// restitution come out as set (0.5 gives 0.550 with the cut, physics.md A.5, I14).
+  /// restitution come out as set (0.5 gives 0.550 with the cut, docs/physics.md A.5, I14).
   bool never_pulls = false;
 };
 
@@ -50,7 +50,7 @@ struct ContactForce {
   double stored = 0;    ///< elastic energy of both springs [J]
 };
 
-/// Gao et al. Eqs. (18)-(22) in the corrected forms of physics.md A.5 (those of LIGGGHTS):
+/// Gao et al. Eqs. (18)-(22) in the corrected forms of docs/physics.md A.5 (those of LIGGGHTS):
 ///   k_n = 4/3 E* sqrt(R* delta)   S_n = 2 E* sqrt(R* delta)   k_t = S_t = 8 G* sqrt(R* delta)
 ///   F_n = k_n delta - 2 sqrt(5/6) b sqrt(S_n m*) v_n          v_n > 0: parting
 ///   F_t = -k_t xi, at most mu_c |F_n|; while it sticks, - 2 sqrt(5/6) b sqrt(S_t m*) v_t
@@ -111,7 +111,7 @@ inline double impact_duration(const ContactPair& pair, double speed) {
 
 /// The least E* that keeps the overlap of an impact at `speed` below a share of the radius: of
 /// the smaller sphere's, whatever it meets, wall or sphere [Pa]. Equal spheres need
-/// (5 sqrt(2) pi/8 = 2.78) rho v^2/share^(5/2) (5 %: 5.0e3 rho v^2, physics.md A.5), a sphere that
+/// (5 sqrt(2) pi/8 = 2.78) rho v^2/share^(5/2) (5 %: 5.0e3 rho v^2, A.5), a sphere that
 /// meets a wall or a much larger one 5 pi/4 = 3.93 instead.
 inline double softest_modulus(double density, double speed, double share = 0.05,
                               bool equal_spheres = false) {
@@ -120,7 +120,7 @@ inline double softest_modulus(double density, double speed, double share = 0.05,
 }
 
 /// The material with E lowered, if need be, so that E* between two of its grains is `modulus`:
-/// contacts as short as those of rock would cost a hundred times the steps (physics.md A.5).
+/// contacts as short as those of rock would cost a hundred times the steps (docs/physics.md A.5).
 inline GrainMaterial softened(GrainMaterial material, double modulus) {
   const double youngs = 2 * (1 - material.poisson_ratio * material.poisson_ratio) * modulus;
   material.youngs_modulus = std::min(material.youngs_modulus, youngs);
@@ -133,7 +133,7 @@ inline double rayleigh_time(const GrainMaterial& material, double radius) {
          (0.1631 * material.poisson_ratio + 0.8766);
 }
 
-/// The step that resolves contacts: min(0.2 T_R, t_c/20) (physics.md B.12) [s].
+/// The step that resolves contacts: min(0.2 T_R, t_c/20) (docs/physics.md B.12) [s].
 /// \param radius  of the smaller sphere [m]; \param speed  the fastest approach [m/s]
 inline double contact_time_step(const GrainMaterial& material, double radius,
                                 const ContactPair& pair, double speed) {

@@ -11,7 +11,7 @@
 namespace sturz {
 
 /// Kinetic theory of Lun et al. as Gao et al. use it, Eqs. (3), (14)-(17), in the corrected forms
-/// of physics.md A.4. Made for binary collisions of nearly elastic grains: e >= 0.7, alpha <= 0.5.
+/// of A.4. Made for binary collisions of nearly elastic grains: e >= 0.7, alpha <= 0.5.
 struct KineticTheory {
   double grain_density = 2600;  ///< rho_p [kg/m^3]
   double grain_diameter = 0.1;  ///< d_p [m]
@@ -67,7 +67,7 @@ inline KineticCoefficients kinetic_coefficients(
   return k;
 }
 
-/// Exact solution of ds/dt = a - b s - c s^2 with frozen coefficients after dt (physics.md B.6).
+/// Exact solution of ds/dt = a - b s - c s^2 with frozen coefficients after dt (B.6).
 ///
 /// With D = sqrt(b^2 + 4ac) and E = exp(-D dt), multiplied out so that no term is negative:
 ///   s = [s0 ((D-b) + (D+b) E) + 2a (1-E)] / [(D+b) + (D-b) E + 2 c s0 (1-E)].

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Dense grains: elastic below yield, mu(I) above it, by a closed-form return (physics.md B.5).
+/// Dense grains: elastic below yield, mu(I) above it, by a closed-form return (B.5).
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace sturz {
 
 /// tau_y = c + mu(I) p, mu(I) = mu_s + (mu_2 - mu_s) / (I_0/I + 1), I = gamma d / sqrt(p/rho_p).
-/// Gao et al. Eqs. (11)-(13) with the corrections of physics.md A.3; Jop et al. (2006).
+/// Gao et al. Eqs. (11)-(13) with the corrections of docs/physics.md A.3; Jop et al. (2006).
 struct MuIRheology {
   double static_friction = 0.38;       ///< mu_s [-]
   double dynamic_friction = 0.64;      ///< mu_2 [-]

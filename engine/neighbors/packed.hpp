@@ -26,7 +26,7 @@ struct alignas(64) PackedRecord {
 };
 static_assert(sizeof(PackedRecord) == 64);
 
-/// What a grain that flies among others brings besides its PackedRecord (physics.md B.6, B.9). The
+/// What a grain that flies among others brings besides its PackedRecord (B.6, B.9). The
 /// record's volume and stress are those of enduring contacts, which grains that have parted no
 /// longer feel; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The Wendland C2 smoothing kernel in three dimensions, support 2h (physics.md B.1).
+/// The Wendland C2 smoothing kernel in three dimensions, support 2h (docs/physics.md B.1).
 #pragma once
 
 #include <algorithm>

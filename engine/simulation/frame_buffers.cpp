@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/frame_buffers.hpp"
 
-#include "engine/simulation/parts.hpp"
+#include "engine/effects/fields.hpp"
+#include "engine/effects/state.hpp"
 
 namespace sturz {
 
-ParticleFrame FrameBuffers::frame(const SimulationParts& parts) {
-  const State& s = parts.state;
-  const ParticleSet& p = s.grains;
-  density_.assign(p.size(), parts.reference_density);
+ParticleFrame FrameBuffers::frame(const State& s, std::size_t set) {
+  const MovingSet& p = s.sets[set];
+  density_.assign(p.size(), p.bulk_density);
   pressure_.assign(p.size(), 0);
-  if (const Field* thickness = p.find_field("thickness")) {
-    const auto& g_n = p.find_field("normal_gravity")->component[0];
+  solid_fraction_.clear();
+  state_.clear();
+  if (const Field* thickness = p.find(fields::thickness)) {
+    const auto& g_n = p.scalar(fields::normal_gravity);
     for (std::size_t i = 0; i < p.size(); ++i)
-      pressure_[i] = density_[i] * g_n[i] * thickness->component[0][i];  // at the base
+      pressure_[i] = density_[i] * g_n[i] * thickness->component[0][i];  // at the bed
   }
-  if (const Field* stress = p.find_field("stress")) {
-    const auto& compression = p.find_field("compression")->component[0];
-    solid_fraction_.assign(p.size(), parts.reference_fraction);
+  if (const Field* stress = p.find(fields::stress)) {
+    const auto& compression = p.scalar(fields::compression);
+    solid_fraction_.assign(p.size(), p.reference_fraction);
     for (std::size_t i = 0; i < p.size(); ++i) {
       density_[i] *= 1 + compression[i];
       solid_fraction_[i] *= 1 + compression[i];
@@ -28,8 +30,13 @@ ParticleFrame FrameBuffers::frame(const SimulationParts& parts) {
   ParticleFrame f{s.time, p.x,    p.y,      p.z,       p.vx, p.vy,
                   p.vz,   p.mass, density_, pressure_, p.id, solid_fraction_,
                   {},     {}};
-  if (const Field* state = p.find_field("state")) f.state = state->component[0];
-  if (const Field* theta = p.find_field("granular_temperature"))
+  f.set = p.name;
+  f.set_index = set;
+  if (const Flags* state = p.find(fields::state)) {
+    state_.assign(state->value.begin(), state->value.end());
+    f.state = state_;
+  }
+  if (const Field* theta = p.find(fields::granular_temperature))
     f.granular_temperature = theta->component[0];
   return f;
 }

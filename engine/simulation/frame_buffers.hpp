@@ -8,14 +8,16 @@
 
 namespace sturz {
 
+struct State;
+
 /// Holds what a frame derives from the fields, between frames.
 class FrameBuffers {
  public:
-  /// Spans are valid until the next step or frame.
-  ParticleFrame frame(const SimulationParts& parts);
+  /// Of one particle set. Spans are valid until the next step or frame.
+  ParticleFrame frame(const State&, std::size_t set);
 
  private:
-  std::vector<double> density_, pressure_, solid_fraction_;
+  std::vector<double> density_, pressure_, solid_fraction_, state_;
 };
 
 }  // namespace sturz

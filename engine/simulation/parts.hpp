@@ -9,28 +9,33 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace sturz {
+
+/// What a run has to know of its release.
+struct ReleaseFacts {
+  double layers = 0;        ///< volume-weighted median thickness over the particle spacing
+  double volume_m3 = 0;     ///< of the source
+  double x_m = 0, y_m = 0;  ///< centre of mass
+  double top_m = 0;         ///< highest elevation
+};
+
+/// What a run has to know besides its state.
+struct RunFacts {
+  std::int64_t member = 0;
+  std::string formulation = "full_stress";
+  double spacing_m = 1;   ///< the finest initial particle spacing
+  double least_dt_s = 0;  ///< below it the member has diverged
+  ReleaseFacts release = {};
+  std::string warnings = {};
+};
 
 struct SimulationParts {
   State state;
   Step step;
   PeakMaps peaks;
   StopRule stop;
-
-  std::int64_t member = 0;
-  double spacing_m = 1;
-  std::string formulation = "full_stress";
-  double reference_density = 1;     ///< of the bulk [kg/m^3]
-  double reference_fraction = 0.6;  ///< solid fraction of that bulk [-]
-  double least_dt_s = 0;            ///< below it the member has diverged
-  double release_layers = 0;
-  double release_volume_m3 = 0;
-  double release_x_m = 0, release_y_m = 0;  ///< centre of mass
-  double release_top_m = 0;                 ///< highest release elevation
-  std::string warnings = {};
-  std::vector<double> start_x = {}, start_y = {};  ///< [n_created], by particle id
+  RunFacts facts = {};
 };
 
 }  // namespace sturz

@@ -2,6 +2,7 @@
 #include "engine/simulation/peak_maps.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/effects/fields.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,30 +82,42 @@ bool inside(const Window& outer, const Window& inner) {
 
 PeakMaps::PeakMaps(PeakMapSettings settings) : settings_(std::move(settings)) {
   expect(settings_.grid.n_cells() > 0 && settings_.grid.cell_m > 0, "the hazard grid has cells");
-  expect(settings_.spacing_m > 0 && settings_.bulk_density_kg_m3 > 0,
-         "spacing and bulk density are positive");
-  set_width(settings_.spacing_m);
-}
-
-/// Makes room for the weights of particles that are up to `width_m` wide.
-void PeakMaps::set_width(double width_m) {
-  width_cells_ = cells_wide(width_m, settings_.grid.cell_m);
-  n_weights_ = static_cast<int>(std::ceil(3 * width_cells_));
-  weights_x_.resize(n_weights_);
-  weights_y_.resize(n_weights_);
 }
 
 /// Columns bring their own widths.
-void PeakMaps::look_at_widths(const ParticleSet& p) {
-  const Field* reach = p.find_field("reach");
-  reach_ = reach ? reach->component[0].data() : nullptr;
-  if (!reach || p.size() == 0) return;
-  const auto& all = reach->component[0];
-  set_width(settings_.width_per_reach * *std::max_element(all.begin(), all.end()));
+PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
+  const Field* reach = p.find(fields::support_radius);
+  Width w;
+  w.reach = reach ? reach->component[0].data() : nullptr;
+  double width_m = p.spacing;
+  if (reach && p.size() > 0) {
+    const auto& all = reach->component[0];
+    width_m = settings_.width_per_reach * *std::max_element(all.begin(), all.end());
+  }
+  w.cells = cells_wide(width_m, settings_.grid.cell_m);
+  w.n_weights = static_cast<int>(std::ceil(3 * w.cells));
+  return w;
+}
+
+/// Widths of all sets, and the cells that they can touch.
+Window PeakMaps::look_at(std::span<const MovingSet> sets) {
+  expect(!sets.empty() && (mass_.empty() || mass_.size() == sets.size()), "the sets stay the same");
+  mass_.resize(sets.size());
+  widths_.clear();
+  Window all;
+  for (const MovingSet& set : sets) {
+    expect(set.spacing > 0 && set.bulk_density > 0, "spacing and bulk density are positive");
+    widths_.push_back(width_of(set));
+    all = joined(all, cover(set, widths_.back()));
+    const auto n = static_cast<std::size_t>(widths_.back().n_weights);
+    weights_x_.resize(std::max(weights_x_.size(), n));
+    weights_y_.resize(std::max(weights_y_.size(), n));
+  }
+  return all;
 }
 
 /// The cells that the particles can touch.
-Window PeakMaps::cover(const ParticleSet& p) const {
+Window PeakMaps::cover(const ParticleSet& p, const Width& width) const {
   constexpr double inf = std::numeric_limits<double>::infinity();
   double west = inf, east = -inf, south = inf, north = -inf;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -113,7 +126,7 @@ Window PeakMaps::cover(const ParticleSet& p) const {
     south = std::min(south, p.y[i]), north = std::max(north, p.y[i]);
   }
   const Grid& g = settings_.grid;
-  const double per_cell = 1 / g.cell_m, support = 1.5 * width_cells_ + 1;
+  const double per_cell = 1 / g.cell_m, support = 1.5 * width.cells + 1;
   return clipped(std::floor((g.north_m - north) * per_cell - support),
                  std::ceil((g.north_m - south) * per_cell + support),
                  std::floor((west - g.west_m) * per_cell - support),
@@ -134,7 +147,7 @@ void PeakMaps::make_room(const Window& w) {
                     (room_.col0 - next.col0));
   peak_.swap(peak);
   room_ = next;
-  mass_.assign(next.n_cells(), 0.0);
+  for (auto& mass : mass_) mass.assign(next.n_cells(), 0.0);
   motion_.assign(next.n_cells(), Motion::Zero());
 }
 
@@ -161,17 +174,17 @@ inline void PeakMaps::add_one(const Room& room, double x, double y, double width
 
 /// Adds every particle. Narrow spreads, the usual ones, get loops of known length: twice as fast.
 template <bool with_motion>
-void PeakMaps::scatter(const ParticleSet& p) {
+void PeakMaps::scatter_set(const ParticleSet& p, const Width& spread, std::vector<double>& mass) {
   const Grid& g = settings_.grid;
-  const double per_cell = 1 / g.cell_m, far = 1.5 * width_cells_ + 1;
+  const double per_cell = 1 / g.cell_m, far = 1.5 * spread.cells + 1;
   const double width_per_reach = settings_.width_per_reach, cell = g.cell_m;
-  const double* const reach = reach_;
+  const double* const reach = spread.reach;
   // Copies, because the compiler must assume that writing a double may change any member.
-  const Room room{weights_x_.data(), weights_y_.data(), mass_.data(),
+  const Room room{weights_x_.data(), weights_y_.data(), mass.data(),
                   motion_.data(),    room_.n_rows,      room_.n_cols};
   const double col0 = room_.col0, row0 = room_.row0;
-  double width = width_cells_;
-  int n = n_weights_;
+  double width = spread.cells;
+  int n = spread.n_weights;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double x = (p.x[i] - g.west_m) * per_cell - 0.5 - col0;
     const double y = (g.north_m - p.y[i]) * per_cell - 0.5 - row0;
@@ -204,24 +217,39 @@ void PeakMaps::scatter(const ParticleSet& p) {
   }
 }
 
+template <bool with_motion>
+void PeakMaps::scatter(std::span<const MovingSet> sets) {
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    scatter_set<with_motion>(sets[k], widths_[k], mass_[k]);
+}
+
 /// Takes the instant's sums into the peaks and clears them.
-void PeakMaps::keep_peaks(const Window& w, float time_s) {
+void PeakMaps::keep_peaks(std::span<const MovingSet> sets, const Window& w, float time_s) {
   const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
-  const double density = settings_.bulk_density_kg_m3, to_thickness = per_area / density;
-  const double to_layers = to_thickness / settings_.spacing_m;
+  const std::size_t n_sets = sets.size();
   double total = 0;
   mass_by_layers_.fill(0);
   for (int r = w.row0 - room_.row0; r < w.row0 - room_.row0 + w.n_rows; ++r)
     for (int c = w.col0 - room_.col0; c < w.col0 - room_.col0 + w.n_cols; ++c) {
       const std::size_t k = static_cast<std::size_t>(r) * room_.n_cols + c;
-      const double mass = mass_[k];
+      double mass = 0, thickness = 0;
+      for (std::size_t n = 0; n < n_sets; ++n) {
+        mass += mass_[n][k];
+        thickness += mass_[n][k] * (per_area / sets[n].bulk_density);
+      }
       if (mass == 0) continue;
       Peak& peak = peak_[k];
-      const double thickness = mass * to_thickness;
       total += mass;
-      mass_by_layers_[layer_bin(mass * to_layers)] += mass;
+      for (std::size_t n = 0; n < n_sets; ++n) {
+        double layers = 0;
+        for (std::size_t m = 0; m < n_sets; ++m)
+          layers += mass_[m][k] * (per_area / sets[m].bulk_density / sets[n].spacing);
+        mass_by_layers_[layer_bin(layers)] += mass_[n][k];
+      }
       peak.thickness = std::max(peak.thickness, static_cast<float>(thickness));
       if (thickness > settings_.reach_limit_m) {
+        const double density =
+            n_sets == 1 ? sets[0].bulk_density : mass * per_area / thickness;  // of the mixture
         const Motion& sums = motion_[k];
         const double speed = sums.matrix().head<3>().norm() / mass;
         peak.speed = std::max(peak.speed, static_cast<float>(speed));
@@ -229,7 +257,7 @@ void PeakMaps::keep_peaks(const Window& w, float time_s) {
         peak.pressure = std::max(peak.pressure, static_cast<float>(density * speed * speed));
         if (std::isnan(peak.arrival)) peak.arrival = time_s;
       }
-      mass_[k] = 0;
+      for (auto& of_set : mass_) of_set[k] = 0;
       motion_[k].setZero();
     }
   count_layers(total);
@@ -250,24 +278,26 @@ void PeakMaps::count_layers(double total_mass) {
   }
 }
 
-void PeakMaps::record(const ParticleSet& p, double time_s) {
-  look_at_widths(p);
-  const Window w = cover(p);
+void PeakMaps::record(std::span<const MovingSet> sets, double time_s) {
+  const Window w = look_at(sets);
   if (w.n_cells() == 0) return;
   make_room(w);
-  scatter<true>(p);
-  keep_peaks(w, static_cast<float>(time_s));
+  scatter<true>(sets);
+  keep_peaks(sets, w, static_cast<float>(time_s));
 }
 
-void PeakMaps::keep_deposit(const Window& w) {
+void PeakMaps::keep_deposit(std::span<const MovingSet> sets, const Window& w) {
   const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
-  const double to_thickness = 1 / (settings_.bulk_density_kg_m3 * cell_area);
   for (int r = w.row0 - room_.row0; r < w.row0 - room_.row0 + w.n_rows; ++r)
     for (int c = w.col0 - room_.col0; c < w.col0 - room_.col0 + w.n_cols; ++c) {
       const std::size_t k = static_cast<std::size_t>(r) * room_.n_cols + c;
-      peak_[k].deposit = static_cast<float>(mass_[k] * to_thickness);
+      double thickness = 0;
+      for (std::size_t n = 0; n < sets.size(); ++n) {
+        thickness += mass_[n][k] * (1 / (sets[n].bulk_density * cell_area));
+        mass_[n][k] = 0;
+      }
+      peak_[k].deposit = static_cast<float>(thickness);
       peak_[k].thickness = std::max(peak_[k].thickness, peak_[k].deposit);
-      mass_[k] = 0;
     }
 }
 
@@ -283,21 +313,13 @@ Window PeakMaps::tight_window() const {
   return {room_.row0 + row0, room_.col0 + col0, row1 - row0 + 1, col1 - col0 + 1};
 }
 
-void PeakMaps::finish(const ParticleSet& final_state, MemberResult& result) {
-  for (Peak& peak : peak_) peak.deposit = 0;
-  look_at_widths(final_state);
-  const Window w = cover(final_state);
-  if (w.n_cells() > 0) {
-    make_room(w);
-    scatter<false>(final_state);
-    keep_deposit(w);
-  }
+/// Writes layers and window; \return cells reached, cells covered at the end, and maxima.
+PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
   result.grid = settings_.grid;
   result.window = tight_window();
   for (auto& layer : result.layers) layer.assign(result.window.n_cells(), 0.0f);
-  MemberScalars& s = result.scalars;
-  std::size_t reached = 0, covered = 0, k = 0;
-  Peak most;
+  Totals totals;
+  std::size_t k = 0;
   for (int r = 0; r < result.window.n_rows; ++r)
     for (int c = 0; c < result.window.n_cols; ++c, ++k) {
       const Peak& p =
@@ -309,20 +331,34 @@ void PeakMaps::finish(const ParticleSet& final_state, MemberResult& result) {
       result.layer(PeakLayer::pressure)[k] = p.pressure;
       result.layer(PeakLayer::arrival)[k] = p.arrival;
       result.layer(PeakLayer::deposit)[k] = p.deposit;
-      reached += !std::isnan(p.arrival);
-      covered += p.deposit > settings_.reach_limit_m;
+      totals.reached += !std::isnan(p.arrival);
+      totals.covered += p.deposit > settings_.reach_limit_m;
+      Peak& most = totals.most;
       most.thickness = std::max(most.thickness, p.thickness);
       most.deposit = std::max(most.deposit, p.deposit);
       most.energy = std::max(most.energy, p.energy);
       most.pressure = std::max(most.pressure, p.pressure);
     }
+  return totals;
+}
+
+void PeakMaps::finish(std::span<const MovingSet> final_state, MemberResult& result) {
+  for (Peak& peak : peak_) peak.deposit = 0;
+  const Window w = look_at(final_state);
+  if (w.n_cells() > 0) {
+    make_room(w);
+    scatter<false>(final_state);
+    keep_deposit(final_state, w);
+  }
+  const Totals totals = write_layers(result);
   const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
-  s.reached_area_m2 = static_cast<double>(reached) * cell_area;
-  s.deposit_area_m2 = static_cast<double>(covered) * cell_area;
-  s.max_thickness_m = most.thickness;
-  s.max_deposit_m = most.deposit;
-  s.max_energy_j_m2 = most.energy;
-  s.max_pressure_pa = most.pressure;
+  MemberScalars& s = result.scalars;
+  s.reached_area_m2 = static_cast<double>(totals.reached) * cell_area;
+  s.deposit_area_m2 = static_cast<double>(totals.covered) * cell_area;
+  s.max_thickness_m = totals.most.thickness;
+  s.max_deposit_m = totals.most.deposit;
+  s.max_energy_j_m2 = totals.most.energy;
+  s.max_pressure_pa = totals.most.pressure;
 }
 
 }  // namespace sturz

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/reference_speed.hpp"
 
+#include "engine/core/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace sturz {
 namespace {
 
-constexpr double gravity = 9.81;
+constexpr double gravity = standard_gravity;
 constexpr std::size_t most_starts = 48;
 
 /// The ground as a mass point feels it: averaged over one cell, so that slope and curvature are

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/simulation.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/hash.hpp"
 #include "engine/core/sum.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
@@ -20,18 +22,25 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two looks at the motion at least [s]: a tenth of the time a particle takes to fall by
 /// its own size.
-double look_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / 9.81); }
+double look_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::uint64_t hash_of(const ParticleSet& p) {
+std::uint64_t hash_of(const State& state) {
   Hash64 hash;
-  for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
-    hash.add(std::span<const double>(*column));
-  hash.add(std::span<const std::uint32_t>(p.id));
+  for (const MovingSet& p : state.sets) {
+    for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
+      hash.add(std::span<const double>(*column));
+    hash.add(std::span<const std::uint32_t>(p.id));
+  }
   return hash.value();
+}
+
+bool any_has(const State& state, const auto& key) {
+  return std::any_of(state.sets.begin(), state.sets.end(),
+                     [&](const MovingSet& set) { return set.has(key); });
 }
 
 /// One member's run: the bookkeeping around the step.
@@ -42,11 +51,11 @@ class Run {
         control_(control),
         start_(Clock::now()),
         passes_before_(parts.step.timings()),
-        history_(look_interval(parts.spacing_m)) {}
+        history_(look_interval(parts.facts.spacing_m)) {}
 
   MemberResult operator()() {
     State& s = parts_.state;
-    s.ledger.kinetic_0 = s.ledger.kinetic;
+    for (MovingSet& set : s.sets) set.ledger.kinetic_0 = set.ledger.kinetic;
     record();
     look_at_motion();
     frame(true);
@@ -56,7 +65,7 @@ class Run {
       const double left = parts_.stop.end_time_s() - s.time;
       // The step may grow by a twentieth at most: a sudden long step would break the staggering.
       double dt = std::min(limit.dt, s.previous_dt > 0 ? 1.05 * s.previous_dt : limit.dt);
-      if (limit.dt < parts_.least_dt_s || !std::isfinite(dt)) {
+      if (limit.dt < parts_.facts.least_dt_s || !std::isfinite(dt)) {
         end(Outcome::diverged, "time step collapsed (limit " + std::string(limit.name) + ")");
         break;
       }
@@ -70,7 +79,7 @@ class Run {
   bool over() {
     State& s = parts_.state;
     if (ended_) return true;
-    if (s.grains.size() == 0) return end(Outcome::left_terrain, "all mass left the terrain");
+    if (s.n_particles() == 0) return end(Outcome::left_terrain, "all mass left the terrain");
     if (parts_.stop.out_of_time(s.time)) return end(Outcome::out_of_time, "");
     return false;
   }
@@ -84,18 +93,21 @@ class Run {
 
   void after_step() {
     State& s = parts_.state;
-    if (!s.motion.finite) {
-      end(Outcome::diverged, "a particle's position or velocity is not finite");
-      return;
+    for (const MovingSet& set : s.sets) {
+      if (!set.motion.finite) {
+        end(Outcome::diverged, "a particle's position or velocity is not finite");
+        return;
+      }
+      if (set.sound_speed > 0)
+        result_.scalars.max_mach =
+            std::max(result_.scalars.max_mach, set.motion.max_speed / set.sound_speed);
     }
-    if (s.sound_speed > 0)
-      result_.scalars.max_mach =
-          std::max(result_.scalars.max_mach, s.motion.max_speed / s.sound_speed);
-    travelled_ += s.motion.max_speed * s.previous_dt;
+    travelled_ += s.max_speed() * s.previous_dt;
     const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
     if (travelled_ >= half_cell) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
-    if (s.time - looked_at_ > look_interval(parts_.spacing_m) && s.n_steps - looked_at_step_ >= 4)
+    if (s.time - looked_at_ > look_interval(parts_.facts.spacing_m) &&
+        s.n_steps - looked_at_step_ >= 4)
       look_at_motion();
     frame(false);
     if (s.n_steps % 16 == 0) watch();
@@ -104,7 +116,7 @@ class Run {
   /// Peak maps, whenever the fastest particle may have crossed half a cell.
   void record() {
     const double now = parts_.state.time;
-    parts_.peaks.record(parts_.state.grains, now);
+    parts_.peaks.record(parts_.state.sets, now);
     const LayerCount& layers = parts_.peaks.layers();
     const double span = now - recorded_at_;
     thin_time_ += layers.thin_fraction * span;
@@ -116,20 +128,21 @@ class Run {
 
   void look_at_motion() {
     const State& s = parts_.state;
-    now_ = measure(parts_, each_);
-    const StateShares shares = state_shares(s.grains);
+    now_ = measure(s, each_);
+    const StateShares shares = state_shares(s.sets);
     state_times_.add(shares, s.time - looked_at_);
-    if (s.grains.size() > 0 && history_.wants(s.time)) history_.add(history_row(shares));
+    if (s.n_particles() > 0 && history_.wants(s.time)) history_.add(history_row(shares));
     looked_at_ = s.time;
     looked_at_step_ = s.n_steps;
     MemberScalars& m = result_.scalars;
     m.max_speed_m_s =
-        std::max(m.max_speed_m_s, s.grains.size() > 1000 ? now_.high_speed : s.motion.max_speed);
+        std::max(m.max_speed_m_s, s.n_particles() > 1000 ? now_.high_speed : s.max_speed());
     m.max_mean_speed_m_s = std::max(m.max_mean_speed_m_s, now_.mean_speed);
     m.front_travel_m = std::max(m.front_travel_m, now_.front);
-    if (const Field* c = s.grains.find_field("compression"))
-      m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
-    if (parts_.stop.at_rest({s.time, s.ledger.kinetic, now_.front, now_.com}) && !ended_)
+    for (const MovingSet& set : s.sets)
+      if (const Field* c = set.find(fields::compression))
+        m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
+    if (parts_.stop.at_rest({s.time, s.ledger().kinetic, now_.front, now_.com}) && !ended_)
       end(Outcome::settled, "");
   }
 
@@ -144,8 +157,8 @@ class Run {
     row.front_speed_m_s = static_cast<float>(ends.front_speed);
     row.tail_speed_m_s = static_cast<float>(ends.tail_speed);
     row.mean_speed_m_s = static_cast<float>(now_.mean_speed);
-    row.max_speed_m_s = static_cast<float>(s.motion.max_speed);
-    row.kinetic_energy_j = static_cast<float>(s.ledger.kinetic);
+    row.max_speed_m_s = static_cast<float>(s.max_speed());
+    row.kinetic_energy_j = static_cast<float>(s.ledger().kinetic);
     row.dense = static_cast<float>(shares.dense);
     row.transition = static_cast<float>(shares.transition);
     row.dilute = static_cast<float>(shares.dilute);
@@ -182,9 +195,17 @@ class Run {
 
   Progress progress(double wall) const {
     const State& s = parts_.state;
-    return {s.time,           parts_.stop.end_time_s(), now_.front,
-            s.ledger.kinetic, s.motion.max_speed,       s.previous_dt,
-            s.n_steps,        s.grains.size(),          wall};
+    Progress p;
+    p.time_s = s.time;
+    p.end_time_s = parts_.stop.end_time_s();
+    p.front_travel_m = now_.front;
+    p.kinetic_energy_j = s.ledger().kinetic;
+    p.max_speed_m_s = s.max_speed();
+    p.dt_s = s.previous_dt;
+    p.n_steps = s.n_steps;
+    p.n_particles = s.n_particles();
+    p.wall_s = wall;
+    return p;
   }
 
   void frame(bool force) {
@@ -193,64 +214,87 @@ class Run {
     if (!force && s.time < next_frame_) return;
     if (control_.frame_every_s > 0)
       next_frame_ = control_.frame_every_s * (std::floor(s.time / control_.frame_every_s) + 1);
-    control_.on_frame(frames_.frame(parts_));
+    for (std::size_t k = 0; k < s.sets.size(); ++k) control_.on_frame(frames_.frame(s, k));
   }
 
   MemberResult finish() {
     State& s = parts_.state;
     const bool sound = result_.outcome != Outcome::diverged;
-    if (sound && s.grains.size() > 0) {
+    if (sound && s.n_particles() > 0) {
       record();
       look_at_motion();
-      history_.add_last(history_row(state_shares(s.grains)));
+      history_.add_last(history_row(state_shares(s.sets)));
       frame(true);
     }
-    MemberScalars& m = result_.scalars;
-    const Ledger& book = s.ledger;
-    const double kept = sum_of_mass(s.grains);
-    m.com_travel_m = now_.com;
-    m.drop_m = parts_.release_top_m - now_.lowest;
-    m.release_volume_m3 = parts_.release_volume_m3;
-    m.released_mass_kg = book.released_mass;
-    m.lost_mass_kg = book.lost_mass;
-    m.mass_error = (kept + book.lost_mass - book.released_mass) / book.released_mass;
-    const double released = book.released_energy();
-    m.energy_residual = released > 0 ? book.residual() / released : 0;
-    m.release_layers = parts_.release_layers;
-    const LayerCount& layers = parts_.peaks.layers();
-    m.thin_fraction = s.time > 0 ? thin_time_ / s.time : layers.thin_fraction;
-    m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
-    m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
-    m.take_off_fraction = s.time > 0 ? book.take_off / (book.released_mass * s.time) : 0;
-    state_times_.write(m);
-    m.max_granular_temperature_m2_s2 = s.hottest;
-    m.granular_ratio = m.max_speed_m_s > 0 ? s.hottest / (m.max_speed_m_s * m.max_speed_m_s) : 0;
-    m.end_time_s = s.time;
-    m.n_particles = static_cast<double>(parts_.start_x.size());
-    m.n_steps = static_cast<double>(s.n_steps);
-    m.mean_dt_s = s.n_steps ? s.time / s.n_steps : 0;
-    result_.member = parts_.member;
-    result_.formulation = parts_.formulation;
-    result_.warnings = parts_.warnings;
-    if (sound) {
-      parts_.peaks.finish(s.grains, result_);
-      m.runout_m = runout();
-      result_.state_hash = hash_of(s.grains);
-      if (is_valid(result_.outcome) && book.lost_mass > 0.01 * book.released_mass) {
-        result_.outcome = Outcome::left_terrain;
-        result_.reason = std::to_string(100 * book.lost_mass / book.released_mass) +
-                         " % of the mass left the terrain";
-      }
-    }
+    result_.member = parts_.facts.member;
+    result_.formulation = parts_.facts.formulation;
+    result_.warnings = parts_.facts.warnings;
+    write_balance();
+    write_averages();
+    if (sound) write_final_state();
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
     const auto rows = history_.rows();
     result_.history.rows.assign(rows.begin(), rows.end());
-    result_.history.has_states = s.grains.find_field("state") != nullptr;
-    result_.history.has_temperature = s.grains.find_field("granular_temperature") != nullptr;
-    m.wall_s = seconds_since(start_);
-    share_out(m.wall_s);
+    result_.history.has_states = any_has(s, fields::state);
+    result_.history.has_temperature = any_has(s, fields::granular_temperature);
+    result_.scalars.wall_s = seconds_since(start_);
+    share_out(result_.scalars.wall_s);
     return std::move(result_);
+  }
+
+  /// Release, mass and energy, by the books.
+  void write_balance() {
+    const State& s = parts_.state;
+    MemberScalars& m = result_.scalars;
+    const Ledger book = s.ledger();
+    const ReleaseFacts& release = parts_.facts.release;
+    const double brought = book.released_mass + book.added_mass;
+    m.com_travel_m = now_.com;
+    m.drop_m = release.top_m - now_.lowest;
+    m.release_volume_m3 = release.volume_m3;
+    m.release_layers = release.layers;
+    m.released_mass_kg = book.released_mass;
+    m.lost_mass_kg = book.lost_mass;
+    m.mass_error = (mass_on_terrain(s) + book.lost_mass - brought) / brought;
+    const double released = book.released_energy();
+    m.energy_residual = released > 0 ? book.residual() / released : 0;
+    m.take_off_fraction = s.time > 0 ? book.take_off / (book.released_mass * s.time) : 0;
+    std::size_t created = 0;
+    for (const MovingSet& set : s.sets) created += set.n_created();
+    m.n_particles = static_cast<double>(created);
+  }
+
+  /// What is averaged over the run's time.
+  void write_averages() {
+    const State& s = parts_.state;
+    MemberScalars& m = result_.scalars;
+    const LayerCount& layers = parts_.peaks.layers();
+    m.thin_fraction = s.time > 0 ? thin_time_ / s.time : layers.thin_fraction;
+    m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
+    m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
+    state_times_.write(m);
+    double hottest = 0;
+    for (const MovingSet& set : s.sets)
+      hottest = std::max(hottest, set.largest_granular_temperature);
+    m.max_granular_temperature_m2_s2 = hottest;
+    m.granular_ratio = m.max_speed_m_s > 0 ? hottest / (m.max_speed_m_s * m.max_speed_m_s) : 0;
+    m.end_time_s = s.time;
+    m.n_steps = static_cast<double>(s.n_steps);
+    m.mean_dt_s = s.n_steps ? s.time / s.n_steps : 0;
+  }
+
+  void write_final_state() {
+    const State& s = parts_.state;
+    const Ledger book = s.ledger();
+    parts_.peaks.finish(s.sets, result_);
+    result_.scalars.runout_m = runout();
+    result_.state_hash = hash_of(s);
+    if (is_valid(result_.outcome) && book.lost_mass > 0.01 * book.released_mass) {
+      result_.outcome = Outcome::left_terrain;
+      result_.reason = std::to_string(100 * book.lost_mass / book.released_mass) +
+                       " % of the mass left the terrain";
+    }
   }
 
   /// Where the computing time went; what lies between the steps is the rest.
@@ -275,16 +319,17 @@ class Run {
     for (int r = 0; r < w.n_rows; ++r)
       for (int c = 0; c < w.n_cols; ++c) {
         if (std::isnan(result_.layer(PeakLayer::arrival)[std::size_t(r) * w.n_cols + c])) continue;
-        const double dx = result_.grid.x_center(w.col0 + c) - parts_.release_x_m;
-        const double dy = result_.grid.y_center(w.row0 + r) - parts_.release_y_m;
+        const double dx = result_.grid.x_center(w.col0 + c) - parts_.facts.release.x_m;
+        const double dy = result_.grid.y_center(w.row0 + r) - parts_.facts.release.y_m;
         far2 = std::max(far2, dx * dx + dy * dy);
       }
     return std::sqrt(far2);
   }
 
-  static double sum_of_mass(const ParticleSet& p) {
+  static double mass_on_terrain(const State& s) {
     Sum total;
-    for (double m : p.mass) total.add(m);
+    for (const MovingSet& set : s.sets)
+      for (double m : set.mass) total.add(m);
     return total.value();
   }
 

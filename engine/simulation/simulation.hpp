@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace sturz {
 
@@ -33,13 +34,15 @@ struct ParticleFrame {
   std::span<const double> solid_fraction;           ///< [n] -; empty for columns
   std::span<const double> state;                    ///< [n] 0 dense .. 3 ultradilute; may be empty
   std::span<const double> granular_temperature;     ///< [n] m2/s2; may be empty
+  std::string_view set = "grains";                  ///< name of the particle set
+  std::size_t set_index = 0;                        ///< 0: the first set of the scene
 };
 
 struct RunControl {
   /// Called about every `progress_every_s` wall seconds; return false to cancel.
   std::function<bool(const Progress&)> on_progress;
   double progress_every_s = 0.2;
-  /// Called at t = 0, every `frame_every_s` of simulated time, and at the end.
+  /// Called at t = 0, every `frame_every_s` of simulated time, and at the end; once for each set.
   std::function<void(const ParticleFrame&)> on_frame;
   double frame_every_s = 1;  ///< 0: every step
   double max_wall_s = 0;     ///< 0 = none; beyond it the member fails with a reason

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/state_shares.hpp"
 
+#include "engine/effects/fields.hpp"
 #include "engine/simulation/member_result.hpp"
 
 #include <algorithm>
@@ -10,37 +11,43 @@ namespace {
 
 constexpr int n_states = 4;  // numbered as GrainState, dense first
 
-const double* column(const ParticleSet& grains, const char* name) {
-  const Field* field = grains.find_field(name);
-  return field ? field->component[0].data() : nullptr;
+/// Masses [kg] of what shares are taken of, over all sets.
+struct Masses {
+  double all = 0, parted = 0, heat = 0, in_state[n_states] = {};
+  bool has_compression = false;
+};
+
+void add_set(const MovingSet& set, Masses& sums, StateShares& out) {
+  const Field* compression = set.find(fields::compression);
+  const Flags* state = set.find(fields::state);
+  const Field* theta = set.find(fields::granular_temperature);
+  sums.has_compression |= compression != nullptr;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const double m = set.mass[i];
+    sums.all += m;
+    if (compression && compression->component[0][i] < parted_compression) sums.parted += m;
+    if (state) sums.in_state[std::min<int>(state->value[i], n_states - 1)] += m;
+    if (theta) {
+      sums.heat += m * theta->component[0][i];
+      out.max_theta = std::max(out.max_theta, theta->component[0][i]);
+    }
+  }
 }
 
 }  // namespace
 
-StateShares state_shares(const ParticleSet& grains) {
+StateShares state_shares(std::span<const MovingSet> sets) {
   StateShares out;
-  const double* compression = column(grains, "compression");
-  const double* state = column(grains, "state");
-  const double* theta = column(grains, "granular_temperature");
-  double mass = 0, parted = 0, heat = 0, in_state[n_states] = {};
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double m = grains.mass[i];
-    mass += m;
-    if (compression && compression[i] < parted_compression) parted += m;
-    if (state) in_state[std::clamp(static_cast<int>(state[i]), 0, n_states - 1)] += m;
-    if (theta) {
-      heat += m * theta[i];
-      out.max_theta = std::max(out.max_theta, theta[i]);
-    }
-  }
-  out.parted = compression ? 0 : nan_d;
-  if (mass == 0) return out;
-  if (compression) out.parted = parted / mass;
-  out.dense = in_state[0] / mass;
-  out.transition = in_state[1] / mass;
-  out.dilute = in_state[2] / mass;
-  out.ultradilute = in_state[3] / mass;
-  out.mean_theta = heat / mass;
+  Masses sums;
+  for (const MovingSet& set : sets) add_set(set, sums, out);
+  out.parted = sums.has_compression ? 0 : nan_d;
+  if (sums.all == 0) return out;
+  if (sums.has_compression) out.parted = sums.parted / sums.all;
+  out.dense = sums.in_state[0] / sums.all;
+  out.transition = sums.in_state[1] / sums.all;
+  out.dilute = sums.in_state[2] / sums.all;
+  out.ultradilute = sums.in_state[3] / sums.all;
+  out.mean_theta = sums.heat / sums.all;
   return out;
 }
 

@@ -2,7 +2,9 @@
 /// How much of the mass is dense, parted, colliding or alone, at one instant and over time.
 #pragma once
 
-#include "engine/particles/particle_set.hpp"
+#include "engine/effects/moving_set.hpp"
+
+#include <span>
 
 namespace sturz {
 
@@ -18,7 +20,7 @@ struct StateShares {
   double dense = 0, transition = 0, dilute = 0, ultradilute = 0;  ///< sum 1, or all 0
   double mean_theta = 0, max_theta = 0;  ///< granular temperature [m^2/s^2]
 };
-StateShares state_shares(const ParticleSet& grains);
+StateShares state_shares(std::span<const MovingSet> sets);
 
 /// Integrals of the shares over time.
 class StateTimes {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/stop_rule.hpp"
 
+#include "engine/core/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,9 +10,9 @@ namespace sturz {
 
 StopRule::StopRule(const StopSettings& settings)
     : settings_(settings),
-      window_s_(
-          std::max(settings.spacing_m < 0.2 ? 0.0 : 1.0, 5 * std::sqrt(settings.spacing_m / 9.81))),
-      arming_time_s_(5 * std::sqrt(settings.release_height_m / 9.81)) {}
+      window_s_(std::max(settings.spacing_m < 0.2 ? 0.0 : 1.0,
+                         5 * std::sqrt(settings.spacing_m / standard_gravity))),
+      arming_time_s_(5 * std::sqrt(settings.release_height_m / standard_gravity)) {}
 
 bool StopRule::at_rest(const MotionSummary& now) {
   if (!settings_.stop_at_rest) return false;

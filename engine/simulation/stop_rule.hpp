@@ -22,7 +22,7 @@ struct MotionSummary {
 
 /// At rest: kinetic energy below 1e-3 of its peak, and over a window of
 /// 5 sqrt(dx/g) (at least 1 s at field scale, dx >= 0.2 m) the front moved less than dx/10 and the
-/// centre of mass less than dx/50. Particle solvers creep at millimetres per second (thin.md), so
+/// centre of mass less than dx/50. Particle solvers creep at millimetres per second (F.4), so
 /// speed alone never says rest.
 class StopRule {
  public:

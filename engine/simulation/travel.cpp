@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/travel.hpp"
 
-#include "engine/simulation/parts.hpp"
+#include "engine/effects/state.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace sturz {
@@ -46,35 +47,45 @@ std::size_t part_rearmost(std::span<ParticleTravel> all, double wanted) {
   return high;
 }
 
-}  // namespace
-
-Displacement measure(const SimulationParts& parts, std::vector<ParticleTravel>& each) {
-  const ParticleSet& p = parts.state.grains;
-  Displacement d;
-  each.clear();
-  each.reserve(p.size());
-  if (p.size() == 0) return d;
+/// Sums over particles.
+struct Moments {
   double mass = 0, mx = 0, my = 0, momentum = 0, front2 = 0;
-  d.lowest = p.z[0];
+  double lowest = std::numeric_limits<double>::infinity();
+};
+
+void add_set(const MovingSet& p, Moments& sums, std::vector<ParticleTravel>& each) {
+  const bool wraps = !p.wrapped_x.empty();
   for (std::size_t i = 0; i < p.size(); ++i) {
-    double dx = p.x[i] - parts.start_x[p.id[i]], dy = p.y[i] - parts.start_y[p.id[i]];
-    if (!parts.state.wrapped_x.empty()) {
-      dx += parts.state.wrapped_x[p.id[i]];
-      dy += parts.state.wrapped_y[p.id[i]];
+    double dx = p.x[i] - p.start_x[p.id[i]], dy = p.y[i] - p.start_y[p.id[i]];
+    if (wraps) {
+      dx += p.wrapped_x[p.id[i]];
+      dy += p.wrapped_y[p.id[i]];
     }
     const double v = std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
     const double way2 = dx * dx + dy * dy;
-    mass += p.mass[i];
-    mx += p.mass[i] * dx;
-    my += p.mass[i] * dy;
-    momentum += p.mass[i] * v;
-    front2 = std::max(front2, way2);
-    d.lowest = std::min(d.lowest, p.z[i]);
+    sums.mass += p.mass[i];
+    sums.mx += p.mass[i] * dx;
+    sums.my += p.mass[i] * dy;
+    sums.momentum += p.mass[i] * v;
+    sums.front2 = std::max(sums.front2, way2);
+    sums.lowest = std::min(sums.lowest, p.z[i]);
     each.push_back({way2, v, p.mass[i]});
   }
-  d.front = std::sqrt(front2);
-  d.com = std::hypot(mx, my) / mass;
-  d.mean_speed = momentum / mass;
+}
+
+}  // namespace
+
+Displacement measure(const State& state, std::vector<ParticleTravel>& each) {
+  Displacement d;
+  each.clear();
+  each.reserve(state.n_particles());
+  if (state.n_particles() == 0) return d;
+  Moments sums;
+  for (const MovingSet& set : state.sets) add_set(set, sums, each);
+  d.lowest = sums.lowest;
+  d.front = std::sqrt(sums.front2);
+  d.com = std::hypot(sums.mx, sums.my) / sums.mass;
+  d.mean_speed = sums.momentum / sums.mass;
   const auto high = each.end() - 1 - static_cast<std::ptrdiff_t>(each.size() / 1000);
   std::nth_element(each.begin(), high, each.end(), by_speed);
   d.high_speed = high->speed;

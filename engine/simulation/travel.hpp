@@ -6,7 +6,7 @@
 
 namespace sturz {
 
-struct SimulationParts;
+struct State;
 
 /// Where the mass is relative to where it started, and how fast.
 struct Displacement {
@@ -25,7 +25,7 @@ struct ParticleTravel {
 };
 
 /// Looks at all particles; whole periods count. \param each  is filled anew, in no order
-Displacement measure(const SimulationParts& parts, std::vector<ParticleTravel>& each);
+Displacement measure(const State&, std::vector<ParticleTravel>& each);
 
 struct FrontAndTail {
   double front_speed = 0;  ///< mean of the foremost 1 % of the mass [m/s]

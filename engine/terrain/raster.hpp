@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Grids of square cells with a place on the map, and named rasters for output.
+/// Grids of square cells with a place on the map, and values on them.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sturz {
@@ -49,42 +50,6 @@ struct Raster {
   explicit Raster(Grid g, T fill = T{}) : grid(std::move(g)), values(grid.n_cells(), fill) {}
   T& at(int row, int col) { return values[grid.index(row, col)]; }
   const T& at(int row, int col) const { return values[grid.index(row, col)]; }
-};
-
-/// One extra coordinate of a layer, such as thresholds or quantile levels.
-struct LayerAxis {
-  std::string name;           ///< netCDF dimension and variable name, e.g. "thickness_threshold"
-  std::string standard_name;  ///< CF standard name or empty
-  std::string units;          ///< UDUNITS text, "1" for fractions
-  std::vector<double> values;
-};
-
-/// One named field of results: [axis.values.size() or 1][n_rows][n_cols], NaN where undefined.
-struct Layer {
-  std::string name;  ///< variable name, e.g. "probability_of_peak_thickness_above_threshold"
-  std::string long_name;
-  std::string standard_name;  ///< CF standard name or empty
-  std::string units;          ///< UDUNITS text
-  std::string cell_methods;   ///< CF cell_methods or empty
-  std::string comment;        ///< free text (rules, 'not resolved' notes) or empty
-  LayerAxis axis;             ///< empty values: a plain map
-  bool is_count = false;      ///< whole numbers: stored as int32, never quantised
-  std::vector<float> values;
-
-  std::size_t n_planes() const { return axis.values.empty() ? 1 : axis.values.size(); }
-};
-
-/// Everything that one results file holds, in the order in which it is written.
-struct LayerStack {
-  Grid grid;
-  std::vector<Layer> layers;
-  std::vector<std::pair<std::string, std::string>> attributes;  ///< global text attributes
-
-  const Layer* find(const std::string& name) const {
-    for (const auto& l : layers)
-      if (l.name == name) return &l;
-    return nullptr;
-  }
 };
 
 inline constexpr float nan_f = std::numeric_limits<float>::quiet_NaN();

@@ -211,17 +211,4 @@ std::optional<Vec2> Terrain::nearest_inside(double x, double y) const {
   return best;
 }
 
-double Terrain::steepest_gradient() const {
-  double steepest = 0;
-  auto take = [&](double rise) {
-    if (std::abs(rise) > steepest) steepest = std::abs(rise);  // false for NaN
-  };
-  for (int r = 0; r < grid().n_rows; ++r)
-    for (int c = 0; c < grid().n_cols; ++c) {
-      if (c + 1 < grid().n_cols) take(node(r, c + 1) - node(r, c));
-      if (r + 1 < grid().n_rows) take(node(r + 1, c) - node(r, c));
-    }
-  return steepest * per_cell_;
-}
-
 }  // namespace sturz

@@ -95,9 +95,6 @@ class Terrain {
   /// No point of the ground and no rim of the known ground is nearer than this [m]: the height
   /// above ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
   double clearance(const Vec3& p) const;
-  /// Steepest slope (rise over run) between neighbouring nodes along a row or a column [-], for
-  /// `describe`. Reads every node.
-  double steepest_gradient() const;
 
   static constexpr int search_cells = 64;
 

@@ -10,11 +10,6 @@
 
 namespace sturz::app {
 
-/// "3 min 20 s", "1 h 05 min", "0.8 s".
-std::string duration_text(double seconds);
-/// 491000 -> "491 000"; big whole numbers for people.
-std::string grouped(double value);
-
 class Console {
  public:
   /// \param json one JSON object per line instead of words

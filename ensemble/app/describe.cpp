@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz describe: what a scene is and what it will cost, before anything is computed.
 #include "ensemble/app/commands.hpp"
-#include "ensemble/app/cores.hpp"
 #include "ensemble/app/exit_codes.hpp"
-#include "ensemble/app/scene.hpp"
+#include "ensemble/app/speed_cache.hpp"
+#include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/readable.hpp"
+#include "ensemble/workflow/scene.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/value_text.hpp"
 
@@ -12,6 +15,8 @@
 
 namespace sturz::app {
 namespace {
+
+using workflow::Scene;
 
 std::string as_json(const Scene& scene) {
   const SceneDescription& d = scene.description;
@@ -57,19 +62,21 @@ void print_uncertain(const Scene& scene, Console& console) {
 }  // namespace
 
 int describe_command(const DescribeOptions& options, Console& console) {
-  const Scene scene = load_scene(options.scenario, options.set, options.measure_again);
+  const Scene scene =
+      workflow::load_scene({options.scenario, options.set, speed_cache(options.measure_again)});
   if (console.json()) {
     console.event(as_json(scene));
     return ok;
   }
   if (!scene.scenario.title.empty()) console.say(scene.scenario.title);
-  for (const std::string& line : description_lines(scene)) console.say(line);
+  for (const std::string& line : workflow::description_lines(scene)) console.say(line);
   print_uncertain(scene, console);
   if (const int members = scene.scenario.ensemble.members; members > 0) {
-    const int cores = available_cores();
-    console.say(fmt::format("ensemble: {} members ({}) on {} cores: at most {}", members,
-                            scene.scenario.ensemble.design, cores,
-                            duration_text(scene.description.predicted_seconds * members / cores)));
+    const int cores = workflow::available_cores();
+    console.say(fmt::format(
+        "ensemble: {} members ({}) on {} cores: at most {}", members,
+        to_string(scene.scenario.ensemble.design), cores,
+        workflow::duration_text(scene.description.predicted_seconds * members / cores)));
   }
   for (const std::string& note : scene.inputs.notes) console.say("note: " + note);
   for (const std::string& warning : scene.description.warnings) console.warn(warning);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/progress_bar.hpp"
 
-#include "ensemble/app/console.hpp"
+#include "ensemble/workflow/readable.hpp"
 
 #include <fmt/core.h>
 
@@ -9,6 +9,9 @@
 
 namespace sturz::app {
 namespace {
+
+using workflow::duration_text;
+using workflow::grouped;
 
 std::string with_bar(double fraction, const std::string& text, int columns) {
   const int width = std::clamp(columns - static_cast<int>(text.size()) - 4, 0, 32);

@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz run: one member, with the median of every distribution.
-#include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
-#include "ensemble/app/cores.hpp"
+#include "ensemble/app/console_observer.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/interrupt.hpp"
-#include "ensemble/app/peak_layers.hpp"
-#include "ensemble/app/progress_bar.hpp"
-#include "ensemble/app/report_page.hpp"
-#include "ensemble/app/scene.hpp"
-#include "ensemble/app/version.hpp"
-#include "io/files/atomic_file.hpp"
-#include "io/members/member_file.hpp"
-#include "io/members/particle_frames.hpp"
-#include "io/netcdf/netcdf_layers.hpp"
+#include "ensemble/app/speed_cache.hpp"
+#include "ensemble/workflow/members/single_run.hpp"
+#include "ensemble/workflow/readable.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <optional>
 
 namespace sturz::app {
 namespace {
+
+using workflow::duration_text;
+using workflow::grouped;
 
 std::string command_text(const RunOptions& o) {
   std::string text = "run " + o.scenario;
@@ -32,66 +26,20 @@ std::string command_text(const RunOptions& o) {
   return text;
 }
 
-MemberResult compute(const RunOptions& options, const Scene& scene, const OutputFolder& folder,
-                     Console& console) {
-  const int threads = options.threads > 0 ? options.threads : available_cores();
-  Simulation simulation = assemble(scene.medians, scene.inputs, 0, threads);
-  RunControl control;
-  control.max_wall_s = scene.medians.numerics.max_wall_time_s;
-  control.on_progress = [&console](const Progress& p) {
-    console.progress(member_bar(p, console.columns()));
-    return !interrupt_flag().load();
-  };
-  std::filesystem::remove_all(folder.particles());  // of an earlier run
-  std::optional<ParticleFrameWriter> frames;
-  if (options.particles_every_s) {
-    frames.emplace(folder.particles());
-    control.frame_every_s = *options.particles_every_s;
-    control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
-  }
-  MemberResult result = simulation.run(control);
-  console.clear_progress();
-  return result;
+workflow::RunRequest request_of(const RunOptions& o) {
+  workflow::RunRequest request;
+  request.scene = {o.scenario, o.set, speed_cache()};
+  request.folder = o.out.empty() ? workflow::default_folder(o.scenario) + "_run" : o.out;
+  request.threads = o.threads;
+  request.particles_every_s = o.particles_every_s;
+  request.command = command_text(o);
+  return request;
 }
 
 nlohmann::ordered_json as_json(const NamedSeconds& times) {
   nlohmann::ordered_json out = nlohmann::ordered_json::object();
   for (const auto& [name, seconds] : times) out[name] = seconds;
   return out;
-}
-
-/// "grain stress 1.25 s; base 0.31 s", for a text attribute.
-std::string as_text(const NamedSeconds& times) {
-  std::string text;
-  for (const auto& [name, seconds] : times)
-    text += fmt::format("{}{} {:.6g} s", text.empty() ? "" : "; ", name, seconds);
-  return text;
-}
-
-MemberSummary summary_of(const MemberResult& r) {
-  return {r.member,   r.outcome,    r.reason,  r.formulation, r.binding_limit,
-          r.warnings, r.state_hash, r.scalars, r.window,      r.effect_seconds};
-}
-
-void write_results(const OutputFolder& folder, const Manifest& manifest, const Scene& scene,
-                   const MemberResult& result) {
-  write_member(folder.members(), result);
-  LayerStack peaks = peak_layers(result);
-  peaks.attributes = {
-      {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
-      {"source", fmt::format("sturz {} ({})", version, git_commit)},
-      {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
-      {"outcome", std::string(to_string(result.outcome))},
-      {"formulation", result.formulation},
-      {"computing_time_by_effect", as_text(result.effect_seconds)}};
-  write_layers(folder.peaks_nc(), peaks, result.history);
-  const MemberSummary summary = summary_of(result);
-  PageContent page;
-  page.peaks = &peaks;
-  page.elevation = scene.inputs.elevation.get();
-  page.members = {&summary, 1};
-  page.run = &result;
-  write_page(folder, manifest, scene.medians, page);
 }
 
 void print_line(const char* name, const std::string& value, Console& console) {
@@ -139,7 +87,7 @@ void print_effects(const MemberResult& r, Console& console) {
   print_line("where the time went", text, console);
 }
 
-void print_summary(const MemberResult& r, const OutputFolder& folder, Console& console) {
+void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, Console& console) {
   const MemberScalars& s = r.scalars;
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
   for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
@@ -182,31 +130,20 @@ void print_summary(const MemberResult& r, const OutputFolder& folder, Console& c
 }  // namespace
 
 int run_command(const RunOptions& options, Console& console) {
-  const auto begin = std::chrono::steady_clock::now();
-  const Scene scene = load_scene(options.scenario, options.set);
-  OutputFolder folder{options.out.empty() ? default_folder(options.scenario) + "_run"
-                                          : options.out};
-  holds_results(folder, "run");  // refuses a folder of anything else
-  Manifest manifest = manifest_of(scene, "run", command_text(options));
-  manifest.members = 1;
-  make_folder(folder.root);
-  manifest.write(folder.manifest());
-  save_scenario(folder, scene.medians);
-  console.log_to(folder.log().string());
-  for (const std::string& warning : scene.description.warnings) console.warn(warning);
-  for (const std::string& note : scene.inputs.notes) console.note(note);
+  ConsoleObserver observer(console);
+  workflow::SingleRun run = workflow::prepare_run(request_of(options), observer);
+  for (const std::string& warning : run.scene.description.warnings) console.warn(warning);
+  for (const std::string& note : run.scene.inputs.notes) console.note(note);
 
   watch_for_interrupts();
-  const MemberResult result = compute(options, scene, folder, console);
+  const MemberResult result = workflow::compute_run(run, observer, interrupt_flag());
+  console.clear_progress();
   if (result.outcome == Outcome::cancelled) {
     console.warn("interrupted; nothing is kept. Run the same command again.");
     return interrupted;
   }
-  manifest.compute_s =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  manifest.write(folder.manifest());
-  write_results(folder, manifest, scene, result);
-  print_summary(result, folder, console);
+  workflow::store_run(run, result);
+  print_summary(result, run.folder, console);
   if (is_valid(result.outcome)) return ok;
   console.error(fmt::format("the member is not valid: {}", result.reason));
   return too_many_failed;

@@ -3,8 +3,6 @@
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
-#include "ensemble/app/output_folder.hpp"
-#include "ensemble/sampling/design.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/gdal/cog.hpp"
 #include "io/scenario/scenario_file.hpp"

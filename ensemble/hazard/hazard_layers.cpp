@@ -15,14 +15,14 @@ constexpr const char* quantile_rule =
 constexpr const char* bound_rule = "95 % Wilson interval of the share of valid members";
 
 /// A member quantity as the maps speak of it.
-struct Quantity {
+struct PeakMaps {
   PeakLayer source;
   const char* word;        ///< in names: peak_<word>, <word>_threshold
   const char* axis_units;  ///< of the thresholds in the scenario
   double si_per_axis_unit;
   const std::vector<double> HazardSpec::*thresholds;
 };
-const Quantity peaks[] = {
+const PeakMaps peaks[] = {
     {PeakLayer::thickness, "thickness", "m", 1, &HazardSpec::thickness_m},
     {PeakLayer::speed, "speed", "m s-1", 1, &HazardSpec::speed_m_s},
     {PeakLayer::energy, "energy", "kJ m-2", 1000, &HazardSpec::energy_kj_m2},
@@ -42,9 +42,11 @@ std::string joined(const std::string& rule, const std::string& note) {
   return note.empty() ? rule : rule + "; " + note;
 }
 
-Layer made(std::string name, std::string long_name, std::string units, std::string comment) {
+Layer made(std::string name, LayerMeaning meaning, std::string long_name, std::string units,
+           std::string comment) {
   Layer layer;
   layer.name = std::move(name);
+  layer.meaning = meaning;
   layer.long_name = std::move(long_name);
   layer.units = std::move(units);
   layer.comment = std::move(comment);
@@ -59,16 +61,16 @@ class Builder {
   }
 
   HazardLayers build() {
-    Layer count = made("number_of_members", "valid members of the ensemble", "1",
-                       "settled, out of time or left the terrain");
-    count.is_count = true;
+    Layer count =
+        made("number_of_members", {Quantity::members, Statistic::count},
+             "valid members of the ensemble", "1", "settled, out of time or left the terrain");
     add(std::move(count), static_cast<float>(n_members_));
-    out_.reached =
-        add_probability("probability_reached", "share of members that reach the cell",
-                        "reached: smoothed thickness above the reach limit at any time", {}, {});
-    for (const Quantity& q : peaks) out_.quantities.push_back(add_peak(q));
+    out_.reached = add_probability(
+        "probability_reached", Quantity::reached, "share of members that reach the cell",
+        "reached: smoothed thickness above the reach limit at any time", {}, {});
+    for (const PeakMaps& q : peaks) out_.quantities.push_back(add_peak(q));
     out_.arrival_quantile = add_quantiles(
-        "arrival_time", "time until the flow arrives", "s", "",
+        "arrival_time", Quantity::arrival, "time until the flow arrives", "s", "",
         "over the members that reach the cell only; undefined where none does; linear between "
         "order statistics (Hyndman and Fan 1996, definition 7)",
         nan_f);
@@ -80,49 +82,54 @@ class Builder {
  private:
   /// Adds a layer with one value everywhere and tells its place.
   std::size_t add(Layer layer, float fill) {
-    const bool defined = n_members_ > 0 || layer.is_count;
+    const bool defined = n_members_ > 0 || layer.is_count();
     layer.values.assign(layer.n_planes() * out_.stack.grid.n_cells(), defined ? fill : nan_f);
     out_.stack.layers.push_back(std::move(layer));
     return out_.stack.layers.size() - 1;
   }
 
-  ProbabilityLayers add_probability(const std::string& name, const std::string& meaning,
-                                    const std::string& comment, LayerAxis axis,
-                                    std::vector<float> thresholds) {
+  ProbabilityLayers add_probability(const std::string& name, Quantity quantity,
+                                    const std::string& meaning, const std::string& comment,
+                                    LayerAxis axis, std::vector<float> thresholds) {
     const ProbabilityBounds none = wilson_interval(0, n_members_);
-    const auto layer = [&](const std::string& suffix, const std::string& long_name,
-                           const std::string& rule, double fill) {
-      Layer one = made(name + suffix, long_name, "1", joined(rule, comment));
+    const auto layer = [&](const std::string& suffix, Statistic statistic,
+                           const std::string& long_name, const std::string& rule, double fill) {
+      Layer one = made(name + suffix, {quantity, statistic}, long_name, "1", joined(rule, comment));
       one.axis = axis;
       return add(std::move(one), static_cast<float>(fill));
     };
     ProbabilityLayers places;
-    places.probability = layer("", meaning, "members / valid members", 0);
-    places.lower = layer("_lower", meaning + ", lower bound", bound_rule, none.lower);
-    places.upper = layer("_upper", meaning + ", upper bound", bound_rule, none.upper);
+    places.probability = layer("", Statistic::probability, meaning, "members / valid members", 0);
+    places.lower =
+        layer("_lower", Statistic::lower_bound, meaning + ", lower bound", bound_rule, none.lower);
+    places.upper =
+        layer("_upper", Statistic::upper_bound, meaning + ", upper bound", bound_rule, none.upper);
     places.thresholds = std::move(thresholds);
     return places;
   }
 
-  std::optional<std::size_t> add_quantiles(const std::string& name, const std::string& meaning,
-                                           const std::string& units, const std::string& methods,
-                                           const std::string& comment, float fill) {
+  std::optional<std::size_t> add_quantiles(const std::string& name, Quantity quantity,
+                                           const std::string& meaning, const std::string& units,
+                                           const std::string& methods, const std::string& comment,
+                                           float fill) {
     if (spec_.quantiles.empty()) return std::nullopt;
-    Layer layer = made(name + "_quantile", "quantile of " + meaning, units, comment);
+    Layer layer = made(name + "_quantile", {quantity, Statistic::quantile},
+                       "quantile of " + meaning, units, comment);
     layer.cell_methods = methods;
     layer.axis = LayerAxis{"quantile", "", "1", spec_.quantiles};
     return add(std::move(layer), fill);
   }
 
-  std::size_t add_mean(const std::string& name, const std::string& meaning,
+  std::size_t add_mean(const std::string& name, Quantity quantity, const std::string& meaning,
                        const std::string& units, const std::string& methods) {
-    Layer layer = made(name + "_mean", "mean of " + meaning, units,
+    Layer layer = made(name + "_mean", {quantity, Statistic::mean}, "mean of " + meaning, units,
                        "over all valid members, 0 where a member did not come");
     layer.cell_methods = methods + "realization: mean";
     return add(std::move(layer), 0);
   }
 
-  QuantityLayers add_peak(const Quantity& q) {
+  QuantityLayers add_peak(const PeakMaps& q) {
+    const Quantity quantity = quantity_of(q.source);
     const PeakLayerInfo& of = info(q.source);
     const std::string name = fmt::format("peak_{}", q.word);
     QuantityLayers layers;
@@ -134,13 +141,13 @@ class Builder {
       std::vector<float> si;
       for (const double t : thresholds) si.push_back(static_cast<float>(t * q.si_per_axis_unit));
       layers.exceedance = add_probability(
-          fmt::format("probability_of_{}_above_threshold", name),
+          fmt::format("probability_of_{}_above_threshold", name), quantity,
           fmt::format("share of members whose {} exceeds the threshold", of.long_name),
           is_thickness ? not_resolved(thresholds, spacing_m_) : "", axis, std::move(si));
     }
-    layers.mean = add_mean(name, of.long_name, of.units, "time: maximum ");
+    layers.mean = add_mean(name, quantity, of.long_name, of.units, "time: maximum ");
     layers.quantile =
-        add_quantiles(name, of.long_name, of.units, "time: maximum", quantile_rule, 0);
+        add_quantiles(name, quantity, of.long_name, of.units, "time: maximum", quantile_rule, 0);
     return layers;
   }
 
@@ -148,27 +155,30 @@ class Builder {
     const PeakLayerInfo& of = info(PeakLayer::deposit);
     QuantityLayers layers;
     layers.source = PeakLayer::deposit;
-    layers.mean = add_mean("deposit_thickness", of.long_name, of.units, "");
-    layers.quantile =
-        add_quantiles("deposit_thickness", of.long_name, of.units, "", quantile_rule, 0);
+    layers.mean = add_mean("deposit_thickness", Quantity::deposit, of.long_name, of.units, "");
+    layers.quantile = add_quantiles("deposit_thickness", Quantity::deposit, of.long_name, of.units,
+                                    "", quantile_rule, 0);
     return layers;
   }
 
   void add_intensities() {
     const double limits[] = {swiss_thickness_m};
     const std::string note = not_resolved(limits, spacing_m_);
-    const auto layer = [&](const char* word, const std::string& rule) {
+    const auto layer = [&](IntensityClass intensity, const std::string& rule) {
+      const std::string_view word = to_string(intensity);
       return add(
           made(fmt::format("probability_of_{}_debris_flow_intensity", word),
+               {Quantity::intensity, Statistic::probability, intensity},
                fmt::format("share of members with {} intensity, Swiss debris-flow classes", word),
                "1", joined(rule, note)),
           0);
     };
     out_.high_intensity =
-        layer("high", fmt::format("peak thickness > {} m and peak speed > {} m/s of one member, "
-                                  "not necessarily at one instant",
-                                  swiss_thickness_m, swiss_speed_m_s));
-    out_.medium_intensity = layer("medium", "reached, but not of high intensity");
+        layer(IntensityClass::high,
+              fmt::format("peak thickness > {} m and peak speed > {} m/s of one member, "
+                          "not necessarily at one instant",
+                          swiss_thickness_m, swiss_speed_m_s));
+    out_.medium_intensity = layer(IntensityClass::medium, "reached, but not of high intensity");
   }
 
   const HazardSpec& spec_;

@@ -2,7 +2,7 @@
 /// The layers of a hazard map before they are filled: names, units, axes, rules in words.
 #pragma once
 
-#include "engine/simulation/member_result.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <cstdint>

@@ -195,7 +195,7 @@ void add_attributes(LayerStack& stack, const std::vector<MemberSummary>& members
 /// where all valid members are such.
 double unresolved_spacing(const std::vector<MemberSummary>& members, const HazardContext& context) {
   const bool particles = std::any_of(members.begin(), members.end(), [](const MemberSummary& m) {
-    return is_valid(m.outcome) && m.formulation != "depth_averaged";
+    return is_valid(m.outcome) && m.formulation != to_string(Formulation::depth_averaged);
   });
   return particles ? context.spacing_m : 0;
 }

@@ -16,6 +16,7 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// One number that tells whether two maps hold the same bits.
 #pragma once
 
-#include "engine/terrain/raster.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <cstdint>
 

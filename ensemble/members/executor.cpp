@@ -59,7 +59,7 @@ class Loop {
 };
 
 /// Workers needed for n pieces.
-std::size_t crew(int workers, std::size_t n) {
+std::size_t worker_count(int workers, std::size_t n) {
   return std::min(static_cast<std::size_t>(workers), n);
 }
 
@@ -81,7 +81,7 @@ class TbbExecutor final : public Executor {
     // One task per worker pulling from a counter, not a parallel_for: that keeps the order.
     arena_.execute([&] {
       tbb::task_group group;
-      for (std::size_t w = 1; w < crew(workers_, n); ++w) group.run([&] { loop.work(); });
+      for (std::size_t w = 1; w < worker_count(workers_, n); ++w) group.run([&] { loop.work(); });
       loop.work();
       group.wait();
     });
@@ -105,7 +105,7 @@ class PlainExecutor final : public Executor {
     Loop loop(n, stop, body);
     {
       std::vector<std::jthread> threads;
-      for (std::size_t w = 1; w < crew(workers_, n); ++w)
+      for (std::size_t w = 1; w < worker_count(workers_, n); ++w)
         threads.emplace_back([&] { loop.work(); });
       loop.work();
     }  // joins

@@ -54,7 +54,7 @@ class Run {
     if (cancel_.load()) stop_ = true;
     {
       const std::jthread watcher([this](const std::stop_token& over) { watch(over); });
-      executor->for_each(plan_.members.size(), stop_, [this](std::size_t i) { one(i); });
+      executor->for_each(plan_.members.size(), stop_, [this](std::size_t i) { run_member(i); });
     }  // the watcher ends here
     if (progress_error_) std::rethrow_exception(progress_error_);
     update_pace();
@@ -65,8 +65,8 @@ class Run {
   }
 
  private:
-  void one(std::size_t i) {
-    if (cancel_.load() || out_of_time()) {  // between two looks of the watcher
+  void run_member(std::size_t i) {
+    if (cancel_.load()) {  // between two looks of the watcher
       stop_ = true;
       return;
     }
@@ -82,7 +82,7 @@ class Run {
       return;
     }
     if (store(result)) count(result);
-    tell();
+    report_progress();
   }
 
   /// Under the lock. False: the result is lost, and the run stops.
@@ -118,8 +118,8 @@ class Run {
   }
 
   /// Under the lock. An exception of the caller's display ends the run, after the members.
-  void tell() {
-    last_told_ = Clock::now();
+  void report_progress() {
+    last_report_ = Clock::now();
     if (!callbacks_.on_progress || progress_error_) return;
     update_pace();
     try {
@@ -130,17 +130,12 @@ class Run {
     }
   }
 
-  bool out_of_time() const {
-    return plan_.max_wall_s > 0 &&
-           Clock::now() - start_ >= std::chrono::duration<double>(plan_.max_wall_s);
-  }
-
   void watch(const std::stop_token& over) {
     std::unique_lock guard(lock_);
     while (!wake_.wait_for(guard, over, watch_every, [&] { return over.stop_requested(); })) {
-      if (cancel_.load() || out_of_time()) stop_ = true;
-      if (Clock::now() - last_told_ >= std::chrono::duration<double>(plan_.progress_every_s))
-        tell();
+      if (cancel_.load()) stop_ = true;
+      if (Clock::now() - last_report_ >= std::chrono::duration<double>(plan_.progress_every_s))
+        report_progress();
     }
   }
 
@@ -151,7 +146,7 @@ class Run {
   std::atomic<bool> stop_{false};
   std::mutex lock_;  // guards everything below, and store and on_progress themselves
   std::condition_variable_any wake_;
-  Clock::time_point last_told_ = start_;
+  Clock::time_point last_report_ = start_;
   RunReport report_;
   std::exception_ptr progress_error_;
 };

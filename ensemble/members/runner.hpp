@@ -21,7 +21,6 @@ struct RunPlan {
   std::vector<std::int64_t> members;  ///< still to do, in the order in which they start;
                                       ///< see longest_first()
   int workers = 1;                    ///< members at a time (times the threads of each member)
-  double max_wall_s = 0;              ///< for the whole plan, then as if cancelled; 0 = none
   double progress_every_s = 0.5;      ///< on_progress is called at least this often
   ThreadLibrary threads = ThreadLibrary::tbb;
 };

@@ -104,7 +104,7 @@ DesignTable table_design(const Scenario& scenario, std::span<const std::string> 
                          const std::vector<std::vector<double>>& rows) {
   const std::vector<UncertainKey> keys = uncertain_keys(scenario);
   DesignTable table = empty_design(keys, scenario.ensemble);
-  table.design = "table";
+  table.design = Design::table;
   const std::vector<std::size_t> place = match_columns(table.keys, columns);
   const std::vector<Marginal> marginals = marginals_of(keys);
   const int wanted = scenario.ensemble.members;

@@ -24,7 +24,7 @@ namespace sturz {
 struct DesignTable {
   std::vector<std::string> keys;   ///< dotted scenario paths, [n_keys]
   std::vector<std::string> units;  ///< of each key, [n_keys]
-  std::string design;              ///< monte_carlo | latin_hypercube | sobol | table
+  Design design = Design::table;
   std::uint64_t seed = 0;
   std::vector<std::vector<double>> unit_cube;  ///< [n_members][n_keys] before the copula; empty
                                                ///< for a user's table

@@ -50,7 +50,7 @@ class Reader {
  public:
   DesignTable read(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
-    table_.design = "table";
+    table_.design = Design::table;
     while (!text.empty()) {
       const auto end = std::min(text.find('\n'), text.size());
       ++line_number_;
@@ -88,7 +88,13 @@ class Reader {
     if (colon == std::string_view::npos) return;
     const std::string_view name = trimmed(line.substr(1, colon - 1));
     const std::string_view value = trimmed(line.substr(colon + 1));
-    if (name == "design") table_.design = value;
+    if (name == "design") {
+      const auto design = from_word<Design>(value);
+      if (!design)
+        fail(fmt::format("design '{}' is not known (it says how the rows were drawn). Restore it.",
+                         value));
+      table_.design = *design;
+    }
     if (name == "seed" && !parse(value, table_.seed))
       fail(fmt::format("seed '{}' is not a whole number (it names the random stream). Restore it.",
                        value));
@@ -140,7 +146,7 @@ class Reader {
             .push_back(number(cells[c], columns_[c]));
     }
     table_.values.push_back(std::move(values));
-    const bool drawn_without_keys = table_.keys.empty() && table_.design != "table";
+    const bool drawn_without_keys = table_.keys.empty() && table_.design != Design::table;
     if (!cube_keys_.empty() || drawn_without_keys) table_.unit_cube.push_back(std::move(cube));
   }
 
@@ -161,7 +167,7 @@ class Reader {
 
 std::string to_csv(const DesignTable& table) {
   std::string text = fmt::format("{}\n# design: {}\n# seed: {}\n# units: {}\nmember", title,
-                                 table.design, table.seed, fmt::join(table.units, ","));
+                                 to_string(table.design), table.seed, fmt::join(table.units, ","));
   for (const std::string& key : table.keys) text += "," + key;
   if (!table.unit_cube.empty())
     for (const std::string& key : table.keys) text += fmt::format(",{}{}", cube_prefix, key);

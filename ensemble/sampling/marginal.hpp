@@ -14,8 +14,8 @@ namespace sturz {
 class Marginal {
  public:
   /// \param path the scenario key, named in errors
-  /// \throws SetupError when the parameters make no distribution (a negative sd, min above max, a
-  ///         truncation that keeps less than a millionth of the mass, ...)
+  /// \throws SetupError when the parameters make no distribution, by the rules of
+  ///         scenarios/checks/distribution_check.hpp
   explicit Marginal(const Distribution& distribution, const std::string& path = "");
 
   /// Value below which the fraction u of the draws lies. u is taken inside the open interval by

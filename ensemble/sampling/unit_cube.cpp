@@ -94,19 +94,15 @@ Cube sobol(std::size_t n, std::size_t n_dims, std::uint64_t seed) {
 
 double inside_unit(double value) { return std::clamp(value, unit_margin, 1 - unit_margin); }
 
-std::vector<std::vector<double>> draw_unit_cube(const std::string& design, std::size_t n,
-                                                std::size_t n_dims, std::uint64_t seed) {
-  const bool known = design == "monte_carlo" || design == "latin_hypercube" || design == "sobol";
-  require(known, fmt::format("ensemble.design = {} (designs that can be drawn: monte_carlo, "
-                             "latin_hypercube, sobol). Use one of those, or `table` with "
-                             "ensemble.table.",
-                             design));
+std::vector<std::vector<double>> draw_unit_cube(Design design, std::size_t n, std::size_t n_dims,
+                                                std::uint64_t seed) {
+  expect(design != Design::table, "a user's own table is not drawn");
   if (n == 0 || n_dims == 0) return Cube(n);
   const std::lock_guard guard(generator_lock());
   OT::Log::Show(OT::Log::NONE);
-  Cube cube = design == "sobol"         ? sobol(n, n_dims, seed)
-              : design == "monte_carlo" ? monte_carlo(n, n_dims, seed)
-                                        : latin_hypercube(n, n_dims, seed);
+  Cube cube = design == Design::sobol         ? sobol(n, n_dims, seed)
+              : design == Design::monte_carlo ? monte_carlo(n, n_dims, seed)
+                                              : latin_hypercube(n, n_dims, seed);
   for (auto& row : cube)
     for (double& u : row) u = inside_unit(u);
   return cube;

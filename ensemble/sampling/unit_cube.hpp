@@ -2,8 +2,9 @@
 /// Points in the unit cube: independent coordinates, each uniform on the open interval (0, 1).
 #pragma once
 
+#include "scenarios/choices.hpp"
+
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace sturz {
@@ -16,9 +17,9 @@ inline constexpr double unit_margin = 0x1p-33;
 double inside_unit(double value);
 
 /// Draws n points of n_dims coordinates, [n][n_dims]; n_dims may be 0.
-/// \param design monte_carlo | latin_hypercube | sobol
-/// \throws SetupError on another word, or more dimensions than the Sobol' sequence has
-std::vector<std::vector<double>> draw_unit_cube(const std::string& design, std::size_t n,
-                                                std::size_t n_dims, std::uint64_t seed);
+/// \param design any but `table`
+/// \throws SetupError on more dimensions than the Sobol' sequence has
+std::vector<std::vector<double>> draw_unit_cube(Design design, std::size_t n, std::size_t n_dims,
+                                                std::uint64_t seed);
 
 }  // namespace sturz

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/files/atomic_file.hpp"
 
-#include "io/files/checksum.hpp"
+#include "engine/core/hash.hpp"
 #include "io/files/io_error.hpp"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ std::string unique_part_suffix() {
   gethostname(host, sizeof host - 1);
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
   const std::string text = fmt::format("{}/{}/{}/{}", host, getpid(), now, ++counter);
-  return fmt::format(".{:016x}.part", fnv1a64(std::as_bytes(std::span(text.data(), text.size()))));
+  return fmt::format(".{:016x}.part", hash_of(std::span(text)));
 }
 
 fs::path folder_of(const fs::path& file) {
@@ -114,7 +114,5 @@ void make_folder(const fs::path& folder) {
     throw IoError(fmt::format("cannot make the folder {} ({}). Choose another output folder.",
                               folder.string(), error.message()));
 }
-
-bool is_part_file(const fs::path& path) { return path.extension() == ".part"; }
 
 }  // namespace sturz

@@ -43,7 +43,4 @@ void write_bytes_atomic(const std::filesystem::path& target, std::span<const std
 /// Makes a folder with its parents; one that exists is fine. \throws IoError
 void make_folder(const std::filesystem::path& folder);
 
-/// True for the names of unfinished files (*.part).
-bool is_part_file(const std::filesystem::path& path);
-
 }  // namespace sturz

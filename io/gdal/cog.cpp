@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/stored_count.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 
@@ -13,13 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sturz {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr std::int32_t no_count = std::numeric_limits<std::int32_t>::min();
 
 /// A file in GDAL's memory that goes away with the scope.
 struct MemoryFile {
@@ -70,6 +68,8 @@ void describe(GDALDataset& dataset, const Layer& layer, std::size_t plane,
   const auto item = [&](const char* name, const std::string& value) {
     if (!value.empty()) band.SetMetadataItem(name, value.c_str());
   };
+  item("sturz_quantity", std::string(to_string(layer.meaning.quantity)));
+  item("sturz_statistic", std::string(to_string(layer.meaning.statistic)));
   item("long_name", layer.long_name);
   item("cell_methods", layer.cell_methods);
   item("comment", layer.comment);
@@ -95,19 +95,17 @@ void write_plane(const fs::path& target, const LayerStack& stack, const Layer& l
   const auto end = first + static_cast<std::ptrdiff_t>(grid.n_cells());
   std::vector<float> floats;
   std::vector<std::int32_t> counts;
-  if (layer.is_count)
-    std::transform(first, end, std::back_inserter(counts), [](float v) {
-      return std::isnan(v) ? no_count : static_cast<std::int32_t>(std::lround(v));
-    });
+  if (layer.is_count())
+    std::transform(first, end, std::back_inserter(counts), stored_count);
   else
     floats.assign(first, end);
-  void* values = layer.is_count ? static_cast<void*>(counts.data()) : floats.data();
-  const DatasetPtr dataset = wrap_in_memory(values, layer.is_count ? GDT_Int32 : GDT_Float32,
+  void* values = layer.is_count() ? static_cast<void*>(counts.data()) : floats.data();
+  const DatasetPtr dataset = wrap_in_memory(values, layer.is_count() ? GDT_Int32 : GDT_Float32,
                                             grid.n_cols, grid.n_rows, affine_of(grid).data());
-  dataset->GetRasterBand(1)->SetNoDataValue(layer.is_count ? no_count : nan_d);
+  dataset->GetRasterBand(1)->SetNoDataValue(layer.is_count() ? no_count : nan_d);
   set_place(*dataset, grid);
   describe(*dataset, layer, plane, stack);
-  write_encoded(target, *dataset, "COG", cog_options(layer.is_count));
+  write_encoded(target, *dataset, "COG", cog_options(layer.is_count()));
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 /// Maps as GeoTIFF: Cloud-Optimised for results, plain for terrains.
 #pragma once
 
-#include "engine/terrain/raster.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <filesystem>
 #include <string>

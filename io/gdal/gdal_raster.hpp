@@ -3,29 +3,12 @@
 #pragma once
 
 #include "engine/terrain/raster.hpp"
+#include "io/gdal/raster_request.hpp"
 
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace sturz {
-
-/// More cells than this are refused before anything is allocated.
-inline constexpr double max_raster_cells = 400e6;
-
-/// Which file to read, and what the scenario says about it.
-struct RasterRequest {
-  std::string path;                    ///< as written; relative paths start at `directory`
-  std::string key = "terrain.raster";  ///< scenario key, for messages
-  std::string directory;               ///< of the scenario file
-  std::string crs;                     ///< replaces the file's own system; empty: not given
-  std::string crs_key = "terrain.crs";
-  std::string fallback_crs;  ///< stands in only when the file has none; empty: refuse
-  std::string fallback_crs_key;
-  double factor = 1;                  ///< multiplies the values of a thickness raster
-  std::optional<double> cell_size_m;  ///< wanted cells; default: the raster's own
-  double max_cells = max_raster_cells;
-};
 
 /// A raster on its working grid, and what was done to get it there.
 struct RasterRead {

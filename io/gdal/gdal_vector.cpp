@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "io/site/polygon_layer.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "io/gdal/crs.hpp"
-#include "io/gdal/gdal_raster.hpp"
+#include "io/gdal/raster_request.hpp"
 
 #include <array>
 #include <string>

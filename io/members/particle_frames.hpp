@@ -23,7 +23,6 @@ class ParticleFrameWriter {
   void write(const ParticleFrame& frame);
 
   const std::filesystem::path& index() const { return index_; }
-  std::size_t n_frames() const { return times_.size(); }
 
  private:
   std::filesystem::path folder_, index_;

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/stored_count.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
 #include "io/netcdf/history_netcdf.hpp"
 #include "io/netcdf/netcdf_file.hpp"
@@ -11,16 +12,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace sturz {
 namespace {
 
 constexpr std::size_t chunk_edge = 256;
-constexpr std::int32_t no_count = std::numeric_limits<std::int32_t>::min();
 
 constexpr const char* order_attribute = "layer_order";
+constexpr const char* quantity_attribute = "sturz_quantity";
+constexpr const char* statistic_attribute = "sturz_statistic";
+constexpr const char* intensity_attribute = "sturz_intensity_class";
 
 struct WrittenAxis {
   int dimension = -1;
@@ -32,18 +34,12 @@ std::string spoken(std::string name) {
   return name;
 }
 
-bool is_threshold(const std::string& name) {
-  constexpr std::string_view ending = "threshold";
-  return name.size() >= ending.size() &&
-         name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 void text_if_any(NetcdfWriter& file, int variable, const char* name, const std::string& value) {
   if (!value.empty()) file.text(variable, name, value);
 }
 
-int write_axis(NetcdfWriter& file, const LayerAxis& axis,
-               std::map<std::string, WrittenAxis>& done) {
+int write_axis(NetcdfWriter& file, const Layer& layer, std::map<std::string, WrittenAxis>& done) {
+  const LayerAxis& axis = layer.axis;
   if (const auto known = done.find(axis.name); known != done.end()) {
     require(known->second.values == axis.values,
             fmt::format("axis '{}' has different values in two layers (one file, one axis). Give "
@@ -61,7 +57,8 @@ int write_axis(NetcdfWriter& file, const LayerAxis& axis,
   text_if_any(file, variable, "standard_name", axis.standard_name);
   file.text(variable, "long_name", spoken(axis.name));
   file.text(variable, "units", axis.units);
-  if (is_threshold(axis.name)) file.text(variable, "spp__relative_to_threshold", "greater_than");
+  if (layer.meaning.has_thresholds())
+    file.text(variable, "spp__relative_to_threshold", "greater_than");
   file.put(variable, axis.values);
   done[axis.name] = {dimension, axis.values};
   return dimension;
@@ -69,10 +66,15 @@ int write_axis(NetcdfWriter& file, const LayerAxis& axis,
 
 void put_counts(NetcdfWriter& file, int variable, const Layer& layer) {
   std::vector<std::int32_t> counts(layer.values.size());
-  std::transform(layer.values.begin(), layer.values.end(), counts.begin(), [](float v) {
-    return std::isnan(v) ? no_count : static_cast<std::int32_t>(std::lround(v));
-  });
+  std::transform(layer.values.begin(), layer.values.end(), counts.begin(), stored_count);
   file.put(variable, counts);
+}
+
+void write_meaning(NetcdfWriter& file, int variable, const LayerMeaning& meaning) {
+  file.text(variable, quantity_attribute, std::string(to_string(meaning.quantity)));
+  file.text(variable, statistic_attribute, std::string(to_string(meaning.statistic)));
+  if (meaning.intensity != IntensityClass::none)
+    file.text(variable, intensity_attribute, std::string(to_string(meaning.intensity)));
 }
 
 void write_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
@@ -84,13 +86,13 @@ void write_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
   std::vector<std::size_t> chunk{std::min(chunk_edge, static_cast<std::size_t>(grid.n_rows)),
                                  std::min(chunk_edge, static_cast<std::size_t>(grid.n_cols))};
   if (!layer.axis.values.empty()) {
-    dimensions.insert(dimensions.begin(), write_axis(file, layer.axis, axes));
+    dimensions.insert(dimensions.begin(), write_axis(file, layer, axes));
     chunk.insert(chunk.begin(), 1);
   }
   const int variable =
-      file.variable(layer.name, layer.is_count ? NcType::int32 : NcType::float32, dimensions);
+      file.variable(layer.name, layer.is_count() ? NcType::int32 : NcType::float32, dimensions);
   file.compress(variable, chunk);
-  if (layer.is_count) {
+  if (layer.is_count()) {
     file.fill_value(variable, no_count);
   } else {
     file.fill_value(variable, nan_f);
@@ -100,8 +102,9 @@ void write_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
   file.text(variable, "units", layer.units);
   text_if_any(file, variable, "cell_methods", layer.cell_methods);
   text_if_any(file, variable, "comment", layer.comment);
+  write_meaning(file, variable, layer.meaning);
   link_grid(file, variable, grid);
-  if (layer.is_count) {
+  if (layer.is_count()) {
     put_counts(file, variable, layer);
   } else {
     file.put(variable, layer.values);
@@ -127,10 +130,31 @@ void write_attributes(NetcdfWriter& file, const LayerStack& stack) {
   write_grid_attributes(file, stack.grid);
 }
 
+template <Worded Enum>
+Enum read_word(const NetcdfReader& file, const std::string& map, const char* attribute) {
+  const std::string word = file.text(map, attribute).value_or("");
+  if (const auto known = from_word<Enum>(word)) return *known;
+  throw IoError(fmt::format(
+      "{}: map '{}' {} (the file is of another version of this program). Make the maps again: "
+      "`sturz merge` for an ensemble, `sturz run` for a single run.",
+      file.file().string(), map,
+      word.empty() ? fmt::format("has no attribute {}", attribute)
+                   : fmt::format("has the unknown {} '{}'", attribute, word)));
+}
+
+LayerMeaning read_meaning(const NetcdfReader& file, const std::string& map) {
+  LayerMeaning meaning{read_word<Quantity>(file, map, quantity_attribute),
+                       read_word<Statistic>(file, map, statistic_attribute)};
+  if (file.text(map, intensity_attribute))
+    meaning.intensity = read_word<IntensityClass>(file, map, intensity_attribute);
+  return meaning;
+}
+
 Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& name,
                  const std::vector<std::string>& dimensions) {
   Layer layer;
   layer.name = name;
+  layer.meaning = read_meaning(file, name);
   const auto text = [&](const std::string& of, const char* attribute) {
     return file.text(of, attribute).value_or("");
   };
@@ -139,7 +163,6 @@ Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& 
   layer.units = text(name, "units");
   layer.cell_methods = text(name, "cell_methods");
   layer.comment = text(name, "comment");
-  layer.is_count = file.is_integer(name);
   if (dimensions.size() == 3)
     layer.axis = {dimensions[0], text(dimensions[0], "standard_name"), text(dimensions[0], "units"),
                   file.doubles(dimensions[0])};
@@ -154,7 +177,7 @@ Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& 
                     "Compute it again.",
                     file.file().string(), name));
   layer.values.resize(file.size(name));
-  if (!layer.is_count) {
+  if (!layer.is_count()) {
     file.floats(name, start, count, layer.values);
     return layer;
   }

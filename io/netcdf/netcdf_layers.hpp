@@ -2,13 +2,15 @@
 /// Maps as CF-1.10 netCDF: opens with its coordinate system in QGIS, gdalinfo, xarray, cdo.
 ///
 /// Float maps are [axis][y][x] float32 with _FillValue NaN, counts int32. A layer's extra axis is a
-/// coordinate variable; one whose name ends in "_threshold" carries spp__relative_to_threshold =
-/// "greater_than" (the shape in which the Met Office's IMPROVER stores exceedance probabilities).
+/// coordinate variable; thresholds carry spp__relative_to_threshold = "greater_than" (the shape in
+/// which the Met Office's IMPROVER stores exceedance probabilities). What a map shows stands in its
+/// attributes sturz_quantity, sturz_statistic and sturz_intensity_class, words of
+/// scenarios/layers/layer_meaning.hpp.
 /// No unlimited dimensions, no time stamps: the same layers give the same bytes.
 #pragma once
 
 #include "engine/simulation/history.hpp"
-#include "engine/terrain/raster.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <filesystem>
 
@@ -23,7 +25,8 @@ namespace sturz {
 void write_layers(const std::filesystem::path& file, const LayerStack& stack,
                   const MemberHistory& history = {});
 
-/// Reads back the maps that write_layers wrote. \throws IoError
+/// Reads back the maps that write_layers wrote. \throws IoError, also where a map does not say what
+/// it shows
 LayerStack read_layers(const std::filesystem::path& file);
 
 }  // namespace sturz

@@ -12,12 +12,6 @@ namespace {
 using Kind = Distribution::Kind;
 using Names = std::vector<const char*>;
 
-std::string joined(const Names& names) {
-  std::string text;
-  for (const char* name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
-
 void assign(Distribution& d, const std::string& name, double value) {
   if (name == "min")
     d.min = value;
@@ -47,10 +41,10 @@ bool contains(const Names& names, const std::string& name) {
 
 std::string form_text(const DistributionForm& form) {
   std::string text;
-  if (!form.list.empty()) text.append("[").append(joined(form.list)).append("]");
+  if (!form.list.empty()) text.append("[").append(comma_separated(form.list)).append("]");
   if (!form.list.empty() && !form.required.empty()) text += " or ";
-  if (!form.required.empty()) text.append("{").append(joined(form.required)).append("}");
-  if (!form.optional.empty()) text.append(", optional ").append(joined(form.optional));
+  if (!form.required.empty()) text.append("{").append(comma_separated(form.required)).append("}");
+  if (!form.optional.empty()) text.append(", optional ").append(comma_separated(form.optional));
   return text;
 }
 
@@ -130,11 +124,9 @@ const DistributionForm* find_form(const std::string& path, const YamlEntry& entr
     names.emplace_back(form.name);
   }
   const std::string near = nearest_name(entry.key, names);
-  std::string known;
-  for (const auto& name : names) known += (known.empty() ? "" : ", ") + name;
-  problems.push_back(
-      {entry.at, path + " = {" + entry.key + ": ...} (unknown distribution). " +
-                     (near.empty() ? "Known: " + known + "." : "Did you mean " + near + "?")});
+  problems.push_back({entry.at, path + " = {" + entry.key + ": ...} (unknown distribution). " +
+                                    (near.empty() ? "Known: " + comma_separated(names) + "."
+                                                  : "Did you mean " + near + "?")});
   return nullptr;
 }
 

@@ -14,12 +14,6 @@
 namespace sturz {
 namespace {
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
-  return text;
-}
-
 /// More problems than this in one file are noise: it is no scenario.
 constexpr std::size_t most_problems = 100;
 
@@ -85,7 +79,7 @@ class Reader {
       if (block.path == path) block.make(file.scenario);
     if (node.kind == YamlNode::Kind::map) return read_block(path, node);
     failed_.push_back(path);
-    const std::string names = joined(names_in_block(path));
+    const std::string names = comma_separated(names_in_block(path));
     if (node.kind == YamlNode::Kind::empty)
       problems_.push_back(
           {node.at, path + " (has no keys). Give it some of " + names + ", or remove it."});
@@ -125,7 +119,8 @@ class Reader {
           (elsewhere.empty() || depth(key.path) < depth(elsewhere)))
         elsewhere = key.path;
     if (!elsewhere.empty()) return "Did you mean " + elsewhere + "?";
-    return (block.empty() ? "Known: " : "Known in " + block + ": ") + joined(siblings) + ".";
+    return (block.empty() ? "Known: " : "Known in " + block + ": ") + comma_separated(siblings) +
+           ".";
   }
 
   Position position_of(std::string path, const std::string& name) const {

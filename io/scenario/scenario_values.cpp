@@ -17,10 +17,9 @@ using Kind = YamlNode::Kind;
 std::string unknown_text(const std::string& path, const std::string& key,
                          const std::vector<std::string>& known) {
   const std::string near = nearest_name(key, known);
-  std::string list;
-  for (const auto& name : known) list += (list.empty() ? "" : ", ") + name;
   return path + "." + key + " (unknown key). " +
-         (near.empty() ? "Known here: " + list + "." : "Did you mean " + near + "?");
+         (near.empty() ? "Known here: " + comma_separated(known) + "."
+                       : "Did you mean " + near + "?");
 }
 
 const char* const file_name = "a file name";

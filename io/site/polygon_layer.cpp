@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/input_files.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
@@ -147,12 +148,6 @@ std::string places_text(const OGREnvelope& polygon, const Grid& terrain) {
       "to {:.10g}",
       polygon.MinX, polygon.MaxX, polygon.MinY, polygon.MaxY, terrain.west_m, terrain.east_m(),
       terrain.south_m(), terrain.north_m);
-}
-
-std::string comma_separated(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
 }
 
 }  // namespace sturz

@@ -46,7 +46,4 @@ std::vector<PolygonFeature> read_features(
 /// "polygon x 1 to 2, y 1 to 2; terrain x 0 to 5, y 0 to 5"
 std::string places_text(const OGREnvelope& polygon, const Grid& terrain);
 
-/// "feature, layer, field"
-std::string comma_separated(const std::vector<std::string>& words);
-
 }  // namespace sturz

@@ -8,7 +8,7 @@
 namespace sturz {
 
 /// Terrain (raster or formula), release pattern on the terrain's grid, hazard grid, notes and
-/// checksums ("fnv1a64:..." per file, named as in the scenario's folder).
+/// checksums ("sha256:..." per file, named as in the scenario's folder).
 /// \throws SetupError naming key and file, also for a release on nodata cells of the terrain
 SceneInputs load_scene_inputs(const Scenario& scenario);
 

@@ -94,13 +94,6 @@ std::vector<Rgb> ramp_colours(Ramp ramp, int n) {
 
 double lightness(Rgb colour) { return to_lab(colour)[0]; }
 
-Rgb blend(Rgb a, Rgb b, double opacity) {
-  const auto mix = [opacity](double x, double y) {
-    return static_cast<std::uint8_t>(std::lround(opacity * x + (1 - opacity) * y));
-  };
-  return {mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)};
-}
-
 std::string hex_text(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
 }  // namespace sturz

@@ -23,8 +23,6 @@ enum class Ramp { hazard, magnitude, arrival, deposit, neutral };
 std::vector<Rgb> ramp_colours(Ramp ramp, int n);
 /// Perceived lightness L of Oklab, 0 black .. 1 white.
 double lightness(Rgb colour);
-/// a over b with opacity of a in 0..1.
-Rgb blend(Rgb a, Rgb b, double opacity);
 /// "#rrggbb"
 std::string hex_text(Rgb colour);
 

@@ -35,7 +35,7 @@ double nice_length(double longest) {
 }
 
 std::string length_text(double metres) {
-  return metres >= 1000 ? number_text(metres / 1000) + " km" : number_text(metres) + " m";
+  return metres >= 1000 ? shown_number(metres / 1000) + " km" : shown_number(metres) + " m";
 }
 
 /// Classes as palette indices (0 clear), and the palette.
@@ -77,14 +77,14 @@ std::string coordinate_ticks(const Frame& frame) {
     out += fmt::format("<path d=\"M{:.1f} {:.1f}v-7\"/>", frame.x(x), frame.top + frame.height());
     if (std::abs(frame.x(x) - frame.left - map_width / 2) > map_width / 2 - 30) continue;
     labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
-                          frame.x(x), frame.top + frame.height() + 14, number_text(x, 9));
+                          frame.x(x), frame.top + frame.height() + 14, shown_number(x, 9));
   }
   for (double y = std::ceil(g.south_m() / step) * step; y < g.north_m; y += step) {
     out += fmt::format("<path d=\"M{:.1f} {:.1f}h7\"/>", frame.left, frame.y(y));
     if (std::abs(frame.y(y) - frame.top - frame.height() / 2) > frame.height() / 2 - 30) continue;
     labels += fmt::format(
         "<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-        frame.left - 5, frame.y(y), number_text(y, 9));
+        frame.left - 5, frame.y(y), shown_number(y, 9));
   }
   return out + "</g>" + labels + "</g>";
 }
@@ -113,20 +113,6 @@ std::string overlay_svg(const Frame& frame, const MapScene& scene, const LayerSt
   return svg + coordinate_ticks(frame) + scale_bar(frame);
 }
 
-std::string legend_svg(const Legend& legend, double x, double y) {
-  std::string svg = "<g font-size=\"12.5\" fill=\"#1b2228\">";
-  if (!legend.unit.label.empty())
-    svg += fmt::format("<text x=\"{}\" y=\"{}\" font-weight=\"600\">{}</text>", x, y + 10,
-                       html_escape(legend.unit.label));
-  y += 20;
-  for (auto it = legend.classes.rbegin(); it != legend.classes.rend(); ++it, y += 23)
-    svg += fmt::format(
-        "<rect x=\"{0}\" y=\"{1}\" width=\"24\" height=\"16\" rx=\"2\" fill=\"{2}\"/>"
-        "<text x=\"{3}\" y=\"{4}\">{5}</text>",
-        x, y, hex_text(it->colour), x + 33, y + 12.5, html_escape(it->label));
-  return svg + "</g>";
-}
-
 }  // namespace
 
 std::string hillshade_defs(const MapScene& scene) {
@@ -149,29 +135,6 @@ std::string map_figure_svg(const MapScene& scene, const LayerStack& maps, const 
          overlay_svg(frame, scene, maps, layer, plane) + "</svg>";
 }
 
-std::string map_figure_file(const MapScene& scene, const LayerStack& maps, const Layer& layer,
-                            std::size_t plane, const std::string& title) {
-  const Frame frame{scene.ground.grid, 36, 62};
-  const Legend legend = legend_for(layer);
-  const double width = frame.left + map_width + 150;
-  const double height = std::max(frame.top + frame.height() + 30,
-                                 frame.top + 40 + 23 * static_cast<double>(legend.classes.size()));
-  return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-             "width=\"{0:.0f}\" height=\"{1:.0f}\" {2}>"
-             "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>"
-             "<text x=\"{3}\" y=\"26\" font-size=\"18\" font-weight=\"600\" "
-             "fill=\"#1b2228\">{4}</text>"
-             "<text x=\"{3}\" y=\"47\" font-size=\"13.5\" fill=\"#3c464e\">{5}</text>"
-             "<image x=\"{3}\" y=\"{6}\" width=\"{7:.2f}\" height=\"{8:.2f}\" "
-             "preserveAspectRatio=\"none\" href=\"{9}\"/>",
-             width, height, font, frame.left, html_escape(title),
-             html_escape(plane_title(layer, plane)), frame.top, map_width, frame.height(),
-             hillshade_uri(scene)) +
-         overlay_svg(frame, scene, maps, layer, plane) +
-         legend_svg(legend, frame.left + map_width + 20, frame.top) + "</svg>\n";
-}
-
 std::string legend_html(const Legend& legend) {
   std::string html = "<ul class=\"legend\">";
   if (!legend.unit.label.empty())
@@ -182,44 +145,6 @@ std::string legend_html(const Legend& legend) {
         "rx=\"2\" fill=\"{}\"/></svg>{}</li>",
         hex_text(c.colour), html_escape(c.label));
   return html + "</ul>";
-}
-
-std::vector<std::uint8_t> map_picture_png(const MapScene& scene, const LayerStack& maps,
-                                          const Layer& layer, std::size_t plane,
-                                          int pixels_across) {
-  const Legend legend = legend_for(layer);
-  const std::vector<float> values = scene_plane(scene, layer, plane, maps.grid);
-  const Grid& g = scene.ground.grid;
-  const int zoom = std::max(1, pixels_across / std::max(1, g.n_cols));
-  const int width = g.n_cols * zoom, height = g.n_rows * zoom;
-  std::vector<Rgb> pixels(static_cast<std::size_t>(width) * height);
-  for (int py = 0; py < height; ++py)
-    for (int px = 0; px < width; ++px) {
-      const std::uint8_t grey = scene.shade[g.index(py / zoom, px / zoom)];
-      Rgb colour{grey, grey, grey};
-      const int row = scene.cells.row_of(g.north_m - (py + 0.5) * g.cell_m / zoom);
-      const int col = scene.cells.col_of(g.west_m + (px + 0.5) * g.cell_m / zoom);
-      if (scene.cells.contains(row, col)) {
-        const int k = legend.class_of(values[scene.cells.index(row, col)]);
-        if (k >= 0)
-          colour = blend(legend.classes[static_cast<std::size_t>(k)].colour, colour, opacity);
-      }
-      pixels[static_cast<std::size_t>(py) * width + px] = colour;
-    }
-  return rgb_png(pixels, width, height);
-}
-
-std::vector<std::uint8_t> overview_png(const LayerStack& maps, const Raster<double>* elevation) {
-  const Layer* layer = default_layer(maps);
-  if (layer == nullptr) return {};
-  return map_picture_png(make_map_scene(maps, elevation), maps, *layer, 0);
-}
-
-std::string overview_svg(const LayerStack& maps, const Raster<double>* elevation,
-                         const std::string& title) {
-  const Layer* layer = default_layer(maps);
-  if (layer == nullptr) return {};
-  return map_figure_file(make_map_scene(maps, elevation), maps, *layer, 0, title);
 }
 
 }  // namespace sturz

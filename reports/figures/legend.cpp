@@ -9,7 +9,7 @@ namespace sturz {
 namespace {
 
 std::string range_label(double lower, double upper) {
-  return number_text(lower) + "\u2013" + number_text(upper);
+  return shown_number(lower) + "\u2013" + shown_number(upper);
 }
 
 /// Fills in labels and colours for classes that start at `lowers`.
@@ -20,9 +20,9 @@ void dress(Legend& legend, const std::vector<double>& lowers, Ramp ramp) {
     LegendClass c{lowers[i], "", colours[i]};
     const bool last = i + 1 == lowers.size();
     if (last)
-      c.label = "\u2265\u00A0" + number_text(factor * lowers[i]);
+      c.label = "\u2265\u00A0" + shown_number(factor * lowers[i]);
     else if (i == 0 && legend.clear_zero)
-      c.label = "<\u00A0" + number_text(factor * lowers[1]);
+      c.label = "<\u00A0" + shown_number(factor * lowers[1]);
     else
       c.label = range_label(factor * lowers[i], factor * lowers[i + 1]);
     if (legend.probability) c.label += "\u00A0%";
@@ -66,7 +66,7 @@ Ramp ramp_of(const LayerMeaning& meaning) {
       return Ramp::deposit;
     case Quantity::intensity:
       return Ramp::hazard;
-    case Quantity::count:
+    case Quantity::members:
     case Quantity::other:
       return Ramp::neutral;
     default:
@@ -86,7 +86,7 @@ int Legend::class_of(float stored) const {
 }
 
 Legend legend_for(const Layer& layer) {
-  const LayerMeaning meaning = meaning_of(layer);
+  const LayerMeaning& meaning = layer.meaning;
   Legend legend;
   legend.unit = display_unit(layer.units);
   legend.probability = meaning.statistic == Statistic::probability && layer.units == "1";

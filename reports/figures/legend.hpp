@@ -2,10 +2,10 @@
 /// The classes and colours in which a layer of results is drawn.
 #pragma once
 
-#include "engine/terrain/raster.hpp"
 #include "reports/figures/colours.hpp"
-#include "reports/layer_meaning.hpp"
+#include "reports/layer_titles.hpp"
 #include "reports/page/text.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <string>
 #include <vector>

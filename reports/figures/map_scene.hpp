@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
-#include "engine/terrain/raster.hpp"
+#include "scenarios/layers/layer_stack.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -113,11 +113,11 @@ std::string grid_svg(const Axes& axes, const std::string& unit) {
   for (double v = 0; v <= axes.most * (1 + 1e-9); v += step_y) {
     svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\"/>", left, axes.y(v), width - right);
     labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", left - 5,
-                          axes.y(v) + 4, number_text(v));
+                          axes.y(v) + 4, shown_number(v));
   }
   for (double t = 0; t <= axes.end * (1 + 1e-9); t += step_x)
     labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
-                          axes.x(t), height - bottom + 14, number_text(t));
+                          axes.x(t), height - bottom + 14, shown_number(t));
   labels += fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">time [s]</text>"
       "<text transform=\"translate(11 {:.1f}) rotate(-90)\" text-anchor=\"middle\">[{}]</text>",

@@ -12,7 +12,7 @@ namespace sturz {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-enum class ColourType : std::uint8_t { grey = 0, rgb = 2, palette = 3 };
+enum class ColourType : std::uint8_t { grey = 0, palette = 3 };
 
 void append_u32(Bytes& out, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) out.push_back(value >> shift & 255);
@@ -28,13 +28,13 @@ void append_chunk(Bytes& png, std::string_view type, std::span<const std::uint8_
 }
 
 /// Rows with the "Sub" filter (difference to the pixel on the left) or none.
-Bytes filtered(std::span<const std::uint8_t> rows, int row_bytes, int pixel_bytes, bool sub) {
+Bytes filtered(std::span<const std::uint8_t> rows, int row_bytes, bool sub) {
   Bytes out;
   out.reserve(rows.size() + rows.size() / row_bytes);
   for (std::size_t start = 0; start < rows.size(); start += row_bytes) {
     out.push_back(sub ? 1 : 0);
     for (int i = 0; i < row_bytes; ++i) {
-      const std::uint8_t left = sub && i >= pixel_bytes ? rows[start + i - pixel_bytes] : 0;
+      const std::uint8_t left = sub && i > 0 ? rows[start + i - 1] : 0;
       out.push_back(static_cast<std::uint8_t>(rows[start + i] - left));
     }
   }
@@ -60,7 +60,7 @@ void finish_png(Bytes& png, const Bytes& rows) {
 
 std::vector<std::uint8_t> grey_png(std::span<const std::uint8_t> grey, int width, int height) {
   Bytes png = start_png(width, height, ColourType::grey);
-  finish_png(png, filtered(grey, width, 1, true));
+  finish_png(png, filtered(grey, width, true));
   return png;
 }
 
@@ -71,16 +71,7 @@ std::vector<std::uint8_t> palette_png(std::span<const std::uint8_t> index, int w
   for (const Rgb& c : palette) colours.insert(colours.end(), {c.r, c.g, c.b});
   append_chunk(png, "PLTE", colours);
   append_chunk(png, "tRNS", std::array<std::uint8_t, 1>{0});
-  finish_png(png, filtered(index, width, 1, false));
-  return png;
-}
-
-std::vector<std::uint8_t> rgb_png(std::span<const Rgb> pixels, int width, int height) {
-  Bytes png = start_png(width, height, ColourType::rgb);
-  Bytes rows;
-  rows.reserve(pixels.size() * 3);
-  for (const Rgb& c : pixels) rows.insert(rows.end(), {c.r, c.g, c.b});
-  finish_png(png, filtered(rows, 3 * width, 3, true));
+  finish_png(png, filtered(index, width, false));
   return png;
 }
 

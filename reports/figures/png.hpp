@@ -17,8 +17,6 @@ std::vector<std::uint8_t> grey_png(std::span<const std::uint8_t> grey, int width
 /// \param palette 1..256 colours
 std::vector<std::uint8_t> palette_png(std::span<const std::uint8_t> index, int width, int height,
                                       std::span<const Rgb> palette);
-/// \param pixels [height][width]
-std::vector<std::uint8_t> rgb_png(std::span<const Rgb> pixels, int width, int height);
 /// "data:image/png;base64,..."
 std::string data_uri(std::span<const std::uint8_t> png);
 

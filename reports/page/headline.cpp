@@ -25,7 +25,7 @@ std::vector<std::pair<Outcome, int>> count_outcomes(const std::vector<MemberSumm
 /// Area of cells with P(reached) >= 0.5, and of those whose interval lies above or touches it.
 Estimate likely_area(const LayerStack& maps, int n_valid) {
   for (const Layer& layer : maps.layers) {
-    const LayerMeaning m = meaning_of(layer);
+    const LayerMeaning& m = layer.meaning;
     if (m.quantity != Quantity::reached || m.statistic != Statistic::probability) continue;
     const double cell_area = maps.grid.cell_m * maps.grid.cell_m;
     Estimate area{0, 0, 0};

@@ -2,7 +2,7 @@
 /// The few numbers that a reader wants first, each with its sampling uncertainty.
 #pragma once
 
-#include "reports/page/report.hpp"
+#include "reports/page/report_input.hpp"
 
 #include <string>
 #include <utility>

@@ -81,7 +81,7 @@ Json legend_json(const Legend& legend) {
 
 Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& layer,
                 const ReportInput& input, int n_valid) {
-  const LayerMeaning meaning = meaning_of(layer);
+  const LayerMeaning& meaning = layer.meaning;
   Json planes = Json::array();
   for (std::size_t k = 0; k < layer.n_planes(); ++k) {
     Json plane = plane_json(scene_plane(scene, layer, k, maps.grid), scene.cells.n_cols, n_valid);
@@ -96,9 +96,9 @@ Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& laye
     planes.push_back(std::move(plane));
   }
   return {{"name", layer.name},
-          {"quantity", word(meaning.quantity)},
+          {"quantity", to_string(meaning.quantity)},
           {"quantityTitle", title(meaning.quantity)},
-          {"statistic", word(meaning.statistic)},
+          {"statistic", to_string(meaning.statistic)},
           {"longName", layer.long_name},
           {"comment", layer.comment},
           {"axisUnit", display_unit(layer.axis.units).label},

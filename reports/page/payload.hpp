@@ -3,7 +3,7 @@
 #pragma once
 
 #include "reports/figures/map_scene.hpp"
-#include "reports/page/report.hpp"
+#include "reports/page/report_input.hpp"
 
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/figures/figures.hpp"
+#include "reports/page/report.hpp"
 #include "reports/page/sections.hpp"
 #include "reports/page/text.hpp"
 
@@ -17,7 +18,7 @@ constexpr std::size_t max_still_figures = 6;
 /// threshold that the resolution allows, else the first plane.
 std::size_t typical_plane(const Layer& layer, double resolved_thickness_m) {
   const auto& values = layer.axis.values;
-  const Statistic statistic = meaning_of(layer).statistic;
+  const Statistic statistic = layer.meaning.statistic;
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (statistic == Statistic::quantile && std::abs(values[k] - 0.5) < 1e-9) return k;
     if (statistic == Statistic::probability &&
@@ -51,7 +52,7 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
   std::vector<const Layer*> chosen{default_layer(maps)};
   for (const Wish& wish : wishes)
     for (const Layer* layer : shown) {
-      const LayerMeaning m = meaning_of(*layer);
+      const LayerMeaning& m = layer->meaning;
       if (m.quantity == wish.quantity && m.statistic == wish.statistic) chosen.push_back(layer);
     }
   for (const Layer* layer : shown)

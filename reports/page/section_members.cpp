@@ -45,7 +45,7 @@ std::string header_cell(const std::string& label, const std::string& unit,
 }
 
 std::string number_cell(double value) {
-  return fmt::format("<td class=\"n\" data-v=\"{:.9g}\">{}</td>", value, number_text(value));
+  return fmt::format("<td class=\"n\" data-v=\"{:.9g}\">{}</td>", value, shown_number(value));
 }
 
 std::string unit_of(const ReportTable& table, std::size_t k) {

@@ -18,7 +18,7 @@ std::string share_text(double share) {
   if (std::isnan(share)) return "\u2013";
   const double percent = 100 * share;
   if (percent > 0 && percent < 0.01) return "<\u00A00.01\u00A0%";
-  return number_text(percent, percent < 10 ? 2 : 3) + "\u00A0%";
+  return shown_number(percent, percent < 10 ? 2 : 3) + "\u00A0%";
 }
 
 std::string legend_of(const MotionChart& chart) {
@@ -73,7 +73,7 @@ std::string states_text(const MemberScalars& m, const MemberHistory& history) {
     return text + fmt::format(
                       " The largest granular temperature was {} m\u00B2/s\u00B2, {} of the "
                       "largest speed squared.",
-                      number_text(m.max_granular_temperature_m2_s2), share_text(m.granular_ratio));
+                      shown_number(m.max_granular_temperature_m2_s2), share_text(m.granular_ratio));
   return text +
          " Collisions of dilute grains were left out, since grains.states.dilute was not "
          "asked for.";

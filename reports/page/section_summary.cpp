@@ -155,7 +155,7 @@ std::string headline_html(const ReportInput& input, const Headline& h) {
                    "cells that the flow touched at any time");
     html += card(single ? "Runout" : "Median runout", with_unit(h.runout_m.value, "m"),
                  single ? std::string("release's centre of mass to the farthest cell reached")
-                        : interval_text(h.runout_m, number_text(h.runout_m.lower) + " \u2013 " +
+                        : interval_text(h.runout_m, shown_number(h.runout_m.lower) + " \u2013 " +
                                                         with_unit(h.runout_m.upper, "m")));
     html += card("Largest kinetic energy", with_unit(h.max_energy_j_m2, "J m-2"),
                  (single ? std::string() : fmt::format("member {}; ", h.max_energy_member)) +
@@ -164,7 +164,7 @@ std::string headline_html(const ReportInput& input, const Headline& h) {
   }
   std::string pace;
   if (!std::isnan(h.members_per_hour) && !single)
-    pace = number_text(h.members_per_hour) + " members per hour";
+    pace = shown_number(h.members_per_hour) + " members per hour";
   if (input.elapsed_s > 0)
     pace += (pace.empty() ? "" : "; ") + duration_text(input.elapsed_s) + " elapsed";
   html += card("Computing time", duration_text(h.member_seconds),

@@ -4,7 +4,7 @@
 
 #include "reports/figures/map_scene.hpp"
 #include "reports/page/headline.hpp"
-#include "reports/page/report.hpp"
+#include "reports/page/report_input.hpp"
 
 #include <string>
 

@@ -79,7 +79,7 @@ std::string plain_number(double value, int digits) {
   return text == "-0" ? "0" : text;
 }
 
-std::string number_text(double value, int digits) {
+std::string shown_number(double value, int digits) {
   std::string text = plain_number(value, digits);
   const bool negative = text.starts_with('-');
   if (negative) text.erase(0, 1);
@@ -135,7 +135,7 @@ DisplayUnit display_unit(std::string_view udunits) {
 
 std::string with_unit(double value, std::string_view udunits, int digits) {
   const DisplayUnit unit = display_unit(udunits);
-  const std::string text = number_text(unit.factor * value, digits);
+  const std::string text = shown_number(unit.factor * value, digits);
   return unit.label.empty() || std::isnan(value) ? text : text + "\u00A0" + unit.label;
 }
 
@@ -154,13 +154,13 @@ AreaUnit area_unit(double area_m2) {
 std::string area_text(double area_m2) {
   if (std::isnan(area_m2)) return "\u2013";
   const AreaUnit unit = area_unit(area_m2);
-  return number_text(area_m2 / unit.square_metres) + "\u00A0" + unit.label;
+  return shown_number(area_m2 / unit.square_metres) + "\u00A0" + unit.label;
 }
 
 std::string area_text(double from_m2, double to_m2) {
   const AreaUnit unit = area_unit(to_m2);
-  return number_text(from_m2 / unit.square_metres) + "\u00A0\u2013\u00A0" +
-         number_text(to_m2 / unit.square_metres) + "\u00A0" + unit.label;
+  return shown_number(from_m2 / unit.square_metres) + "\u00A0\u2013\u00A0" +
+         shown_number(to_m2 / unit.square_metres) + "\u00A0" + unit.label;
 }
 
 std::string words(std::string_view identifier) {

@@ -14,7 +14,7 @@ std::string script_safe(std::string json);
 
 /// `value` rounded to `digits` significant digits, thousands parted by narrow spaces from 10 000
 /// on, real minus sign; an en dash for NaN. Whole numbers keep all their digits.
-std::string number_text(double value, int digits = 3);
+std::string shown_number(double value, int digits = 3);
 /// The same without any grouping and with a plain minus: for labels that are read as numbers.
 std::string plain_number(double value, int digits = 3);
 /// Seconds as "48 s", "12 min 5 s", "3 h 20 min" or "2 d 4 h".

@@ -3,9 +3,10 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/sum.hpp"
-#include "engine/effects/motion/effect.hpp"
-#include "engine/effects/motion/gravity.hpp"
+#include "engine/effects/arrivals.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
+#include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/schema.hpp"
 
@@ -19,8 +20,11 @@ State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
   State state(plan.bed, plan.domain);
   state.threads = std::max(1, threads);
   const Release& r = plan.release;
-  ParticleSet& p = state.grains;
-  p.resize(r.x.size());
+  MovingSet& p = state.grains();
+  p.spacing = s.numerics.spacing_m;
+  p.bulk_density = plan.bulk_density_kg_m3;
+  p.reference_fraction = plan.reference_fraction;
+  p.grow(r.x.size());
   p.x = r.x;
   p.y = r.y;
   p.z = r.z;
@@ -29,26 +33,20 @@ State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
   std::fill(p.vx.begin(), p.vx.end(), v[0]);
   std::fill(p.vy.begin(), p.vy.end(), v[1]);
   std::fill(p.vz.begin(), p.vz.end(), v[2]);
+  mark_start(state.domain, p, 0);
   Sum released;
   for (double m : p.mass) released.add(m);
-  state.ledger.released_mass = released.value();
+  p.ledger.released_mass = released.value();
   return state;
 }
 
 /// The effects that a scene calls for, in the order of the step.
-Step make_step(const ScenePlan& plan, State& state) {
+Step make_step(const Scenario& s, const ScenePlan& plan, State& state) {
   Step step;
-  if (plan.formulation.depth_averaged) {
-    add_depth_averaged(step, state, plan.columns, plan.release.thickness);
-  } else {
-    add_grain_stress(step, state, plan.stress, plan.release.depth);
-    add_gravity(step, state);
-    add_terrain_contact(step, state, plan.contact);
-    if (plan.parcel_contacts) add_parcel_contacts(step, state, *plan.parcel_contacts);
-    add_motion(step, state, {plan.stress.spacing, plan.stress.smoothing_length});
-  }
-  refresh_motion(state, 0);
-  state.ledger.kinetic_0 = state.ledger.kinetic;
+  SceneParts parts{plan, step, state};
+  add_effects(s, parts);
+  refresh_motion(state, state.grains(), 0);
+  state.grains().ledger.kinetic_0 = state.grains().ledger.kinetic;
   return step;
 }
 
@@ -75,6 +73,11 @@ double typical_speed(const ScenePlan& plan) {
   return 0.5 * std::sqrt(2 * plan.available_energy_j / mass);
 }
 
+/// Of a particle set without effects: its fixed columns, accelerations, starts.
+const std::size_t bare_bytes_per_particle = ParticleSet().bytes_per_particle() + 24;
+/// Of the peak maps, where the whole grid is touched.
+constexpr std::size_t bytes_per_hazard_cell = 60;
+
 std::string joined(const std::vector<std::string>& parts) {
   std::string out;
   for (const auto& p : parts) out += (out.empty() ? "" : "; ") + p;
@@ -82,13 +85,56 @@ std::string joined(const std::vector<std::string>& parts) {
 }
 
 PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) {
-  const double dx = s.numerics.spacing_m;
-  return PeakMaps({grid, dx, plan.bulk_density_kg_m3, reach_limit(plan, dx)});
+  return PeakMaps({grid, reach_limit(plan, s.numerics.spacing_m)});
 }
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
   return StopRule({s.numerics.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
                    plan.release.max_thickness_m, plan.available_energy_j});
+}
+
+double least_step(const Scenario& s, const ScenePlan& plan) {
+  if (plan.formulation.depth_averaged)
+    return 1e-6 * std::sqrt(s.numerics.spacing_m / standard_gravity);
+  // A hundredth of the acoustic limit at v_ref: below it something has run away.
+  return 0.01 * plan.stress.courant * plan.stress.smoothing_length /
+         (1.1 * plan.stress.sound_speed);
+}
+
+ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
+  const Release& r = plan.release;
+  ReleaseFacts facts;
+  facts.layers = r.layers;
+  facts.volume_m3 = r.volume_m3;
+  for (std::size_t i = 0; i < r.x.size(); ++i) {
+    const double share = r.mass[i] / released_mass;
+    facts.x_m += share * r.x[i];
+    facts.y_m += share * r.y[i];
+  }
+  facts.top_m = *std::max_element(r.z.begin(), r.z.end());
+  return facts;
+}
+
+/// Which effects there are and why, and what each brings: its row is added to a scene of its own
+/// only where the scene calls for it.
+std::vector<EffectNote> effect_notes(const Scenario& s, SceneParts& parts) {
+  std::vector<EffectNote> notes;
+  for (const EffectRow& row : effect_table()) {
+    const Called called = row.called(s, parts.plan);
+    EffectNote& note = notes.emplace_back();
+    note.name = row.name;
+    note.active = called.active;
+    note.reason = called.reason;
+    if (!called.active || !row.add) continue;
+    const MovingSet& set = parts.state.grains();
+    const std::size_t n_fields = set.field_names().size(), before = set.bytes_per_particle();
+    row.add(parts);
+    const auto names = set.field_names();
+    note.fields.assign(names.begin() + static_cast<std::ptrdiff_t>(n_fields), names.end());
+    note.bytes_per_particle = set.bytes_per_particle() - before;
+    if (row.bytes_per_particle) note.bytes_per_particle += row.bytes_per_particle();
+  }
+  return notes;
 }
 
 }  // namespace
@@ -99,98 +145,41 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
   ScenePlan plan = plan_scene(numbers, inputs, member);
   plan.stress.instruction_set = plan.columns.instruction_set = instruction_set;
   State state = make_state(numbers, plan, threads);
-  Step step = make_step(plan, state);
-  auto parts = std::make_unique<SimulationParts>(
-      SimulationParts{std::move(state), std::move(step),
-                      make_peaks(numbers, plan, inputs.hazard_grid), make_stop(numbers, plan)});
-  parts->member = member;
-  parts->spacing_m = numbers.numerics.spacing_m;
-  parts->formulation = plan.formulation.name();
-  parts->reference_density = plan.bulk_density_kg_m3;
-  parts->reference_fraction = plan.reference_fraction;
-  if (plan.formulation.depth_averaged) {
-    parts->least_dt_s = 1e-6 * std::sqrt(numbers.numerics.spacing_m / parts->state.gravity);
-  } else {
-    // A hundredth of the acoustic limit at v_ref: below it something has run away.
-    parts->least_dt_s =
-        0.01 * plan.stress.courant * plan.stress.smoothing_length / (1.1 * plan.stress.sound_speed);
-  }
-  parts->release_layers = plan.release.layers;
-  parts->release_volume_m3 = plan.release.volume_m3;
-  for (std::size_t i = 0; i < plan.release.x.size(); ++i) {
-    const double share = plan.release.mass[i] / parts->state.ledger.released_mass;
-    parts->release_x_m += share * plan.release.x[i];
-    parts->release_y_m += share * plan.release.y[i];
-  }
-  parts->release_top_m = *std::max_element(plan.release.z.begin(), plan.release.z.end());
-  parts->warnings = joined(plan_warnings(numbers, plan));
-  parts->start_x = plan.release.x;
-  parts->start_y = plan.release.y;
-  return Simulation(std::move(parts));
+  Step step = make_step(numbers, plan, state);
+  RunFacts facts{.member = member,
+                 .formulation = plan.formulation.name(),
+                 .spacing_m = numbers.numerics.spacing_m,
+                 .least_dt_s = least_step(numbers, plan),
+                 .release = release_facts(plan, state.grains().ledger.released_mass),
+                 .warnings = joined(plan_warnings(numbers, plan))};
+  return Simulation(std::make_unique<SimulationParts>(SimulationParts{
+      std::move(state), std::move(step), make_peaks(numbers, plan, inputs.hazard_grid),
+      make_stop(numbers, plan), std::move(facts)}));
 }
 
 SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   require_numbers(s);
   const ScenePlan plan = plan_scene(s, inputs, 0);
   State state = make_state(s, plan, 1);
-  const Step step = make_step(plan, state);
-
+  Step step;
+  SceneParts parts{plan, step, state};
   SceneDescription d;
-  const bool walls = !s.domain.walls.empty(), periodic = !s.domain.periodic.empty();
-  const bool columns = plan.formulation.depth_averaged;
-  const auto& basal = s.basal;
-  const bool zones = !basal.zones.empty();
-  const bool varying_k = s.grains->earth_pressure != "isotropic";
-  auto optional_note = [&](const char* name, const char* key, bool given) -> EffectNote {
-    return {name, given, (given ? "`" : "no `") + std::string(key) + "`"};
-  };
-  const auto* states = s.grains->states ? &*s.grains->states : nullptr;
-  auto states_note = [&](std::string_view name, const char* key, bool given) -> EffectNote {
-    if (given && columns) return {std::string(name), false, "not in depth_averaged"};
-    return {std::string(name), given, (given ? "`" : "no `") + std::string(key) + "`"};
-  };
-  d.effects = {
-      {std::string(EffectName::gravity), true, "always"},
-      {std::string(EffectName::base), true,
-       "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"},
-      {std::string(EffectName::grain_stress), !columns,
-       columns ? "not in depth_averaged" : "`grains`: elastic + mu(I), 3-D, full stress"},
-      states_note(EffectName::states, "grains.states", states != nullptr),
-      states_note(EffectName::kinetic_theory, "grains.states.dilute", states && states->dilute),
-      states_note(EffectName::lone_parcels, "grains.states.ultradilute",
-                  states && states->ultradilute),
-      states_note(EffectName::parcel_contacts, "grains.states.ultradilute.contacts: hertz_mindlin",
-                  plan.parcel_contacts.has_value()),
-      {std::string(EffectName::column_pressure), columns,
-       !columns     ? "not in full_stress"
-       : !varying_k ? "`grains.earth_pressure: isotropic`, K = 1"
-                    : "`grains.earth_pressure: active_passive`"},
-      optional_note("turbulent base", "basal.turbulent_coefficient_m_s2",
-                    basal.turbulent_coefficient_m_s2.has_value()),
-      optional_note("viscous base", "basal.viscosity_pa_s", basal.viscosity_pa_s.has_value()),
-      optional_note("zones of the base", "basal.zones", zones),
-      {std::string(EffectName::walls), walls, walls ? "`domain.walls`" : "no `domain.walls`"},
-      {"periodic images", periodic, periodic ? "`domain.periodic`" : "no `domain.periodic`"},
-      {std::string(EffectName::motion), true, "always"},
-      {"excavation", s.release.surface == "pre_failure",
-       "`release.surface: " + s.release.surface + "`"},
-  };
+  d.effects = effect_notes(s, parts);
+  refresh_motion(state, state.grains(), 0);
   d.passes = step.pass_names();
   d.formulation = plan.formulation.name();
   d.formulation_reason = plan.formulation.reason;
-  d.n_particles = state.grains.size();
-  // Lists and records exist from the first step on; those of a group of grains hold ~250 entries.
-  const std::size_t lists_per_particle =
-      columns ? 48 + 2 * 40 + 7 * 4 + 16 : 64 + 13 * 4 + 2 * (250 / 16) * 4 + 32;
-  d.memory_bytes = d.n_particles * (state.grains.bytes_per_particle() + 24 + lists_per_particle) +
-                   inputs.hazard_grid.n_cells() * 60;
+  d.n_particles = state.n_particles();
+  std::size_t bytes = bare_bytes_per_particle;
+  for (const EffectNote& note : d.effects) bytes += note.bytes_per_particle;
+  d.memory_bytes = d.n_particles * bytes + inputs.hazard_grid.n_cells() * bytes_per_hazard_cell;
   d.spacing_m = s.numerics.spacing_m;
   d.release_volume_m3 = plan.release.volume_m3;
   d.release_area_m2 = plan.release.area_m2;
   d.layers = plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
-  d.sound_speed_m_s = columns ? 0 : plan.stress.sound_speed;
-  state.motion.max_speed = 0.5 * typical_speed(plan);
+  d.sound_speed_m_s = plan.formulation.depth_averaged ? 0 : plan.stress.sound_speed;
+  state.grains().motion.max_speed = 0.5 * typical_speed(plan);
   state.n_steps = 1;  // the first step is shorter than those that count
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;

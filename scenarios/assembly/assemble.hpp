@@ -26,6 +26,8 @@ struct EffectNote {
   std::string name;
   bool active = false;
   std::string reason;
+  std::vector<std::string> fields;     ///< that it adds to the particles
+  std::size_t bytes_per_particle = 0;  ///< with its fields
 };
 
 /// What a scene will be, before anything is computed.

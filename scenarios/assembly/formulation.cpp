@@ -25,7 +25,8 @@ double volume_median(std::vector<double> thickness, double sum) {
 std::string column_key(const Scenario& s) {
   if (s.basal.turbulent_coefficient_m_s2) return "basal.turbulent_coefficient_m_s2";
   if (s.basal.viscosity_pa_s) return "basal.viscosity_pa_s";
-  if (s.grains && s.grains->earth_pressure != "isotropic") return "grains.earth_pressure";
+  if (s.grains && s.grains->earth_pressure != LateralPressure::isotropic)
+    return "grains.earth_pressure";
   return "";
 }
 
@@ -59,10 +60,10 @@ void count_layers(const Scenario& s, const Raster<double>& thickness, Formulatio
 FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& thickness) {
   FormulationChoice c;
   count_layers(s, thickness, c);
-  if (s.formulation == "depth_averaged") {
+  if (s.formulation == Formulation::depth_averaged) {
     c.depth_averaged = true;
     c.reason = "`formulation: depth_averaged`";
-  } else if (s.formulation == "full_stress") {
+  } else if (s.formulation == Formulation::full_stress) {
     c.reason = "`formulation: full_stress`; " + layers_text(c);
     // A release without any mass is refused as such by whoever fills it.
     const bool unresolved = c.release_layers > 0 && c.release_layers < unresolved_layers;

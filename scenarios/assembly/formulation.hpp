@@ -17,14 +17,18 @@ struct FormulationChoice {
   double deposit_layers =
       0;  ///< expected deposit thickness / spacing; infinite in a confined scene
 
-  const char* name() const { return depth_averaged ? "depth_averaged" : "full_stress"; }
+  /// The word of the scenario file and of every result.
+  std::string name() const {
+    return std::string(
+        to_string(depth_averaged ? Formulation::depth_averaged : Formulation::full_stress));
+  }
 };
 
 /// From this many layers on three-dimensional particles resolve a flow's footprint to about 10 %.
 inline constexpr double resolved_layers = 4;
 /// A release under this many is refused in full_stress unless the scenario accepts it.
 inline constexpr double unresolved_layers = 2;
-/// Deposit area over V^(2/3) of high-speed landslides (Griswold & Iverson 2008; physics.md D.1).
+/// Deposit area over V^(2/3) of high-speed landslides (Griswold & Iverson 2008; D.1).
 inline constexpr double area_over_volume23 = 20;
 
 /// The scenario's `formulation`; `auto` takes full_stress where at least four layers resolve both

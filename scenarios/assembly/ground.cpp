@@ -8,7 +8,7 @@ namespace sturz {
 namespace {
 
 NodataRule rule_of(const Scenario& s) {
-  return s.terrain.nodata == "wall" ? NodataRule::wall : NodataRule::outflow;
+  return s.terrain.nodata == TerrainEdge::wall ? NodataRule::wall : NodataRule::outflow;
 }
 
 /// A margin of repeated ground, so that the surface exists up to the period's edge.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/scene_plan.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
@@ -14,7 +15,7 @@
 namespace sturz {
 namespace {
 
-constexpr double smoothing_ratio = 1.3;  // h/dx, physics.md B.1
+constexpr double smoothing_ratio = 1.3;  // h/dx, docs/physics.md B.1
 
 /// The member's release thickness [m] on the working grid.
 Raster<double> release_thickness(const ReleaseSpec& spec, const SceneInputs& in) {
@@ -137,7 +138,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> base, ScenePla
   c.zones = plan.zones;
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(base.size(), EarthPressure{});
-  if (s.grains->earth_pressure == "active_passive") {
+  if (s.grains->earth_pressure == LateralPressure::active_passive) {
     const double internal = make_law(*s.grains).static_friction;
     for (std::size_t k = 0; k < base.size(); ++k)
       // Only the grains' part of the stress is anisotropic (Iverson & Denlinger 2001).
@@ -147,7 +148,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> base, ScenePla
   c.base = std::move(base);
 }
 
-/// Grains that may part: reference packing and laws (physics.md A.4, A.7, B.9).
+/// Grains that may part: reference packing and laws (docs/physics.md A.4, A.7, B.9).
 GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
   const GrainStatesSpec& spec = *s.grains->states;
   GrainStatesSettings states;
@@ -160,7 +161,7 @@ GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
     states.dilute = KineticTheory{s.grains->density_kg_m3.value, s.grains->diameter_m.value,
                                   spec.dilute->restitution.value, states.friction.max_fraction};
   states.ultradilute = spec.ultradilute.has_value();
-  states.switched = spec.stress_mode == "seed";
+  states.switched = spec.stress_mode == StressMode::seed;
   return states;
 }
 
@@ -199,8 +200,9 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
   stress.courant = s.numerics.courant;
   stress.instruction_set = best_instruction_set();
   // c0 >= 10 v_ref keeps the density within about 1 % in motion, and K = rho c0^2/(1 + 4G/3K)
-  // >= 100 rho g H does so at rest (physics.md B.5).
-  const double at_rest = std::sqrt((1 + 4.0 / 3 * stress.shear_to_bulk()) * 9.81 * deepest);
+  // >= 100 rho g H does so at rest (docs/physics.md B.5).
+  const double at_rest =
+      std::sqrt((1 + 4.0 / 3 * stress.shear_to_bulk()) * standard_gravity * deepest);
   stress.sound_speed =
       s.numerics.sound_speed_factor * std::max({plan.reference_speed_m_s, at_rest, start});
   stress.speed_factor = s.numerics.sound_speed_factor;
@@ -212,7 +214,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
     GrainStressSettings softest = stress;
     softest.sound_speed = std::min(stress.sound_speed, stress.least_sound_speed);
     stress.states->friction.limit_slope(softest.bulk_modulus() / plan.reference_fraction);
-    if (s.grains->states->ultradilute && s.grains->states->ultradilute->contacts != "none")
+    if (s.grains->states->ultradilute &&
+        s.grains->states->ultradilute->contacts != ParcelContactLaw::none)
       plan.parcel_contacts = plan_parcel_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
   }
 
@@ -221,7 +224,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
   contact.smoothing_length = h;
   contact.reference_density = plan.bulk_density_kg_m3;
   const double impact = std::max(plan.reference_speed_m_s, start) / (0.5 * dx);
-  contact.stiffness = std::max(10 * 9.81 * std::max(deepest, dx) / (dx * dx), impact * impact);
+  contact.stiffness =
+      std::max(10 * standard_gravity * std::max(deepest, dx) / (dx * dx), impact * impact);
   contact.restitution = s.basal.restitution.value;
   contact.zones = plan.zones;
   contact.base.clear();
@@ -253,10 +257,11 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   const FormulationChoice formulation = choose_formulation(s, thickness);
   const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
 
-  require(!periodic || s.release.surface == "bed",
+  require(!periodic || s.release.surface == ReleaseSurface::bed,
           "release.surface = pre_failure cannot be used with domain.periodic (the excavation would "
           "not repeat). Use `surface: bed`.");
-  ScenePlan plan(s.release.surface == "pre_failure" ? excavate(ground, thickness) : ground);
+  ScenePlan plan(s.release.surface == ReleaseSurface::pre_failure ? excavate(ground, thickness)
+                                                                  : ground);
   plan.formulation = formulation;
   plan.domain = domain;
 
@@ -287,7 +292,8 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   }
   for (double z : in.elevation->values)
     if (std::isfinite(z)) lowest = std::min(lowest, z);
-  plan.available_energy_j = 9.81 * (height - mass * lowest) + 0.5 * mass * start * start;
+  plan.available_energy_j =
+      standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
   return plan;
 }
 

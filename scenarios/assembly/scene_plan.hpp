@@ -7,7 +7,7 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/dense/effect.hpp"
-#include "engine/effects/isolated/effect.hpp"
+#include "engine/effects/isolated/contacts.hpp"
 #include "engine/particles/release.hpp"
 #include "scenarios/assembly/formulation.hpp"
 #include "scenarios/scenario.hpp"

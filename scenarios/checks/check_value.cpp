@@ -109,12 +109,6 @@ void Checker::check_support(const Distribution& d, const std::string& shown) con
   add(shown + reach);
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
-  return text;
-}
-
 void Checker::check_word(const std::string& word) const {
   const auto has = [&](const std::vector<std::string>& words) {
     for (const auto& w : words)
@@ -124,9 +118,10 @@ void Checker::check_word(const std::string& word) const {
   if (has(key.choices)) return;
   const std::string shown = key.path + " = " + quoted_text(word) + " (";
   if (has(key.later_choices))
-    return add(shown + "not available in this version). Available: " + joined(key.choices) + ".");
+    return add(shown +
+               "not available in this version). Available: " + comma_separated(key.choices) + ".");
   const std::string near = nearest_name(word, key.choices);
-  add(shown + "must be one of " + joined(key.choices) + ")." +
+  add(shown + "must be one of " + comma_separated(key.choices) + ")." +
       sentence(near.empty() ? "" : "Did you mean " + near + "?"));
 }
 
@@ -149,8 +144,9 @@ void Checker::operator()(const SyntheticTerrain& v) const {
   const auto shapes = synthetic_shapes();
   if (std::find(shapes.begin(), shapes.end(), v.shape) == shapes.end()) {
     const std::string near = nearest_name(v.shape, shapes);
-    return add(key.path + " = " + quoted_text(v.shape) + " (must be one of " + joined(shapes) +
-               ")." + sentence(near.empty() ? "" : "Did you mean " + near + "?"));
+    return add(key.path + " = " + quoted_text(v.shape) + " (must be one of " +
+               comma_separated(shapes) + ")." +
+               sentence(near.empty() ? "" : "Did you mean " + near + "?"));
   }
   const auto cell =
       part(key, v.shape + ".cell_size_m", "m", min_synthetic_cell_m, max_synthetic_cell_m);
@@ -165,7 +161,8 @@ void Checker::operator()(const SyntheticTerrain& v) const {
     if (found == known.end()) {
       const std::string near = nearest_name(name, names);
       add(key.path + "." + v.shape + "." + name + " (unknown key). " +
-          (near.empty() ? "Known here: " + joined(names) + "." : "Did you mean " + near + "?"));
+          (near.empty() ? "Known here: " + comma_separated(names) + "."
+                        : "Did you mean " + near + "?"));
       continue;
     }
     const auto own = part(key, v.shape + "." + name, units_of(name), found->min, found->max);
@@ -215,7 +212,7 @@ void Checker::operator()(const std::vector<BasalZone>& v) const {
     if (v[i].polygon.empty())
       add(path + " (polygon is missing). Name the file that outlines the zone.");
     if (!gives_any)
-      add(path + " (gives no value). Give it some of " + joined(zone_field_names()) + ".");
+      add(path + " (gives no value). Give it some of " + comma_separated(zone_field_names()) + ".");
   }
 }
 

@@ -56,8 +56,11 @@ void check_discrete(const Distribution& d, Clauses& wrong) {
     wrong.emplace_back("weights must be as many as values");
   if (std::any_of(d.weights.begin(), d.weights.end(), [](double w) { return !(w >= 0); }))
     wrong.emplace_back("weights must be >= 0");
-  else if (!d.weights.empty() && !(std::accumulate(d.weights.begin(), d.weights.end(), 0.0) > 0))
-    wrong.emplace_back("one weight at least must be > 0");
+  else if (!d.weights.empty()) {
+    const double sum = std::accumulate(d.weights.begin(), d.weights.end(), 0.0);
+    if (!(sum > 0)) wrong.emplace_back("one weight at least must be > 0");
+    if (!std::isfinite(sum)) wrong.emplace_back("the sum of the weights must be finite");
+  }
 }
 
 void check_table(const Distribution& d, Clauses& wrong) {

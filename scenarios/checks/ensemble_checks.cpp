@@ -89,13 +89,14 @@ void check_rising(const std::vector<double>& levels, const char* path, Problems&
 
 void check_ensemble(const Scenario& s, Problems& problems) {
   const auto& e = s.ensemble;
-  const bool table = e.design == "table";
+  const bool table = e.design == Design::table;
   if (table && e.table.empty())
     problems.push_back({"ensemble.table",
                         "ensemble.table (missing: design is table). Name a CSV "
                         "file with one row per member."});
   if (!table && !e.table.empty())
-    problems.push_back({"ensemble.table", "ensemble.table (design is " + e.design +
+    problems.push_back({"ensemble.table", "ensemble.table (design is " +
+                                              std::string(to_string(e.design)) +
                                               "). Remove it or set design: table."});
   if (table && !e.correlation.empty())
     problems.push_back({correlation_path, std::string(correlation_path) +

@@ -45,7 +45,7 @@ std::string shown(const Scenario& s, const char* path) {
 void check_states(const Scenario& s, Problems& problems) {
   if (!s.grains || !s.grains->states) return;
   const GrainStatesSpec& states = *s.grains->states;
-  if (s.formulation == "depth_averaged")
+  if (s.formulation == Formulation::depth_averaged)
     problems.push_back({"grains.states",
                         "grains.states (formulation is depth_averaged; only full_stress knows it). "
                         "Remove it or set formulation: full_stress."});
@@ -62,7 +62,7 @@ void check_states(const Scenario& s, Problems& problems) {
 
 /// Columns have a drag and a lateral pressure of their own; particles get both from their stress.
 void check_formulation(const Scenario& s, Problems& problems) {
-  if (s.formulation != "full_stress") return;
+  if (s.formulation != Formulation::full_stress) return;
   const auto refuse = [&](bool given, const char* path) {
     if (given)
       problems.push_back({path, shown(s, path) +
@@ -70,7 +70,8 @@ void check_formulation(const Scenario& s, Problems& problems) {
                                     "Remove it or set formulation: depth_averaged."});
   };
   const auto& b = s.basal;
-  refuse(s.grains && s.grains->earth_pressure == "active_passive", "grains.earth_pressure");
+  refuse(s.grains && s.grains->earth_pressure == LateralPressure::active_passive,
+         "grains.earth_pressure");
   refuse(b.turbulent_coefficient_m_s2.has_value(), "basal.turbulent_coefficient_m_s2");
   refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
   refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One terrain, one source, one way to say how thick it is.
 #include "scenarios/checks/combination_checks.hpp"
+#include "scenarios/schema/suggest.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
 #include <algorithm>
@@ -9,12 +10,6 @@ namespace sturz {
 namespace {
 
 using Problems = std::vector<Problem>;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
-  return text;
-}
 
 void check_terrain(const TerrainSpec& t, Problems& problems) {
   const bool raster = !t.raster.empty();
@@ -72,8 +67,8 @@ void check_source(const Scenario& s, Problems& problems) {
   const auto& r = s.release;
   const auto given = given_sources(r);
   if (given.size() > 1) {
-    problems.push_back(
-        {"release", "release (more than one source: " + joined(given) + "). Keep one of them."});
+    problems.push_back({"release", "release (more than one source: " + comma_separated(given) +
+                                       "). Keep one of them."});
     return;
   }
   const bool own = given.empty() && has_own_source(s.terrain);
@@ -89,7 +84,7 @@ void check_source(const Scenario& s, Problems& problems) {
                         std::string("release.thickness_m (") +
                             (own ? "the synthetic terrain brings" : "release.thickness_raster is") +
                             " the thickness). Remove it; release.volume_m3 scales the source."});
-  if (own && r.surface == "pre_failure")
+  if (own && r.surface == ReleaseSurface::pre_failure)
     problems.push_back({"release.surface",
                         "release.surface = pre_failure (the synthetic terrain "
                         "brings its bed and its source). Remove it."});

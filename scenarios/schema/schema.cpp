@@ -2,6 +2,7 @@
 #include "scenarios/schema/schema.hpp"
 
 #include "engine/core/error.hpp"
+#include "scenarios/schema/blocks.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/schema_rows.hpp"
 #include "scenarios/schema/suggest.hpp"
@@ -20,54 +21,28 @@ std::vector<KeyInfo> all_keys() {
   return keys;
 }
 
-GrainStatesSpec& make_states(Scenario& s) {
-  if (!s.grains) s.grains.emplace();
-  if (!s.grains->states) s.grains->states.emplace();
-  return *s.grains->states;
+template <class Owner>
+BlockInfo optional_block(const char* path, const char* help, const Block<Owner>& block) {
+  return {path, help, [block](const Scenario& s) { return block.find(s) != nullptr; },
+          [block](Scenario& s) { block.make(s); }};
 }
 
 std::vector<BlockInfo> all_optional_blocks() {
+  using namespace blocks;
   return {
-      {"release.box", "A rectangular source.",
-       [](const Scenario& s) { return s.release.box.has_value(); },
-       [](Scenario& s) {
-         if (!s.release.box) s.release.box.emplace();
-       }},
-      {"release.paraboloid", "A cap-shaped source.",
-       [](const Scenario& s) { return s.release.paraboloid.has_value(); },
-       [](Scenario& s) {
-         if (!s.release.paraboloid) s.release.paraboloid.emplace();
-       }},
-      {"release.cylinder", "A round source of even thickness.",
-       [](const Scenario& s) { return s.release.cylinder.has_value(); },
-       [](Scenario& s) {
-         if (!s.release.cylinder) s.release.cylinder.emplace();
-       }},
-      {"grains", "The moving mass.", [](const Scenario& s) { return s.grains.has_value(); },
-       [](Scenario& s) {
-         if (!s.grains) s.grains.emplace();
-       }},
-      {"grains.friction", "Internal friction that grows with the shear rate, mu(I).",
-       [](const Scenario& s) { return s.grains && s.grains->friction; },
-       [](Scenario& s) {
-         if (!s.grains) s.grains.emplace();
-         if (!s.grains->friction) s.grains->friction.emplace();
-       }},
-      {"grains.states", "Grains that part: pressure of loose packings, dilute and lone grains.",
-       [](const Scenario& s) { return s.grains && s.grains->states; },
-       [](Scenario& s) { make_states(s); }},
-      {"grains.states.dilute", "Grains that collide: kinetic theory, granular temperature.",
-       [](const Scenario& s) { return s.grains && s.grains->states && s.grains->states->dilute; },
-       [](Scenario& s) {
-         if (auto& dilute = make_states(s).dilute; !dilute) dilute.emplace();
-       }},
-      {"grains.states.ultradilute", "Grains without neighbours: parcels in free flight.",
-       [](const Scenario& s) {
-         return s.grains && s.grains->states && s.grains->states->ultradilute;
-       },
-       [](Scenario& s) {
-         if (auto& lone = make_states(s).ultradilute; !lone) lone.emplace();
-       }},
+      optional_block("release.box", "A rectangular source.", release_box),
+      optional_block("release.paraboloid", "A cap-shaped source.", release_paraboloid),
+      optional_block("release.cylinder", "A round source of even thickness.", release_cylinder),
+      optional_block("grains", "The moving mass.", grains),
+      optional_block("grains.friction", "Internal friction that grows with the shear rate, mu(I).",
+                     friction),
+      optional_block("grains.states",
+                     "Grains that part: pressure of loose packings, dilute and lone grains.",
+                     states),
+      optional_block("grains.states.dilute",
+                     "Grains that collide: kinetic theory, granular temperature.", dilute),
+      optional_block("grains.states.ultradilute",
+                     "Grains without neighbours: parcels in free flight.", ultradilute),
   };
 }
 

@@ -5,47 +5,7 @@
 namespace sturz::schema_rows {
 namespace {
 
-GrainsSpec& made_grains(Scenario& s) { return s.grains ? *s.grains : s.grains.emplace(); }
-
-constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
-                                [](Scenario& s) -> Scenario& { return s; }};
-constexpr Block<GrainsSpec> grains{
-    [](const Scenario& s) { return s.grains ? &*s.grains : nullptr; }, made_grains};
-constexpr Block<FrictionLaw> friction{[](const Scenario& s) {
-                                        return s.grains && s.grains->friction ? &*s.grains->friction
-                                                                              : nullptr;
-                                      },
-                                      [](Scenario& s) -> FrictionLaw& {
-                                        auto& law = made_grains(s).friction;
-                                        return law ? *law : law.emplace();
-                                      }};
-GrainStatesSpec& made_states(Scenario& s) {
-  auto& states = made_grains(s).states;
-  return states ? *states : states.emplace();
-}
-const GrainStatesSpec* found_states(const Scenario& s) {
-  return s.grains && s.grains->states ? &*s.grains->states : nullptr;
-}
-constexpr Block<GrainStatesSpec> states{found_states, made_states};
-constexpr Block<DiluteSpec> dilute{[](const Scenario& s) {
-                                     const auto* found = found_states(s);
-                                     return found && found->dilute ? &*found->dilute : nullptr;
-                                   },
-                                   [](Scenario& s) -> DiluteSpec& {
-                                     auto& block = made_states(s).dilute;
-                                     return block ? *block : block.emplace();
-                                   }};
-constexpr Block<UltradiluteSpec> ultradilute{
-    [](const Scenario& s) {
-      const auto* found = found_states(s);
-      return found && found->ultradilute ? &*found->ultradilute : nullptr;
-    },
-    [](Scenario& s) -> UltradiluteSpec& {
-      auto& block = made_states(s).ultradilute;
-      return block ? *block : block.emplace();
-    }};
-constexpr Block<BasalSpec> basal{[](const Scenario& s) { return &s.basal; },
-                                 [](Scenario& s) -> BasalSpec& { return s.basal; }};
+using namespace blocks;
 
 void add_grains(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
@@ -77,18 +37,16 @@ void add_grains(std::vector<KeyInfo>& keys) {
   keys.push_back(key(
       grains, &GrainsSpec::poisson_ratio,
       {"grains.poisson_ratio", uncertain, "1", 0, 0.49, "Poisson's ratio of the elastic part."}));
-  keys.push_back(with_choices(text_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
-                                       choice, "Lateral earth pressure of depth_averaged flow."),
-                              {"isotropic", "active_passive"}));
+  keys.push_back(choice_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
+                            "Lateral earth pressure of depth_averaged flow."));
 }
 
 void add_states(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
-  keys.push_back(with_choices(
-      text_key(states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode", choice,
-               "unified: one continuous law from dense to dilute; seed: the paper's switch between "
-               "laws, with relaxation."),
-      {"unified", "seed"}));
+  keys.push_back(choice_key(
+      states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode",
+      "unified: one continuous law from dense to dilute; seed: the paper's switch between "
+      "laws, with relaxation."));
   keys.push_back(key(states, &GrainStatesSpec::max_fraction,
                      {"grains.states.max_fraction", uncertain, "1", 0.55, 0.95,
                       "Densest packing of the grains; by default solid_fraction + 0.08, at least "
@@ -100,10 +58,9 @@ void add_states(std::vector<KeyInfo>& keys) {
                                {"grains.states.dilute.restitution", uncertain, "1", 0, 0.999,
                                 "Share of the speed that two colliding grains keep. The theory is "
                                 "made for 0.7 and more."})));
-  keys.push_back(with_choices(
-      text_key(ultradilute, &UltradiluteSpec::contacts, "grains.states.ultradilute.contacts",
-               choice, "What lone parcels do when they meet."),
-      {"none", "hertz_mindlin"}));
+  keys.push_back(choice_key(ultradilute, &UltradiluteSpec::contacts,
+                            "grains.states.ultradilute.contacts",
+                            "What lone parcels do when they meet."));
   keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::restitution,
                                {"grains.states.ultradilute.restitution", uncertain, "1", 0, 0.999,
                                 "Share of the speed that two lone parcels keep."})));
@@ -154,12 +111,11 @@ void add_material_keys(std::vector<KeyInfo>& keys) {
   add_grains(keys);
   add_states(keys);
   add_basal(keys);
-  keys.push_back(with_choices(
-      text_key(scene, &Scenario::formulation, "formulation", ValueKind::choice,
-               "auto: full_stress where at least four layers of particles resolve the flow, else "
-               "depth_averaged; full_stress: three-dimensional particles with a full stress "
-               "tensor; depth_averaged: columns on the terrain."),
-      {"auto", "full_stress", "depth_averaged"}));
+  keys.push_back(
+      choice_key(scene, &Scenario::formulation, "formulation",
+                 "auto: full_stress where at least four layers of particles resolve the flow, else "
+                 "depth_averaged; full_stress: three-dimensional particles with a full stress "
+                 "tensor; depth_averaged: columns on the terrain."));
 }
 
 }  // namespace sturz::schema_rows

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Tools to write rows of the key table: a block, a member pointer, the limits, one sentence.
+/// Tools to write rows of the key table: a block of blocks.hpp, a member, the limits, one sentence.
 /// For the schema_*.cpp files only.
 #pragma once
 
 #include "engine/core/error.hpp"
+#include "scenarios/schema/blocks.hpp"
 #include "scenarios/schema/schema.hpp"
 
 #include <algorithm>
@@ -14,13 +15,6 @@ namespace sturz::schema_rows {
 
 inline constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-/// Where a group of members lives: `find` gives nullptr while an optional block is absent.
-template <class Owner>
-struct Block {
-  const Owner* (*find)(const Scenario&);
-  Owner& (*make)(Scenario&);
-};
-
 // Absent values (empty text, no list) are monostate, so that the writer leaves them out.
 inline KeyValue to_value(double v) { return v; }
 inline KeyValue to_value(bool v) { return v; }
@@ -29,6 +23,10 @@ inline KeyValue to_value(std::uint64_t v) { return static_cast<std::int64_t>(v);
 inline KeyValue to_value(const Uncertain& v) { return v; }
 inline KeyValue to_value(const std::vector<double>& v) { return v; }
 inline KeyValue to_value(const SyntheticTerrain& v) { return v; }
+template <Worded Enum>
+KeyValue to_value(Enum v) {
+  return std::string(to_string(v));
+}
 inline KeyValue to_value(const std::string& v) { return v.empty() ? KeyValue{} : KeyValue{v}; }
 template <class T>
 KeyValue to_value(const std::vector<T>& v) {
@@ -64,6 +62,10 @@ inline void from_value(const KeyValue& v, std::uint64_t& out) {
 }
 inline void from_value(const KeyValue& v, Uncertain& out) {
   out = std::holds_alternative<double>(v) ? Uncertain(std::get<double>(v)) : held<Uncertain>(v);
+}
+template <Worded Enum>
+void from_value(const KeyValue& v, Enum& out) {  // an unknown word changes nothing: it is reported
+  out = from_word<Enum>(held<std::string>(v)).value_or(out);
 }
 template <std::size_t n>
 void from_value(const KeyValue& v, std::array<double, n>& out) {
@@ -111,10 +113,17 @@ KeyInfo text_key(const Block<Owner>& block, std::string Owner::*member, const ch
   return key(block, member, {path, kind, "", -no_limit, no_limit, help});
 }
 
-inline KeyInfo with_choices(KeyInfo info, std::vector<std::string> choices,
-                            std::vector<std::string> later = {}) {
-  info.choices = std::move(choices);
+/// One of the words of an enumeration.
+template <class Owner, Worded Enum>
+KeyInfo choice_key(const Block<Owner>& block, Enum Owner::*member, const char* path,
+                   const char* help, std::vector<std::string> later = {}) {
+  KeyInfo info = key(block, member, {path, ValueKind::choice, "", -no_limit, no_limit, help});
+  for (const auto& word : words_of(Enum{})) info.choices.emplace_back(word.text);
   info.later_choices = std::move(later);
+  return info;
+}
+inline KeyInfo with_choices(KeyInfo info, std::vector<std::string> choices) {
+  info.choices = std::move(choices);
   return info;
 }
 inline KeyInfo with_size(KeyInfo info, int size) {

@@ -5,14 +5,7 @@
 namespace sturz::schema_rows {
 namespace {
 
-constexpr Block<NumericsSpec> numerics{[](const Scenario& s) { return &s.numerics; },
-                                       [](Scenario& s) -> NumericsSpec& { return s.numerics; }};
-constexpr Block<DomainSpec> domain{[](const Scenario& s) { return &s.domain; },
-                                   [](Scenario& s) -> DomainSpec& { return s.domain; }};
-constexpr Block<EnsembleSpec> ensemble{[](const Scenario& s) { return &s.ensemble; },
-                                       [](Scenario& s) -> EnsembleSpec& { return s.ensemble; }};
-constexpr Block<HazardSpec> hazard{[](const Scenario& s) { return &s.hazard; },
-                                   [](Scenario& s) -> HazardSpec& { return s.hazard; }};
+using namespace blocks;
 
 void add_numerics(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
@@ -70,10 +63,8 @@ void add_domain(std::vector<KeyInfo>& keys) {
 
 void add_ensemble(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
-  keys.push_back(with_choices(text_key(ensemble, &EnsembleSpec::design, "ensemble.design", choice,
-                                       "How the uncertain values are drawn."),
-                              {"monte_carlo", "latin_hypercube", "sobol", "table"},
-                              {"morris", "full_grid"}));
+  keys.push_back(choice_key(ensemble, &EnsembleSpec::design, "ensemble.design",
+                            "How the uncertain values are drawn.", {"morris", "full_grid"}));
   keys.push_back(text_key(ensemble, &EnsembleSpec::table, "ensemble.table", path,
                           "CSV with one row per member and one column per uncertain key, for "
                           "design: table."));

@@ -5,27 +5,7 @@
 namespace sturz::schema_rows {
 namespace {
 
-constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
-                                [](Scenario& s) -> Scenario& { return s; }};
-constexpr Block<TerrainSpec> terrain{[](const Scenario& s) { return &s.terrain; },
-                                     [](Scenario& s) -> TerrainSpec& { return s.terrain; }};
-constexpr Block<ReleaseSpec> release{[](const Scenario& s) { return &s.release; },
-                                     [](Scenario& s) -> ReleaseSpec& { return s.release; }};
-
-template <class T>
-T& engaged(std::optional<T>& block) {
-  return block ? *block : block.emplace();
-}
-
-constexpr Block<ReleaseBox> box{
-    [](const Scenario& s) { return s.release.box ? &*s.release.box : nullptr; },
-    [](Scenario& s) -> ReleaseBox& { return engaged(s.release.box); }};
-constexpr Block<ReleaseParaboloid> paraboloid{
-    [](const Scenario& s) { return s.release.paraboloid ? &*s.release.paraboloid : nullptr; },
-    [](Scenario& s) -> ReleaseParaboloid& { return engaged(s.release.paraboloid); }};
-constexpr Block<ReleaseCylinder> cylinder{
-    [](const Scenario& s) { return s.release.cylinder ? &*s.release.cylinder : nullptr; },
-    [](Scenario& s) -> ReleaseCylinder& { return engaged(s.release.cylinder); }};
+using namespace blocks;
 
 constexpr double map_limit = 1e8;  // metres; no projected coordinate is larger
 
@@ -42,36 +22,35 @@ void add_terrain(std::vector<KeyInfo>& keys) {
   keys.push_back(key(terrain, &TerrainSpec::cell_size_m,
                      {"terrain.cell_size_m", number, "m", 1e-3, 1e4,
                       "Cell of the working grid; the raster's own when absent."}));
-  keys.push_back(with_choices(
-      text_key(terrain, &TerrainSpec::nodata, "terrain.nodata", choice,
-               "What the edge of the known ground does to the mass: lets it out or holds it."),
-      {"outflow", "wall"}));
+  keys.push_back(
+      choice_key(terrain, &TerrainSpec::nodata, "terrain.nodata",
+                 "What the edge of the known ground does to the mass: lets it out or holds it."));
 }
 
 void add_shapes(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
-  keys.push_back(with_size(key(box, &ReleaseBox::x_m,
+  keys.push_back(with_size(key(release_box, &ReleaseBox::x_m,
                                {"release.box.x_m", number_list, "m", -map_limit, map_limit,
                                 "West and east edge of a rectangular source."}),
                            2));
-  keys.push_back(with_size(key(box, &ReleaseBox::y_m,
+  keys.push_back(with_size(key(release_box, &ReleaseBox::y_m,
                                {"release.box.y_m", number_list, "m", -map_limit, map_limit,
                                 "South and north edge of a rectangular source."}),
                            2));
-  keys.push_back(with_size(key(paraboloid, &ReleaseParaboloid::center_m,
+  keys.push_back(with_size(key(release_paraboloid, &ReleaseParaboloid::center_m,
                                {"release.paraboloid.center_m", number_list, "m", -map_limit,
                                 map_limit, "Map x and y of the thickest point of a cap."}),
                            2));
-  keys.push_back(above_min(with_size(key(paraboloid, &ReleaseParaboloid::semi_axes_m,
+  keys.push_back(above_min(with_size(key(release_paraboloid, &ReleaseParaboloid::semi_axes_m,
                                          {"release.paraboloid.semi_axes_m", number_list, "m", 0,
                                           map_limit, "Half lengths of the cap along x and y."}),
                                      2)));
-  keys.push_back(with_size(key(cylinder, &ReleaseCylinder::center_m,
+  keys.push_back(with_size(key(release_cylinder, &ReleaseCylinder::center_m,
                                {"release.cylinder.center_m", number_list, "m", -map_limit,
                                 map_limit, "Map x and y of the axis of a round source."}),
                            2));
   keys.push_back(above_min(
-      key(cylinder, &ReleaseCylinder::radius_m,
+      key(release_cylinder, &ReleaseCylinder::radius_m,
           {"release.cylinder.radius_m", number, "m", 0, map_limit, "Radius of a round source."})));
 }
 
@@ -102,11 +81,10 @@ void add_release(std::vector<KeyInfo>& keys) {
   keys.push_back(above_min(key(release, &ReleaseSpec::volume_m3,
                                {"release.volume_m3", uncertain, "m3", 0, no_limit,
                                 "Bulk volume of the source; scales its thickness."})));
-  keys.push_back(with_choices(
-      text_key(release, &ReleaseSpec::surface, "release.surface", choice,
-               "What the terrain shows: the bed under the source, or the surface before failure "
-               "from which the source is dug."),
-      {"bed", "pre_failure"}));
+  keys.push_back(
+      choice_key(release, &ReleaseSpec::surface, "release.surface",
+                 "What the terrain shows: the bed under the source, or the surface before failure "
+                 "from which the source is dug."));
   keys.push_back(with_size(key(release, &ReleaseSpec::velocity_m_s,
                                {"release.velocity_m_s", number_list, "m s-1", -500, 500,
                                 "Velocity of the source at the start: east, north, up."}),

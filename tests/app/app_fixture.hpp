@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/support/process.hpp"
+#include "tests/support/tiny_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,11 +14,6 @@
 #include <vector>
 
 namespace sturz::test {
-
-/// A slide of 300 particles on a plane, six members of about a tenth of a second.
-std::string tiny_scene();
-/// `text` with the first `from` replaced; the test fails when it is not there.
-std::string replaced(std::string text, const std::string& from, const std::string& to);
 
 class App : public ::testing::Test {
  protected:

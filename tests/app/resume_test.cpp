@@ -126,6 +126,14 @@ TEST_F(Resume, ZonesGoOnWithTheSameFilesAndValuesOnly) {
   const Ended moved = begun("0.2");
   EXPECT_EQ(moved.exit_code, 1);
   EXPECT_THAT(moved.err, HasSubstr("input plate.geojson: other content than before"));
+  std::string manifest = read("out/manifest.json");
+  const auto sum = manifest.find("sha256:");
+  ASSERT_NE(sum, std::string::npos);
+  write("out/manifest.json", manifest.replace(sum, 71, "fnv1a64:85944171f73967e8"));
+  const Ended older = begun("0.2");
+  EXPECT_EQ(older.exit_code, 1);
+  EXPECT_THAT(older.err, HasSubstr("input plate.geojson: its checksum is of another kind "
+                                   "(fnv1a64, now sha256)"));
 }
 
 TEST_F(Resume, ThresholdsMayChangeWithoutComputingAgain) {

@@ -56,7 +56,7 @@ Scene with_empty_zone(Scene scene) {
 }
 
 Scene with_active_passive(Scene scene) {
-  scene.scenario.grains->earth_pressure = "active_passive";
+  scene.scenario.grains->earth_pressure = LateralPressure::active_passive;
   return scene;
 }
 
@@ -87,10 +87,10 @@ class Comparison {
     const auto passes = [](const Moving& m) { return m.step->pass_names(); };
     const bool holds = ratio.low < most_time_ratio && a.set == b.set && a.state == b.state &&
                        a.passes == b.passes && passes(with) == passes(without);
-    table_.add({cell(what), cell(with.state->grains.size()), interval_cell(ratio, 4),
+    table_.add({cell(what), cell(with.state->grains().size()), interval_cell(ratio, 4),
                 cell(a.total(), 1), cell(b.total(), 1),
                 cell(static_cast<int>(passes(with).size() - passes(without).size())),
-                yes_no(same_places(with.state->grains, without.state->grains)),
+                yes_no(same_places(with.state->grains(), without.state->grains())),
                 must ? yes_no(holds) : cell("-")});
   }
   Table take() { return std::move(table_); }

@@ -33,7 +33,7 @@ std::vector<Sized> members_up_to(double most) {
 
 void time_slice(Sized& s, bool keep) {
   State& state = s.member.parts().state;
-  const double updates = slice_steps * static_cast<double>(state.grains.size());
+  const double updates = slice_steps * static_cast<double>(state.grains().size());
   const double seconds = cpu_slice(state, s.member.parts().step);
   if (keep) s.ns_per_update.push_back(1e9 * seconds / updates);
 }
@@ -62,9 +62,9 @@ Report scaling(const Options& options) {
     const Cell relative =
         base ? interval_cell(summarize(ratios(s.ns_per_update, base->ns_per_update)), 2)
              : cell("-");
-    table.add({cell(static_cast<std::size_t>(s.size)), cell(parts.state.grains.size()),
-               cell(parts.release_layers, 1), range_cell(summarize(s.ns_per_update), 0), relative,
-               cell(memory_per_particle(parts.state, parts.step).total(), 0)});
+    table.add({cell(static_cast<std::size_t>(s.size)), cell(parts.state.grains().size()),
+               cell(parts.facts.release.layers, 1), range_cell(summarize(s.ns_per_update), 0),
+               relative, cell(memory_per_particle(parts.state, parts.step).total(), 0)});
   }
   report.tables.push_back(std::move(table));
   report.notes = {fmt::format(

@@ -46,21 +46,21 @@ double bump(double x, double y) {
 
 Scene dense_slide(double n_particles) {
   Scenario s = box_on_slope(26, 400, 200, ReleaseBox{{-150, -50}, {-40, 40}}, 27);
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.spacing_m = std::cbrt(100 * 80 * 27 / n_particles);
   return loaded(fmt::format("dense slide {:.0f}k", n_particles / 1000), std::move(s));
 }
 
 Scene thin_slide() {
   Scenario s = box_on_slope(30, 300, 100, ReleaseBox{{-120, -80}, {-10, 10}}, 4);
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.spacing_m = 1;
   return loaded("thin slide", std::move(s));
 }
 
 Scene column_slide(double n_columns, double end_time_s) {
   Scenario s = box_on_slope(26, 2000, 400, ReleaseBox{{-950, -850}, {-50, 50}}, 5);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.numerics.spacing_m = std::sqrt(100 * 100 / n_columns);
   s.numerics.end_time_s = end_time_s;
   Scene scene = loaded(fmt::format("columns {:.1f}k", n_columns / 1000), std::move(s));

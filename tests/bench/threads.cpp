@@ -43,16 +43,17 @@ Report threads(const Options& options) {
       Simulation one = assemble(scene.scenario, scene.inputs, 0, 1);
       Simulation many = assemble(scene.scenario, scene.inputs, 0, n);
       SimulationParts &a = one.parts(), &b = many.parts();
-      const double particles = static_cast<double>(a.state.grains.size());
+      const double particles = static_cast<double>(a.state.grains().size());
       const Pairs pairs = alternate(
           options.pairs, [&] { return wall_slice(a.state, a.step); },
           [&] { return wall_slice(b.state, b.step); });
       const double ms = 1e3 / slice_steps;
       const Summary slow = summarize(pairs.a), fast = summarize(pairs.b);
-      table.add({cell(scene.name), cell(a.state.grains.size()), cell(n), cell(ms * slow.median, 2),
-                 cell(ms * fast.median, 2), interval_cell(pairs.ratio(), 2),
+      table.add({cell(scene.name), cell(a.state.grains().size()), cell(n),
+                 cell(ms * slow.median, 2), cell(ms * fast.median, 2),
+                 interval_cell(pairs.ratio(), 2),
                  cell(1e-6 * slice_steps * particles / fast.median, 2),
-                 yes_no(same_bits(a.state.grains, b.state.grains))});
+                 yes_no(same_bits(a.state.grains(), b.state.grains()))});
     }
   report.tables.push_back(std::move(table));
   report.notes = {"Wall time: worth something on a quiet machine only. Without peak maps."};

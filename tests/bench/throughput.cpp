@@ -41,7 +41,7 @@ double heap_per_particle(const Scene& scene) {
   SimulationParts& parts = member.parts();
   cpu_slice(parts.state, parts.step);
   return static_cast<double>(heap_bytes() - before) /
-         static_cast<double>(parts.state.grains.size());
+         static_cast<double>(parts.state.grains().size());
 }
 
 class Throughput {
@@ -94,7 +94,7 @@ class Throughput {
   }
 
   static double mean_vx(const Simulation& member) {
-    const ParticleSet& p = member.parts().state.grains;
+    const ParticleSet& p = member.parts().state.grains();
     double momentum = 0, mass = 0;
     for (std::size_t i = 0; i < p.size(); ++i) momentum += p.mass[i] * p.vx[i], mass += p.mass[i];
     return momentum / mass;
@@ -154,7 +154,8 @@ class Throughput {
 void Throughput::finish(const Scene& scene, const Simulation& member, const TimedRun& run) {
   const SimulationParts& parts = member.parts();
   const double n = run.updates[0] / slice_steps;
-  speed_.add({cell(scene.name), cell(static_cast<std::size_t>(n)), cell(parts.release_layers, 1),
+  speed_.add({cell(scene.name), cell(static_cast<std::size_t>(n)),
+              cell(parts.facts.release.layers, 1),
               range_cell(summarize(scaled(run.updates_per_s(), 1e-6)), 2),
               range_cell(summarize(scaled(run.cpu_s, 1e3 / slice_steps)), 2),
               cell(static_cast<int>(run.cpu_s.size()))});

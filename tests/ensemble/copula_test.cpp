@@ -40,7 +40,7 @@ std::vector<double> ranks(const std::vector<double>& x) {
 }
 
 /// Columns of the dependent cube.
-std::vector<std::vector<double>> columns(const char* design, const Copula& copula) {
+std::vector<std::vector<double>> columns(Design design, const Copula& copula) {
   std::vector<std::vector<double>> result(keys.size());
   for (const auto& row : draw_unit_cube(design, 4096, keys.size(), 17)) {
     const std::vector<double> u = copula.apply(row);
@@ -60,22 +60,22 @@ TEST(Copula, ReproducesItsCorrelationsInEveryDesign) {
     std::size_t i, j;
     double r;
   } pairs[] = {{0, 1, -0.3}, {1, 2, 0.6}, {0, 2, 0}};
-  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
+  for (const Design design : {Design::monte_carlo, Design::latin_hypercube, Design::sobol}) {
     const auto u = columns(design, copula);
     auto z = u;
     for (auto& column : z)
       for (double& v : column) v = normal.quantile(v);
     for (const auto& [i, j, r] : pairs) {
       const double tolerance = 4 * (1 - r * r) / std::sqrt(4096.0);
-      EXPECT_NEAR(pearson(z[i], z[j]), r, tolerance) << design;
+      EXPECT_NEAR(pearson(z[i], z[j]), r, tolerance) << to_string(design);
       const double spearman = 6 / std::numbers::pi * std::asin(r / 2);  // of a Gaussian copula
-      EXPECT_NEAR(pearson(ranks(u[i]), ranks(u[j])), spearman, tolerance) << design;
+      EXPECT_NEAR(pearson(ranks(u[i]), ranks(u[j])), spearman, tolerance) << to_string(design);
     }
   }
 }
 
 TEST(Copula, KeepsTheMarginalsUniform) {
-  const auto u = columns("sobol", Copula(keys, {{"a/b", 0.8}, {"a/c", -0.5}}));
+  const auto u = columns(Design::sobol, Copula(keys, {{"a/b", 0.8}, {"a/c", -0.5}}));
   for (const auto& column : u) {
     std::vector<double> sorted = column;
     std::sort(sorted.begin(), sorted.end());

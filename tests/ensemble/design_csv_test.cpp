@@ -20,7 +20,7 @@ using testing::StartsWith;
 DesignTable random_table(std::size_t n_keys, std::size_t n_members) {
   std::mt19937_64 random(4);
   DesignTable table;
-  table.design = "sobol";
+  table.design = Design::sobol;
   table.seed = std::numeric_limits<std::uint64_t>::max();
   for (std::size_t k = 0; k < n_keys; ++k) {
     table.keys.push_back("block.key" + std::to_string(k));
@@ -65,7 +65,7 @@ TEST(DesignCsv, KeepsTheSignOfZero) {
 
 TEST(DesignCsv, KeepsATableWithoutUnitCube) {
   DesignTable table = random_table(2, 3);
-  table.design = "table";
+  table.design = Design::table;
   table.unit_cube.clear();
   EXPECT_EQ(from_csv(to_csv(table)), table);
 }
@@ -87,7 +87,7 @@ TEST(DesignCsv, ReadsAUsersPlainTable) {
       from_csv("\xEF\xBB\xBF# from the survey\r\n\r\n\"a.b\" , c.d\r\n1, 2e-3\r\n-3,4\r\n");
   EXPECT_THAT(table.keys, ElementsAre("a.b", "c.d"));
   EXPECT_THAT(table.values, ElementsAre(ElementsAre(1, 2e-3), ElementsAre(-3, 4)));
-  EXPECT_EQ(table.design, "table");
+  EXPECT_EQ(table.design, Design::table);
   EXPECT_TRUE(table.unit_cube.empty());
 }
 

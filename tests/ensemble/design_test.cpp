@@ -31,7 +31,7 @@ Uncertain triangular(double min, double mode, double max) {
 }
 
 /// Three uncertain keys, in schema order: solid fraction, basal friction, pore pressure.
-Scenario scene(const char* design, int members) {
+Scenario scene(Design design, int members) {
   Scenario s;
   s.grains.emplace();
   s.grains->solid_fraction = triangular(0.5, 0.6, 0.7);
@@ -58,17 +58,17 @@ std::string error_of(Action action) {
 }
 
 TEST(Design, HasAColumnPerUncertainKeyAndARowPerMember) {
-  const DesignTable table = draw_design(scene("latin_hypercube", 40));
+  const DesignTable table = draw_design(scene(Design::latin_hypercube, 40));
   EXPECT_THAT(table.keys, ElementsAre(solid, friction, pore));
   EXPECT_EQ(table.units.size(), 3U);
-  EXPECT_EQ(table.design, "latin_hypercube");
+  EXPECT_EQ(table.design, Design::latin_hypercube);
   EXPECT_EQ(table.seed, 20U);
   EXPECT_EQ(table.n_members(), 40);
   EXPECT_EQ(table.unit_cube.size(), 40U);
 }
 
 TEST(Design, MapsTheUnitCubeThroughTheQuantiles) {
-  const DesignTable table = draw_design(scene("sobol", 64));
+  const DesignTable table = draw_design(scene(Design::sobol, 64));
   for (std::size_t i = 0; i < 64; ++i) {
     EXPECT_DOUBLE_EQ(table.values[i][1], 0.15 + 0.25 * table.unit_cube[i][1]);
     EXPECT_DOUBLE_EQ(table.values[i][2], 0.5 * table.unit_cube[i][2]);
@@ -76,7 +76,7 @@ TEST(Design, MapsTheUnitCubeThroughTheQuantiles) {
 }
 
 TEST(Design, KeepsValuesWithinTheirBounds) {
-  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"})
+  for (const Design design : {Design::monte_carlo, Design::latin_hypercube, Design::sobol})
     for (const auto& row : draw_design(scene(design, 500)).values) {
       EXPECT_TRUE(row[0] >= 0.5 && row[0] <= 0.7);
       EXPECT_TRUE(row[1] >= 0.15 && row[1] <= 0.4);
@@ -85,14 +85,14 @@ TEST(Design, KeepsValuesWithinTheirBounds) {
 }
 
 TEST(Design, ExtendsSobolRowsWithTheirCopula) {
-  Scenario longer = scene("sobol", 512), shorter = scene("sobol", 256);
+  Scenario longer = scene(Design::sobol, 512), shorter = scene(Design::sobol, 256);
   longer.ensemble.correlation = shorter.ensemble.correlation = {{friction + "/" + pore, -0.3}};
   const auto more = draw_design(longer).values, fewer = draw_design(shorter).values;
   EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), more.begin()));
 }
 
 TEST(Design, GivesTheSameBitsForTheSameSeed) {
-  for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"})
+  for (const Design design : {Design::monte_carlo, Design::latin_hypercube, Design::sobol})
     EXPECT_EQ(draw_design(scene(design, 33)), draw_design(scene(design, 33)));
 }
 
@@ -106,11 +106,12 @@ TEST(Design, GivesEmptyRowsToASceneOfNumbers) {
 }
 
 TEST(Design, RefusesAnEnsembleWithoutMembers) {
-  EXPECT_THAT(error_of([] { draw_design(scene("sobol", 0)); }), HasSubstr("ensemble.members = 0"));
+  EXPECT_THAT(error_of([] { draw_design(scene(Design::sobol, 0)); }),
+              HasSubstr("ensemble.members = 0"));
 }
 
 TEST(MemberScenario, HoldsTheRowAndNoDistribution) {
-  const Scenario s = scene("monte_carlo", 5);
+  const Scenario s = scene(Design::monte_carlo, 5);
   const DesignTable table = draw_design(s);
   const Scenario numbers = member_scenario(s, table, 3);
   EXPECT_TRUE(uncertain_keys(numbers).empty());
@@ -122,7 +123,7 @@ TEST(MemberScenario, HoldsTheRowAndNoDistribution) {
 }
 
 TEST(MedianScenario, PutsMediansInPlaceOfDistributions) {
-  const Scenario numbers = median_scenario(scene("sobol", 8));
+  const Scenario numbers = median_scenario(scene(Design::sobol, 8));
   EXPECT_TRUE(uncertain_keys(numbers).empty());
   EXPECT_DOUBLE_EQ(numbers.grains->solid_fraction.value, 0.6);
   EXPECT_DOUBLE_EQ(numbers.basal.friction_coefficient.value, 0.275);
@@ -132,24 +133,24 @@ TEST(MedianScenario, PutsMediansInPlaceOfDistributions) {
 TEST(TableDesign, SortsTheUsersColumnsIntoSchemaOrder) {
   const std::vector<std::string> columns{pore, solid, friction};
   const DesignTable table =
-      table_design(scene("table", 0), columns, {{0.1, 0.55, 0.2}, {0.5, 0.7, 0.15}});
+      table_design(scene(Design::table, 0), columns, {{0.1, 0.55, 0.2}, {0.5, 0.7, 0.15}});
   EXPECT_THAT(table.keys, ElementsAre(solid, friction, pore));
   EXPECT_THAT(table.values, ElementsAre(ElementsAre(0.55, 0.2, 0.1), ElementsAre(0.7, 0.15, 0.5)));
   EXPECT_TRUE(table.unit_cube.empty());
-  EXPECT_EQ(table.design, "table");
+  EXPECT_EQ(table.design, Design::table);
 }
 
 TEST(TableDesign, TakesAsManyRowsAsMembersAreAsked) {
   const std::vector<std::string> columns{solid, friction, pore};
   const std::vector<std::vector<double>> rows(4, {0.6, 0.3, 0.2});
-  EXPECT_EQ(table_design(scene("table", 3), columns, rows).n_members(), 3);
-  EXPECT_THAT(error_of([&] { table_design(scene("table", 5), columns, rows); }),
+  EXPECT_EQ(table_design(scene(Design::table, 3), columns, rows).n_members(), 3);
+  EXPECT_THAT(error_of([&] { table_design(scene(Design::table, 5), columns, rows); }),
               HasSubstr("ensemble.members = 5 but ensemble.table has 4 rows"));
 }
 
 TEST(TableDesign, NamesWhatIsWrong) {
   const auto error = [](std::vector<std::string> columns, std::vector<double> row) {
-    return error_of([&] { table_design(scene("table", 0), columns, {row}); });
+    return error_of([&] { table_design(scene(Design::table, 0), columns, {row}); });
   };
   EXPECT_THAT(error({solid, friction}, {0.6, 0.3}), HasSubstr("no column '" + pore + "'"));
   EXPECT_THAT(error({solid, friction, pore, "basal.cohesion_pa"}, {0.6, 0.3, 0.1, 0}),
@@ -164,7 +165,7 @@ TEST(TableDesign, NamesWhatIsWrong) {
   EXPECT_THAT(error({solid, friction, pore}, {NAN, 0.3, 0.1}), HasSubstr("not a finite number"));
   EXPECT_THAT(
       error_of([] {
-        table_design(scene("table", 0), std::vector<std::string>{solid, friction, pore}, {});
+        table_design(scene(Design::table, 0), std::vector<std::string>{solid, friction, pore}, {});
       }),
       HasSubstr("no rows"));
 }

@@ -169,7 +169,7 @@ TEST_F(HazardMapOfRandomMembers, CountsValidMembersAndNamesTheOthers) {
     return "absent";
   };
   EXPECT_EQ(at("number_of_members", 0, 0), 20);
-  EXPECT_TRUE(map_.find("number_of_members")->is_count);
+  EXPECT_TRUE(map_.find("number_of_members")->is_count());
   EXPECT_EQ(attribute("number_of_planned_members"), "32");
   EXPECT_EQ(attribute("number_of_finished_members"), "30");
   EXPECT_EQ(attribute("number_of_valid_members"), "20");
@@ -191,6 +191,27 @@ TEST_F(HazardMapOfRandomMembers, GivesEveryLayerItsShapeAndUnits) {
   EXPECT_EQ(energy->axis.units, "kJ m-2");
   EXPECT_EQ(map_.find("peak_energy_quantile")->units, "J m-2");
   EXPECT_EQ(map_.find("peak_pressure_mean")->cell_methods, "time: maximum realization: mean");
+}
+
+TEST_F(HazardMapOfRandomMembers, TellsWhatEveryLayerShows) {
+  const auto is = [&](const char* name, Quantity quantity, Statistic statistic,
+                      IntensityClass intensity = IntensityClass::none) {
+    EXPECT_EQ(map_.find(name)->meaning, (LayerMeaning{quantity, statistic, intensity})) << name;
+  };
+  is("number_of_members", Quantity::members, Statistic::count);
+  is("probability_reached", Quantity::reached, Statistic::probability);
+  is("probability_reached_lower", Quantity::reached, Statistic::lower_bound);
+  is("probability_of_peak_energy_above_threshold", Quantity::energy, Statistic::probability);
+  is("probability_of_peak_energy_above_threshold_upper", Quantity::energy, Statistic::upper_bound);
+  is("peak_pressure_quantile", Quantity::pressure, Statistic::quantile);
+  is("arrival_time_quantile", Quantity::arrival, Statistic::quantile);
+  is("deposit_thickness_mean", Quantity::deposit, Statistic::mean);
+  is("probability_of_high_debris_flow_intensity", Quantity::intensity, Statistic::probability,
+     IntensityClass::high);
+  for (const Layer& layer : map_.layers) {
+    EXPECT_NE(layer.meaning.quantity, Quantity::other) << layer.name;
+    EXPECT_NE(layer.meaning.statistic, Statistic::value) << layer.name;
+  }
 }
 
 TEST_F(HazardMapOfRandomMembers, MarksThresholdsThatTheSpacingCannotResolve) {
@@ -227,7 +248,7 @@ TEST(HazardMap, IsUndefinedWithoutValidMembers) {
   source.add(failed);
   for (const Layer& layer : make_hazard_map(source, {}, {}).layers)
     for (const float v : layer.values)
-      EXPECT_TRUE(layer.is_count ? v == 0 : std::isnan(v)) << layer.name;
+      EXPECT_TRUE(layer.is_count() ? v == 0 : std::isnan(v)) << layer.name;
 }
 
 TEST(HazardMap, OfMembersThatNeverMovedIsDry) {

@@ -145,15 +145,6 @@ TEST_P(EveryRunner, StartsNothingWhenCancelledBefore) {
   EXPECT_THAT(stored_, IsEmpty());
 }
 
-TEST_P(EveryRunner, StopsWhenItsTimeIsOver) {
-  plan_.max_wall_s = 0.1;
-  callbacks_.run_member = endless;
-  const RunReport report = run();
-  EXPECT_TRUE(report.interrupted);
-  EXPECT_THAT(stored_, IsEmpty());
-  EXPECT_GE(report.progress.elapsed_s, 0.1);
-}
-
 TEST_P(EveryRunner, StopsOnceWhenStoringFails) {
   int attempts = 0;
   const auto keep = callbacks_.store;

@@ -2,6 +2,8 @@
 // Depth-averaged members from the corners of the scenario on ground that wants to break them. No
 // NaN, no column lost but over the rim, the ledger closed, no speed from nowhere.
 // STURZ_HARD_MEMBERS=500 runs as many; the usual number is for every change.
+#include "engine/core/constants.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/simulation/parts.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "tests/hard/steep_ground.hpp"
@@ -21,8 +23,7 @@ namespace {
 double head(const Scenario& s, const SimulationParts& parts, const Raster<double>& ground) {
   const auto [low, high] = std::minmax_element(ground.values.begin(), ground.values.end());
   double thickest = 0;
-  for (double h : parts.state.grains.find_field("thickness")->component[0])
-    thickest = std::max(thickest, h);
+  for (double h : parts.state.grains().scalar(fields::thickness)) thickest = std::max(thickest, h);
   const auto& v = s.release.velocity_m_s;
   return *high - *low + thickest + (v[0] * v[0] + v[1] * v[1]) / 19.62;
 }
@@ -42,23 +43,24 @@ TEST(SteepGround, ColumnsSurviveEveryCorner) {
     const HardMember m = hard_member(static_cast<std::uint64_t>(k));
     Simulation simulation = assemble(m.scenario, m.inputs, k, 1);
     const double most =
-        std::sqrt(2 * 9.81 * head(m.scenario, simulation.parts(), *m.inputs.elevation));
+        std::sqrt(2 * standard_gravity * head(m.scenario, simulation.parts(), *m.inputs.elevation));
     const MemberResult r = simulation.run();
     ++outcomes[std::string(to_string(r.outcome))];
     const MemberScalars& s = r.scalars;
-    const Ledger& book = simulation.parts().state.ledger;
+    const Ledger& book = simulation.parts().state.grains().ledger;
     EXPECT_TRUE(is_valid(r.outcome)) << to_string(r.outcome) << ": " << r.reason;
-    EXPECT_TRUE(is_finite(simulation.parts().state.grains));
+    EXPECT_TRUE(is_finite(simulation.parts().state.grains()));
     EXPECT_LE(std::abs(s.mass_error), 1e-12);
     EXPECT_EQ(book.leaked_mass, 0);
-    if (m.scenario.terrain.nodata == "wall") EXPECT_EQ(book.lost_mass, 0);
+    if (m.scenario.terrain.nodata == TerrainEdge::wall) EXPECT_EQ(book.lost_mass, 0);
     EXPECT_LE(std::abs(s.energy_residual), 0.01);
     EXPECT_LE(s.max_speed_m_s, most);
-    EXPECT_GT(s.mean_dt_s, 1e-3 * std::sqrt(m.scenario.numerics.spacing_m / 9.81));
+    EXPECT_GT(s.mean_dt_s, 1e-3 * std::sqrt(m.scenario.numerics.spacing_m / standard_gravity));
     worst_residual = std::max(worst_residual, std::abs(s.energy_residual));
     worst_mass = std::max(worst_mass, std::abs(s.mass_error));
     worst_speed = std::max(worst_speed, s.max_speed_m_s / most);
-    worst_dt = std::min(worst_dt, s.mean_dt_s / std::sqrt(m.scenario.numerics.spacing_m / 9.81));
+    worst_dt = std::min(worst_dt,
+                        s.mean_dt_s / std::sqrt(m.scenario.numerics.spacing_m / standard_gravity));
     seconds += s.wall_s;
   }
   std::string text;

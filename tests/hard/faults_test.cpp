@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // I18: whatever becomes NaN, infinite or absurd in the middle of a run, the member ends with a name
 // and a reason, the last frame is the last good one, and the others of the ensemble go on.
+#include "engine/effects/fields.hpp"
 #include "ensemble/members/runner.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "tests/hard/random_members.hpp"
@@ -32,8 +33,8 @@ struct Fault {
 };
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
-std::function<void(State&)> field(const char* name, int component, double value) {
-  return [=](State& s) { s.grains.find_field(name)->component[component][40] = value; };
+std::function<void(State&)> field(const FieldKey& key, int component, double value) {
+  return [=, &key](State& s) { s.grains().components(key)[component][40] = value; };
 }
 
 HardMember small_member() {
@@ -59,15 +60,15 @@ class FaultInARun : public testing::TestWithParam<Fault> {};
 
 INSTANTIATE_TEST_SUITE_P(
     Of, FaultInARun,
-    testing::Values(Fault{"Velocity", [](State& s) { s.grains.vx[40] = nan; }, "not finite"},
-                    Fault{"Position", [](State& s) { s.grains.y[40] = infinity; }, "not finite"},
-                    Fault{"Height", [](State& s) { s.grains.z[40] = nan; }, "not finite"},
-                    Fault{"Mass", [](State& s) { s.grains.mass[40] = nan; }, "not finite"},
-                    Fault{"Stress", field("stress", 3, nan), "not finite"},
-                    Fault{"InfiniteStress", field("stress", 2, -infinity), "not finite"},
-                    Fault{"Compression", field("compression", 0, nan), "not finite"},
-                    Fault{"HugeStress", field("stress", 2, -1e30), ""},
-                    Fault{"Speed", [](State& s) { s.grains.vz[40] = 1e9; }, ""}),
+    testing::Values(Fault{"Velocity", [](State& s) { s.grains().vx[40] = nan; }, "not finite"},
+                    Fault{"Position", [](State& s) { s.grains().y[40] = infinity; }, "not finite"},
+                    Fault{"Height", [](State& s) { s.grains().z[40] = nan; }, "not finite"},
+                    Fault{"Mass", [](State& s) { s.grains().mass[40] = nan; }, "not finite"},
+                    Fault{"Stress", field(fields::stress, 3, nan), "not finite"},
+                    Fault{"InfiniteStress", field(fields::stress, 2, -infinity), "not finite"},
+                    Fault{"Compression", field(fields::compression, 0, nan), "not finite"},
+                    Fault{"HugeStress", field(fields::stress, 2, -1e30), ""},
+                    Fault{"Speed", [](State& s) { s.grains().vz[40] = 1e9; }, ""}),
     [](const auto& i) { return i.param.name; });
 
 TEST_P(FaultInARun, EndsTheMemberByNameAfterItsLastGoodFrame) {
@@ -93,7 +94,7 @@ TEST_P(FaultInARun, EndsTheMemberByNameAfterItsLastGoodFrame) {
 
 /// A finite absurdity that stops nothing must at least show in the books.
 TEST(FaultInARunThatGoesOn, ShowsInTheEnergyResidual) {
-  const MemberResult r = run_with({"Huge compression", field("compression", 0, 1e12), ""});
+  const MemberResult r = run_with({"Huge compression", field(fields::compression, 0, 1e12), ""});
   EXPECT_TRUE(is_valid(r.outcome));
   EXPECT_GT(std::abs(r.scalars.energy_residual), 1);
 }
@@ -107,7 +108,7 @@ TEST(FaultInAnEnsemble, LeavesTheOtherMembersAlone) {
   callbacks.run_member = [&](std::int64_t member, const std::atomic<bool>&) {
     if (member == 2) throw std::runtime_error("out of luck");
     Fault fault;
-    if (member == 1) fault.inject = [](State& s) { s.grains.vx[40] = nan; };
+    if (member == 1) fault.inject = [](State& s) { s.grains().vx[40] = nan; };
     MemberResult r = run_with(fault);
     r.member = member;
     return r;

@@ -32,7 +32,7 @@ struct CaseReport {
   bool holds() const;
 };
 
-/// A case by the number of the instability that it provokes (physics.md B.13).
+/// A case by the number of the instability that it provokes (docs/physics.md B.13).
 struct HardCase {
   const char* instability;
   const char* name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cases of physics.md B.13 that no verification test covers; each one says what it must keep.
+// The cases of B.13 that no verification test covers; each one says what it must keep.
 #include "tests/hard/cases/cases.hpp"
 #include "tests/hard/expect_holds.hpp"
 

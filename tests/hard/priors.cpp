@@ -73,7 +73,7 @@ const DesignTable& hard_points() {
   static const DesignTable table = [] {
     const auto keys = rock_avalanche_priors();
     EnsembleSpec spec;
-    spec.design = "latin_hypercube";
+    spec.design = Design::latin_hypercube;
     spec.members = n_random;
     spec.seed = 20170828;
     spec.correlation = {{"basal.friction_coefficient/grains.friction_angle_deg", 0.5}};
@@ -86,7 +86,7 @@ const DesignTable& hard_points() {
     }
     points.values.insert(points.values.begin(), corners.begin(), corners.end());
     points.unit_cube.clear();
-    points.design = "table";
+    points.design = Design::table;
     return points;
   }();
   return table;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The default priors of a dry rock avalanche (physics.md D.2) as a design of hard members.
+/// The default priors of a dry rock avalanche (docs/physics.md D.2) as a design of hard members.
 #pragma once
 
 #include "ensemble/sampling/design.hpp"

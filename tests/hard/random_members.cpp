@@ -17,7 +17,7 @@ namespace {
 Scenario hard_scene(double spacing_m) {
   Scenario s;
   s.grains.emplace();
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;  // some deposits are thinner than four layers
   s.numerics.spacing_m = spacing_m;
   s.numerics.end_time_s = 40;
@@ -39,8 +39,9 @@ void place_source(int number, HardMember& m) {
     }
   m.inputs.release = release;
   m.inputs.pattern = ReleasePattern::thickness;
-  m.scenario.release.surface = between(0, 1) < 0.5 ? "pre_failure" : "bed";
-  m.scenario.terrain.nodata = between(0, 1) < 0.2 ? "wall" : "outflow";
+  m.scenario.release.surface =
+      between(0, 1) < 0.5 ? ReleaseSurface::pre_failure : ReleaseSurface::bed;
+  m.scenario.terrain.nodata = between(0, 1) < 0.2 ? TerrainEdge::wall : TerrainEdge::outflow;
   if (between(0, 1) < 0.2)
     m.scenario.release.velocity_m_s = {between(-20, 40), between(-20, 20), 0};
 }
@@ -68,7 +69,7 @@ RandomMembers RandomMembers::on_marsicano(const std::string& folder, States stat
   s.directory = folder;
   s.terrain.raster = "marsicano_10m.tif";
   s.release.polygon = "release_250m.geojson";
-  s.release.surface = "pre_failure";
+  s.release.surface = ReleaseSurface::pre_failure;
   out.states_ = states;
   out.volume_m3_ = 1.2e6;
   s.release.volume_m3 = Uncertain(out.volume_m3_);

@@ -18,9 +18,9 @@ double nearest_image(double d, const Period& p) {
 }  // namespace
 
 std::vector<std::vector<Neighbor>> neighbors_within(const SimulationParts& parts, double reach) {
-  const ParticleSet& p = parts.state.grains;
+  const ParticleSet& p = parts.state.grains();
   const Domain& domain = parts.state.domain;
-  const double most2 = reach * reach * parts.spacing_m * parts.spacing_m;
+  const double most2 = reach * reach * parts.facts.spacing_m * parts.facts.spacing_m;
   std::vector<std::vector<Neighbor>> all(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
@@ -39,7 +39,7 @@ double closest_pair(const SimulationParts& parts) {
   for (const auto& around : neighbors_within(parts, 2))
     for (const Neighbor& n : around)
       least2 = std::min(least2, n.dx * n.dx + n.dy * n.dy + n.dz * n.dz);
-  return std::sqrt(least2) / parts.spacing_m;
+  return std::sqrt(least2) / parts.facts.spacing_m;
 }
 
 std::vector<std::size_t> pieces(const SimulationParts& parts, double link) {

@@ -60,7 +60,7 @@ void choose_source(Dice& dice, Scenario& s, SceneInputs& in) {
     }
   in.release = release;
   in.pattern = ReleasePattern::thickness;
-  s.release.surface = dice.often(0.5) ? "pre_failure" : "bed";
+  s.release.surface = dice.often(0.5) ? ReleaseSurface::pre_failure : ReleaseSurface::bed;
   if (dice.often(0.2)) s.release.velocity_m_s = {dice.between(-20, 40), dice.between(-20, 20), 0};
 }
 
@@ -92,9 +92,10 @@ HardMember hard_member(std::uint64_t number) {
   m.inputs.hazard_grid = ground->grid;
   s.grains.emplace().solid_fraction = dice.between(0.3, 0.8);
   s.grains->friction_angle_deg = Uncertain(dice.between(5, 55));
-  s.grains->earth_pressure = dice.often(0.3) ? "active_passive" : "isotropic";
-  s.formulation = "depth_averaged";
-  s.terrain.nodata = dice.often(0.2) ? "wall" : "outflow";
+  s.grains->earth_pressure =
+      dice.often(0.3) ? LateralPressure::active_passive : LateralPressure::isotropic;
+  s.formulation = Formulation::depth_averaged;
+  s.terrain.nodata = dice.often(0.2) ? TerrainEdge::wall : TerrainEdge::outflow;
   choose_source(dice, s, m.inputs);
   choose_base(dice, s);
   s.numerics.spacing_m = dice.log_between(2.5, 25);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/hard/survival.hpp"
 
+#include "engine/core/constants.hpp"
+#include "engine/effects/fields.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +12,7 @@
 namespace sturz::test {
 namespace {
 
-constexpr double gravity = 9.81;
+constexpr double gravity = standard_gravity;
 
 /// Kinetic energy and gravity's work over time.
 struct Instant {
@@ -23,23 +26,23 @@ class Witness {
 
   void look() {
     const State& s = parts_.state;
-    for (double z : s.grains.z) lowest_z_ = std::min(lowest_z_, z);
-    const BoundarySupport& b = s.boundary;
-    for (std::size_t i = 0; i < b.distance.size() && i < s.outside.size(); ++i)
-      if (!s.outside[i]) lowest_ = std::min<double>(lowest_, b.distance[i]);
-    if (const Field* theta = s.grains.find_field("granular_temperature"))
+    for (double z : s.grains().z) lowest_z_ = std::min(lowest_z_, z);
+    const BoundarySupport& b = s.grains().boundary;
+    for (std::size_t i = 0; i < b.distance.size() && i < s.grains().fate.size(); ++i)
+      if (s.grains().fate[i] == Fate::stays) lowest_ = std::min<double>(lowest_, b.distance[i]);
+    if (const Field* theta = s.grains().find(fields::granular_temperature))
       for (double t : theta->component[0]) cold_ += !(t >= 0 && std::isfinite(t));
-    fastest_ = std::max(fastest_, s.motion.max_speed);
+    fastest_ = std::max(fastest_, s.grains().motion.max_speed);
     if (s.n_steps > 1) least_dt_ = std::min(least_dt_, s.previous_dt);
-    const Ledger& l = s.ledger;
+    const Ledger& l = s.grains().ledger;
     history_.push_back({s.time, l.kinetic, l.gravity_work});
     most_released_ = std::max(most_released_, l.released_energy());
   }
 
   void write(double start_speed, double estimated_dt, Survival& out) const {
-    const double fall = std::max(0.0, parts_.release_top_m - lowest_z_);
+    const double fall = std::max(0.0, parts_.facts.release.top_m - lowest_z_);
     out.cold = cold_;
-    out.lowest_dx = lowest_ / parts_.spacing_m;
+    out.lowest_dx = lowest_ / parts_.facts.spacing_m;
     out.speed_ratio = fastest_ / std::sqrt(start_speed * start_speed + 2 * gravity * fall);
     if (estimated_dt > 0) out.least_dt_ratio = least_dt_ / estimated_dt;
     if (most_released_ > 0) write_books(out);
@@ -48,7 +51,7 @@ class Witness {
 
  private:
   void write_books(Survival& out) const {
-    const Ledger& l = parts_.state.ledger;
+    const Ledger& l = parts_.state.grains().ledger;
     out.energy_residual = std::abs(l.residual()) / most_released_;
     out.numerical_share = l.numerical() / most_released_;
     const double given = l.kinetic_0 + l.elastic_0 + l.gravity_work;
@@ -99,10 +102,10 @@ Survival survive(Simulation simulation, double start_speed, double estimated_dt,
   const MemberResult r = simulation.run(control);
   witness.look();
   const MemberScalars& m = r.scalars;
-  const Ledger& book = parts.state.ledger;
+  const Ledger& book = parts.state.grains().ledger;
   Survival out;
   out.outcome = r.outcome, out.reason = r.reason;
-  out.finite = all_finite(parts.state.grains);
+  out.finite = all_finite(parts.state.grains());
   out.particles = m.n_particles, out.steps = m.n_steps;
   out.end_time_s = m.end_time_s, out.seconds = m.wall_s;
   out.front_travel_m = m.front_travel_m, out.max_mach = m.max_mach;

@@ -52,7 +52,7 @@ Survival survive(Simulation, double start_speed, double estimated_dt,
 
 /// The figures against their bounds:
 ///   named outcome, finite numbers, mass error 1e-12, nothing leaked  exact, but for rounding
-///   energy residual 1 %         physics.md V20
+///   energy residual 1 %         docs/physics.md V20
 ///   centres 0.1 dx under ground  as in the leak tests (I3)
 ///   energy created 1 %           as the residual
 ///   speed 1.05 of free fall      of the fastest particle; the margin is for what is looked at in

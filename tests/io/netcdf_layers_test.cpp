@@ -4,6 +4,7 @@
 #include "io/files/io_error.hpp"
 #include "io/files/text_files.hpp"
 #include "io/gdal/gdal_raster.hpp"
+#include "io/netcdf/grid_netcdf.hpp"
 #include "io/netcdf/history_netcdf.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 #include "tests/io/io_fixture.hpp"
@@ -36,34 +37,44 @@ LayerStack every_kind() {
     v[n / 2] = nan_f;
     return v;
   };
-  Layer count{
-      "number_of_valid_members", "valid members", "", "1", "", "", {}, true, values(30, 300)};
+  Layer count{"number_of_valid_members",
+              {Quantity::members, Statistic::count},
+              "valid members",
+              "",
+              "1",
+              "",
+              "",
+              {},
+              values(30, 300)};
   for (float& v : count.values) v = std::floor(v);
   Layer probability;
   probability.name = "probability_of_peak_thickness_above_threshold";
+  probability.meaning = {Quantity::intensity, Statistic::probability, IntensityClass::high};
   probability.units = "1";
   probability.comment = "thresholds below half a particle are not resolved";
   probability.axis = {"thickness_threshold", "", "m", {0.1, 0.5, 2}};
   probability.values = values(90, 1);
   Layer quantile{"peak_speed_quantile",
+                 {Quantity::speed, Statistic::quantile},
                  "peak speed",
                  "",
                  "m s-1",
                  "area: mean",
                  "",
                  {"quantile", "", "1", {0.05, 0.5, 0.95}},
-                 false,
                  values(90, 40)};
   Layer energy{"peak_energy_quantile",
+               {Quantity::energy, Statistic::quantile},
                "peak energy",
                "",
                "J m-2",
                "",
                "",
                {"quantile", "", "1", {0.05, 0.5, 0.95}},
-               false,
                values(90, 1e5F)};
-  Layer mean{"deposit_mean", "mean deposit", "", "m", "", "", {}, false, values(30, 3)};
+  Layer mean{
+      "deposit_mean", {Quantity::deposit, Statistic::mean}, "mean deposit", "", "m", "", "", {},
+      values(30, 3)};
   s.layers = {count, probability, quantile, energy, mean};
   return s;
 }
@@ -93,12 +104,31 @@ TEST_F(NetcdfLayers, RoundTripsEveryBit) {
     EXPECT_EQ(in.layers[i].units, out.layers[i].units);
     EXPECT_EQ(in.layers[i].comment, out.layers[i].comment);
     EXPECT_EQ(in.layers[i].cell_methods, out.layers[i].cell_methods);
-    EXPECT_EQ(in.layers[i].is_count, out.layers[i].is_count);
+    EXPECT_EQ(in.layers[i].meaning, out.layers[i].meaning);
     EXPECT_EQ(in.layers[i].axis.name, out.layers[i].axis.name);
     EXPECT_EQ(in.layers[i].axis.values, out.layers[i].axis.values);
     EXPECT_EQ(bits(in.layers[i].values), bits(out.layers[i].values)) << in.layers[i].name;
   }
   EXPECT_THAT(in.attributes, ::testing::IsSupersetOf(out.attributes));
+}
+
+TEST_F(NetcdfLayers, RefuseAFileThatDoesNotSayWhatItsMapsShow) {
+  const auto one_map = [&](const char* name, const char* attribute, const char* word) {
+    const LayerStack s = every_kind();
+    NetcdfWriter file(path(name));
+    write_grid_attributes(file, s.grid);
+    const GridDimensions place = write_grid(file, s.grid);
+    const int map = file.variable("deposit_mean", NcType::float32, {place.y, place.x});
+    if (attribute != nullptr) file.text(map, attribute, word);
+    file.put(map, s.layers[4].values);
+    file.commit();
+    return message_of([&] { read_layers(path(name)); });
+  };
+  EXPECT_THAT(one_map("old.nc", nullptr, ""),
+              AllOf(HasSubstr("old.nc: map 'deposit_mean' has no attribute sturz_quantity"),
+                    HasSubstr("`sturz merge`")));
+  EXPECT_THAT(one_map("new.nc", "sturz_quantity", "erosion"),
+              HasSubstr("has the unknown sturz_quantity 'erosion'"));
 }
 
 TEST_F(NetcdfLayers, HoldTheHistoryOfTheirMember) {

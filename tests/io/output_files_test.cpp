@@ -104,12 +104,25 @@ TEST_F(TextFiles, AMissingFileIsNamed) {
 
 class Checksum : public IoTest {};
 
-TEST_F(Checksum, IsFnv1a64) {
-  write("a", "foobar");
-  EXPECT_EQ(file_checksum(path("a")), "fnv1a64:85944171f73967e8");  // published test vector
+TEST_F(Checksum, IsSha256) {
+  // Test vectors of FIPS 180-2: "abc", a million times "a" (more than one block is read), nothing.
+  write("abc", "abc");
+  EXPECT_EQ(file_checksum(path("abc")),
+            "sha256:ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  write("long", std::string(1000000, 'a'));
+  EXPECT_EQ(file_checksum(path("long")),
+            "sha256:cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
   write("empty", "");
-  EXPECT_EQ(file_checksum(path("empty")), "fnv1a64:cbf29ce484222325");
+  EXPECT_EQ(file_checksum(path("empty")),
+            "sha256:e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
   EXPECT_THROW(file_checksum(path("none")), IoError);
+}
+
+TEST_F(Checksum, DifferenceSaysWhyTwoSumsDiffer) {
+  EXPECT_EQ(checksum_difference("sha256:ab", "sha256:ab"), "");
+  EXPECT_EQ(checksum_difference("sha256:ab", "sha256:cd"), "other content than before");
+  EXPECT_THAT(checksum_difference("fnv1a64:ab", "sha256:cd"),
+              HasSubstr("another kind (fnv1a64, now sha256)"));
 }
 
 class GeoTiff : public IoTest {};
@@ -135,17 +148,24 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
   s.grid = {600, 520, 403000, 4629500, 10, utm33_wkt()};
   s.attributes = {{"scenario_title", "test"}};
   Layer p{"probability_of_peak_thickness_above_threshold",
+          {Quantity::thickness, Statistic::probability},
           "chance",
           "",
           "1",
           "",
           "not resolved",
           {"thickness_threshold", "", "m", {0.1, 2}},
-          false,
           std::vector<float>(624000, 0.25F)};
   p.values[0] = nan_f;
   p.values[312000] = 0.75F;
-  Layer n{"number_of_valid_members",     "members", "", "1", "", "", {}, true,
+  Layer n{"number_of_valid_members",
+          {Quantity::members, Statistic::count},
+          "members",
+          "",
+          "1",
+          "",
+          "",
+          {},
           std::vector<float>(312000, 32)};
   s.layers = {p, n};
   const auto files = write_cogs(folder() / "hazard", s);
@@ -160,6 +180,8 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
   EXPECT_TRUE(std::isnan(band.GetNoDataValue()));
   EXPECT_EQ(band.GetOverviewCount(), 1);
   EXPECT_STREQ(band.GetMetadataItem("long_name"), "chance");
+  EXPECT_STREQ(band.GetMetadataItem("sturz_quantity"), "thickness");
+  EXPECT_STREQ(band.GetMetadataItem("sturz_statistic"), "probability");
   EXPECT_STREQ(band.GetMetadataItem("thickness_threshold"), "2 m");
   EXPECT_STREQ(band.GetMetadataItem("comment"), "not resolved");
   EXPECT_STREQ(band.GetUnitType(), "1");
@@ -177,7 +199,7 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
 TEST_F(GeoTiff, ABareSceneHasNoSystem) {
   LayerStack s;
   s.grid = {3, 2, 0, 2, 1, ""};
-  s.layers = {{"deposit_mean", "", "", "m", "", "", {}, false, {1, 2, 3, 4, 5, 6}}};
+  s.layers = {{"deposit_mean", {}, "", "", "m", "", "", {}, {1, 2, 3, 4, 5, 6}}};
   const auto files = write_cogs(folder(), s);
   GDALDataset* data = GDALDataset::Open(files[0].c_str());
   EXPECT_EQ(data->GetSpatialRef(), nullptr);

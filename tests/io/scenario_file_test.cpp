@@ -67,7 +67,7 @@ TEST(ScenarioFile, ReadsEveryBlock) {
   EXPECT_EQ(s.title, "Everything: at once");
   EXPECT_EQ(s.directory, "dir");
   EXPECT_EQ(s.terrain.crs, "EPSG:32648");
-  EXPECT_EQ(s.terrain.nodata, "wall");
+  EXPECT_EQ(s.terrain.nodata, TerrainEdge::wall);
   EXPECT_EQ(s.release.velocity_m_s, (std::array<double, 3>{1, -2, 0.5}));
   EXPECT_EQ(s.release.thickness_m->distribution->kind, Distribution::Kind::lognormal);
   EXPECT_EQ(s.release.thickness_m->distribution->min, std::nullopt);
@@ -75,13 +75,13 @@ TEST(ScenarioFile, ReadsEveryBlock) {
   EXPECT_THAT(s.grains->poisson_ratio.distribution->values, ElementsAre(0.2, 0.25, 0.3));
   EXPECT_THAT(s.grains->cohesion_pa.distribution->weights, ElementsAre(3, 1));
   EXPECT_EQ(s.basal.friction_coefficient.distribution->kind, Distribution::Kind::normal);
-  EXPECT_EQ(s.grains->earth_pressure, "active_passive");
+  EXPECT_EQ(s.grains->earth_pressure, LateralPressure::active_passive);
   EXPECT_EQ(s.basal.turbulent_coefficient_m_s2->distribution->max, 1000);
   EXPECT_EQ(s.basal.viscosity_pa_s, Uncertain(50));
   EXPECT_EQ(s.basal.yield_stress_pa->distribution->kind, Distribution::Kind::log_uniform);
   EXPECT_THAT(s.basal.zones, ElementsAre(BasalZone{"zones/plate.gpkg", "wet part", 0.3, {}, 0.0},
                                          BasalZone{"source.gpkg", "", {}, 0.85, {}}));
-  EXPECT_EQ(s.formulation, "depth_averaged");
+  EXPECT_EQ(s.formulation, Formulation::depth_averaged);
   EXPECT_FALSE(s.numerics.stop_at_rest);
   EXPECT_TRUE(s.numerics.accept_unresolved);
   ASSERT_EQ(s.domain.walls.size(), 2u);

@@ -105,7 +105,7 @@ TEST_F(LoadSceneInputs, ChecksumsNameEveryFileAndFollowItsBytes) {
   ASSERT_EQ(first.size(), 2U);
   EXPECT_EQ(first[0].first, "bed.tif");
   EXPECT_EQ(first[1].first, "h.tif");
-  EXPECT_THAT(first[0].second, ::testing::MatchesRegex("fnv1a64:[0-9a-f]{16}"));
+  EXPECT_THAT(first[0].second, ::testing::MatchesRegex("sha256:[0-9a-f]{64}"));
   h.values[0] += 1;
   write_geotiff(path("h.tif"), h, {});
   const auto second = load_scene_inputs(scene).checksums;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // V7: a slab of mu(I) grains flows steadily down an even slope with Bagnold's profile; on a flatter
 // one it stops, on a steeper one it accelerates.
+#include "engine/effects/fields.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/verification.hpp"
@@ -47,13 +48,13 @@ class Frame {
   double above(const ParticleSet& p, std::size_t i) const { return p.x[i] * nx_ + p.z[i] * nz_; }
   double along(double x, double z) const { return downhill_ * (x * nz_ - z * nx_); }
   void set_speed(ParticleSet& p, std::size_t i, double u) const {
-    auto& before = p.find_field("velocity_before")->component;
+    auto& before = p.components(fields::velocity_before);
     p.vx[i] = before[0][i] = downhill_ * u * nz_;
     p.vz[i] = before[2][i] = -downhill_ * u * nx_;
   }
   /// Shear stress and pressure on a plane along the slope.
   std::pair<double, double> traction(const ParticleSet& p, std::size_t i) const {
-    const auto& s = p.find_field("stress")->component;
+    const auto& s = p.components(fields::stress);
     const double tx = s[0][i] * nx_ + s[5][i] * nz_, tz = s[5][i] * nx_ + s[2][i] * nz_;
     return {along(tx, tz), -(tx * nx_ + tz * nz_)};
   }
@@ -67,10 +68,10 @@ Simulation start(const Scenario& s) {
   Simulation simulation = build(s);
   State& state = simulation.parts().state;
   const Frame frame(simulation.parts());
-  for (std::size_t i = 0; i < state.grains.size(); ++i)
-    frame.set_speed(state.grains, i, solution_m_s(frame.above(state.grains, i)));
-  refresh_motion(state, 0);
-  state.ledger.kinetic_0 = state.ledger.kinetic;
+  for (std::size_t i = 0; i < state.grains().size(); ++i)
+    frame.set_speed(state.grains(), i, solution_m_s(frame.above(state.grains(), i)));
+  refresh_motion(state, state.grains(), 0);
+  state.grains().ledger.kinetic_0 = state.grains().ledger.kinetic;
   return simulation;
 }
 
@@ -82,9 +83,9 @@ struct Flow {
 };
 
 Flow examine(const SimulationParts& parts) {
-  const ParticleSet& p = parts.state.grains;
+  const ParticleSet& p = parts.state.grains();
   const Frame frame(parts);
-  const auto n = static_cast<std::size_t>(std::lround(height_m / parts.spacing_m));
+  const auto n = static_cast<std::size_t>(std::lround(height_m / parts.facts.spacing_m));
   std::vector<double> shear(n), pressure(n);
   double off = 0, all = 0, in_lowest = 0;
   Flow f;
@@ -94,7 +95,7 @@ Flow examine(const SimulationParts& parts) {
     off += (u - expected) * (u - expected);
     all += expected * expected;
     f.mean += u / p.size();
-    const std::size_t k = std::min(n - 1, static_cast<std::size_t>(z / parts.spacing_m));
+    const std::size_t k = std::min(n - 1, static_cast<std::size_t>(z / parts.facts.spacing_m));
     const auto [s, normal] = frame.traction(p, i);
     shear[k] += s;
     pressure[k] += normal;
@@ -156,7 +157,7 @@ TEST(Bagnold, SlabFlowsWithItsProfile) {
     EXPECT_LT(std::abs(r.flow.lowest), 1e-3) << "the base lets go";
     EXPECT_LT(std::abs(r.drift), 0.005) << "not steady";
     expect_conserved(f);
-    dx.push_back(f.simulation.parts().spacing_m);
+    dx.push_back(f.simulation.parts().facts.spacing_m);
     error.push_back(r.flow.l2);
   }
   const Convergence c = observed_convergence(dx, error);
@@ -192,7 +193,7 @@ TEST(Bagnold, SlabStopsAtTwentyDegrees) {
   Scenario s = slab(20, 10);
   s.numerics.end_time_s = 4;
   const Finished f = run(start(s));
-  const double fastest = mean_motion(f.simulation.parts().state.grains).fastest;
+  const double fastest = mean_motion(f.simulation.parts().state.grains()).fastest;
   expect_within({"V7 slab at 20 deg", "fastest m/s after 4 s", fastest, 0, fastest, 0.005}, f);
   expect_conserved(f);
 }

@@ -54,15 +54,15 @@ struct Slide {
 
 Slide slide(const Scenario& s, double measure_from_s = 0) {
   Simulation simulation = build(s);
-  const double from = mean_motion(simulation.parts().state.grains).x;
+  const double from = mean_motion(simulation.parts().state.grains()).x;
   std::vector<double> t, v;
   Slide out{run(std::move(simulation), {0.1, [&](double time, const SimulationParts& p) {
                                           if (time < measure_from_s) return;
                                           t.push_back(time);
-                                          v.push_back(mean_motion(p.state.grains).vx / cos30);
+                                          v.push_back(mean_motion(p.state.grains()).vx / cos30);
                                         }})};
   const double end = out.finished.result.scalars.end_time_s;
-  out.path = (mean_motion(out.finished.simulation.parts().state.grains).x - from) / cos30;
+  out.path = (mean_motion(out.finished.simulation.parts().state.grains()).x - from) / cos30;
   out.acceleration = slope_of(t, v);
   out.expected_acceleration =
       sliding(30, s.basal.friction_coefficient.value, s.basal.pore_pressure_ratio.value);
@@ -125,17 +125,17 @@ TEST_P(StopOnLevelGround, EndsWhereTheEnergyIsSpent) {
   s = GetParam() ? elastic(s) : one_particle(s, 0.5);
 
   Simulation simulation = build(s);
-  const double from = mean_motion(simulation.parts().state.grains).x;
+  const double from = mean_motion(simulation.parts().state.grains()).x;
   double stopped_at = 0;
   // The block still trembles when it has arrived: it has stopped once it is slower than 1 cm/s,
   // which deceleration takes from a sliding mass in 5 ms.
   const Finished f =
       run(std::move(simulation), {0.002, [&](double t, const SimulationParts& p) {
-                                    if (stopped_at == 0 && mean_motion(p.state.grains).vx < 0.01)
+                                    if (stopped_at == 0 && mean_motion(p.state.grains()).vx < 0.01)
                                       stopped_at = t;
                                   }});
   const double deceleration = 0.5 * 0.4 * gravity_m_s2;
-  const double path = mean_motion(f.simulation.parts().state.grains).x - from;
+  const double path = mean_motion(f.simulation.parts().state.grains()).x - from;
   const std::string name = GetParam() ? "V1b stop, elastic block" : "V1b stop, particle";
   expect_within(relative(name + ", distance", "m", path, 50 / deceleration, 0.005), f);
   expect_within(relative(name + ", time", "s", stopped_at, 10 / deceleration, 0.005), f);
@@ -154,7 +154,7 @@ TEST(StickOnSlope, ParticleHasNoSpeedForAMinute) {
   const Finished f = run(std::move(simulation),
                          {0.02, [&](double t, const SimulationParts& p) {
                             if (t > 5 && t < 65)
-                              fastest = std::max(fastest, mean_motion(p.state.grains).fastest);
+                              fastest = std::max(fastest, mean_motion(p.state.grains()).fastest);
                           }});
   expect_within({"V1b stick, particle", "fastest m/s in 60 s", fastest, 0, fastest, 1e-6}, f);
 }

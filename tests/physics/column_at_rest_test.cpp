@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // V3: dense grains at rest carry their own weight, between periodic images and between walls.
+#include "engine/effects/fields.hpp"
 #include "tests/physics/verification.hpp"
 
 #include <fmt/core.h>
@@ -19,7 +20,7 @@ constexpr int columns = 10;
 /// 1 m high, 10 x 10 particles wide, for five times the fall time.
 Scenario column(int layers) {
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   const double dx = height_m / layers, half = 0.5 * columns * dx;
   s.terrain.synthetic = SyntheticTerrain{
       "plane", dx, {{"slope_deg", 0}, {"length_m", 2 * half}, {"width_m", 2 * half}}};
@@ -63,17 +64,18 @@ struct LayerSums {
 };
 
 Rest examine(const SimulationParts& parts, const std::vector<double>& start_z) {
-  const ParticleSet& p = parts.state.grains;
-  const auto& stress = p.find_field("stress")->component;
+  const ParticleSet& p = parts.state.grains();
+  const auto& stress = p.components(fields::stress);
   const double weight = parts.reference_density * gravity_m_s2;
-  std::vector<LayerSums> layers(static_cast<std::size_t>(std::lround(height_m / parts.spacing_m)));
+  std::vector<LayerSums> layers(
+      static_cast<std::size_t>(std::lround(height_m / parts.facts.spacing_m)));
   Rest r;
   double off = 0, all = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double z0 = start_z[p.id[i]], vertical = -stress[2][i] / weight,
                  depth = height_m - p.z[i];
     LayerSums& l =
-        layers[std::min(layers.size() - 1, static_cast<std::size_t>(z0 / parts.spacing_m))];
+        layers[std::min(layers.size() - 1, static_cast<std::size_t>(z0 / parts.facts.spacing_m))];
     l.n += 1;
     l.vertical += vertical;
     l.squared += vertical * vertical;
@@ -101,7 +103,7 @@ Rest examine(const SimulationParts& parts, const std::vector<double>& start_z) {
 
 std::pair<Finished, Rest> settle(const Scenario& s) {
   Simulation simulation = build(s);
-  const ParticleSet& p = simulation.parts().state.grains;
+  const ParticleSet& p = simulation.parts().state.grains();
   std::vector<double> z(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) z[p.id[i]] = p.z[i];
   Finished f = run(std::move(simulation));
@@ -145,7 +147,7 @@ TEST_P(ColumnAtRest, ComesToRestBetweenWalls) {
   expect_within({name + ", kinetic energy", "/ m g H", r.kinetic, 0, r.kinetic, 1e-5}, f);
   EXPECT_GE(r.lateral_low, least_ratio);
   EXPECT_LE(r.lateral_high, largest_ratio);
-  EXPECT_EQ(f.simulation.parts().state.ledger.leaked_mass, 0);
+  EXPECT_EQ(f.simulation.parts().state.grains().ledger.leaked_mass, 0);
   EXPECT_LE(std::abs(f.result.scalars.mass_error), 1e-13);
   record({name + ", energy residual", "/ released", f.result.scalars.energy_residual, 0,
           f.result.scalars.energy_residual, 0.01},

@@ -24,8 +24,8 @@ struct Deposit {
 };
 
 Deposit deposit_of(const SimulationParts& parts) {
-  const double dx = parts.spacing_m;
-  const ParticleSet& p = parts.state.grains;
+  const double dx = parts.facts.spacing_m;
+  const ParticleSet& p = parts.state.grains();
   std::vector<double> thickness;
   Deposit out;
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -59,7 +59,7 @@ Scenario beads(double aspect, int particles_along) {
   s.basal.friction_coefficient = std::tan(27.4 * degree);
   return s;
 }
-/// Slices of discs and spheres, grain by grain and without side walls (physics.md C.3).
+/// Slices of discs and spheres, grain by grain and without side walls (docs/physics.md C.3).
 double beads_run_out(double a) { return a < 2.3 ? 1.67 * a : 2.7 * std::pow(a, 2.0 / 3); }
 
 /// Even numbers, so that the column ends between the cells of the ground.
@@ -104,7 +104,7 @@ TEST_P(ColumnCollapse, SandRunsOutAsExperimentsDo) {
     record(relative(name + ", contour", "run-out / L0", d.run_out.contour, sand_run_out(c.aspect)),
            f);
     expect_conserved(f);
-    dx.push_back(f.simulation.parts().spacing_m);
+    dx.push_back(f.simulation.parts().facts.spacing_m);
     run_out.push_back(d.run_out.toe);
   }
   report_order(fmt::format("V8b collapse, sand, a {}", c.aspect), dx, run_out);

@@ -11,7 +11,7 @@ namespace sturz::test {
 namespace {
 
 Scenario columns(Scenario s) {
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   return s;
 }
 
@@ -51,7 +51,7 @@ TEST(ColumnRotation, RunOutDoesNotKnowTheGrid) {
 /// A column that slides to and fro in a frictionless bowl keeps its energy.
 TEST(ColumnInABowl, KeepsItsEnergy) {
   Scenario s = block_on_plane(0.0);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.terrain.synthetic = SyntheticTerrain{"bowl", 1, {{"curvature_radius_m", 60}, {"size_m", 200}}};
   s.release.box = ReleaseBox{{60, 61}, {0, 1}};
   s.release.thickness_m = Uncertain(0.5);
@@ -59,7 +59,7 @@ TEST(ColumnInABowl, KeepsItsEnergy) {
   s.numerics.stop_at_rest = false;
   double most = 0, highest = 0;
   const Finished f = run(s, {0.05, [&](double time, const SimulationParts& p) {
-                               const MeanMotion m = mean_motion(p.state.grains);
+                               const MeanMotion m = mean_motion(p.state.grains());
                                most = std::max(most, m.energy_height);
                                if (time > 150) highest = std::max(highest, m.z);
                              }});
@@ -70,7 +70,7 @@ TEST(ColumnInABowl, KeepsItsEnergy) {
 
 /// A mound that leaves a 35 degree slope for level ground stops where six layers of particles do.
 TEST(RampStop, FrontAgreesWithFullStress) {
-  auto mound = [](const char* formulation, double spacing) {
+  auto mound = [](Formulation formulation, double spacing) {
     Scenario s = ramp_slide(90, spacing);
     s.formulation = formulation;
     s.terrain.synthetic = SyntheticTerrain{"ramp",
@@ -88,10 +88,10 @@ TEST(RampStop, FrontAgreesWithFullStress) {
     s.grains->friction_angle_deg = Uncertain(30);
     return s;
   };
-  const Finished full = run(mound("full_stress", 1));
+  const Finished full = run(mound(Formulation::full_stress, 1));
   const double front = full.result.scalars.front_travel_m;
   for (const double spacing : {4.0, 2.0, 1.0}) {
-    const Finished f = run(mound("depth_averaged", spacing));
+    const Finished f = run(mound(Formulation::depth_averaged, spacing));
     const std::string name = fmt::format("ramp stop, columns of {:.0f} m", spacing);
     const Line line =
         relative(name + ", front against six layers", "m", f.result.scalars.front_travel_m, front,

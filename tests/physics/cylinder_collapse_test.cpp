@@ -52,16 +52,16 @@ Simulation quarter_of(Scenario s) {
                     WallSpec{{0, 0, 0}, {0, 1, 0}, 0, std::nullopt}};
   Simulation simulation = build(s);
   State& state = simulation.parts().state;
-  ParticleSet& p = state.grains;
+  MovingSet& p = state.grains();
   std::vector<std::uint8_t> keep(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) keep[i] = p.x[i] > 0 && p.y[i] > 0;
   p.compact(keep);
   Sum sum;
   for (std::size_t i = 0; i < p.size(); ++i) sum.add(p.mass[i]), p.id[i] = i;
   const double mass = sum.value();
-  simulation.parts().start_x = p.x;
-  simulation.parts().start_y = p.y;
-  Ledger& book = state.ledger;
+  p.start_x = p.x;
+  p.start_y = p.y;
+  Ledger& book = state.grains().ledger;
   book.elastic_0 = book.elastic *= mass / book.released_mass;
   book.released_mass = mass;
   return simulation;
@@ -82,8 +82,8 @@ struct Collapse {
 Collapse collapse(Simulation simulation, double share_of_circle) {
   Collapse c{run(std::move(simulation)), {}};
   const SimulationParts& parts = c.finished.simulation.parts();
-  const double dx = parts.spacing_m;
-  const ParticleSet& p = parts.state.grains;
+  const double dx = parts.facts.spacing_m;
+  const ParticleSet& p = parts.state.grains();
   std::vector<double> thickness;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double r = std::hypot(p.x[i], p.y[i]);
@@ -91,7 +91,7 @@ Collapse collapse(Simulation simulation, double share_of_circle) {
     const double area = share_of_circle * std::numbers::pi * dx * dx * (2.0 * ring + 1);
     add_to_slice(thickness, ring, p.mass[i] / parts.reference_density / area);
     if (r < 0.3) c.deposit.height = std::max(c.deposit.height, p.z[i] + 0.5 * dx);
-    c.deposit.mean_radius += r * p.mass[i] / parts.state.ledger.released_mass;
+    c.deposit.mean_radius += r * p.mass[i] / parts.state.grains().ledger.released_mass;
   }
   c.deposit.run_out = deposit_edge(thickness, dx);
   c.deposit.run_out.contour -= 1, c.deposit.run_out.toe -= 1;

@@ -9,7 +9,7 @@ namespace sturz::test {
 
 /// Distances from the axis, in the unit of dx.
 struct DepositEdge {
-  double contour = 0;  ///< where it gets thinner than max(dx/2, 5 cm), physics.md C.5
+  double contour = 0;  ///< where it gets thinner than max(dx/2, 5 cm), docs/physics.md C.5
   /// Where its slope between that and twice that thickness meets the ground. Experiments measure to
   /// the last grains that touch each other; grains are much smaller than dx.
   double toe = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-averaged flow against closed forms on even ground: V1, V1b, V4b, V18, and the speed at
 // which each kind of base holds a sheet.
+#include "engine/effects/fields.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/verification.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 /// A sheet of columns, `layers` spacings thick along the vertical, periodic on a 30 degree slope.
 Scenario sheet(double layers) {
   Scenario s = thin_sheet(1);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.release.thickness_m = Uncertain(layers * s.numerics.spacing_m);
   return s;
 }
@@ -29,7 +30,7 @@ double along_slope(double horizontal, double slope_deg) {
 
 /// Mean speed along the slope at the end.
 double final_speed(const Finished& f, double slope_deg) {
-  return along_slope(mean_motion(f.simulation.parts().state.grains).vx, slope_deg);
+  return along_slope(mean_motion(f.simulation.parts().state.grains()).vx, slope_deg);
 }
 
 class Sheet : public testing::TestWithParam<double> {};
@@ -42,7 +43,7 @@ TEST_P(Sheet, SlidesAsAMassPoint) {
   const Finished f =
       run(std::move(simulation), {0.1, [&](double time, const SimulationParts& p) {
                                     t.push_back(time);
-                                    v.push_back(along_slope(mean_motion(p.state.grains).vx, 30));
+                                    v.push_back(along_slope(mean_motion(p.state.grains()).vx, 30));
                                   }});
   const double expected =
       gravity_m_s2 * (std::sin(30 * degree) - std::tan(25 * degree) * std::cos(30 * degree));
@@ -56,7 +57,7 @@ TEST_P(Sheet, SlidesAsAMassPoint) {
 
 Scenario one_column(double slope_deg, double speed, double friction, double pore_pressure_ratio) {
   Scenario s = block_on_plane(friction, pore_pressure_ratio);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.terrain.synthetic->parameters["slope_deg"] = slope_deg;
   s.release.box = ReleaseBox{{-60, -59}, {0, 1}};
   s.release.thickness_m = Uncertain(1);
@@ -69,7 +70,7 @@ Scenario one_column(double slope_deg, double speed, double friction, double pore
 TEST(OneColumn, StopsWhereAMassPointStops) {
   const Finished f = run(one_column(0, 10, 0.4, 0.5));
   expect_within(relative("V1b column stops", "m", f.result.scalars.com_travel_m, 25.484, 0.005), f);
-  EXPECT_EQ(f.simulation.parts().state.ledger.kinetic, 0) << "at rest is at rest";
+  EXPECT_EQ(f.simulation.parts().state.grains().ledger.kinetic, 0) << "at rest is at rest";
   expect_conserved(f);
 }
 
@@ -100,7 +101,7 @@ struct Cap {
     }
     // A paraboloid's second moment is a^2/6.
     a_x = std::sqrt(6 * xx / mass), a_y = std::sqrt(6 * yy / mass);
-    const auto& thickness = p.find_field("thickness")->component[0];
+    const auto& thickness = p.scalar(fields::thickness);
     h = *std::max_element(thickness.begin(), thickness.end());
   }
 };
@@ -109,10 +110,10 @@ TEST(Similarity, CapSpreadsAsSavageAndHutterFound) {
   std::vector<double> dx = {8, 4, 2}, a_x;
   for (const double spacing : dx) {
     const Finished f = run(similarity_slide(spacing));
-    const Cap cap(f.simulation.parts().state.grains);
+    const Cap cap(f.simulation.parts().state.grains());
     a_x.push_back(cap.a_x);
     const std::string name = fmt::format("V18 columns, dx = {:.0f} m", spacing);
-    // thin.md asks this at 4 m; the coarser one is reported.
+    // V18 asks this at 4 m; the coarser one is reported.
     const bool asked = spacing <= 4;
     auto line = [&](const char* what, double measured, double exact, double tolerance) {
       const Line l =
@@ -135,7 +136,7 @@ TEST(Similarity, CapSpreadsAsSavageAndHutterFound) {
 Scenario dam_break(double depth, double spacing) {
   Scenario s = block_on_plane(std::tan(21 * degree));
   const double c = std::cos(22 * degree), width = 10 * spacing;
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.terrain.synthetic = SyntheticTerrain{
       "plane", 2 * spacing, {{"slope_deg", 22}, {"length_m", 800}, {"width_m", width}}};
   s.release.box = ReleaseBox{{-260, 0}, {-width / 2, width / 2}};
@@ -162,8 +163,8 @@ TEST(DamBreak, FrontAndProfileFollowTheClosedForm) {
   std::vector<double> dx = {2, 1, 0.5}, miss;
   for (const double spacing : dx) {
     const Finished f = run(dam_break(depth, spacing));
-    const ParticleSet& p = f.simulation.parts().state.grains;
-    const auto& h = p.find_field("thickness")->component[0];
+    const ParticleSet& p = f.simulation.parts().state.grains();
+    const auto& h = p.scalar(fields::thickness);
     double error = 0, scale = 0, farthest = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       const double x = p.x[i] / c;
@@ -206,7 +207,7 @@ TEST_P(SteadySheet, ReachesTheSpeedOfTheFilm) {
   if (base.yield > 0) s.basal.yield_stress_pa = Uncertain(base.yield);
   const Finished f = run(s);
   const double h = std::cos(30 * degree), g = gravity_m_s2, sin30 = 0.5;
-  const double density = f.simulation.parts().reference_density;
+  const double density = f.simulation.parts().state.grains().bulk_density;
   double expected = 0;
   if (base.turbulent > 0) {
     expected = std::sqrt(base.turbulent * h * (sin30 - 0.2 * h));  // h = cos 30 deg for 1 m
@@ -225,20 +226,20 @@ TEST_P(SteadySheet, ReachesTheSpeedOfTheFilm) {
 
 TEST(EarthPressureOption, KeepsAPileAtRest) {
   Scenario s = pile(1);
-  s.formulation = "depth_averaged";
-  s.grains->earth_pressure = "active_passive";
+  s.formulation = Formulation::depth_averaged;
+  s.grains->earth_pressure = LateralPressure::active_passive;
   const Finished f = run(s);
   record({"active/passive pile", "front m in 10 s", f.result.scalars.front_travel_m, 0,
           f.result.scalars.front_travel_m},
          f);
   EXPECT_LT(f.result.scalars.com_travel_m, 0.01);
-  EXPECT_EQ(f.simulation.parts().state.ledger.kinetic, 0);
+  EXPECT_EQ(f.simulation.parts().state.grains().ledger.kinetic, 0);
 }
 
 /// A level layer in a box of walls stays as it is and is as thick at the walls as between them.
 TEST(ColumnWallsInAScene, ALevelLayerStandsStill) {
   Scenario s = block_on_plane(0.0);
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   s.terrain.synthetic->parameters["slope_deg"] = 0;
   s.release.box = ReleaseBox{{-10, 10}, {-10, 10}};
   s.release.thickness_m = Uncertain(2);
@@ -249,10 +250,9 @@ TEST(ColumnWallsInAScene, ALevelLayerStandsStill) {
     s.domain.walls.push_back(WallSpec{{0, 10 * side, 0}, {0, -side, 0}, 0, std::nullopt});
   }
   const Finished f = run(s);
-  const ParticleSet& p = f.simulation.parts().state.grains;
+  const ParticleSet& p = f.simulation.parts().state.grains();
   double least = 1e9, most = 0;
-  for (double h : p.find_field("thickness")->component[0])
-    least = std::min(least, h), most = std::max(most, h);
+  for (double h : p.scalar(fields::thickness)) least = std::min(least, h), most = std::max(most, h);
   record({"columns between walls, thickness", "m", most, least, most - least}, f);
   EXPECT_NEAR(least, 2, 0.06);
   EXPECT_NEAR(most, 2, 0.06);

@@ -81,10 +81,10 @@ struct Descent {
 inline Descent descend(const Scenario& scene, double azimuth_deg = 90) {
   const double east = std::sin(azimuth_deg * degree), north = std::cos(azimuth_deg * degree);
   Simulation simulation = build(scene);
-  const MeanMotion start = mean_motion(simulation.parts().state.grains);
+  const MeanMotion start = mean_motion(simulation.parts().state.grains());
   std::vector<double> s, energy;
   Finished f = run(std::move(simulation), {0.25, [&](double, const SimulationParts& p) {
-                                             const MeanMotion m = mean_motion(p.state.grains);
+                                             const MeanMotion m = mean_motion(p.state.grains());
                                              s.push_back(m.x * east + m.y * north);
                                              energy.push_back(m.z + m.energy_height);
                                            }});

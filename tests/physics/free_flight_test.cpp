@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // V19 and V20 far from any ground: parcels fly parabolas, pair forces do not move the whole.
+#include "engine/effects/fields.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/verification.hpp"
@@ -25,13 +27,13 @@ Simulation launched(double spacing_m) {
   s.release.thickness_m = Uncertain(spacing_m);
   s.release.velocity_m_s = {20 * std::cos(45 * degree), 0, 20 * std::sin(45 * degree)};
   s.grains.emplace().friction_angle_deg = Uncertain(30);
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;
   s.numerics.spacing_m = spacing_m;
   s.numerics.end_time_s = 2.8;
   s.numerics.stop_at_rest = false;
   Simulation simulation = build(s);
-  ParticleSet& p = simulation.parts().state.grains;
+  ParticleSet& p = simulation.parts().state.grains();
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.y[i] = 5.0 * p.id[i] - 8;
     p.z[i] += launch_height_m;
@@ -42,13 +44,13 @@ Simulation launched(double spacing_m) {
 /// Largest deviation from the range v^2/g, relative, when the parcels are back at launch height.
 std::pair<Finished, double> flight(double spacing_m) {
   Simulation simulation = launched(spacing_m);
-  const ParticleSet start = simulation.parts().state.grains;
+  const ParticleSet start = simulation.parts().state.grains();
   std::vector<double> x0(start.size()), z0(start.size());
   for (std::size_t i = 0; i < start.size(); ++i)
     x0[start.id[i]] = start.x[i], z0[start.id[i]] = start.z[i];
   // To 2.8 s, shortly before they are back; then step by step.
   Finished f = run(std::move(simulation));
-  ParticleSet& p = f.simulation.parts().state.grains;
+  ParticleSet& p = f.simulation.parts().state.grains();
   const double range = 400 / gravity_m_s2;
   double worst = 0;
   std::size_t back = 0;
@@ -93,7 +95,7 @@ TEST(FreeFlight, PairForcesDoNotMoveTheWhole) {
   s.numerics.stop_at_rest = false;
   Simulation simulation = build(s);
   State& state = simulation.parts().state;
-  ParticleSet& p = state.grains;
+  MovingSet& p = state.grains();
   state.gravity = 0;
   const MeanMotion centre = mean_motion(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
@@ -103,11 +105,11 @@ TEST(FreeFlight, PairForcesDoNotMoveTheWhole) {
     p.vy[i] = -0.5 * z;
     p.vz[i] = 0.5 * y;
   }
-  p.find_field("velocity_before")->component = {p.vx, p.vy, p.vz};
-  refresh_motion(state, 0);
+  p.components(fields::velocity_before) = {p.vx, p.vy, p.vz};
+  refresh_motion(state, state.grains(), 0);
   const MeanMotion before = mean_motion(p);
   const Finished f = run(std::move(simulation));
-  const MeanMotion after = mean_motion(f.simulation.parts().state.grains);
+  const MeanMotion after = mean_motion(f.simulation.parts().state.grains());
   const double drift =
       std::hypot(after.vx - before.vx, after.vy - before.vy, after.vz - before.vz) / before.speed;
   expect_within(

@@ -2,6 +2,9 @@
 // V10 and V11 as flows of particles: colliding grains in a box without gravity.
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/fields.hpp"
+#include "engine/effects/kinetic/effect.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
 #include "tests/support/hand_made.hpp"
@@ -63,7 +66,7 @@ Domain box_of(const Cloud& c) {
 void place(const Cloud& c, ParticleSet& p) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> shift(-c.jitter, c.jitter);
-  p.resize(static_cast<std::size_t>(c.n) * c.n * c.layers);
+  p.grow(static_cast<std::size_t>(c.n) * c.n * c.layers);
   const double half = 0.5 * c.n * c.spacing();
   std::size_t i = 0;
   for (int a = 0; a < c.n; ++a)
@@ -77,12 +80,11 @@ void place(const Cloud& c, ParticleSet& p) {
 }
 
 void warm_up(const Cloud& c, State& s) {
-  for (double& e : s.grains.find_field("compression")->component[0])
-    e = c.fraction / reference_fraction - 1;
-  for (auto& component : s.grains.find_field("stress")->component)
+  for (double& e : s.grains().scalar(fields::compression)) e = c.fraction / reference_fraction - 1;
+  for (auto& component : s.grains().components(fields::stress))
     std::fill(component.begin(), component.end(), 0.0);
-  for (double& theta : s.grains.find_field("granular_temperature")->component[0]) theta = c.theta;
-  s.ledger.elastic = s.ledger.elastic_0 = 0;
+  for (double& theta : s.grains().scalar(fields::granular_temperature)) theta = c.theta;
+  s.grains().ledger.elastic = s.grains().ledger.elastic_0 = 0;
 }
 
 /// Stress, contact and, where grains shall move, motion.
@@ -90,24 +92,28 @@ HandMade cloud_of(const Cloud& c, bool moving) {
   HandMade made{State(even_ground(64), box_of(c)), {}};
   State& s = made.state;
   s.gravity = 0;
-  place(c, s.grains);
-  for (double m : s.grains.mass) s.ledger.released_mass += m;
-  add_grain_stress(made.step, s, settings_of(c), std::vector<double>(s.grains.size(), 0));
+  place(c, s.grains());
+  for (double m : s.grains().mass) s.grains().ledger.released_mass += m;
+  const auto stress =
+      add_grain_stress(made.step, s, 0, settings_of(c), std::vector<double>(s.grains().size(), 0));
+  add_kinetic_theory(made.step, s, stress);
+  add_grain_states(made.step, s, stress);
   warm_up(c, s);
-  if (moving) add_gravity(made.step, s);
+  if (moving) add_gravity(made.step, s, 0);
   ContactSettings contact;
   contact.reference_density = density;
   contact.stiffness = 4000;
-  add_terrain_contact(made.step, s, contact);
-  if (moving) add_motion(made.step, s, {dx, h});
-  refresh_motion(s, 0);
+  add_terrain_contact(made.step, 0, contact);
+  if (!s.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
+  if (moving) add_motion(made.step, 0, {dx, h});
+  refresh_motion(s, s.grains(), 0);
   return made;
 }
 
 double total_heat(const State& s) {
   double sum = 0;
-  const auto& theta = s.grains.find_field("granular_temperature")->component[0];
-  for (std::size_t i = 0; i < theta.size(); ++i) sum += 1.5 * s.grains.mass[i] * theta[i];
+  const auto& theta = s.grains().scalar(fields::granular_temperature);
+  for (std::size_t i = 0; i < theta.size(); ++i) sum += 1.5 * s.grains().mass[i] * theta[i];
   return sum;
 }
 
@@ -125,14 +131,14 @@ Cooling cool(const Cloud& c) {
   const double heat = total_heat(made.state);
   Cooling out;
   while (made.state.time < 3 * tau) {
-    made.state.motion.max_speed = 10;  // theta is bounded by the speed of the scene
+    made.state.grains().motion.max_speed = 10;  // theta is bounded by the speed of the scene
     made.advance();
     const double expected = heat / std::pow(1 + made.state.time / tau, 2);
     out.worst = std::max(out.worst, std::abs(total_heat(made.state) / expected - 1));
   }
-  out.stirred = made.state.ledger.kinetic / heat;
-  EXPECT_LT(std::abs(made.state.ledger.conducted), 1e-5 * heat);
-  EXPECT_EQ(made.state.n_listed, made.state.grains.size());
+  out.stirred = made.state.grains().ledger.kinetic / heat;
+  EXPECT_LT(std::abs(made.state.grains().ledger.conducted), 1e-5 * heat);
+  EXPECT_EQ(made.state.grains().n_listed, made.state.grains().size());
   fmt::print(
       "V10 box, jitter {}: {} steps to 3 tau = {:.2f} s, worst error {:.3f} %, stirred "
       "{:.2f} % of the heat\n",
@@ -160,12 +166,12 @@ struct Inner {
   double theta = 0, pressure = 0, shear = 0;
 };
 Inner inner_of(const Cloud& c, const State& s) {
-  const auto& theta = s.grains.find_field("granular_temperature")->component[0];
-  const auto& stress = s.grains.find_field("kinetic_stress")->component;
+  const auto& theta = s.grains().scalar(fields::granular_temperature);
+  const auto& stress = s.grains().components(fields::kinetic_stress);
   Inner sum;
   double n = 0;
   for (std::size_t i = 0; i < theta.size(); ++i) {
-    const double z = (s.grains.z[i] - c.bottom()) / (c.top() - c.bottom());
+    const double z = (s.grains().z[i] - c.bottom()) / (c.top() - c.bottom());
     if (z < 0.25 || z > 0.75) continue;
     ++n;
     sum.theta += theta[i];
@@ -176,7 +182,7 @@ Inner inner_of(const Cloud& c, const State& s) {
 }
 
 struct Shear {
-  double fraction, theta, pressure, ratio;  ///< theta*, P*, tau/P of physics.md V11
+  double fraction, theta, pressure, ratio;  ///< theta*, P*, tau/P of docs/physics.md V11
 };
 
 class UniformShear : public testing::TestWithParam<Shear> {};
@@ -199,17 +205,17 @@ TEST_P(UniformShear, ReachesTheClosedForm) {
     HandMade made = cloud_of(c, false);
     State& s = made.state;
     const double rate = 2, scale = rate * c.law.grain_diameter;
-    auto& compression = s.grains.find_field("compression")->component[0];
+    auto& compression = s.grains().scalar(fields::compression);
     const double e0 = c.fraction / reference_fraction - 1;
     for (int step = 0; step < 1500; ++step) {
       // The shear is held: grains stay in place and keep the velocities that it gives them.
-      for (std::size_t i = 0; i < s.grains.size(); ++i) {
-        s.grains.vx[i] = rate * (s.grains.z[i] - c.bottom());
-        s.grains.vy[i] = s.grains.vz[i] = 0;
+      for (std::size_t i = 0; i < s.grains().size(); ++i) {
+        s.grains().vx[i] = rate * (s.grains().z[i] - c.bottom());
+        s.grains().vy[i] = s.grains().vz[i] = 0;
         compression[i] = e0;
       }
-      s.motion.max_speed = 100;
-      s.motion.velocity_range[0] = 0;
+      s.grains().motion.max_speed = 100;
+      s.grains().motion.velocity_range[0] = 0;
       made.step.apply(s, 0.02);
     }
     const Inner inner = inner_of(c, s);

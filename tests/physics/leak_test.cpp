@@ -14,14 +14,14 @@ namespace {
 
 /// Smallest distance of a particle to the ground [dx].
 double lowest(const SimulationParts& parts) {
-  const ParticleSet& p = parts.state.grains;
+  const ParticleSet& p = parts.state.grains();
   const Terrain& ground = parts.state.terrain;
   double least = 1e300;
   for (std::size_t i = 0; i < p.size(); ++i)
     if (ground.inside(p.x[i], p.y[i]))
-      least = std::min(least,
-                       ground.distance({p.x[i], p.y[i], p.z[i]}, 0.5 * parts.spacing_m).distance);
-  return least / parts.spacing_m;
+      least = std::min(
+          least, ground.distance({p.x[i], p.y[i], p.z[i]}, 0.5 * parts.facts.spacing_m).distance);
+  return least / parts.facts.spacing_m;
 }
 
 void expect_tight(const std::string& name, const Scenario& s) {
@@ -30,7 +30,7 @@ void expect_tight(const std::string& name, const Scenario& s) {
       s, {0.005, [&](double, const SimulationParts& p) { least = std::min(least, lowest(p)); }});
   const double below = std::max(0.0, -least);
   expect_within({name, "lowest centre, dx above ground", least, 0, below, 0.1}, f);
-  EXPECT_EQ(f.simulation.parts().state.ledger.leaked_mass, 0);
+  EXPECT_EQ(f.simulation.parts().state.grains().ledger.leaked_mass, 0);
   expect_conserved(f);
 }
 

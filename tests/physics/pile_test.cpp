@@ -53,13 +53,13 @@ void rests(double spacing_m) {
   const double settled_s = 5 * std::sqrt(4 / gravity_m_s2);
   s.numerics.end_time_s = settled_s + 10;
   Simulation simulation = build(s);
-  const Place release = place_of(simulation.parts().state.grains);
+  const Place release = place_of(simulation.parts().state.grains());
   Place start;
   const Finished f = run(std::move(simulation), {0.02, [&](double t, const SimulationParts& p) {
                                                    if (start.x.empty() && t >= settled_s)
-                                                     start = place_of(p.state.grains);
+                                                     start = place_of(p.state.grains());
                                                  }});
-  const Place end = place_of(f.simulation.parts().state.grains);
+  const Place end = place_of(f.simulation.parts().state.grains());
   const std::string name = fmt::format("I4 pile, dx {} m", spacing_m);
   const double sunk = centre_moved(start, release) / spacing_m;
   record({name + ", centre of mass while it settles", "dx", sunk, 0, sunk}, f);
@@ -111,10 +111,10 @@ TEST_P(SteepPile, ComesDownToASlopeBelowItsFrictionAngle) {
   double from = 0;
   const Finished f = run(s, {4, [&](double t, const SimulationParts& p) {
                                if (t < 11 || from > 0) return;
-                               before = place_of(p.state.grains);
+                               before = place_of(p.state.grains());
                                from = t;
                              }});
-  const ParticleSet& p = f.simulation.parts().state.grains;
+  const ParticleSet& p = f.simulation.parts().state.grains();
   const Place end = place_of(p);
   const double seconds = f.result.scalars.end_time_s - from;
   const double slope = slope_deg(p, dx);
@@ -146,7 +146,7 @@ TEST(EndlessSlope, StandsTwoDegreesBelowTheFrictionAngle) {
   double at_10 = 0;
   const Finished f = run(endless_slope(28), {10, [&](double t, const SimulationParts& p) {
                                                if (t > 9 && t < 14)
-                                                 at_10 = mean_motion(p.state.grains).speed;
+                                                 at_10 = mean_motion(p.state.grains()).speed;
                                              }});
   expect_within(
       {"V9 endless slope 28 deg, friction 30", "mean speed dx/s at 10 s", at_10, 0, at_10, 0.01},
@@ -162,7 +162,7 @@ TEST(EndlessSlope, FlowsTwoDegreesAboveTheFrictionAngle) {
     Scenario s = endless_slope(32);
     s.numerics.artificial_viscosity = viscosity;
     const Finished f = run(s);
-    const double speed = mean_motion(f.simulation.parts().state.grains).speed;
+    const double speed = mean_motion(f.simulation.parts().state.grains()).speed;
     record(relative(fmt::format("V9 endless slope 32 deg, friction 30, viscosity {}", viscosity),
                     "mean speed m/s at 15 s", speed, sliding),
            f);

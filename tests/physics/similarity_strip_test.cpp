@@ -43,7 +43,7 @@ double front_share() {
   return lo;
 }
 
-Simulation ridge(const char* formulation, double spacing, int wide,
+Simulation ridge(Formulation formulation, double spacing, int wide,
                  double friction_angle_deg = 20) {
   Scenario s = similarity_slide(spacing);
   const double width = wide * spacing, cell = 0.5 * spacing;
@@ -100,7 +100,7 @@ Line line(const std::string& name, double metres, double expected, double tolera
 void compare(const std::string& name, Simulation simulation, double half_tolerance,
              double front_tolerance) {
   const Finished f = run(std::move(simulation));
-  const Ridge ridge(f.simulation.parts().state.grains);
+  const Ridge ridge(f.simulation.parts().state.grains());
   const double way =
       0.5 * gravity_m_s2 * (sin35 - std::tan(25 * degree) * cos35) * end_time * end_time;
   const double a = spread();
@@ -116,17 +116,17 @@ void compare(const std::string& name, Simulation simulation, double half_toleran
 /// under one); one that is much smoother shears inside, and its centre outruns the plug's.
 TEST(SimilarityStrip, FullStressSpreadsWithinATenthFromFourLayersOn) {
   for (const int layers : {4, 5})
-    compare(fmt::format("V18 strip, {} layers", layers), ridge("full_stress", depth / layers, 6),
-            0.10, 0.06);
+    compare(fmt::format("V18 strip, {} layers", layers),
+            ridge(Formulation::full_stress, depth / layers, 6), 0.10, 0.06);
   for (const double angle : {15.0, 25.0, 30.0})
     compare(fmt::format("V18 strip, 4 layers, {} deg inside", angle),
-            ridge("full_stress", depth / 4, 6, angle), reported_only, reported_only);
+            ridge(Formulation::full_stress, depth / 4, 6, angle), reported_only, reported_only);
 }
 
 TEST(SimilarityStrip, ColumnsSpreadWithinAHundredth) {
   for (const double spacing : {4.0, 2.0, 1.0})
     compare(fmt::format("V18 strip, columns of {:.0f} m", spacing),
-            ridge("depth_averaged", spacing, 12), 0.01, 0.01);
+            ridge(Formulation::depth_averaged, spacing, 12), 0.01, 0.01);
 }
 
 }  // namespace

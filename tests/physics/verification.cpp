@@ -50,8 +50,8 @@ MeanMotion mean_motion(const ParticleSet& p) {
 }
 
 void expect_conserved(const Finished& f) {
-  const Ledger& book = f.simulation.parts().state.ledger;
-  const ParticleSet& p = f.simulation.parts().state.grains;
+  const Ledger& book = f.simulation.parts().state.grains().ledger;
+  const ParticleSet& p = f.simulation.parts().state.grains();
   EXPECT_TRUE(is_valid(f.result.outcome)) << to_string(f.result.outcome) << f.result.reason;
   if (book.lost_mass == 0) {
     EXPECT_EQ(p.size(), static_cast<std::size_t>(f.result.scalars.n_particles));
@@ -63,7 +63,7 @@ void expect_conserved(const Finished& f) {
   for (double i : book.stress_impulse) impulse2 += i * i;
   // Where mass leaves, the last force on it is not in the sum but its reaction is.
   // Columns of a sheet push each other hard and no one moves: there rounding weighs more.
-  const bool columns = f.result.formulation == "depth_averaged";
+  const bool columns = f.result.formulation == to_string(Formulation::depth_averaged);
   const double limit = book.lost_mass > 0 ? 1e-5 : columns ? 1e-6 : 1e-7;
   EXPECT_LE(std::sqrt(impulse2), limit * book.stress_impulse_scale) << "pair forces push the whole";
   EXPECT_LE(std::abs(f.result.scalars.energy_residual), 0.01);
@@ -103,7 +103,7 @@ Convergence observed_convergence(const std::vector<double>& dx, const std::vecto
 
 void record(const Line& line, const Finished& f) {
   const MemberScalars& m = f.result.scalars;
-  const double dx = f.simulation.parts().spacing_m;
+  const double dx = f.simulation.parts().facts.spacing_m;
   const std::string verdict = std::isnan(line.tolerance)               ? "reported"
                               : std::abs(line.error) <= line.tolerance ? "met"
                                                                        : "missed";

@@ -3,6 +3,7 @@
 /// must conserve, and write one line of the accuracy-versus-time table.
 #pragma once
 
+#include "engine/core/constants.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/simulation.hpp"
@@ -15,7 +16,7 @@
 
 namespace sturz::test {
 
-inline constexpr double gravity_m_s2 = 9.81;
+inline constexpr double gravity_m_s2 = standard_gravity;
 inline constexpr double degree = 0.017453292519943295;
 
 /// Loads the inputs of a scene and assembles its member 0.

@@ -6,10 +6,14 @@
 namespace sturz {
 namespace {
 
-Layer layer(const std::string& name, const std::string& units, std::vector<float> values,
-            LayerAxis axis = {}) {
+using enum Quantity;
+using enum Statistic;
+
+Layer layer(Quantity quantity, Statistic statistic, const std::string& units,
+            std::vector<float> values, LayerAxis axis = {}) {
   Layer l;
-  l.name = name, l.units = units, l.values = std::move(values), l.axis = std::move(axis);
+  l.meaning = {quantity, statistic};
+  l.units = units, l.values = std::move(values), l.axis = std::move(axis);
   return l;
 }
 
@@ -30,27 +34,8 @@ TEST(ReportColours, OklabMeetsItsFixedPoints) {
   EXPECT_EQ(ramp_colours(Ramp::hazard, 2).front(), (Rgb{255, 238, 166}));
 }
 
-TEST(ReportLegend, ReadsMeaningsFromNames) {
-  const auto meaning = [](const char* name) { return meaning_of(layer(name, "1", {})); };
-  const auto is = [&](const char* name, Quantity q, Statistic s) {
-    EXPECT_EQ(word(meaning(name).quantity), word(q)) << name;
-    EXPECT_EQ(word(meaning(name).statistic), word(s)) << name;
-  };
-  is("probability_reached", Quantity::reached, Statistic::probability);
-  is("probability_reached_lower", Quantity::reached, Statistic::lower_bound);
-  is("probability_of_peak_energy_above_threshold", Quantity::energy, Statistic::probability);
-  is("probability_of_peak_energy_above_threshold_upper", Quantity::energy, Statistic::upper_bound);
-  is("peak_pressure_quantile", Quantity::pressure, Statistic::quantile);
-  is("deposit_thickness_mean", Quantity::deposit, Statistic::mean);
-  is("arrival_time", Quantity::arrival, Statistic::peak);
-  is("peak_thickness", Quantity::thickness, Statistic::peak);
-  is("probability_of_high_debris_flow_intensity", Quantity::intensity, Statistic::probability);
-  EXPECT_EQ(meaning("number_of_members").quantity, Quantity::count);
-  is("made_up_by_someone", Quantity::other, Statistic::other);
-}
-
 TEST(ReportLegend, PutsValuesIntoTheirClasses) {
-  const Legend p = legend_for(layer("probability_reached", "1", {0, 0.5F, 1}));
+  const Legend p = legend_for(layer(reached, probability, "1", {0, 0.5F, 1}));
   EXPECT_EQ(p.class_of(0), -1);
   EXPECT_EQ(p.class_of(nan_f), -1);
   EXPECT_EQ(p.class_of(0.01F), 0);
@@ -59,37 +44,37 @@ TEST(ReportLegend, PutsValuesIntoTheirClasses) {
   EXPECT_EQ(p.class_of(1), 6);
   EXPECT_EQ(p.classes[4].label, "50\u201375\u00A0%");
 
-  const Legend h = legend_for(layer("peak_thickness", "m", {0, 0.3F, 12}));
+  const Legend h = legend_for(layer(thickness, peak, "m", {0, 0.3F, 12}));
   ASSERT_EQ(h.classes.size(), 7U);
   EXPECT_EQ(h.classes.back().label, "\u2265\u00A010");
   EXPECT_EQ(h.class_of(12), 6);
   EXPECT_EQ(h.class_of(1.5F), 3);
   EXPECT_EQ(h.classes[3].label, "1\u20132");
 
-  const Legend e = legend_for(layer("peak_energy", "J m-2", {2.4e6F}));
+  const Legend e = legend_for(layer(energy, peak, "J m-2", {2.4e6F}));
   EXPECT_EQ(e.unit.label, "kJ/m²");
   EXPECT_EQ(e.classes.back().label, "\u2265\u00A02000");
 }
 
 TEST(ReportLegend, ShowsTheEarliestArrivalToo) {
-  const Legend t = legend_for(layer("arrival_time", "s", {0, 31, 74, nan_f}));
+  const Legend t = legend_for(layer(arrival, peak, "s", {0, 31, 74, nan_f}));
   EXPECT_EQ(t.class_of(0), 0);
   EXPECT_EQ(t.class_of(nan_f), -1);
   EXPECT_EQ(t.class_of(74), static_cast<int>(t.classes.size()) - 1);
 }
 
 TEST(ReportLegend, IsNeverEmpty) {
-  EXPECT_FALSE(legend_for(layer("peak_speed", "m s-1", {0, 0})).classes.empty());
-  EXPECT_FALSE(legend_for(layer("peak_speed", "m s-1", {nan_f})).classes.empty());
-  EXPECT_FALSE(legend_for(layer("arrival_time", "s", {nan_f})).classes.empty());
+  EXPECT_FALSE(legend_for(layer(speed, peak, "m s-1", {0, 0})).classes.empty());
+  EXPECT_FALSE(legend_for(layer(speed, peak, "m s-1", {nan_f})).classes.empty());
+  EXPECT_FALSE(legend_for(layer(arrival, peak, "s", {nan_f})).classes.empty());
 }
 
 TEST(ReportLegend, NamesPlanesInWords) {
-  const Layer p = layer("probability_of_peak_energy_above_threshold", "1", {},
-                        {"energy_threshold", "", "kJ m-2", {10, 100}});
+  const Layer p =
+      layer(energy, probability, "1", {}, {"energy_threshold", "", "kJ m-2", {10, 100}});
   EXPECT_EQ(plane_label(p, 1), ">\u00A0100\u00A0kJ/m²");
   EXPECT_EQ(plane_title(p, 1), "Probability that kinetic energy per area exceeds 100\u00A0kJ/m²");
-  const Layer q = layer("peak_thickness_quantile", "m", {}, {"quantile", "", "1", {0.05, 0.5}});
+  const Layer q = layer(thickness, quantile, "m", {}, {"quantile", "", "1", {0.05, 0.5}});
   EXPECT_EQ(plane_label(q, 0), "5\u00A0% quantile");
   EXPECT_EQ(plane_title(q, 1), "Flow thickness, median");
 }
@@ -97,13 +82,12 @@ TEST(ReportLegend, NamesPlanesInWords) {
 TEST(ReportLegend, ShowsOnlyLayersThatSaySomething) {
   LayerStack maps;
   maps.grid.n_cols = maps.grid.n_rows = 1;
-  maps.layers = {
-      layer("number_of_members", "1", {3}),         layer("peak_speed_mean", "m s-1", {nan_f}),
-      layer("probability_reached_upper", "1", {1}), layer("peak_thickness", "m", {2}),
-      layer("probability_reached", "1", {0.5F}),    layer("peak_energy", "J m-2", {1, 2, 3})};
+  maps.layers = {layer(members, count, "1", {3}),          layer(speed, mean, "m s-1", {nan_f}),
+                 layer(reached, upper_bound, "1", {1}),    layer(thickness, peak, "m", {2}),
+                 layer(reached, probability, "1", {0.5F}), layer(energy, peak, "J m-2", {1, 2, 3})};
   const auto shown = shown_layers(maps);
   ASSERT_EQ(shown.size(), 2U) << "no counts, no bounds, no NaN, no layer of another shape";
-  EXPECT_EQ(default_layer(maps)->name, "probability_reached");
+  EXPECT_EQ(default_layer(maps), &maps.layers[4]) << "P(reached)";
   maps.layers.clear();
   EXPECT_EQ(default_layer(maps), nullptr);
 }

@@ -74,7 +74,7 @@ DesignTable make_design(int n) {
   DesignTable design{.keys = {"basal.friction_coefficient", "basal.pore_pressure_ratio",
                               "grains.solid_fraction", "grains.cohesion_pa"},
                      .units = {"1", "1", "1", "Pa"},
-                     .design = "latin_hypercube",
+                     .design = Design::latin_hypercube,
                      .seed = 1,
                      .unit_cube = {},
                      .values = {}};
@@ -210,7 +210,9 @@ LayerStack peaks_of(const MemberResult& m) {
   for (int k = 0; k < n_peak_layers; ++k) {
     const PeakLayerInfo& about = info(static_cast<PeakLayer>(k));
     Layer layer;
-    layer.name = about.name, layer.long_name = about.long_name, layer.units = about.units;
+    layer.name = about.name;
+    layer.meaning = {quantity_of(static_cast<PeakLayer>(k)), Statistic::peak};
+    layer.long_name = about.long_name, layer.units = about.units;
     layer.values = m.layers[k];
     stack.layers.push_back(std::move(layer));
   }

@@ -207,26 +207,17 @@ TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   EXPECT_EQ(data["members"]["samples"][0]["values"].size(), 32U);
 }
 
-TEST(ReportFigures, AreCompleteFilesOfTheirOwn) {
-  const auto results = testing::make_up_results();
-  const std::string svg = overview_svg(results.hazard, &results.elevation, "A & B");
-  EXPECT_EQ(nesting_error(svg), "");
-  EXPECT_TRUE(holds(svg, "A &amp; B"));
-  EXPECT_TRUE(holds(svg, "data:image/png;base64,"));
-  const auto png = overview_png(results.hazard, &results.elevation);
-  EXPECT_GT(png.size(), 1000U);
-  EXPECT_TRUE(overview_png({}, nullptr).empty());
-}
-
 TEST(ReportFigures, ShowTheMostSevereOfJoinedCells) {
   LayerStack maps;
   maps.grid = {
       .n_cols = 1600, .n_rows = 1000, .west_m = 0, .north_m = 0, .cell_m = 1, .crs_wkt = ""};
   Layer thickness, arrival;
   thickness.name = "peak_thickness", thickness.units = "m";
+  thickness.meaning = {Quantity::thickness, Statistic::peak};
   thickness.values.assign(maps.grid.n_cells(), 1);
   thickness.values[maps.grid.index(500, 801)] = 9;
   arrival.name = "arrival_time", arrival.units = "s";
+  arrival.meaning = {Quantity::arrival, Statistic::peak};
   arrival.values.assign(maps.grid.n_cells(), nan_f);
   arrival.values[maps.grid.index(501, 800)] = 7;
   arrival.values[maps.grid.index(501, 801)] = 5;

@@ -19,15 +19,15 @@ TEST(ReportText, LeavesNoLessThanSignInsideScripts) {
 }
 
 TEST(ReportText, RoundsToSignificantDigits) {
-  EXPECT_EQ(number_text(0.123456), "0.123");
-  EXPECT_EQ(number_text(2.0), "2");
-  EXPECT_EQ(number_text(1234.5), "1234");
-  EXPECT_EQ(number_text(1234567), "1\u202F234\u202F567");
-  EXPECT_EQ(number_text(-0.5), "\u22120.5");
-  EXPECT_EQ(number_text(0), "0");
-  EXPECT_EQ(number_text(0.0999999), "0.1");
-  EXPECT_EQ(number_text(std::numeric_limits<double>::quiet_NaN()), "\u2013");
-  EXPECT_EQ(number_text(1e-9), "1.00e-09");
+  EXPECT_EQ(shown_number(0.123456), "0.123");
+  EXPECT_EQ(shown_number(2.0), "2");
+  EXPECT_EQ(shown_number(1234.5), "1234");
+  EXPECT_EQ(shown_number(1234567), "1\u202F234\u202F567");
+  EXPECT_EQ(shown_number(-0.5), "\u22120.5");
+  EXPECT_EQ(shown_number(0), "0");
+  EXPECT_EQ(shown_number(0.0999999), "0.1");
+  EXPECT_EQ(shown_number(std::numeric_limits<double>::quiet_NaN()), "\u2013");
+  EXPECT_EQ(shown_number(1e-9), "1.00e-09");
 }
 
 TEST(ReportText, NeverRoundsAChanceToNothingOrCertainty) {

@@ -35,10 +35,6 @@ int main(int argc, char** argv) {
   const auto input = results.ensemble_input();
   write(directory / "ensemble.html", sturz::make_report(input));
   write(directory / "single.html", sturz::make_report(results.single_input()));
-  const auto png = sturz::overview_png(results.hazard, &results.elevation);
-  write(directory / "hazard_map.png", {reinterpret_cast<const char*>(png.data()), png.size()});
-  write(directory / "hazard_map.svg",
-        sturz::overview_svg(results.hazard, &results.elevation, input.title));
 
   auto empty_scene = scene;
   empty_scene.n_members = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/checks/distribution_check.hpp"
 
+#include "tests/support/distributions.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,30 +11,16 @@
 namespace sturz {
 namespace {
 
+using test::bounded;
+using test::normal;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using Kind = Distribution::Kind;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-Distribution between(Kind kind, double min, double max) {
-  Distribution d;
-  d.kind = kind;
-  d.min = min;
-  d.max = max;
-  return d;
-}
-
-Distribution normal(double mean, double sd) {
-  Distribution d;
-  d.kind = Kind::normal;
-  d.mean = mean;
-  d.sd = sd;
-  return d;
-}
-
 TEST(DistributionCheck, SupportIsWhereValuesCanFall) {
-  EXPECT_EQ(support(between(Kind::uniform, 1, 2)), std::pair(1.0, 2.0));
+  EXPECT_EQ(support(bounded(Kind::uniform, 1, 2)), std::pair(1.0, 2.0));
   EXPECT_EQ(support(normal(0, 1)), std::pair(-infinite, infinite));
   Distribution lognormal;
   lognormal.kind = Kind::lognormal;
@@ -46,22 +34,22 @@ TEST(DistributionCheck, SupportIsWhereValuesCanFall) {
 }
 
 TEST(DistributionCheck, GoodParametersPass) {
-  EXPECT_THAT(parameter_problems(between(Kind::uniform, 1, 2)), IsEmpty());
+  EXPECT_THAT(parameter_problems(bounded(Kind::uniform, 1, 2)), IsEmpty());
   EXPECT_THAT(parameter_problems(normal(0.3, 0.1)), IsEmpty());
-  Distribution triangular = between(Kind::triangular, 1, 2);
+  Distribution triangular = bounded(Kind::triangular, 1, 2);
   triangular.mode = 1;
   EXPECT_THAT(parameter_problems(triangular), IsEmpty());
 }
 
 TEST(DistributionCheck, NamesEveryBadParameter) {
-  EXPECT_THAT(parameter_problems(between(Kind::uniform, 2, 2)),
+  EXPECT_THAT(parameter_problems(bounded(Kind::uniform, 2, 2)),
               ElementsAre("max must be above min"));
-  EXPECT_THAT(parameter_problems(between(Kind::log_uniform, 0, 2)), ElementsAre("min must be > 0"));
+  EXPECT_THAT(parameter_problems(bounded(Kind::log_uniform, 0, 2)), ElementsAre("min must be > 0"));
   EXPECT_THAT(parameter_problems(normal(0, 0)), ElementsAre("sd must be > 0"));
-  Distribution beta = between(Kind::beta, 1, 0);
+  Distribution beta = bounded(Kind::beta, 1, 0);
   EXPECT_THAT(parameter_problems(beta),
               ElementsAre("alpha and beta must be > 0", "max must be above min"));
-  Distribution triangular = between(Kind::triangular, 1, 2);
+  Distribution triangular = bounded(Kind::triangular, 1, 2);
   triangular.mode = 3;
   EXPECT_THAT(parameter_problems(triangular), ElementsAre("the mode must lie between min and max"));
   Distribution discrete;
@@ -71,6 +59,8 @@ TEST(DistributionCheck, NamesEveryBadParameter) {
   EXPECT_THAT(parameter_problems(discrete), ElementsAre("weights must be as many as values"));
   discrete.weights = {0, 0};
   EXPECT_THAT(parameter_problems(discrete), ElementsAre("one weight at least must be > 0"));
+  discrete.weights = {1.5e308, 1.5e308};
+  EXPECT_THAT(parameter_problems(discrete), ElementsAre("the sum of the weights must be finite"));
   Distribution table;
   table.kind = Kind::table;
   table.values = {2, 1};

@@ -13,10 +13,10 @@ namespace sturz {
 namespace {
 
 /// A scene that leaves the choice open.
-Scenario scene(double spacing, std::string formulation = "auto") {
+Scenario scene(double spacing, Formulation formulation = Formulation::automatic) {
   Scenario s;
   s.grains.emplace();
-  s.formulation = std::move(formulation);
+  s.formulation = formulation;
   s.numerics.spacing_m = spacing;
   return s;
 }
@@ -62,7 +62,7 @@ TEST(Formulation, LayersAreTheMedianByVolumeNotByArea) {
 TEST(Formulation, AutoTakesFullStressWhereFourLayersResolveBoth) {
   const FormulationChoice c = choose_formulation(scene(0.5), slab(20));
   EXPECT_FALSE(c.depth_averaged);
-  EXPECT_STREQ(c.name(), "full_stress");
+  EXPECT_EQ(c.name(), "full_stress");
   EXPECT_EQ(c.reason,
             "`formulation: auto`: 40 layers at release, about 5.85 in the deposit (not fewer than "
             "4)");
@@ -71,7 +71,7 @@ TEST(Formulation, AutoTakesFullStressWhereFourLayersResolveBoth) {
 TEST(Formulation, AutoTakesColumnsWhereTheDepositIsTooThin) {
   const FormulationChoice c = choose_formulation(scene(1), slab(20));
   EXPECT_TRUE(c.depth_averaged);
-  EXPECT_STREQ(c.name(), "depth_averaged");
+  EXPECT_EQ(c.name(), "depth_averaged");
   EXPECT_EQ(c.reason,
             "`formulation: auto`: 20 layers at release, about 2.92 in the deposit (fewer than 4)");
 }
@@ -100,7 +100,7 @@ TEST(Formulation, ConfinedScenesAreChosenByTheirReleaseAlone) {
 
 TEST(Formulation, AutoTakesColumnsForWhatOnlyColumnsKnow) {
   Scenario s = scene(0.5);
-  s.grains->earth_pressure = "active_passive";
+  s.grains->earth_pressure = LateralPressure::active_passive;
   EXPECT_EQ(choose_formulation(s, slab(20)).reason,
             "`formulation: auto`: `grains.earth_pressure` acts on columns");
   s.basal.viscosity_pa_s = 100;
@@ -115,7 +115,8 @@ TEST(Formulation, AutoTakesColumnsForWhatOnlyColumnsKnow) {
 
 TEST(Formulation, ColumnsAreTakenAtAnyThicknessWhenAskedFor) {
   for (const double thickness : {0.1, 20.0}) {
-    const FormulationChoice c = choose_formulation(scene(0.5, "depth_averaged"), slab(thickness));
+    const FormulationChoice c =
+        choose_formulation(scene(0.5, Formulation::depth_averaged), slab(thickness));
     EXPECT_TRUE(c.depth_averaged);
     EXPECT_EQ(c.reason, "`formulation: depth_averaged`");
     EXPECT_NEAR(c.release_layers, 2 * thickness, 1e-12);
@@ -123,24 +124,24 @@ TEST(Formulation, ColumnsAreTakenAtAnyThicknessWhenAskedFor) {
 }
 
 TEST(Formulation, FullStressIsTakenDownToTwoLayersWhenAskedFor) {
-  const FormulationChoice c = choose_formulation(scene(10, "full_stress"), slab(20));
+  const FormulationChoice c = choose_formulation(scene(10, Formulation::full_stress), slab(20));
   EXPECT_FALSE(c.depth_averaged);
   EXPECT_EQ(c.reason,
             "`formulation: full_stress`; 2 layers at release, about 0.292 in the deposit");
-  EXPECT_EQ(choose_formulation(confined(scene(10, "full_stress")), slab(20)).reason,
+  EXPECT_EQ(choose_formulation(confined(scene(10, Formulation::full_stress)), slab(20)).reason,
             "`formulation: full_stress`; 2 layers at release");
 }
 
 TEST(Formulation, FullStressUnderTwoLayersIsRefusedWithTheSpacingThatWouldDo) {
-  EXPECT_EQ(refusal(scene(2, "full_stress"), slab(3)),
+  EXPECT_EQ(refusal(scene(2, Formulation::full_stress), slab(3)),
             "formulation = full_stress (1.5 layers of particles resolve the release, fewer than 2: "
             "the footprint would be wrong by up to 100 %). Use formulation: auto, a "
             "numerics.spacing_m below 1.5 m, or accept it with numerics.accept_unresolved: true.");
-  EXPECT_EQ(refusal(scene(1.5, "full_stress"), slab(3)), "accepted");
+  EXPECT_EQ(refusal(scene(1.5, Formulation::full_stress), slab(3)), "accepted");
 }
 
 TEST(Formulation, FullStressUnderTwoLayersIsTakenWhenAccepted) {
-  Scenario s = scene(2, "full_stress");
+  Scenario s = scene(2, Formulation::full_stress);
   s.numerics.accept_unresolved = true;
   const FormulationChoice c = choose_formulation(s, slab(3));
   EXPECT_FALSE(c.depth_averaged);
@@ -149,9 +150,11 @@ TEST(Formulation, FullStressUnderTwoLayersIsTakenWhenAccepted) {
 
 TEST(Formulation, NoMassIsNotAMatterOfLayers) {
   // The release says what is wrong; a spacing below 0 m would not help.
-  for (const char* formulation : {"auto", "full_stress", "depth_averaged"})
+  for (const Formulation formulation :
+       {Formulation::automatic, Formulation::full_stress, Formulation::depth_averaged})
     for (const double nothing : {0.0, -1.0, nan_d})
-      EXPECT_EQ(refusal(scene(2, formulation), slab(nothing)), "accepted") << formulation;
+      EXPECT_EQ(refusal(scene(2, formulation), slab(nothing)), "accepted")
+          << to_string(formulation);
 }
 
 }  // namespace

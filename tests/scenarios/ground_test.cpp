@@ -108,7 +108,7 @@ TEST(SceneGround, IsTheRasterForParticlesAndItsMeansForColumns) {
 }
 
 TEST(SceneGround, PreparedGroundEqualsTheBuiltOne) {
-  for (const char* rim : {"outflow", "wall"})
+  for (const TerrainEdge rim : {TerrainEdge::outflow, TerrainEdge::wall})
     for (const double spacing : {1.0, 3.0}) {
       Scenario s = scene(spacing);
       s.terrain.nodata = rim;
@@ -163,10 +163,10 @@ struct Excavation {
   SceneInputs in = inputs(41, 34, 1);
   double volume = 0;
 
-  Excavation(double spacing, const char* formulation) : s(scene(spacing)) {
+  Excavation(double spacing, Formulation formulation) : s(scene(spacing)) {
     s.formulation = formulation;
     s.numerics.accept_unresolved = true;
-    s.release.surface = "pre_failure";
+    s.release.surface = ReleaseSurface::pre_failure;
     std::mt19937 random(4);
     std::uniform_real_distribution<double> lump(0, 6);
     Raster<double> thickness(in.elevation->grid);
@@ -188,7 +188,7 @@ double volume_between(const Terrain& ground, const Terrain& bed) {
 
 TEST(SceneGround, AnExcavationKeepsTheVolumeOnTheAveragedGround) {
   for (const double spacing : {1.0, 2.0, 3.0, 4.0}) {
-    const Excavation e(spacing, "depth_averaged");
+    const Excavation e(spacing, Formulation::depth_averaged);
     const ScenePlan plan = plan_scene(e.s, e.in, 0);
     const Terrain ground = scene_ground(e.s, e.in, {}, true);
     ASSERT_EQ(plan.bed.grid().cell_m, spacing);
@@ -198,7 +198,7 @@ TEST(SceneGround, AnExcavationKeepsTheVolumeOnTheAveragedGround) {
 }
 
 TEST(SceneGround, AnExcavationForParticlesIsCutOutOfTheRaster) {
-  const Excavation e(3, "full_stress");
+  const Excavation e(3, Formulation::full_stress);
   const ScenePlan plan = plan_scene(e.s, e.in, 0);
   EXPECT_EQ(plan.bed.grid().cell_m, 1);
   EXPECT_NEAR(volume_between(scene_ground(e.s, e.in, {}, false), plan.bed), e.volume,
@@ -206,7 +206,7 @@ TEST(SceneGround, AnExcavationForParticlesIsCutOutOfTheRaster) {
 }
 
 TEST(SceneGround, AReleaseWithoutMassIsNamedAsSuch) {
-  Excavation e(3, "full_stress");
+  Excavation e(3, Formulation::full_stress);
   e.in.release = std::make_shared<const Raster<double>>(e.in.elevation->grid, 0.0);
   e.s.numerics.accept_unresolved = false;
   try {

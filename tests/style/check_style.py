@@ -135,7 +135,76 @@ def equations(root):
         yield "engine/EQUATIONS.md:1: the table has no rows."
 
 
-CHECKS = {f.__name__: f for f in (length, silence, words, headers, machine_paths, equations)}
+# What shows that a word is a label of docs/physics.md: a capital with a number and nothing that
+# would make it a version, a file name or an identifier. Errata and findings are named as such.
+LABEL = re.compile(
+    r"(?<![\w.\-/])([ABCDF]\.\d{1,2}|I[1-9]\d?|V[1-9]\d?[a-z]?)(?![\w/\-]|\.\d)"
+    r"|\b(?:[Ee]rrat(?:a|um)|[Ff]indings?) ([ES][1-9]\d?)\b")
+INSIDE_LABEL = re.compile(r"(?<![\w.\-/])([ES][1-9]\d?)(?![\w/\-]|\.\d)")  # in that file itself
+ANCHOR = re.compile(
+    r"^#{1,4} ([ABCDF]\.\d{1,2})\b|\*\*([IVS][1-9]\d?[a-z]?)\*\*|^\| (E[1-9]\d?) \|")
+DOCUMENT = re.compile(r"[\w.\-/]*\w\.md\b")
+
+
+def prose(path, line):
+    """Comments and string literals of C++, everything of other files; without addresses."""
+    if path.suffix in CODE:
+        strings = re.findall(r'"(?:\\.|[^"\\])*"', line)
+        comment = re.sub(r'"(?:\\.|[^"\\])*"', "", line).partition("//")[2]
+        line = " ".join(strings + [comment])
+    return re.sub(r"\w+://\S+", "", line)
+
+
+def references(root):
+    """Every label (B.9, I4, V8b) has its place in docs/physics.md, every cited document exists."""
+    physics = root / "docs" / "physics.md"
+    anchors = {}
+    for n, line in enumerate(lines_of(physics) if physics.is_file() else [], 1):
+        for found in ANCHOR.finditer(line):
+            label = next(filter(None, found.groups()))
+            if label in anchors:
+                yield f"docs/physics.md:{n}: {label} has its place in line {anchors[label]} already."
+            anchors.setdefault(label, n)
+    kinds = CODE + (".py", ".sh", ".md", ".yaml", ".yml", ".txt", ".cmake")
+    files = list(sources(root, LIBRARIES + ("docs", "scripts", "tests"), kinds))
+    files += [(p, p.name) for p in sorted(root.iterdir()) if p.is_file() and p.suffix in kinds]
+    documents = {p.name for p, _ in files if p.suffix == ".md"}
+    for path, name in files:
+        if name.startswith("tests/style/"):
+            continue  # examples of both kinds
+        patterns = (LABEL, INSIDE_LABEL) if path == physics else (LABEL,)
+        for n, line in enumerate(lines_of(path), 1):
+            text = prose(path, line)
+            for found in (m for p in patterns for m in p.finditer(text)):
+                label = next(filter(None, found.groups()))
+                if label not in anchors:
+                    yield f"{name}:{n}: {label} has no place in docs/physics.md."
+            for cited in (m.group(0).lstrip("/") for m in DOCUMENT.finditer(text)):
+                if not ((root / cited).is_file() or (path.parent / cited).is_file()
+                        or cited in documents):
+                    yield f"{name}:{n}: the document {cited} is not in the repository."
+
+
+def citation(root):
+    """CITATION.cff names the version of the project: one number, one place."""
+    lists, cited = root / "CMakeLists.txt", root / "CITATION.cff"
+    if not lists.is_file() or not cited.is_file():
+        yield "CITATION.cff:1: CITATION.cff and CMakeLists.txt belong side by side."
+        return
+    project = re.search(r"^project\(\w+ VERSION ([\d.]+)", lists.read_text(), re.M)
+    if not project:
+        yield "CMakeLists.txt:1: project() gives no version."
+        return
+    for n, line in enumerate(lines_of(cited), 1):
+        if line.startswith("version:"):
+            if line.split(":", 1)[1].strip().strip("\"'") != project.group(1):
+                yield f"CITATION.cff:{n}: the project's version is {project.group(1)}."
+            return
+    yield "CITATION.cff:1: no version."
+
+
+CHECKS = {f.__name__: f for f in (length, silence, words, headers, machine_paths, equations,
+                                  references, citation)}
 
 
 def main(which, root):

@@ -70,6 +70,56 @@ class CheckStyle(unittest.TestCase):
     def test_the_table_is_required(self):
         self.assertTrue(list(style.CHECKS["equations"](self.root)))
 
+    PHYSICS = ("## B.9 States\n- **I4** Creep.\n- **V8** Cone, **V8b** slice.\n"
+               "| E8 | a | b |\n**S2** Angle (E8).\n")
+
+    def with_physics(self, text=PHYSICS):
+        for name in ("docs/decisions", "docs/studies"):
+            (self.root / name).mkdir(parents=True, exist_ok=True)
+        (self.root / "docs/physics.md").write_text(text)
+
+    def test_labels_need_a_place_in_the_physics(self):
+        self.with_physics()
+        for name, line in (("engine/a.cpp", "int x;  // law of docs/physics.md B.9, I4; see V8b."),
+                           ("tests/a.cpp", 'f("V8 collapse, a {}", a);  // B.9\'s rule'),
+                           ("docs/decisions/a.md", "V8 after errata E8 and finding S2 (B.9 step 3)"),
+                           ("io/a.py", "# 2.B.7, v1.B.3, B.9.2, SV99, I2C, V8-9, x/V77")):
+            self.assertFalse(self.findings("references", name, line), line)
+        for name, line in (("engine/a.hpp", "/// Gone: B.99"), ("engine/a.cpp", "x();  // C.1"),
+                           ("tests/a.cpp", 'f("V7 slab");'), ("docs/decisions/a.md", "(I5)"),
+                           ("docs/decisions/a.md", "V8c"), ("scenarios/a.hpp", "// errata E9"),
+                           ("README.md", "finding S1")):
+            self.assertTrue(self.findings("references", name, line), line)
+
+    def test_identifiers_are_no_labels(self):
+        self.with_physics()
+        for line in ("double V3 = I7 + A.5;", "template <int I9> struct V5 {};", "f(0x1E9, S3);"):
+            self.assertFalse(self.findings("references", "engine/a.cpp", line), line)
+
+    def test_the_physics_itself_must_be_consistent(self):
+        for more in ("see S9", "see B.8", "## B.9 Again"):
+            self.with_physics(self.PHYSICS + more)
+            self.assertTrue(list(style.CHECKS["references"](self.root)), more)
+        (self.root / "docs/physics.md").unlink()
+        self.assertTrue(self.findings("references", "engine/a.hpp", "// B.9"))
+
+    def test_documents_outside_the_repository_are_found(self):
+        self.with_physics()
+        (self.root / "docs/studies/cost.md").write_text("")
+        for line in ("docs/physics.md", "[study](../studies/cost.md)", "`cost.md`",
+                     "docs/studies/cost.md:3", "https://example.org/a/other.md", "x.mdx", "a.md5"):
+            self.assertFalse(self.findings("references", "docs/decisions/a.md", line), line)
+        for line in ("thin.md", "docs/thin.md", "see ../shared/physics2.md", "docs/cost.md"):
+            self.assertTrue(self.findings("references", "docs/decisions/a.md", line), line)
+            self.assertTrue(self.findings("references", "engine/a.cpp", "// " + line), line)
+
+    def test_the_citation_has_the_projects_version(self):
+        (self.root / "CMakeLists.txt").write_text("project(sturz VERSION 1.2.3 LANGUAGES CXX)\n")
+        self.assertFalse(self.findings("citation", "CITATION.cff", "title: x\nversion: 1.2.3\n"))
+        for text in ("version: 1.2.2\n", "title: x\n", "version: 1.2.34\n"):
+            self.assertTrue(self.findings("citation", "CITATION.cff", text), text)
+        self.assertTrue(list(style.CHECKS["citation"](self.root)), "no file")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -31,18 +31,19 @@ DOORS = {"ensemble/workflow", "ensemble/app"}
 FAMILIES = {
     "motion": set(),
     "bed": set(),
-    "dense": {"kinetic/settings.hpp", "isolated"},
-    "kinetic": {"dense", "isolated"},
+    "dense": {"kinetic/settings.hpp"},
+    "kinetic": {"dense"},
     "isolated": {"dense"},
     "columns": set(),
     "sweep": {"dense", "kinetic", "columns"},
 }
 EVERYBODYS = {"sweep/fused_sweep.hpp", "motion/losses.hpp", "motion/accounts.hpp",
               "motion/wrapping.hpp"}
-SIMULATION_SEES = ("/step.hpp", "/state.hpp", "/fields.hpp")
+SIMULATION_SEES = ("/step.hpp", "/state.hpp", "/moving_set.hpp", "/fields.hpp")
 
 LIBRARIES = {
     "gdal": {"io"}, "ogr": {"io"}, "cpl_": {"io"}, "netcdf": {"io"}, "yaml-cpp": {"io"},
+    "openssl/": {"io"}, "utf8": {"io"},
     "openturns": {"ensemble"}, "tbb/": {"ensemble"}, "oneapi/": {"ensemble"},
     "omp.h": {"engine/core"}, "CLI/": {"ensemble/app"}, "spdlog/": {"ensemble/app"},
     "nlohmann/": {"io", "reports", "ensemble/workflow", "ensemble/app"},

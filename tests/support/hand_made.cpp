@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/hand_made.hpp"
 
+#include "engine/effects/motion/accounts.hpp"
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -13,31 +15,32 @@ constexpr double density = 1560, h = 1.3;
 State state_of(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
                const Domain& domain, double mass = density) {
   State s(std::move(ground), domain);
-  ParticleSet& p = s.grains;
-  p.resize(places.size());
+  MovingSet& p = s.grains();
+  p.grow(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
     p.x[i] = places[i].x(), p.y[i] = places[i].y(), p.z[i] = places[i].z();
     p.vx[i] = velocity.x(), p.vy[i] = velocity.y(), p.vz[i] = velocity.z();
     p.mass[i] = mass;
-    s.ledger.released_mass += mass;
+    s.grains().ledger.released_mass += mass;
   }
   return s;
 }
 
 void open_books(State& s) {
-  refresh_motion(s, 0);
-  s.ledger.kinetic_0 = s.ledger.kinetic;
+  refresh_motion(s, s.grains(), 0);
+  s.grains().ledger.kinetic_0 = s.grains().ledger.kinetic;
 }
 
 void finish(HandMade& made, std::vector<GroundFriction> base, ZoneMap zones) {
-  add_gravity(made.step, made.state);
+  add_gravity(made.step, made.state, 0);
   ContactSettings contact;
   contact.reference_density = density;
   contact.stiffness = 4000;
   contact.base = std::move(base);
   contact.zones = std::move(zones);
-  add_terrain_contact(made.step, made.state, contact);
-  add_motion(made.step, made.state, {1, h});
+  add_terrain_contact(made.step, 0, contact);
+  if (!made.state.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
+  add_motion(made.step, 0, {1, h});
   open_books(made.state);
 }
 
@@ -77,7 +80,7 @@ HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& 
   for (const Vec3& p : places) top = std::max(top, p.z() + 0.5);
   std::vector<double> depth;
   for (const Vec3& p : places) depth.push_back(top - p.z());
-  add_grain_stress(made.step, made.state, settings, depth);
+  add_grain_stress(made.step, made.state, 0, settings, depth);
   finish(made, {{friction}}, {});
   return made;
 }
@@ -99,7 +102,7 @@ HandMade columns_on(Terrain ground, const std::vector<Vec3>& places, double thic
   HandMade made{state_of(std::move(ground), places, velocity, domain, density * thickness), {}};
   settings.density = density;
   settings.instruction_set = best_instruction_set();
-  add_depth_averaged(made.step, made.state, settings,
+  add_depth_averaged(made.step, made.state, 0, settings,
                      std::vector<double>(places.size(), thickness));
   open_books(made.state);
   return made;

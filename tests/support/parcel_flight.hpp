@@ -2,7 +2,9 @@
 /// Lone parcels thrown by hand: only gravity, their contacts and motion.
 #pragma once
 
-#include "engine/effects/isolated/effect.hpp"
+#include "engine/effects/fields.hpp"
+#include "engine/effects/isolated/contacts.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "tests/support/hand_made.hpp"
 
 #include <Eigen/Geometry>
@@ -31,7 +33,7 @@ class StartNote final : public Pass {
   std::string_view effect() const override { return EffectName::bookkeeping; }
   Stage stage() const override { return Stage::pack; }
   void apply(State& s, double) override {
-    before_.component = {s.grains.vx, s.grains.vy, s.grains.vz};
+    before_.component = {s.grains().vx, s.grains().vy, s.grains().vz};
   }
 
  private:
@@ -50,54 +52,57 @@ class Flight {
  public:
   Flight(const std::vector<Thrown>& parcels, const Scene& scene)
       : state(even_ground(64), scene.domain) {
-    ParticleSet& p = state.grains;
+    MovingSet& p = state.grains();
     state.gravity = scene.gravity;
-    p.resize(parcels.size());
+    p.grow(parcels.size());
     for (std::size_t i = 0; i < parcels.size(); ++i) put(i, parcels[i]);
-    add_gravity(step, state);
-    if (scene.works) step.add(std::make_unique<StartNote>(p.add_field("velocity_before", 3)));
+    add_gravity(step, state, 0);
+    if (scene.works) step.add(std::make_unique<StartNote>(p.add(fields::velocity_before)));
     if (scene.ground) {
       ContactSettings looks;  // a reach that nothing ever touches: only the look-up counts
       looks.spacing = 1e-6;
       looks.smoothing_length = 4;
       looks.base = {{0, 0, 0}};
-      add_terrain_contact(step, state, looks);
+      add_terrain_contact(step, 0, looks);
+      if (!state.domain.walls.empty()) add_wall_contact(step, 0, looks);
     }
-    add_parcel_contacts(step, state, scene.contacts);
-    add_motion(step, state, {1, 1.3});
-    refresh_motion(state, 0);
-    state.ledger.kinetic_0 = state.ledger.kinetic;
+    add_isolated_contacts(step, state, 0, scene.contacts);
+    add_motion(step, 0, {1, 1.3});
+    refresh_motion(state, state.grains(), 0);
+    state.grains().ledger.kinetic_0 = state.grains().ledger.kinetic;
   }
 
   void advance(double dt) { step.apply(state, dt); }
   Vec3 velocity(std::size_t i) const {
-    return {state.grains.vx[i], state.grains.vy[i], state.grains.vz[i]};
+    return {state.grains().vx[i], state.grains().vy[i], state.grains().vz[i]};
   }
   Vec3 place(std::size_t i) const {
-    return {state.grains.x[i], state.grains.y[i], state.grains.z[i]};
+    return {state.grains().x[i], state.grains().y[i], state.grains().z[i]};
   }
   Vec3 spin(std::size_t i) const {
-    const auto& w = state.grains.find_field("spin")->component;
+    const auto& w = state.grains().components(fields::spin);
     return {w[0][i], w[1][i], w[2][i]};
   }
   double radius(std::size_t i) const {
-    return std::cbrt(0.75 * state.grains.mass[i] / (std::numbers::pi * parcel_density));
+    return std::cbrt(0.75 * state.grains().mass[i] / (std::numbers::pi * parcel_density));
   }
   Vec3 momentum() const {
     Vec3 sum(0, 0, 0);
-    for (std::size_t i = 0; i < state.grains.size(); ++i) sum += state.grains.mass[i] * velocity(i);
+    for (std::size_t i = 0; i < state.grains().size(); ++i)
+      sum += state.grains().mass[i] * velocity(i);
     return sum;
   }
   Vec3 angular_momentum() const {
     Vec3 sum(0, 0, 0);
-    for (std::size_t i = 0; i < state.grains.size(); ++i)
-      sum += state.grains.mass[i] *
+    for (std::size_t i = 0; i < state.grains().size(); ++i)
+      sum += state.grains().mass[i] *
              (place(i).cross(velocity(i)) + 0.4 * radius(i) * radius(i) * spin(i));
     return sum;
   }
   /// Of motion, spins and springs [J].
   double energy() const {
-    return state.ledger.kinetic + state.ledger.rotational + state.ledger.parcel_elastic;
+    return state.grains().ledger.kinetic + state.grains().ledger.rotational +
+           state.grains().ledger.parcel_elastic;
   }
 
   State state;
@@ -105,7 +110,7 @@ class Flight {
 
  private:
   void put(std::size_t i, const Thrown& t) {
-    ParticleSet& p = state.grains;
+    MovingSet& p = state.grains();
     p.x[i] = t.place.x(), p.y[i] = t.place.y(), p.z[i] = t.place.z();
     p.vx[i] = t.velocity.x(), p.vy[i] = t.velocity.y(), p.vz[i] = t.velocity.z();
     p.mass[i] = 4.0 / 3 * std::numbers::pi * parcel_density * t.radius * t.radius * t.radius;

@@ -55,7 +55,7 @@ ColumnRecord record_of(const SlowColumn& c, ColumnRecord r) {
 
 ColumnCells cells_of(const std::vector<SlowColumn>& columns, const Domain& domain) {
   ParticleSet set;
-  set.resize(columns.size());
+  set.grow(columns.size());
   std::vector<double> reach;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Vec3& p = columns[i].position;

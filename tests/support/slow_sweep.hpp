@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The slow twin of the pair sweep: every pair, double precision, physics.md's formulas in full.
+/// The slow twin of the pair sweep: every pair, double precision, the formulas of Part B in full.
 #pragma once
 
 #include "engine/core/vec.hpp"

@@ -96,7 +96,7 @@ struct Prepared {
   Prepared(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
            InstructionSet isa, const Domain& domain)
       : lists(2 * constants.h, 0.15 * constants.h, sweeps(isa).tight_list) {
-    set.resize(particles.size());
+    set.grow(particles.size());
     for (std::size_t i = 0; i < particles.size(); ++i) {
       set.x[i] = particles[i].position.x();
       set.y[i] = particles[i].position.y();

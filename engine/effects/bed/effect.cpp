@@ -2,6 +2,7 @@
 #include "engine/effects/bed/effect.hpp"
 
 #include "engine/core/parallel.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/laws/contact_impulse.hpp"
 
 #include <algorithm>
@@ -41,15 +42,15 @@ double plane_integral(double d, double h) {
 /// the bottom layers carry the pressure of the column above, and the spring only guards the gap.
 class WallPressure {
  public:
-  WallPressure(const State& s, const ContactSettings& c) {
-    const Field* stress = s.grains.find_field("stress");
+  WallPressure(const MovingSet& p, const ContactSettings& c) {
+    const Field* stress = p.find(fields::stress);
     if (!stress) return;
     for (int k = 0; k < 6; ++k) stress_[k] = stress->component[k].data();
-    if (const Field* kinetic = s.grains.find_field("kinetic_stress"))
+    if (const Field* kinetic = p.find(fields::kinetic_stress))
       for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
-    compression_ = s.grains.find_field("compression")->component[0].data();
+    compression_ = p.scalar(fields::compression).data();
     density_ = c.reference_density;
-    share_ = s.boundary.share.data();
+    share_ = p.boundary.share.data();
   }
   /// \param plane  plane_integral at the particle's distance [1/m]
   double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
@@ -76,8 +77,8 @@ class WallPressure {
 /// Velocities at the start of the step, as the pack pass left them.
 class StartVelocity {
  public:
-  explicit StartVelocity(const State& s)
-      : set_(s.grains), before_(set_.find_field("velocity_before")) {}
+  explicit StartVelocity(const ParticleSet& p)
+      : set_(p), before_(set_.find(fields::velocity_before)) {}
   std::array<double, 3> operator()(std::size_t i) const {
     if (!before_) return {set_.vx[i], set_.vy[i], set_.vz[i]};
     return {before_->component[0][i], before_->component[1][i], before_->component[2][i]};
@@ -91,26 +92,27 @@ class StartVelocity {
 /// Looks up the ground under every particle and what the mirrored halves add to its gradients.
 class BoundaryPass final : public Pass {
  public:
-  explicit BoundaryPass(const ContactSettings& c) : settings_(c) {}
+  BoundaryPass(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {}
   std::string_view name() const override { return "ground and wall support"; }
   std::string_view effect() const override { return EffectName::base; }
   Stage stage() const override { return Stage::boundary; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
-    const double v = s.motion.max_speed, cell = s.terrain.grid().cell_m;
+    const double v = s.sets[set_].motion.max_speed, cell = s.terrain.grid().cell_m;
     out.push_back(
         {"terrain cell", v > 0 ? 0.5 * cell / v : std::numeric_limits<double>::infinity()});
   }
 
   void apply(State& s, double dt) override {
-    make_room(s);
+    MovingSet& p = s.sets[set_];
+    make_room(s.domain, p);
     // Where nothing moved in storage, what was far from the ground has come no nearer than it went.
-    const bool known = s.n_sorts == sorts_ && s.grains.size() == n_;
-    sorts_ = s.n_sorts;
-    n_ = s.grains.size();
-    const auto travel = static_cast<float>(1.0001 * s.motion.max_speed * s.previous_dt);
+    const bool known = p.n_sorts == sorts_ && p.size() == n_;
+    sorts_ = p.n_sorts;
+    n_ = p.size();
+    const auto travel = static_cast<float>(1.0001 * p.motion.max_speed * s.previous_dt);
     const auto far = static_cast<float>(2 * settings_.smoothing_length);
-    float* distance = s.boundary.distance.data();
+    float* distance = p.boundary.distance.data();
     const Found found = ordered_reduce(
         n_, s.threads, Found{},
         [&](std::size_t begin, std::size_t end, Found& out) {
@@ -118,40 +120,41 @@ class BoundaryPass final : public Pass {
             if (known && distance[i] - travel > far)
               distance[i] -= travel;
             else
-              locate(s, i, out);
+              locate(s, p, i, out);
           }
-          if (!s.domain.walls.empty()) add_walls(s, dt, begin, end);
+          if (!s.domain.walls.empty()) add_walls(s, p, dt, begin, end);
         },
         [](Found& total, const Found& block) {
-          total.any_outside |= block.any_outside;
+          total.any_leaving |= block.any_leaving;
           total.leaked += block.leaked;
         });
-    s.any_outside = found.any_outside;
-    s.ledger.leaked_mass += found.leaked;
+    p.any_leaving = found.any_leaving;
+    p.ledger.leaked_mass += found.leaked;
   }
 
  private:
   struct Found {
-    bool any_outside = false;
+    bool any_leaving = false;
     double leaked = 0;
   };
 
   /// Whole groups, because the sweep reads lanes.
-  static void make_room(State& s) {
-    const std::size_t padded = (s.grains.size() + 15) / 16 * 16;
-    BoundarySupport& b = s.boundary;
+  static void make_room(const Domain& domain, MovingSet& p) {
+    const std::size_t padded = (p.size() + 15) / 16 * 16;
+    BoundarySupport& b = p.boundary;
     for (auto* column : {&b.distance, &b.nx, &b.ny, &b.nz}) column->resize(padded);
-    s.outside.resize(s.grains.size());
-    if (s.domain.walls.empty()) return;
+    p.fate.resize(p.size());
+    if (domain.walls.empty()) return;
     for (int c = 0; c < 6; ++c) b.moment[c].resize(padded), b.gradient[c].resize(padded);
   }
 
-  void locate(State& s, std::size_t i, Found& out) const {
-    BoundarySupport& b = s.boundary;
-    Vec3 at(s.grains.x[i], s.grains.y[i], s.grains.z[i]);
+  void locate(const State& s, MovingSet& p, std::size_t i, Found& out) const {
+    BoundarySupport& b = p.boundary;
+    Vec3 at(p.x[i], p.y[i], p.z[i]);
     s.domain.wrap(at.x(), at.y(), at.z());
     SurfaceDistance gap;
-    s.outside[i] = !s.terrain.distance_inside(at, 0.5 * settings_.spacing, gap);
+    const bool known = s.terrain.distance_inside(at, 0.5 * settings_.spacing, gap);
+    p.fate[i] = known ? Fate::stays : Fate::off_terrain;
     b.distance[i] = static_cast<float>(gap.distance);
     b.nx[i] = static_cast<float>(gap.normal.x());
     b.ny[i] = static_cast<float>(gap.normal.y());
@@ -160,17 +163,17 @@ class BoundaryPass final : public Pass {
     if (gap.distance > reach)  // how long it need not be looked at again
       b.distance[i] = static_cast<float>(std::fmax(reach, s.terrain.clearance(at)));
     if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
-      s.outside[i] = 2;
-      out.leaked += s.grains.mass[i];
+      p.fate[i] = Fate::underground;
+      out.leaked += p.mass[i];
     }
-    out.any_outside |= s.outside[i] != 0;
+    out.any_leaving |= p.fate[i] != Fate::stays;
   }
 
   /// What the mirrored halves beside analytic walls add to moment and gradient of [begin, end).
-  void add_walls(State& s, double dt, std::size_t begin, std::size_t end) const {
-    BoundarySupport& b = s.boundary;
-    const ParticleSet& p = s.grains;
-    const Field* before = p.find_field("velocity_before");
+  void add_walls(const State& s, MovingSet& p, double dt, std::size_t begin,
+                 std::size_t end) const {
+    BoundarySupport& b = p.boundary;
+    const Field* before = p.find(fields::velocity_before);
     if (!before) return;  // nobody sums gradients
     const double ahead = s.extrapolation(dt);
     for (int c = 0; c < 6; ++c) {
@@ -198,19 +201,20 @@ class BoundaryPass final : public Pass {
     }
   }
 
+  std::size_t set_;
   ContactSettings settings_;
   std::size_t sorts_ = 0, n_ = 0;  // of the step before
 };
 
-void book(State& s, const ContactSums& sums) {
-  s.ledger.stress_work += sums.pressure_work;
-  s.ledger.contact_work += sums.contact_work;
-  s.ledger.friction += sums.friction;
+void book(MovingSet& p, const ContactSums& sums) {
+  p.ledger.stress_work += sums.pressure_work;
+  p.ledger.contact_work += sums.contact_work;
+  p.ledger.friction += sums.friction;
 }
 
 class GroundContact final : public Pass {
  public:
-  explicit GroundContact(const ContactSettings& c) : settings_(c) {
+  GroundContact(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {
     for (const GroundFriction& zone : c.base) {
       ContactLaw& law = laws_.emplace_back();
       law.stiffness = c.stiffness;
@@ -231,37 +235,38 @@ class GroundContact final : public Pass {
   }
 
   void apply(State& s, double dt) override {
-    ParticleSet& p = s.grains;
-    const BoundarySupport& b = s.boundary;
-    const WallPressure pressure(s, settings_);
-    const StartVelocity start(s);
+    MovingSet& p = s.sets[set_];
+    const BoundarySupport& b = p.boundary;
+    const WallPressure pressure(p, settings_);
+    const StartVelocity start(p);
     const double reach = 2 * settings_.smoothing_length;
     const bool zoned = settings_.zones.any();
     const ContactSums sums = ordered_reduce(
         p.size(), s.threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (s.outside[i] || b.distance[i] >= reach) continue;
+            if (p.fate[i] != Fate::stays || b.distance[i] >= reach) continue;
             const double plane = plane_integral(b.distance[i], settings_.smoothing_length);
             const double support = pressure.acceleration(i, plane, b.nx[i], b.ny[i], b.nz[i]);
-            const ContactLaw& law = laws_[zoned ? zone_of(s, i) : 0];
+            const ContactLaw& law = laws_[zoned ? zone_of(s.domain, p, i) : 0];
             out.add(apply_contact(law, b.distance[i], b.nx[i], b.ny[i], b.nz[i], support, dt,
                                   start(i).data(), p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);
           }
         },
         combine);
-    book(s, sums);
-    s.ledger.spring = sums.spring;
+    book(p, sums);
+    p.ledger.spring = sums.spring;
   }
 
  private:
-  std::size_t zone_of(const State& s, std::size_t i) const {
-    double x = s.grains.x[i], y = s.grains.y[i], z = 0;
-    s.domain.wrap(x, y, z);
+  std::size_t zone_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {
+    double x = p.x[i], y = p.y[i], z = 0;
+    domain.wrap(x, y, z);
     return static_cast<std::size_t>(settings_.zones.at(x, y));
   }
 
+  std::size_t set_;
   ContactSettings settings_;
   std::vector<ContactLaw> laws_;  // by zone
 };
@@ -269,7 +274,7 @@ class GroundContact final : public Pass {
 /// The domain's analytic planes, each until it is removed.
 class WallContact final : public Pass {
  public:
-  explicit WallContact(const ContactSettings& c) : settings_(c) {}
+  WallContact(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {}
   std::string_view name() const override { return "wall contact"; }
   std::string_view effect() const override { return EffectName::walls; }
   Stage stage() const override { return Stage::contact; }
@@ -283,19 +288,18 @@ class WallContact final : public Pass {
       law.reach = 0.5 * settings_.spacing;
       law.friction = wall.friction_coefficient;
       law.cohesion_reach = -1;
-      press(s, wall, law, dt);
+      press(s.sets[set_], wall, law, dt, s.threads);
     }
   }
 
  private:
-  void press(State& s, const Wall& wall, const ContactLaw& law, double dt) const {
-    ParticleSet& p = s.grains;
-    const WallPressure pressure(s, settings_);
-    const StartVelocity start(s);
+  void press(MovingSet& p, const Wall& wall, const ContactLaw& law, double dt, int threads) const {
+    const WallPressure pressure(p, settings_);
+    const StartVelocity start(p);
     const double reach = 2 * settings_.smoothing_length;
     const Vec3 n = wall.normal;
     const ContactSums sums = ordered_reduce(
-        p.size(), s.threads, ContactSums{},
+        p.size(), threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
             const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
@@ -308,19 +312,23 @@ class WallContact final : public Pass {
           }
         },
         combine);
-    book(s, sums);
-    s.ledger.spring += sums.spring;
+    book(p, sums);
+    p.ledger.spring += sums.spring;
   }
 
+  std::size_t set_;
   ContactSettings settings_;
 };
 
 }  // namespace
 
-void add_terrain_contact(Step& step, State& state, const ContactSettings& settings) {
-  step.add(std::make_unique<BoundaryPass>(settings));
-  step.add(std::make_unique<GroundContact>(settings));
-  if (!state.domain.walls.empty()) step.add(std::make_unique<WallContact>(settings));
+void add_terrain_contact(Step& step, std::size_t set, const ContactSettings& settings) {
+  step.add(std::make_unique<BoundaryPass>(set, settings));
+  step.add(std::make_unique<GroundContact>(set, settings));
+}
+
+void add_wall_contact(Step& step, std::size_t set, const ContactSettings& settings) {
+  step.add(std::make_unique<WallContact>(set, settings));
 }
 
 }  // namespace sturz

@@ -25,8 +25,11 @@ struct ContactSettings {
   ZoneMap zones;
 };
 
-/// Adds the ground's contact pass and, if the domain has walls, theirs. Reads the stress fields
-/// "compression pressure" of grain_stress when they exist (a lone parcel has none).
-void add_terrain_contact(Step&, State&, const ContactSettings&);
+/// Adds the look-up of ground and walls and the ground's contact. Reads the fields of grain stress
+/// where the set has them (an isolated particle has no pressure).
+void add_terrain_contact(Step&, std::size_t set, const ContactSettings&);
+/// Adds the contact of the domain's analytic walls, each until it is removed. After
+/// add_terrain_contact.
+void add_wall_contact(Step&, std::size_t set, const ContactSettings&);
 
 }  // namespace sturz

@@ -2,8 +2,8 @@
 #include "engine/effects/columns/effect.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/effects/arrivals.hpp"
 #include "engine/effects/columns/shared.hpp"
-#include "engine/effects/motion/wrapping.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,56 +14,69 @@ namespace {
 /// Thickness that a column without neighbours gives to itself: the floor at release.
 double lone_thickness(double volume, double reach) { return 2.2281692 * volume / (reach * reach); }
 
-void start_columns(State& s, ColumnFlow& flow, std::span<const double> vertical_thickness) {
-  ParticleSet& p = s.grains;
+/// Rates that set the length of the first step [1/s].
+struct FirstRates {
+  double wave2 = 0;  ///< of waves, squared [1/s^2]
+  double rate = 0;   ///< of free fall over a cell, or of a viscous bed
+};
+
+/// Puts column i on the ground with the thickness that it was released with.
+void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::size_t i,
+                  double vertical_thickness, FirstRates& first) {
   const GroundColumns ground(p);
-  auto& thickness = p.find_field("thickness")->component[0];
-  auto& reach = p.find_field("reach")->component[0];
-  auto& g_n = p.find_field("normal_gravity")->component[0];
   const DepthAveragedSettings& set = flow.settings;
-  Field* k = p.find_field("earth_pressure");
-  double wave2 = 0, rate = std::sqrt(s.gravity / s.terrain.grid().cell_m);
-  s.outside.assign(p.size(), 0);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    s.outside[i] = !look_up_ground(s, ground, i);
-    s.any_outside |= s.outside[i] != 0;
-    const Vec3 n = ground[i].normal();
-    // A map lattice on a slope stands 1/n_z farther apart along it.
-    reach[i] = set.reach_per_spacing * set.spacing * std::min(set.most_reach, std::sqrt(1 / n.z()));
-    thickness[i] =
-        std::max(vertical_thickness[i] * n.z(), lone_thickness(p.mass[i] / set.density, reach[i]));
-    g_n[i] = s.gravity * n.z();
-    if (k) {
-      const EarthPressure& e = set.earth_pressure[flow.zone_of(s, i)];
-      k->component[0][i] = std::clamp(1.0, e.active, e.passive);
-    }
-    const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
-    rate = std::max(
-        rate, set.base[flow.zone_of(s, i)].rate(v0.norm(), thickness[i], set.density, s.gravity));
-    wave2 = std::max(wave2, g_n[i] * thickness[i] * 4 / (reach[i] * reach[i]));
-    const Velocity v = Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
-    p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
+  const bool known = look_up_ground(s, p, ground, i);
+  p.fate[i] = known ? Fate::stays : Fate::off_terrain;
+  p.any_leaving |= !known;
+  const Vec3 n = ground[i].normal();
+  // A map lattice on a slope stands 1/n_z farther apart along it.
+  const double reach =
+      set.reach_per_spacing * set.spacing * std::min(set.most_reach, std::sqrt(1 / n.z()));
+  const double thickness =
+      std::max(vertical_thickness * n.z(), lone_thickness(p.mass[i] / set.density, reach));
+  const double g_n = s.gravity * n.z();
+  p.scalar(fields::support_radius)[i] = reach;
+  p.scalar(fields::thickness)[i] = thickness;
+  p.scalar(fields::normal_gravity)[i] = g_n;
+  const int zone = flow.zone_of(s.domain, p, i);
+  if (Field* k = p.find(fields::earth_pressure)) {
+    const EarthPressure& e = set.earth_pressure[zone];
+    k->component[0][i] = std::clamp(1.0, e.active, e.passive);
   }
-  flow.fastest_wave = std::sqrt(wave2);
+  const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
+  first.rate =
+      std::max(first.rate, set.base[zone].rate(v0.norm(), thickness, set.density, s.gravity));
+  first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (reach * reach));
+  const Velocity v = Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
+  p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
+}
+
+void start_columns(const State& s, MovingSet& p, ColumnFlow& flow,
+                   std::span<const double> vertical_thickness) {
+  FirstRates first;
+  first.rate = std::sqrt(s.gravity / s.terrain.grid().cell_m);
+  p.fate.assign(p.size(), Fate::stays);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    start_column(s, p, flow, i, vertical_thickness[i], first);
+  flow.fastest_wave = std::sqrt(first.wave2);
   // A small part of the time to cross a cell in free fall, or to be braked by a viscous base; the
   // least keeps a film that stands from taking for ever.
-  flow.start_dt = std::max(0.05 / rate, 1e-5);
+  flow.start_dt = std::max(0.05 / first.rate, 1e-5);
 }
 
 }  // namespace
 
 ColumnAtWall ColumnFlow::at_wall(ParticleSet& p, std::size_t i) const {
-  const Field* k = p.find_field("earth_pressure");
-  const double g_n = p.find_field("normal_gravity")->component[0][i];
+  const Field* k = p.find(fields::earth_pressure);
+  const double g_n = p.scalar(fields::normal_gravity)[i];
   return {{p.x[i], p.y[i], p.z[i]},
           GroundColumns(p)[i].normal(),
-          p.find_field("reach")->component[0][i],
-          p.find_field("thickness")->component[0][i],
+          p.scalar(fields::support_radius)[i],
+          p.scalar(fields::thickness)[i],
           k ? k->component[0][i] * g_n : g_n};
 }
 
-bool look_up_ground(State& s, const GroundColumns& ground, std::size_t i) {
-  ParticleSet& p = s.grains;
+bool look_up_ground(const State& s, ParticleSet& p, const GroundColumns& ground, std::size_t i) {
   double x = p.x[i], y = p.y[i], z = 0;
   s.domain.wrap(x, y, z);
   const CurvedSurface g = s.terrain.curved(x, y);
@@ -73,22 +86,31 @@ bool look_up_ground(State& s, const GroundColumns& ground, std::size_t i) {
   return g.known;
 }
 
-void add_depth_averaged(Step& step, State& state, const DepthAveragedSettings& settings,
-                        std::span<const double> thickness) {
-  expect(thickness.size() == state.grains.size(), "one thickness per column");
+void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t first) {
+  p.fate.resize(p.size());
+  FirstRates rates;
+  for (std::size_t i = first; i < p.size(); ++i) start_column(s, p, flow, i, 0, rates);
+  flow.fastest_wave = std::max(flow.fastest_wave, std::sqrt(rates.wave2));
+}
+
+std::size_t column_bytes_per_particle() { return 48 + 2 * 40 + 7 * 4 + 16; }
+
+void add_depth_averaged(Step& step, State& state, std::size_t set,
+                        const DepthAveragedSettings& settings, std::span<const double> thickness) {
+  MovingSet& p = state.sets[set];
+  expect(thickness.size() == p.size(), "one thickness per column");
   expect(!settings.base.empty() && settings.base.size() == settings.earth_pressure.size(),
          "base and earth pressure for every zone");
-  ParticleSet& p = state.grains;
-  for (const char* name : {"thickness", "reach", "normal_gravity", "turning"}) p.add_field(name, 1);
-  p.add_field("ground", 5);
-  p.add_field("velocity_before", 3);
+  for (const FieldKey* key : {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
+                              &fields::turning, &fields::ground, &fields::velocity_before})
+    p.add(*key);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
   if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))
-    p.add_field("earth_pressure", 1);
-  for (auto* a : {&state.ax, &state.ay, &state.az}) a->assign(p.size(), 0.0f);
-  prepare_wrapping(state);
-  auto flow = std::make_shared<ColumnFlow>(settings);
-  start_columns(state, *flow, thickness);
+    p.add(fields::earth_pressure);
+  for (auto* a : {&p.ax, &p.ay, &p.az}) a->assign(p.size(), 0.0f);
+  mark_start(state.domain, p, 0);
+  auto flow = std::make_shared<ColumnFlow>(set, settings);
+  start_columns(state, p, *flow, thickness);
   add_column_pressure(step, flow);
   add_column_motion(step, flow);
 }

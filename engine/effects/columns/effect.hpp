@@ -15,7 +15,10 @@ namespace sturz {
 /// "velocity_before" and, where K varies, "earth_pressure". Adds cells, pack, sweep, base and
 /// motion; the columns are put on the ground and their velocities made tangent. \param thickness of
 /// each column along the vertical at release [m]
-void add_depth_averaged(Step&, State&, const DepthAveragedSettings&,
+void add_depth_averaged(Step&, State&, std::size_t set, const DepthAveragedSettings&,
                         std::span<const double> thickness);
+
+/// Memory of cells, records and sums of the sweep [bytes per column].
+std::size_t column_bytes_per_particle();
 
 }  // namespace sturz

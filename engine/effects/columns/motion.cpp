@@ -20,16 +20,16 @@ class BasePass final : public Pass {
 
   void apply(State& s, double dt) override {
     const double kick = kick_length(s, dt);
-    ParticleSet& p = s.grains;
+    MovingSet& p = s.sets[flow_->set];
     const GroundColumns ground(p);
-    const auto& g_n = p.find_field("normal_gravity")->component[0];
-    const auto& thickness = p.find_field("thickness")->component[0];
+    const auto& g_n = p.scalar(fields::normal_gravity);
+    const auto& thickness = p.scalar(fields::thickness);
     const Works sums = ordered_reduce(
         p.size(), s.threads, Works{},
         [&](std::size_t begin, std::size_t end, Works& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (s.leaves(i)) continue;  // the books take it as it was at the start of the step
-            const Works w = push(s, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
+            if (s.leaves(p, i)) continue;  // the books take it as it was at the start of the step
+            const Works w = push(s, p, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
             out.friction += p.mass[i] * w.friction;
             out.contact += p.mass[i] * w.contact;
           }
@@ -38,8 +38,8 @@ class BasePass final : public Pass {
           total.friction += block.friction;
           total.contact += block.contact;
         });
-    s.ledger.friction += sums.friction;
-    s.ledger.contact_work += sums.contact;
+    p.ledger.friction += sums.friction;
+    p.ledger.contact_work += sums.contact;
   }
 
  private:
@@ -48,14 +48,13 @@ class BasePass final : public Pass {
   };
 
   /// \return works with the mean velocity of the step
-  Works push(State& s, std::size_t i, const Vec3& n, double normal_gravity, double thickness,
-             double kick, double drift) const {
-    ParticleSet& p = s.grains;
+  Works push(const State& s, MovingSet& p, std::size_t i, const Vec3& n, double normal_gravity,
+             double thickness, double kick, double drift) const {
     const Vec3 before(p.vx[i], p.vy[i], p.vz[i]);
-    Vec3 pull(s.ax[i], s.ay[i], s.az[i] - s.gravity);
+    Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
-    const BasalResistance& base = set.base[flow_->zone_of(s, i)];
+    const BasalResistance& base = set.base[flow_->zone_of(s.domain, p, i)];
     const double plastic = base.plastic(normal_gravity, thickness, set.density);
     Vec3 after = braked(before, pull, plastic, 0, kick);
     if (base.has_rate()) {
@@ -98,7 +97,7 @@ struct DriftSums {
   double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a rim that is a wall
   double settled = 0;                    // what the kicks had left out of gravity's work
   double later = 0;                      // sum of m dz of the second half of the step
-  bool any_outside = false;
+  bool any_leaving = false;
 };
 
 class ColumnMotion final : public Pass {
@@ -110,7 +109,8 @@ class ColumnMotion final : public Pass {
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
     // Half a cell at this speed, also where gravity adds to it all the way.
-    const double v = s.motion.max_speed, g = s.gravity, cell = s.terrain.grid().cell_m;
+    const double v = s.sets[flow_->set].motion.max_speed, g = s.gravity,
+                 cell = s.terrain.grid().cell_m;
     out.push_back({"terrain cell", cell / (v + std::sqrt(v * v + g * cell))});
     // From rest with short steps that may grow: where the step changes fast, kicks and ways do not
     // fit together, and energy is lost or found.
@@ -118,17 +118,17 @@ class ColumnMotion final : public Pass {
   }
 
   void apply(State& s, double dt) override {
-    if (s.any_outside) remove_outside(s, keep_);
-    refresh_motion(s, kick_length(s, dt));
-    drift(s, dt);
+    MovingSet& p = s.sets[flow_->set];
+    if (p.any_leaving) remove_outside(s, p, keep_);
+    refresh_motion(s, p, kick_length(s, dt));
+    drift(s, p, dt);
   }
 
  private:
   /// In separate loops: the arithmetic four columns side by side, the look-ups one by one.
-  void drift(State& s, double dt) {
-    ParticleSet& p = s.grains;
+  void drift(const State& s, MovingSet& p, double dt) {
     const GroundColumns ground(p);
-    s.outside.resize(p.size());
+    p.fate.resize(p.size());
     climb_.resize(p.size());
     rise_.resize(p.size());
     const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
@@ -136,8 +136,8 @@ class ColumnMotion final : public Pass {
         p.size(), s.threads, DriftSums{},
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
           turn_to_mid_step(p, ground, dt, begin, end);
-          if (rim) hold_at_rim(s, ground, dt, begin, end, out);
-          go(s, ground, dt, begin, end, out);
+          if (rim) hold_at_rim(s, p, ground, dt, begin, end, out);
+          go(s, p, ground, dt, begin, end, out);
           settle(p, ground, s.gravity, dt, begin, end, out);
         },
         [](DriftSums& total, const DriftSums& block) {
@@ -145,16 +145,16 @@ class ColumnMotion final : public Pass {
           total.stopped_energy += block.stopped_energy;
           total.settled += block.settled;
           total.later += block.later;
-          total.any_outside |= block.any_outside;
+          total.any_leaving |= block.any_leaving;
         });
-    s.any_outside = sums.any_outside;
+    p.any_leaving = sums.any_leaving;
     // The next kick counts the second half of the way: until then the books leave it out too.
-    s.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
+    p.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
     later_rise_ = sums.later;
-    s.ledger.lost_energy += sums.stopped_energy;
-    s.ledger.gravity_work -= sums.settled;
+    p.ledger.lost_energy += sums.stopped_energy;
+    p.ledger.gravity_work -= sums.settled;
     // Both were taken after the step's works were summed up.
-    s.ledger.kinetic -= sums.stopped_energy + sums.settled;
+    p.ledger.kinetic -= sums.stopped_energy + sums.settled;
   }
 
   /// The slopes at the middle of the step make the way second order.
@@ -176,12 +176,11 @@ class ColumnMotion final : public Pass {
   }
 
   /// Takes the velocity that would lead off the known ground.
-  void hold_at_rim(State& s, const GroundColumns& ground, double dt, std::size_t begin,
-                   std::size_t end, DriftSums& out) const {
-    ParticleSet& p = s.grains;
+  void hold_at_rim(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
+                   std::size_t begin, std::size_t end, DriftSums& out) const {
     for (std::size_t i = begin; i < end; ++i) {
       const Velocity v{p.vx[i], p.vy[i], p.vz[i]};
-      stop_at_rim(s, i, dt);
+      stop_at_rim(s, p, i, dt);
       if (p.vx[i] == v.x && p.vy[i] == v.y) continue;
       const ColumnGround mid = ground[i].ahead(0.5 * dt * v.x, 0.5 * dt * v.y);
       p.vz[i] = mid.east * p.vx[i] + mid.north * p.vy[i];
@@ -190,15 +189,15 @@ class ColumnMotion final : public Pass {
     }
   }
 
-  void go(State& s, const GroundColumns& ground, double dt, std::size_t begin, std::size_t end,
-          DriftSums& out) {
-    ParticleSet& p = s.grains;
+  void go(const State& s, MovingSet& p, const GroundColumns& ground, double dt, std::size_t begin,
+          std::size_t end, DriftSums& out) {
     for (std::size_t i = begin; i < end; ++i) {
       const double z = p.z[i];
       p.x[i] += dt * p.vx[i];
       p.y[i] += dt * p.vy[i];
-      s.outside[i] = !look_up_ground(s, ground, i);
-      out.any_outside |= s.outside[i] != 0;
+      const bool known = look_up_ground(s, p, ground, i);
+      p.fate[i] = known ? Fate::stays : Fate::off_terrain;
+      out.any_leaving |= !known;
       rise_[i] = p.z[i] - z;
     }
   }

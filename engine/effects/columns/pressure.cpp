@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells, records and the sweep over neighbouring columns.
+#include "engine/core/constants.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/wrapping.hpp"
@@ -19,10 +20,14 @@ class CellPass final : public Pass {
   Stage stage() const override { return Stage::neighbors; }
 
   void apply(State& s, double) override {
-    wrap_particles(s);
-    flow_->cells.build(s.grains, s.domain, s.grains.find_field("reach")->component[0]);
+    MovingSet& p = s.sets[flow_->set];
+    wrap_particles(s.domain, p);
+    flow_->cells.build(p, s.domain, p.scalar(fields::support_radius));
     for (auto& r : flow_->results) r.resize(flow_->cells.size());
-    s.order_changed = false;
+    p.order_changed = false;
+  }
+  void entered(State& s, std::size_t set, std::size_t first) override {
+    if (set == flow_->set) enter_columns(s, *flow_, s.sets[set], first);
   }
   std::size_t bytes() const override { return flow_->cells.bytes(); }
 
@@ -43,16 +48,16 @@ class PackPass final : public Pass {
   Stage stage() const override { return Stage::pack; }
 
   void apply(State& s, double dt) override {
-    ParticleSet& p = s.grains;
+    MovingSet& p = s.sets[flow_->set];
     const GroundColumns ground(p);
     const double kick = kick_length(s, dt);
-    s.ledger.take_off += ordered_reduce(
+    p.ledger.take_off += ordered_reduce(
         p.size(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& off) {
           press(p, ground, s.gravity, kick, begin, end, off);
         },
         [](double& total, double block) { total += block; });
-    fill_records(s);
+    fill_records(p, s.threads);
   }
 
  private:
@@ -64,12 +69,12 @@ class PackPass final : public Pass {
     const double *east = ground.component[0], *north = ground.component[1];
     const double *ee = ground.component[2], *en = ground.component[3], *nn = ground.component[4];
     const double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data(), *mass = p.mass.data();
-    auto& before = p.find_field("velocity_before")->component;
+    auto& before = p.components(fields::velocity_before);
     double *bx = before[0].data(), *by = before[1].data(), *bz = before[2].data();
-    double* normal_gravity = p.find_field("normal_gravity")->component[0].data();
-    double* turning = p.find_field("turning")->component[0].data();
-    const double* reach = p.find_field("reach")->component[0].data();
-    const double* thickness = p.find_field("thickness")->component[0].data();
+    double* normal_gravity = p.scalar(fields::normal_gravity).data();
+    double* turning = p.scalar(fields::turning).data();
+    const double* reach = p.scalar(fields::support_radius).data();
+    const double* thickness = p.scalar(fields::thickness).data();
     double airborne = 0;
 #pragma omp simd reduction(+ : airborne)
     for (std::size_t i = begin; i < end; ++i) {
@@ -88,16 +93,15 @@ class PackPass final : public Pass {
     off += airborne;
   }
 
-  void fill_records(const State& s) {
-    const ParticleSet& p = s.grains;
-    const auto& reach = p.find_field("reach")->component[0];
-    const auto& thickness = p.find_field("thickness")->component[0];
-    const auto& g_n = p.find_field("normal_gravity")->component[0];
-    const Field* k_field = p.find_field("earth_pressure");
+  void fill_records(const MovingSet& p, int threads) {
+    const auto& reach = p.scalar(fields::support_radius);
+    const auto& thickness = p.scalar(fields::thickness);
+    const auto& g_n = p.scalar(fields::normal_gravity);
+    const Field* k_field = p.find(fields::earth_pressure);
     const double* k = k_field ? k_field->component[0].data() : nullptr;
     ColumnCells& cells = flow_->cells;
     ColumnRecord* records = cells.records();
-    parallel_ranges(cells.size(), reduction_block, s.threads,
+    parallel_ranges(cells.size(), reduction_block, threads,
                     [&](std::size_t begin, std::size_t end) {
                       for (std::size_t c = begin; c < end; ++c) {
                         const std::size_t i = cells.source(c);
@@ -138,6 +142,7 @@ class SweepPass final : public Pass {
   }
 
   void apply(State& s, double dt) override {
+    MovingSet& p = s.sets[flow_->set];
     const ColumnView view = flow_->cells.view();
     const ColumnSweepOutput out = flow_->output();
     const ColumnConstants constants{flow_->settings.viscosity};
@@ -147,21 +152,20 @@ class SweepPass final : public Pass {
                     [&](std::size_t begin, std::size_t end) {
                       loops.columns(view, constants, out, begin, end);
                     });
-    take_in(s, out, dt);
-    if (!s.domain.walls.empty()) mirror_at_walls(s);
+    take_in(s, p, out, dt);
+    if (!s.domain.walls.empty()) mirror_at_walls(s, p);
   }
   std::size_t bytes() const override { return 7 * sizeof(float) * flow_->cells.size(); }
 
  private:
   /// Sums back to the columns: accelerations, thickness, reach, earth pressure, limits.
-  void take_in(State& s, const ColumnSweepOutput& out, double dt) {
-    ParticleSet& p = s.grains;
+  void take_in(const State& s, MovingSet& p, const ColumnSweepOutput& out, double dt) {
     const ColumnCells& cells = flow_->cells;
     const DepthAveragedSettings& set = flow_->settings;
-    auto& thickness = p.find_field("thickness")->component[0];
-    auto& reach = p.find_field("reach")->component[0];
-    const auto& g_n = p.find_field("normal_gravity")->component[0];
-    Field* k_field = p.find_field("earth_pressure");
+    auto& thickness = p.scalar(fields::thickness);
+    auto& reach = p.scalar(fields::support_radius);
+    const auto& g_n = p.scalar(fields::normal_gravity);
+    Field* k_field = p.find(fields::earth_pressure);
     double* k = k_field ? k_field->component[0].data() : nullptr;
     const double first = set.reach_per_spacing * set.spacing;
     const bool walls = !s.domain.walls.empty();
@@ -171,12 +175,14 @@ class SweepPass final : public Pass {
           for (std::size_t c = begin; c < end; ++c) {
             if (cells.is_image(c)) continue;
             const std::size_t i = cells.source(c);
-            s.ax[i] = out.ax[c], s.ay[i] = out.ay[c], s.az[i] = out.az[c];
+            p.ax[i] = out.ax[c], p.ay[i] = out.ay[c], p.az[i] = out.az[c];
             const double whole = walls ? flow_->walls.thickness_factor(
                                              s.domain, s.time, {p.x[i], p.y[i], p.z[i]}, reach[i])
                                        : 1;
             thickness[i] = whole * out.thickness[c];
-            if (k) k[i] = strained(s, i, k[i], out.divergence[c] / thickness[i] * dt, thickness[i]);
+            if (k)
+              k[i] = strained(s.domain, p, i, k[i], out.divergence[c] / thickness[i] * dt,
+                              thickness[i]);
             const double per_h = 2 / reach[i];
             const double wave2 = (k ? k[i] : 1.0) * g_n[i] * thickness[i] * per_h * per_h;
             most.wave = std::max(most.wave, wave2);
@@ -192,15 +198,14 @@ class SweepPass final : public Pass {
     flow_->fastest_approach = std::sqrt(fastest.approach2);
   }
 
-  void mirror_at_walls(State& s) const {
-    ParticleSet& p = s.grains;
+  void mirror_at_walls(const State& s, MovingSet& p) const {
     parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const ColumnAtWall column = flow_->at_wall(p, i);
-        Vec3 a(s.ax[i], s.ay[i], s.az[i]);
+        Vec3 a(p.ax[i], p.ay[i], p.az[i]);
         for (const Wall& wall : s.domain.walls)
           if (s.time < wall.remove_at_s) a += flow_->walls.pressure(s.domain, s.time, wall, column);
-        s.ax[i] = a.x(), s.ay[i] = a.y(), s.az[i] = a.z();
+        p.ax[i] = a.x(), p.ay[i] = a.y(), p.az[i] = a.z();
       }
     });
   }
@@ -213,11 +218,11 @@ class SweepPass final : public Pass {
     return std::clamp(next, set.least_reach * first, set.most_reach * first);
   }
 
-  double strained(const State& s, std::size_t i, double k, double strain, double thickness) const {
-    const ParticleSet& p = s.grains;
+  double strained(const Domain& domain, const ParticleSet& p, std::size_t i, double k,
+                  double strain, double thickness) const {
     const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
-    if (v2 < 1e-6 * 9.81 * thickness) return k;  // at rest K stays as it came
-    const EarthPressure& e = flow_->settings.earth_pressure[flow_->zone_of(s, i)];
+    if (v2 < 1e-6 * standard_gravity * thickness) return k;  // at rest K stays as it came
+    const EarthPressure& e = flow_->settings.earth_pressure[flow_->zone_of(domain, p, i)];
     return e.strained(k, strain, flow_->settings.earth_pressure_stiffness);
   }
 

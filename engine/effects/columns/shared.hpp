@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the passes of depth-averaged flow share. For depth_averaged and column_*.cpp only.
+/// What the passes of depth-averaged columns share.
 #pragma once
 
 #include "engine/effects/columns/settings.hpp"
 #include "engine/effects/columns/walls.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/effects/step.hpp"
 #include "engine/neighbors/column_cells.hpp"
 
@@ -14,6 +15,7 @@
 namespace sturz {
 
 struct ColumnFlow {
+  std::size_t set;  ///< index in State::sets
   DepthAveragedSettings settings;
   ColumnCells cells;
   ColumnWalls walls;
@@ -25,16 +27,16 @@ struct ColumnFlow {
   /// Column i beside a wall.
   ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;
 
-  explicit ColumnFlow(const DepthAveragedSettings& s) : settings(s) {}
+  ColumnFlow(std::size_t set_index, const DepthAveragedSettings& s) : set(set_index), settings(s) {}
 
   ColumnSweepOutput output() {
     return {results[0].data(), results[1].data(), results[2].data(), results[3].data(),
             results[4].data(), results[5].data(), results[6].data()};
   }
-  int zone_of(const State& s, std::size_t i) const {
+  int zone_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {
     if (!settings.zones.any()) return 0;
-    double x = s.grains.x[i], y = s.grains.y[i], z = 0;
-    s.domain.wrap(x, y, z);
+    double x = p.x[i], y = p.y[i], z = 0;
+    domain.wrap(x, y, z);
     return settings.zones.at(x, y);
   }
 };
@@ -56,8 +58,8 @@ struct GroundColumns {
   double* component[5];
 
   explicit GroundColumns(ParticleSet& p) {
-    Field& ground = *p.find_field("ground");
-    for (int k = 0; k < 5; ++k) component[k] = ground.component[k].data();
+    auto& ground = p.components(fields::ground);
+    for (int k = 0; k < 5; ++k) component[k] = ground[k].data();
   }
   ColumnGround operator[](std::size_t i) const {
     return {component[0][i], component[1][i], component[2][i], component[3][i], component[4][i]};
@@ -85,10 +87,13 @@ struct Velocity {
 
 /// Puts column i on the ground and keeps what lies below it.
 /// \return false off the known ground
-bool look_up_ground(State&, const GroundColumns&, std::size_t i);
+bool look_up_ground(const State&, ParticleSet&, const GroundColumns&, std::size_t i);
 
 /// A kick at t_n leads from the middle of the last step to the middle of this one.
 inline double kick_length(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }
+
+/// Puts columns from `first` on that entered during the run on the ground, without neighbours yet.
+void enter_columns(const State&, ColumnFlow&, MovingSet&, std::size_t first);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, pack, sweep
 void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< base, drift

@@ -3,10 +3,11 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
+#include "engine/effects/arrivals.hpp"
 #include "engine/effects/dense/shared.hpp"
 #include "engine/effects/dense/update.hpp"
 #include "engine/effects/dense/viscous_share.hpp"
-#include "engine/effects/isolated/flight.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/effects/motion/wrapping.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 
@@ -35,64 +36,56 @@ class NeighborPass final : public Pass {
   Stage stage() const override { return Stage::neighbors; }
 
   void apply(State& s, double) override {
+    MovingSet& p = s.sets[shared_->set];
     NeighborLists& lists = shared_->lists;
-    const double* range = s.motion.velocity_range;
+    const double* range = p.motion.velocity_range;
     lists.add_relative_motion(
         s.previous_dt * std::sqrt(range[0] * range[0] + range[1] * range[1] + range[2] * range[2]));
-    if (s.order_changed) lists.invalidate();
-    s.order_changed = false;
+    if (p.order_changed) lists.invalidate();
+    p.order_changed = false;
     parcels_ns_ = all_ns_ = 0;
     if (!lists.needs_rebuild()) return;
     const std::int64_t start = now_ns();
-    wrap_particles(s);
-    rebuild(s, lists);
-    make_room(s, lists.padded_size());
-    ++s.n_sorts;
+    wrap_particles(s.domain, p);
+    rebuild(s, p, lists);
+    make_room(p, lists.padded_size());
+    ++p.n_sorts;
     all_ns_ = now_ns() - start;
   }
   EffectPart part() const override {
-    if (!flights()) return {};
-    return {EffectName::lone_parcels, "who leaves and comes back", ratio(parcels_ns_, all_ns_)};
+    // Asked when the pass is added, before isolated particles are.
+    const auto& states = shared_->settings.states;
+    if (!states || !states->ultradilute) return {};
+    return {EffectName::isolated, "who leaves and comes back", ratio(parcels_ns_, all_ns_)};
   }
   std::size_t bytes() const override { return shared_->lists.bytes(); }
 
  private:
-  bool flights() const {
-    const GrainStressSettings& g = shared_->settings;
-    return g.states && g.states->ultradilute;
+  void rebuild(State& s, MovingSet& p, NeighborLists& lists) {
+    p.n_listed = p.size();
+    if (shared_->changes) timed([&] { shared_->changes->before_sorting(p); });
+    lists.rebuild(p, s.domain, s.threads, p.n_listed);
+    if (!shared_->changes) return;
+    timed([&] {
+      if (shared_->changes->after_sorting(s.domain, p, lists))
+        lists.rebuild(p, s.domain, s.threads, p.n_listed);
+    });
   }
 
-  void rebuild(State& s, NeighborLists& lists) {
-    s.n_listed = s.grains.size();
-    if (flights()) let_go(s);
-    lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
-    if (flights()) take_back(s, lists);
-  }
-
-  void let_go(State& s) {
+  template <class Work>
+  void timed(Work&& work) {
     const std::int64_t start = now_ns();
-    attach_landed(s);
-    detach_lone(s, shared_->settings);
-    put_listed_first(s);
+    work();
     parcels_ns_ += now_ns() - start;
   }
 
-  void take_back(State& s, NeighborLists& lists) {
-    const std::int64_t start = now_ns();
-    if (attach_near(s, shared_->settings, lists, shared_->parcels)) {
-      put_listed_first(s);
-      lists.rebuild(s.grains, s.domain, s.threads, s.n_listed);
-    }
-    parcels_ns_ += now_ns() - start;
-  }
-
-  void make_room(State& s, std::size_t padded) const {
+  void make_room(MovingSet& p, std::size_t padded) const {
     for (auto& r : shared_->results) r.resize(padded);
     for (auto& r : shared_->smooth) r.resize(padded);
     if (shared_->settings.states)
       for (auto& r : shared_->parted) r.resize(padded);
-    const std::size_t all = std::max(padded, s.grains.size());
-    for (auto* a : {&s.ax, &s.ay, &s.az, &s.boundary.share}) a->resize(all);
+    const std::size_t all = std::max(padded, p.size());
+    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.share}) a->resize(all);
   }
 
   std::shared_ptr<GrainStress> shared_;
@@ -110,15 +103,15 @@ class PackPass final : public Pass {
 
   void apply(State& s, double dt) override {
     NeighborLists& lists = shared_->lists;
-    ParticleSet& p = s.grains;
+    MovingSet& p = s.sets[shared_->set];
     const double ahead = s.extrapolation(dt);
     const double reference = shared_->settings.reference_density;
     const bool cohesive = shared_->settings.law.cohesion > 0;
-    auto& before = p.find_field("velocity_before")->component;
-    const auto& compression = p.find_field("compression")->component[0];
-    const auto& stress = p.find_field("stress")->component;
-    const auto& viscous = p.find_field("viscous_ratio")->component[0];
-    parallel_ranges(s.n_listed, reduction_block, s.threads,
+    auto& before = p.components(fields::velocity_before);
+    const auto& compression = p.scalar(fields::compression);
+    const auto& stress = p.components(fields::stress);
+    const auto& viscous = p.scalar(fields::viscous_ratio);
+    parallel_ranges(p.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       lists.pack_positions(p, begin, end);
                       PackedRecord* records = lists.records();
@@ -147,7 +140,7 @@ class PackPass final : public Pass {
                       }
                     });
     lists.copy_images();
-    for (std::size_t i = s.n_listed; i < p.size(); ++i)
+    for (std::size_t i = p.n_listed; i < p.size(); ++i)
       before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
   }
 
@@ -172,11 +165,12 @@ class SweepPass final : public Pass {
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
     const GrainStressSettings& g = shared_->settings;
-    out.push_back(
-        {"acoustic", g.courant * g.smoothing_length / (g.sound_speed + s.motion.max_speed)});
+    out.push_back({"acoustic", g.courant * g.smoothing_length /
+                                   (g.sound_speed + s.sets[shared_->set].motion.max_speed)});
   }
 
   void apply(State& s, double) override {
+    MovingSet& p = s.sets[shared_->set];
     const GrainStressSettings& g = shared_->settings;
     const bool smooth = s.n_steps % GrainStressSettings::smoothing_interval == 0;
     shared_->smoothing_now =
@@ -193,9 +187,9 @@ class SweepPass final : public Pass {
                                    g.ratio_floor()};
     const PackedView view = shared_->lists.view();
     SweepOutput out = shared_->output();
-    out.ax = s.ax.data(), out.ay = s.ay.data(), out.az = s.az.data();
-    out.wall_share = s.boundary.share.data();
-    const BoundaryView wall = boundary_view(s);
+    out.ax = p.ax.data(), out.ay = p.ay.data(), out.az = p.az.data();
+    out.wall_share = p.boundary.share.data();
+    const BoundaryView wall = boundary_view(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
     constexpr std::size_t groups_per_range = 16;
     flying_ns_ = all_ns_ = 0;
@@ -206,7 +200,7 @@ class SweepPass final : public Pass {
                       else
                         loops.dense(view, constants, wall, out, begin, end);
                     });
-    for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) s.ax[i] = s.ay[i] = s.az[i] = 0;
+    for (std::size_t i = p.n_listed; i < p.size(); ++i) p.ax[i] = p.ay[i] = p.az[i] = 0;
   }
   EffectPart part() const override {
     if (!shared_->settings.states) return {};
@@ -229,10 +223,10 @@ class SweepPass final : public Pass {
     flying_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
   }
 
-  static BoundaryView boundary_view(const State& s) {
-    const BoundarySupport& b = s.boundary;
+  static BoundaryView boundary_view(const Domain& domain, const MovingSet& p) {
+    const BoundarySupport& b = p.boundary;
     BoundaryView view{b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
-    for (int c = 0; c < 6 && !s.domain.walls.empty(); ++c) {
+    for (int c = 0; c < 6 && !domain.walls.empty(); ++c) {
       view.moment[c] = b.moment[c].data();
       view.gradient[c] = b.gradient[c].data();
     }
@@ -251,20 +245,20 @@ class StressPass final : public Pass {
   Stage stage() const override { return Stage::stress; }
 
   void apply(State& s, double dt) override {
-    ParticleSet& p = s.grains;
+    MovingSet& p = s.sets[shared_->set];
     StressColumns columns;
     columns.mass = p.mass.data();
     columns.vx = p.vx.data(), columns.vy = p.vy.data(), columns.vz = p.vz.data();
-    columns.compression = p.find_field("compression")->component[0].data();
-    for (int k = 0; k < 6; ++k) columns.stress[k] = p.find_field("stress")->component[k].data();
-    columns.viscous_ratio = p.find_field("viscous_ratio")->component[0].data();
+    columns.compression = p.scalar(fields::compression).data();
+    for (int k = 0; k < 6; ++k) columns.stress[k] = p.components(fields::stress)[k].data();
+    columns.viscous_ratio = p.scalar(fields::viscous_ratio).data();
     const SweepOutput rates = shared_->output();
     const GrainStressSettings& g = shared_->settings;
-    columns.distance = s.boundary.distance.data();
+    columns.distance = p.boundary.distance.data();
     const StressUpdate update(g, dt, shared_->smoothing_now > 0);
-    if (g.states && g.states->switched) columns.state = p.find_field("state")->component[0].data();
+    if (g.states && g.states->switched) columns.state = p.flags(fields::state).data();
     const StressEnergies sums = ordered_reduce(
-        s.n_listed, s.threads, StressEnergies{},
+        p.n_listed, s.threads, StressEnergies{},
         [&](std::size_t begin, std::size_t end, StressEnergies& out) {
           if (g.states)
             update.apply(parting(g, dt), columns, rates, begin, end, out);
@@ -272,13 +266,13 @@ class StressPass final : public Pass {
             update.apply(columns, rates, begin, end, out);
         },
         [](StressEnergies& total, const StressEnergies& block) { total += block; });
-    s.ledger.elastic = sums.elastic;
-    s.ledger.frictional += sums.frictional;
-    s.ledger.stress_power += sums.power;
-    s.ledger.plastic += sums.plastic;
-    s.ledger.diffusion += sums.diffusion;
-    s.ledger.rest_damping += sums.rest;
-    if (s.any_outside) release_elastic(s);
+    p.ledger.elastic = sums.elastic;
+    p.ledger.frictional += sums.frictional;
+    p.ledger.stress_power += sums.power;
+    p.ledger.plastic += sums.plastic;
+    p.ledger.diffusion += sums.diffusion;
+    p.ledger.rest_damping += sums.rest;
+    if (p.any_leaving) release_elastic(s, p);
   }
 
  private:
@@ -290,62 +284,67 @@ class StressPass final : public Pass {
   }
 
   /// What a particle that is about to leave has stored goes with it.
-  void release_elastic(State& s) const {
-    for (std::size_t i = 0; i < s.n_listed; ++i) {
-      if (!s.leaves(i)) continue;
-      const double stored = stored_energy(shared_->settings, s.grains, i);
-      s.ledger.elastic -= stored;
-      s.ledger.lost_energy += stored;
+  void release_elastic(const State& s, MovingSet& p) const {
+    for (std::size_t i = 0; i < p.n_listed; ++i) {
+      if (!s.leaves(p, i)) continue;
+      const double stored = stored_energy(shared_->settings, p, i);
+      p.ledger.elastic -= stored;
+      p.ledger.lost_energy += stored;
     }
   }
 
   std::shared_ptr<GrainStress> shared_;
 };
 
-void start_geostatic(State& s, const GrainStressSettings& g, std::span<const double> depth) {
-  auto& compression = s.grains.find_field("compression")->component[0];
-  auto& stress = s.grains.find_field("stress")->component;
+void start_geostatic(MovingSet& p, double gravity, const GrainStressSettings& g,
+                     std::span<const double> depth) {
+  auto& compression = p.scalar(fields::compression);
+  auto& stress = p.components(fields::stress);
   const double mu = g.law.static_friction;
   const double k0 = 1 - mu / std::sqrt(1 + mu * mu);
   for (std::size_t i = 0; i < depth.size(); ++i) {
-    const double vertical = g.reference_density * s.gravity * depth[i];
+    const double vertical = g.reference_density * gravity * depth[i];
     const double mean = vertical * (1 + 2 * k0) / 3;
     compression[i] = g.compression_at(mean);
     // Near the surface the frictional pressure may ask for more than the depth gives.
     const double excess = g.pressure_at(compression[i]) - mean;
     stress[0][i] = stress[1][i] = -k0 * vertical - excess;
     stress[2][i] = -vertical - excess;
-    s.ledger.elastic += elastic_energy(g, s.grains.mass[i] / g.reference_density, compression[i],
+    p.ledger.elastic += elastic_energy(g, p.mass[i] / g.reference_density, compression[i],
                                        vertical * (1 - k0) / std::sqrt(3.0));
   }
-  s.ledger.elastic_0 = s.ledger.elastic;
+  p.ledger.elastic_0 = p.ledger.elastic;
 }
 
 }  // namespace
 
-void add_grain_stress(Step& step, State& state, const GrainStressSettings& settings,
-                      std::span<const double> depth) {
-  expect(depth.size() == state.grains.size(), "one depth per particle");
-  state.grains.add_field("compression", 1);
-  state.grains.add_field("stress", 6);
-  state.grains.add_field("viscous_ratio", 1);
-  Field& before = state.grains.add_field("velocity_before", 3);
-  before.component[0] = state.grains.vx;
-  before.component[1] = state.grains.vy;
-  before.component[2] = state.grains.vz;
-  prepare_wrapping(state);
+std::size_t grain_stress_bytes_per_particle() { return 64 + 13 * 4 + 2 * (250 / 16) * 4 + 32; }
+
+std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::size_t set,
+                                              const GrainStressSettings& settings,
+                                              std::span<const double> depth) {
+  MovingSet& p = state.sets[set];
+  expect(depth.size() == p.size(), "one depth per particle");
+  p.add(fields::compression);
+  p.add(fields::stress);
+  p.add(fields::viscous_ratio);
+  Field& before = p.add(fields::velocity_before);
+  before.component[0] = p.vx;
+  before.component[1] = p.vy;
+  before.component[2] = p.vz;
+  mark_start(state.domain, p, 0);
   GrainStressSettings first = settings;
   const bool follows = settings.least_sound_speed < settings.sound_speed;
-  if (follows) first.sound_speed = sound_speed_at_start(state, settings);
-  start_geostatic(state, first, depth);
-  auto shared = std::make_shared<GrainStress>(first);
-  state.sound_speed = first.sound_speed;
+  if (follows) first.sound_speed = sound_speed_at_start(p, settings);
+  start_geostatic(p, state.gravity, first, depth);
+  auto shared = std::make_shared<GrainStress>(set, first);
+  p.sound_speed = first.sound_speed;
   if (follows) add_sound_speed(step, shared, settings.sound_speed);
   step.add(std::make_unique<NeighborPass>(shared));
   step.add(std::make_unique<PackPass>(shared));
   step.add(std::make_unique<SweepPass>(shared));
   step.add(std::make_unique<StressPass>(shared));
-  if (first.states) add_grain_states(step, state, shared);
+  return shared;
 }
 
 }  // namespace sturz

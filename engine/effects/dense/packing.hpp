@@ -7,10 +7,11 @@
 #include "engine/laws/grain_states.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace sturz {
 
-/// p = K e above the reference density, nothing below (physics.md B.5 step 1).
+/// p = K e above the reference density, nothing below (docs/physics.md B.5 step 1).
 struct DensePacking {
   static constexpr bool parts = false;
   double bulk;  ///< K [Pa]
@@ -26,7 +27,7 @@ struct DensePacking {
   static bool carries_shear(double e) { return !(e < GrainStressSettings::separation); }
 };
 
-/// p = K e + p_fric(alpha): one continuous law from dense to parted (physics.md B.9).
+/// p = K e + p_fric(alpha): one continuous law from dense to parted (docs/physics.md B.9).
 ///
 /// The density of the continuity equation drifts where neighbours are few. It is kept between what
 /// the fill of the support allows: not under 0.85 of it where that is nearly full (so a grain that
@@ -69,16 +70,16 @@ struct PartingPacking {
     return std::fmax(std::fmin(lifted, most), -0.999);
   }
   /// \param before  contact pressure at n [Pa]; \param state  GrainState at n
-  double pressure(double e, double before, double state) const {
+  double pressure(double e, double before, std::uint8_t state) const {
     const double squeezed = e > 0 ? bulk * e : 0;
     if (!switched) return squeezed + friction.at(fraction(e));
-    const bool dense = state == static_cast<double>(GrainState::dense);
+    const bool dense = state == static_cast<std::uint8_t>(GrainState::dense);
     const double target = dense ? squeezed : friction.at(fraction(e));
     return target + (before - target) * kept;
   }
   /// Cohesion ends where grains part, over the two percent after it ends in a mass that stays
   /// dense. Held on to through the transition it would be shear without pressure, that is tension,
-  /// and pull grains into clumps (physics.md B.13, I1).
+  /// and pull grains into clumps (docs/physics.md B.13, I1).
   static MuIRheology yielding(const MuIRheology& law, double e) {
     MuIRheology faded = law;
     faded.cohesion *= smoothstep((e - GrainStressSettings::separation + 0.02) / 0.02);

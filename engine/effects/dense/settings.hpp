@@ -2,6 +2,7 @@
 /// The numbers of the dense grain stress: law, resolution, stiffness, noise control.
 #pragma once
 
+#include "engine/core/constants.hpp"
 #include "engine/effects/kinetic/settings.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
 #include "engine/laws/mu_i_rheology.hpp"
@@ -37,15 +38,15 @@ struct GrainStressSettings {
   /// the cost.
   static constexpr int smoothing_interval = 16;
   /// Below this speed grains count as resting: smoothing fades out (it would let a pile creep) and
-  /// a weak drag takes over (physics.md B.13, I4) [m/s].
-  double rest_speed() const { return 1e-3 * std::sqrt(9.81 * smoothing_length); }
+  /// a weak drag takes over (docs/physics.md B.13, I4) [m/s].
+  double rest_speed() const { return 1e-3 * std::sqrt(standard_gravity * smoothing_length); }
   /// Time of the drag at rest [s]: a net acceleration above rest_speed/rest_time still starts a
   /// slide (about 0.001 g).
   double rest_time() const { return 50 * smoothing_length / sound_speed; }
   /// p_c of the smoothed ratio s/(p + p_c): cohesion, and a trace of the pressure of one layer so
   /// that unloaded grains stay finite [Pa].
   double ratio_floor() const {
-    return 0.02 * reference_density * 9.81 * spacing +
+    return 0.02 * reference_density * standard_gravity * spacing +
            law.cohesion / std::fmax(0.1, law.static_friction);
   }
   /// Nearer to the ground than this a grain lies on it [m]: it rests at half a spacing.
@@ -56,7 +57,7 @@ struct GrainStressSettings {
   }
   double shear_modulus() const { return shear_to_bulk() * bulk_modulus(); }
   /// What the artificial viscosity is in uniform shear [Pa s]: alpha_v h c0/10 in three dimensions
-  /// (Monaghan 2005; physics.md B.4).
+  /// (Monaghan 2005; docs/physics.md B.4).
   double shear_viscosity() const {
     return 0.1 * viscosity * smoothing_length * sound_speed * reference_density;
   }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the passes of the grain stress share. For grain_stress.cpp and sound_speed.cpp only.
+/// What the effects of one set's grains share: dense, kinetic and isolated.
 #pragma once
 
 #include "engine/effects/dense/settings.hpp"
-#include "engine/effects/isolated/search.hpp"
 #include "engine/effects/step.hpp"
 #include "engine/neighbors/neighbor_lists.hpp"
 
@@ -12,8 +11,20 @@
 
 namespace sturz {
 
-/// What the three passes share: lists, and the sweep's results in storage order.
+/// Changes of who belongs to the continuum, made when neighbours are sorted. A scene in which all
+/// grains always do has none.
+class ListChanges {
+ public:
+  virtual ~ListChanges() = default;
+  /// Puts the grains of the continuum first in storage and sets MovingSet::n_listed.
+  virtual void before_sorting(MovingSet&) = 0;
+  /// With fresh lists. \return whether somebody came back, so that the lists must be made again
+  virtual bool after_sorting(const Domain&, MovingSet&, const NeighborLists&) = 0;
+};
+
+/// Lists, and the sweep's results in storage order.
 struct GrainStress {
+  std::size_t set;  ///< index in State::sets
   GrainStressSettings settings;
   NeighborLists lists;
   std::vector<float> results[10];  // velocity gradient, density diffusion
@@ -22,11 +33,12 @@ struct GrainStress {
   std::vector<float> parted[9];  // fill, neighbours, heat, gradient felt; see SweepOutput
   std::vector<KineticRecord> kinetic;
   std::vector<std::uint8_t> calm;
-  ParcelSearch parcels;      // lone ones that meet again
+  std::unique_ptr<ListChanges> changes;  // isolated particles, where the scene calls for them
   double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
 
-  explicit GrainStress(const GrainStressSettings& s)
-      : settings(s),
+  GrainStress(std::size_t set_index, const GrainStressSettings& s)
+      : set(set_index),
+        settings(s),
         lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
               sweeps(s.instruction_set).tight_list) {}
 
@@ -49,9 +61,7 @@ inline std::string_view flying_effect(const GrainStressSettings& g) {
 }
 
 /// c0 of a mass that starts with the velocities it has, where it follows the flow [m/s].
-double sound_speed_at_start(const State&, const GrainStressSettings&);
-/// Adds fields and passes of grains that may part, see grain_states.cpp.
-void add_grain_states(Step&, State&, const std::shared_ptr<GrainStress>&);
+double sound_speed_at_start(const ParticleSet&, const GrainStressSettings&);
 /// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole way down [m/s]
 void add_sound_speed(Step&, const std::shared_ptr<GrainStress>&, double planned);
 

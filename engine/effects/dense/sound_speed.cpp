@@ -2,6 +2,7 @@
 // The numerical sound speed follows the flow: a slide that starts, spreads and stops needs the
 // stiffness of its fastest moment only then.
 #include "engine/effects/dense/shared.hpp"
+#include "engine/effects/fields.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,14 +24,15 @@ class SoundSpeedPass final : public Pass {
   Stage stage() const override { return Stage::neighbors; }
 
   void apply(State& s, double) override {
+    MovingSet& p = s.sets[shared_->set];
     const GrainStressSettings& g = shared_->settings;
-    const double needed = g.speed_factor * s.motion.max_speed;
+    const double needed = g.speed_factor * p.motion.max_speed;
     const double wanted =
         std::clamp(room * needed, g.least_sound_speed, 2 * std::max(planned_, g.least_sound_speed));
     if (wanted > g.sound_speed && needed > g.sound_speed)
-      change(s, wanted);
+      change(p, wanted);
     else if (s.n_steps % interval == 0 && wanted < g.sound_speed)
-      change(s, std::max(wanted, fall * g.sound_speed));
+      change(p, std::max(wanted, fall * g.sound_speed));
   }
 
  private:
@@ -40,22 +42,22 @@ class SoundSpeedPass final : public Pass {
   static constexpr double fall = 0.97;
   static constexpr int interval = 16;
 
-  void change(State& s, double c0) {
+  void change(MovingSet& p, double c0) {
     GrainStressSettings& g = shared_->settings;
     const double ratio = (g.sound_speed / c0) * (g.sound_speed / c0);  // K_old / K_new
     if (std::abs(ratio - 1) < 1e-3) return;
-    g.sound_speed = s.sound_speed = c0;
-    auto& compression = s.grains.find_field("compression")->component[0];
-    const auto& stress = s.grains.find_field("stress")->component;
+    g.sound_speed = p.sound_speed = c0;
+    auto& compression = p.scalar(fields::compression);
+    const auto& stress = p.components(fields::stress);
     for (std::size_t i = 0; i < compression.size(); ++i) {
       double& e = compression[i];
       if (e <= 0) continue;
       e = g.states ? g.compression_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3)
                    : e * ratio;
     }
-    const double gained = (ratio - 1) * s.ledger.elastic;
-    s.ledger.elastic += gained;
-    s.ledger.diffusion += gained;
+    const double gained = (ratio - 1) * p.ledger.elastic;
+    p.ledger.elastic += gained;
+    p.ledger.diffusion += gained;
   }
 
   std::shared_ptr<GrainStress> shared_;
@@ -64,8 +66,7 @@ class SoundSpeedPass final : public Pass {
 
 }  // namespace
 
-double sound_speed_at_start(const State& s, const GrainStressSettings& g) {
-  const ParticleSet& p = s.grains;
+double sound_speed_at_start(const ParticleSet& p, const GrainStressSettings& g) {
   double fastest2 = 0;
   for (std::size_t i = 0; i < p.size(); ++i)
     fastest2 = std::max(fastest2, p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/effects/dense/settings.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/particles/particle_set.hpp"
 
 #include <cmath>
@@ -19,8 +20,8 @@ inline double elastic_energy(const GrainStressSettings& g, double volume, double
 
 /// That of particle i, from its fields "compression" and "stress" [J].
 inline double stored_energy(const GrainStressSettings& g, const ParticleSet& set, std::size_t i) {
-  const double e = set.find_field("compression")->component[0][i];
-  const auto& c = set.find_field("stress")->component;
+  const double e = set.scalar(fields::compression)[i];
+  const auto& c = set.components(fields::stress);
   const double p = -(c[0][i] + c[1][i] + c[2][i]) / 3;
   const double xx = c[0][i] + p, yy = c[1][i] + p, zz = c[2][i] + p;
   const double tau = std::sqrt(0.5 * (xx * xx + yy * yy + zz * zz) + c[3][i] * c[3][i] +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Artificial stress of cohesive grains (Monaghan 2000, Gray et al. 2001; physics.md B.4, I1).
+/// Artificial stress of cohesive grains (Monaghan 2000, Gray et al. 2001; docs/physics.md B.4, I1).
 ///
 /// In tension, neighbours that come closer pull each other more: pairs would collapse. A pressure
 /// epsilon T (f_i + f_j) f^4, f = W(r)/W(dx), pushes them apart below one spacing only. T is a

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Density and stress of one dense particle from n to n+1 (physics.md B.5), with its energies.
+/// Density and stress of one dense particle from n to n+1 (docs/physics.md B.5), with its energies.
 #pragma once
 
 #include "engine/core/symmetric_tensor.hpp"
@@ -21,8 +21,8 @@ struct StressColumns {
   double* stress[6] = {};  ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
   /// What the artificial viscosity would carry, over the friction of yielding grains [-]
   double* viscous_ratio = nullptr;
-  const float* distance = nullptr;  ///< to the ground [m]; where grains may part
-  const double* state = nullptr;    ///< GrainState at n; read by the switched law only
+  const float* distance = nullptr;      ///< to the ground [m]; where grains may part
+  const std::uint8_t* state = nullptr;  ///< GrainState at n; read by the switched law only
 };
 
 /// Sums over particles [J].
@@ -94,7 +94,8 @@ class StressUpdate {
     const float *r_xy = r.smooth[3], *r_yz = r.smooth[4], *r_zx = r.smooth[5];
     const float *r_fill = r.fill, *c_distance = c.distance;
     const float touching = touching_;
-    const double *mass = c.mass, *c_state = c.state;
+    const double* mass = c.mass;
+    const std::uint8_t* c_state = c.state;
     double* c_ratio = c.viscous_ratio;
     double *compression = c.compression, *c_vx = c.vx, *c_vy = c.vy, *c_vz = c.vz;
     double *s_xx = c.stress[0], *s_yy = c.stress[1], *s_zz = c.stress[2];
@@ -124,7 +125,7 @@ class StressUpdate {
         diffused = e1 - carried;
         squeezed_by = carried - e0;
         p0 = -(s_xx[i] + s_yy[i] + s_zz[i]) / 3;
-        p1 = packing.pressure(e1, p0, c_state ? c_state[i] : 0);
+        p1 = packing.pressure(e1, p0, c_state ? c_state[i] : std::uint8_t{0});
         q0 = p0 - (e0 > 0 ? bulk * e0 : 0), q1 = p1 - (e1 > 0 ? bulk * e1 : 0);
       } else {
         squeezed_by = -dt * (1 + e0) * trace;

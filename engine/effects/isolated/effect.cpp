@@ -1,222 +1,93 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/isolated/effect.hpp"
 
-#include "engine/effects/isolated/bodies.hpp"
-#include "engine/effects/isolated/contact_memory.hpp"
+#include "engine/core/parallel.hpp"
+#include "engine/effects/dense/shared.hpp"
+#include "engine/effects/fields.hpp"
+#include "engine/effects/isolated/flight.hpp"
 #include "engine/effects/isolated/search.hpp"
+#include "engine/laws/grain_states.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sturz {
 namespace {
 
-class ParcelContacts final : public Pass {
+using fields::Membership;
+
+/// Who leaves the continuum and who comes back, whenever neighbours are sorted.
+class Flight final : public ListChanges {
  public:
-  ParcelContacts(const ParcelContactSettings& c, Field& spin) : settings_(c), spin_(spin) {
-    const double least = softest_modulus(c.material.density, c.speed_bound, c.greatest_share);
-    material_ = softened(c.material, least);
-    law_.modulus = contact_modulus(material_, material_);
-    law_.shear_modulus = contact_shear_modulus(material_, material_);
-    law_.damping = damping_ratio(c.restitution);
-    law_.friction = c.friction;
-    law_.never_pulls = c.never_pulls;
-    ground_law_ = law_;
-    ground_law_.damping = damping_ratio(c.ground_restitution);
-    ground_law_.friction = c.ground_friction;
-  }
-  std::string_view name() const override { return "parcel contacts"; }
-  std::string_view effect() const override { return EffectName::parcel_contacts; }
-  Stage stage() const override { return Stage::contact; }
+  explicit Flight(const GrainStressSettings& settings) : settings_(settings) {}
 
-  void apply(State& s, double dt) override {
-    gather(s);
-    bodies_.clear();
-    contacts_.clear();
-    choose(s, dt);
-    if (!contacts_.empty()) {
-      memory_.recall(contacts_, bodies_);
-      step_bodies(bodies_, contacts_, dt, fine_steps(dt));
-      hand_on(s, dt);
-    }
-    memory_.remember(contacts_, bodies_);
-    book_now(s);
+  void before_sorting(MovingSet& p) override {
+    attach_landed(p);
+    detach_isolated(p, settings_);
+    put_listed_first(p);
   }
-
-  std::size_t bytes() const override {
-    return search_.bytes() + spheres_.capacity() * sizeof(ParcelSphere) +
-           bodies_.capacity() * sizeof(ParcelBody) + contacts_.capacity() * sizeof(ParcelContact) +
-           memory_.bytes();
+  bool after_sorting(const Domain& domain, MovingSet& p, const NeighborLists& lists) override {
+    if (!attach_near(domain, p, settings_, lists, search_)) return false;
+    put_listed_first(p);
+    return true;
   }
 
  private:
-  /// Today's lone parcels; who was none a step ago has no spin.
-  void gather(State& s) {
-    spheres_.clear();
-    new_ids_.clear();
-    max_speed_ = 0;
-    for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) {
-      spheres_.push_back(sphere(s.grains, i));
-      max_speed_ = std::max(max_speed_, spheres_.back().velocity.norm());
-      new_ids_.push_back(s.grains.id[i]);
-      if (!std::binary_search(ids_.begin(), ids_.end(), s.grains.id[i]))
-        for (auto& component : spin_.component) component[i] = 0;
-    }
-    std::sort(new_ids_.begin(), new_ids_.end());
-    ids_.swap(new_ids_);
-  }
-
-  ParcelSphere sphere(const ParticleSet& p, std::size_t i) const {
-    const double volume = p.mass[i] / settings_.material.density;
-    const double radius = std::cbrt(0.75 / std::numbers::pi * volume);
-    return {{p.x[i], p.y[i], p.z[i]}, {p.vx[i], p.vy[i], p.vz[i]}, radius, p.id[i]};
-  }
-
-  double ground_gap(const State& s, std::size_t k) const {
-    const std::size_t i = s.n_listed + k;
-    if (i >= s.boundary.distance.size() || s.outside[i])
-      return std::numeric_limits<double>::infinity();
-    return s.boundary.distance[i] - spheres_[k].radius;
-  }
-  Vec3 ground_normal(const State& s, std::size_t k) const {
-    const std::size_t i = s.n_listed + k;
-    return {s.boundary.nx[i], s.boundary.ny[i], s.boundary.nz[i]};
-  }
-
-  /// Bodies and contacts of all groups in which somebody touches within the step.
-  void choose(const State& s, double dt) {
-    // A hit may turn a parcel round and, by a heavy one, make it faster: twice the largest
-    // speed for each of two.
-    const double reach = 4 * max_speed_ * dt + 1e-9;
-    const std::vector<NearPair>& pairs = search_.find(spheres_, reach, s.domain);
-    groups_.start(spheres_.size());
-    bool any = false;
-    for (const NearPair& p : pairs) {
-      groups_.join(p.a, p.b);
-      if (!may_touch(spheres_[p.a], spheres_[p.b], p.image, dt)) continue;
-      groups_.want(p.a);
-      any = true;
-    }
-    for (std::uint32_t k = 0; settings_.on_ground && k < spheres_.size(); ++k) {
-      const double gap = ground_gap(s, k);
-      if (!(gap < reach)) continue;
-      const double rise = spheres_[k].velocity.dot(ground_normal(s, k));
-      if (gap + dt * std::min(rise, 0.0) > 0) continue;
-      groups_.want(k);
-      any = true;
-    }
-    if (!any) return;
-    body_of_.assign(spheres_.size(), 0);
-    for (std::uint32_t k = 0; k < spheres_.size(); ++k)
-      if (groups_.wanted(k)) add_body(s, k);
-    for (const NearPair& p : pairs)
-      if (groups_.wanted(p.a)) add_contact(p);
-    for (std::uint32_t k = 0; settings_.on_ground && k < spheres_.size(); ++k)
-      if (groups_.wanted(k) && ground_gap(s, k) < reach) add_ground(s, k);
-  }
-
-  void add_body(const State& s, std::uint32_t k) {
-    const ParcelSphere& sphere = spheres_[k];
-    body_of_[k] = static_cast<std::uint32_t>(bodies_.size());
-    ParcelBody& b = bodies_.emplace_back();
-    b.particle = static_cast<std::uint32_t>(s.n_listed + k);
-    b.start = b.place = sphere.place;
-    b.velocity = sphere.velocity;
-    for (int c = 0; c < 3; ++c) b.spin[c] = spin_.component[c][b.particle];
-    b.radius = sphere.radius;
-    b.mass = s.grains.mass[b.particle];
-    b.id = sphere.id;
-  }
-
-  void add_contact(const NearPair& p) {
-    ParcelContact& c = contacts_.emplace_back();
-    c.a = body_of_[p.a], c.b = body_of_[p.b], c.image = p.image;
-    const ParcelBody &a = bodies_[c.a], &b = bodies_[c.b];
-    c.law = law_;
-    c.law.radius = a.radius * b.radius / (a.radius + b.radius);
-    c.law.mass = a.mass * b.mass / (a.mass + b.mass);
-  }
-
-  void add_ground(const State& s, std::uint32_t k) {
-    ParcelContact& c = contacts_.emplace_back();
-    c.a = body_of_[k];
-    c.normal = ground_normal(s, k);
-    c.height = s.boundary.distance[s.n_listed + k];
-    c.law = ground_law_;
-    c.law.radius = bodies_[c.a].radius;
-    c.law.mass = bodies_[c.a].mass;
-  }
-
-  double smaller_radius(const ParcelContact& c) const {
-    const double a = bodies_[c.a].radius;
-    return c.b == ParcelContact::ground ? a : std::min(a, bodies_[c.b].radius);
-  }
-
-  int fine_steps(double dt) const {
-    double fine = dt;
-    for (const ParcelContact& c : contacts_)
-      fine = std::min(
-          fine, contact_time_step(material_, smaller_radius(c), c.law, settings_.speed_bound));
-    return static_cast<int>(std::ceil(dt / fine));
-  }
-
-  /// Velocities as they are now, and places from which the drift arrives where the bodies are.
-  /// The work is taken with the mean velocity of the step, as Ledger has it: of what the kick
-  /// and the ground did before, only the kick's work is booked later, with the velocity that
-  /// this pass leaves.
-  void hand_on(State& s, double dt) {
-    ParticleSet& p = s.grains;
-    const bool later = p.find_field("velocity_before") != nullptr && s.ax.size() >= p.size();
-    double work = 0, risen = 0;
-    for (const ParcelBody& b : bodies_) {
-      const std::size_t i = b.particle;
-      const Vec3 before(p.vx[i], p.vy[i], p.vz[i]), change = b.velocity - before;
-      Vec3 mean = before + 0.5 * change;
-      if (later) mean -= 0.5 * dt * Vec3(s.ax[i], s.ay[i], s.az[i] - s.gravity);
-      work += b.mass * change.dot(mean);
-      p.vx[i] = b.velocity.x(), p.vy[i] = b.velocity.y(), p.vz[i] = b.velocity.z();
-      const Vec3 from = b.place - dt * b.velocity;
-      risen += b.mass * (from.z() - p.z[i]);
-      p.x[i] = from.x(), p.y[i] = from.y(), p.z[i] = from.z();
-      for (int c = 0; c < 3; ++c) spin_.component[c][i] = b.spin[c];
-    }
-    s.ledger.contact_work += work;
-    s.ledger.parcel_work += work;
-    s.ledger.potential += s.gravity * risen;
-  }
-
-  void book_now(State& s) const {
-    double rotational = 0, elastic = 0;
-    for (std::size_t k = 0; k < spheres_.size(); ++k) {
-      const std::size_t i = s.n_listed + k;
-      double w2 = 0;
-      for (const auto& component : spin_.component) w2 += component[i] * component[i];
-      rotational += 0.2 * s.grains.mass[i] * spheres_[k].radius * spheres_[k].radius * w2;
-    }
-    for (const ParcelContact& c : contacts_) elastic += c.stored;
-    s.ledger.rotational = rotational;
-    s.ledger.parcel_elastic = elastic;
-  }
-
-  ParcelContactSettings settings_;
-  Field& spin_;
-  GrainMaterial material_;
-  ContactPair law_, ground_law_;
+  const GrainStressSettings& settings_;  // of the grain stress that owns this
   ParcelSearch search_;
-  ParcelGroups groups_;
-  std::vector<ParcelSphere> spheres_;
-  std::vector<std::uint32_t> ids_, new_ids_, body_of_;
-  std::vector<ParcelBody> bodies_;
-  std::vector<ParcelContact> contacts_;
-  ContactMemory memory_;
-  double max_speed_ = 0;
+};
+
+/// Counts for how long every grain has been alone, and sees who has landed.
+class IsolationPass final : public Pass {
+ public:
+  explicit IsolationPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "isolation"; }
+  std::string_view effect() const override { return EffectName::isolated; }
+  Stage stage() const override { return Stage::stress; }
+
+  void apply(State& s, double) override {
+    MovingSet& p = s.sets[shared_->set];
+    const double reference = shared_->settings.states->reference_fraction;
+    const double touching = shared_->settings.touching_distance();
+    const SweepOutput out = shared_->output();
+    const auto& compression = p.scalar(fields::compression);
+    auto& alone = p.flags(fields::steps_alone);
+    parallel_ranges(
+        p.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            const double fraction = reference * (1 + compression[i]);
+            const bool few = fraction < detach_fraction || out.neighbors[i] < detach_neighbors;
+            const bool lone = few && p.boundary.distance[i] >= touching;
+            alone[i] = lone ? static_cast<std::uint8_t>(std::min(alone[i] + 1, detach_steps)) : 0;
+          }
+        });
+    land(p, s.gravity, touching);
+  }
+
+ private:
+  /// An isolated particle that lies on the ground and does not bounce any more has landed.
+  void land(MovingSet& p, double gravity, double touching) const {
+    const BoundarySupport& b = p.boundary;
+    auto& membership = p.flags(fields::membership);
+    const double calm = 0.1 * std::sqrt(gravity * shared_->settings.spacing);
+    for (std::size_t i = p.n_listed; i < p.size(); ++i) {
+      const double vn = p.vx[i] * b.nx[i] + p.vy[i] * b.ny[i] + p.vz[i] * b.nz[i];
+      if (b.distance[i] < touching && std::abs(vn) < calm)
+        membership[i] = static_cast<std::uint8_t>(Membership::landed);
+    }
+  }
+
+  std::shared_ptr<GrainStress> shared_;
 };
 
 }  // namespace
 
-void add_parcel_contacts(Step& step, State& state, const ParcelContactSettings& settings) {
-  step.add(std::make_unique<ParcelContacts>(settings, state.grains.add_field("spin", 3)));
+void add_isolated_particles(Step& step, State& state, const std::shared_ptr<GrainStress>& shared) {
+  MovingSet& p = state.sets[shared->set];
+  p.add(fields::steps_alone);
+  p.add(fields::membership);
+  shared->changes = std::make_unique<Flight>(shared->settings);
+  step.add(std::make_unique<IsolationPass>(shared));
 }
 
 }  // namespace sturz

@@ -2,6 +2,7 @@
 #include "engine/effects/isolated/flight.hpp"
 
 #include "engine/effects/dense/stored_energy.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 
@@ -12,17 +13,28 @@
 namespace sturz {
 namespace {
 
+using fields::Membership;
+
 /// A parcel's fields as the continuum would have them.
 struct GrainFields {
   explicit GrainFields(ParticleSet& p)
-      : compression(p.find_field("compression")->component[0]),
-        stress(p.find_field("stress")->component),
-        state(p.find_field("state")->component[0]),
-        alone(p.find_field("steps_alone")->component[0]),
-        fill(p.find_field("fill")->component[0]),
-        theta(p.find_field("granular_temperature")),
-        kinetic(p.find_field("kinetic_stress")) {}
+      : compression(p.scalar(fields::compression)),
+        stress(p.components(fields::stress)),
+        state(p.flags(fields::state)),
+        alone(p.flags(fields::steps_alone)),
+        membership(p.flags(fields::membership)),
+        fill(p.scalar(fields::fill)),
+        theta(p.find(fields::granular_temperature)),
+        kinetic(p.find(fields::kinetic_stress)) {}
 
+  void set(std::size_t i, GrainState name, Membership member) {
+    state[i] = static_cast<std::uint8_t>(name);
+    membership[i] = static_cast<std::uint8_t>(member);
+    alone[i] = 0;
+  }
+  bool is(std::size_t i, Membership member) const {
+    return membership[i] == static_cast<std::uint8_t>(member);
+  }
   void clear_stress(std::size_t i) {
     for (auto& component : stress) component[i] = 0;
     if (!kinetic) return;
@@ -32,7 +44,8 @@ struct GrainFields {
 
   std::vector<double>& compression;
   std::vector<std::vector<double>>& stress;
-  std::vector<double>&state, &alone, &fill;
+  std::vector<std::uint8_t>&state, &alone, &membership;
+  std::vector<double>& fill;
   Field *theta, *kinetic;
 };
 
@@ -51,23 +64,24 @@ struct Surroundings {
 /// Looks around every parcel, for grains in the lists and for other parcels.
 class Lookout {
  public:
-  Lookout(const State& s, const GrainStressSettings& g)
-      : s_(s),
+  Lookout(const Domain& domain, const MovingSet& set, const GrainStressSettings& g)
+      : domain_(domain),
+        set_(set),
         g_(g),
         reach_(2 * g.smoothing_length),
         factor_(SmoothingKernel{g.smoothing_length}.discrete_gradient_factor()),
         volume_(g.spacing * g.spacing * g.spacing),
-        around_(s.grains.size() - s.n_listed) {}
+        around_(set.size() - set.n_listed) {}
 
-  const Surroundings& of(std::size_t parcel) const { return around_[parcel - s_.n_listed]; }
+  const Surroundings& of(std::size_t parcel) const { return around_[parcel - set_.n_listed]; }
 
   void grains(const NeighborLists& lists, const Field* theta) {
-    const ParticleSet& p = s_.grains;
-    for (std::size_t i = s_.n_listed; i < p.size(); ++i)
+    const MovingSet& p = set_;
+    for (std::size_t i = p.n_listed; i < p.size(); ++i)
       lists.for_each_near(p.x[i], p.y[i], p.z[i], [&](std::size_t j, double r2) {
-        Surroundings& found = around_[i - s_.n_listed];
+        Surroundings& found = around_[i - p.n_listed];
         const double w = count(found, r2);
-        if (!theta || j >= s_.n_listed) return;  // an image stands for a grain counted elsewhere
+        if (!theta || j >= p.n_listed) return;  // an image stands for a grain counted elsewhere
         found.weight += w;
         found.warm += w * theta->component[0][j];
       });
@@ -75,11 +89,11 @@ class Lookout {
   /// Counts those parcels besides that come too. One that stays in flight is in no list: who came
   /// for its sake would be alone there, and leave again. \return who comes, by parcel
   std::vector<char> parcels(ParcelSearch& search) {
-    const ParticleSet& p = s_.grains;
+    const MovingSet& p = set_;
     std::vector<ParcelSphere> spheres;
-    for (std::size_t i = s_.n_listed; i < p.size(); ++i)
+    for (std::size_t i = p.n_listed; i < p.size(); ++i)
       spheres.push_back({Vec3(p.x[i], p.y[i], p.z[i]), Vec3(0, 0, 0), 0, p.id[i]});
-    const std::vector<NearPair>& pairs = search.find(spheres, reach_, s_.domain);
+    const std::vector<NearPair>& pairs = search.find(spheres, reach_, domain_);
     std::vector<char> comes(spheres.size(), 1);
     const std::vector<Surroundings> among_grains = around_;
     for (bool all = false; !all;) {
@@ -106,7 +120,8 @@ class Lookout {
     return w;
   }
 
-  const State& s_;
+  const Domain& domain_;
+  const MovingSet& set_;
   const GrainStressSettings& g_;
   double reach_, factor_, volume_;
   std::vector<Surroundings> around_;  // by parcel
@@ -114,72 +129,70 @@ class Lookout {
 
 }  // namespace
 
-bool detach_lone(State& s, const GrainStressSettings& g) {
-  GrainFields f(s.grains);
+bool detach_isolated(MovingSet& p, const GrainStressSettings& g) {
+  GrainFields f(p);
   bool any = false;
-  for (std::size_t i = 0; i < s.grains.size(); ++i) {
+  for (std::size_t i = 0; i < p.size(); ++i) {
     if (f.alone[i] != detach_steps) continue;
-    const double stored = stored_energy(g, s.grains, i);
-    s.ledger.elastic -= stored;
-    s.ledger.lost_energy += stored;
+    const double stored = stored_energy(g, p, i);
+    p.ledger.elastic -= stored;
+    p.ledger.lost_energy += stored;
     if (f.theta) {
-      const double heat = 1.5 * s.grains.mass[i] * f.theta->component[0][i];
-      s.ledger.granular -= heat;
-      s.ledger.granular_lost += heat;
+      const double heat = 1.5 * p.mass[i] * f.theta->component[0][i];
+      p.ledger.granular -= heat;
+      p.ledger.granular_lost += heat;
     }
     f.clear_stress(i);
     f.compression[i] =
         std::fmin(f.compression[i], detach_fraction / g.states->reference_fraction - 1);
-    f.state[i] = static_cast<double>(GrainState::ultradilute);
-    f.alone[i] = in_flight;
+    f.set(i, GrainState::ultradilute, Membership::in_flight);
     any = true;
   }
   return any;
 }
 
-void attach_landed(State& s) {
-  GrainFields f(s.grains);
-  for (std::size_t i = 0; i < s.grains.size(); ++i) {
-    if (f.alone[i] != landed) continue;
+void attach_landed(MovingSet& p) {
+  GrainFields f(p);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!f.is(i, Membership::landed)) continue;
     f.compression[i] = GrainStressSettings::separation;
-    f.state[i] = static_cast<double>(GrainState::dense);
-    f.alone[i] = 0;
+    f.set(i, GrainState::dense, Membership::listed);
   }
 }
 
-void put_listed_first(State& s) {
-  const auto& alone = s.grains.find_field("steps_alone")->component[0];
+void put_listed_first(MovingSet& p) {
+  const auto& membership = p.flags(fields::membership);
+  const auto in_flight = static_cast<std::uint8_t>(Membership::in_flight);
   std::vector<std::uint32_t> order, behind;
-  order.reserve(alone.size());
-  for (std::size_t i = 0; i < alone.size(); ++i)
-    (alone[i] == in_flight ? behind : order).push_back(static_cast<std::uint32_t>(i));
-  s.n_listed = order.size();
+  order.reserve(membership.size());
+  for (std::size_t i = 0; i < membership.size(); ++i)
+    (membership[i] == in_flight ? behind : order).push_back(static_cast<std::uint32_t>(i));
+  p.n_listed = order.size();
   if (behind.empty()) return;
   order.insert(order.end(), behind.begin(), behind.end());
-  s.grains.permute(order);
+  p.permute(order);
 }
 
-bool attach_near(State& s, const GrainStressSettings& g, const NeighborLists& lists,
-                 ParcelSearch& search) {
-  if (s.n_listed == s.grains.size()) return false;
-  GrainFields f(s.grains);
-  Lookout lookout(s, g);
+bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& g,
+                 const NeighborLists& lists, ParcelSearch& search) {
+  if (p.n_listed == p.size()) return false;
+  GrainFields f(p);
+  Lookout lookout(domain, p, g);
   lookout.grains(lists, f.theta);
   const std::vector<char> comes = lookout.parcels(search);
   bool any = false;
-  for (std::size_t i = s.n_listed; i < s.grains.size(); ++i) {
-    if (!comes[i - s.n_listed]) continue;
+  for (std::size_t i = p.n_listed; i < p.size(); ++i) {
+    if (!comes[i - p.n_listed]) continue;
     const Surroundings& around = lookout.of(i);
     const double reference = g.states->reference_fraction;
     f.fill[i] = around.fill;
     f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation);
-    f.state[i] = static_cast<double>(grain_state(reference * (1 + f.compression[i])));
-    f.alone[i] = 0;
+    f.set(i, grain_state(reference * (1 + f.compression[i])), Membership::listed);
     if (f.theta) {
       f.theta->component[0][i] = around.theta();
-      const double heat = 1.5 * s.grains.mass[i] * around.theta();
-      s.ledger.granular += heat;
-      s.ledger.granular_lost -= heat;
+      const double heat = 1.5 * p.mass[i] * around.theta();
+      p.ledger.granular += heat;
+      p.ledger.granular_lost -= heat;
     }
     any = true;
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Grains that have lost their neighbours leave the continuum and fly; those that land in it come
-/// back (physics.md B.8, B.9). Mass, position and velocity stay: only the name changes.
+/// back (docs/physics.md B.8, B.9). Mass, position and velocity stay: only the name changes.
 #pragma once
 
 #include "engine/effects/dense/shared.hpp"
@@ -9,24 +9,20 @@
 
 namespace sturz {
 
-/// Value of the field "steps_alone" of a parcel in flight.
-inline constexpr double in_flight = 100;
-/// Of one that has come to lie on the ground: it is taken back at the next sorting.
-inline constexpr double landed = 50;
-
 /// Lets those go that were alone for `detach_steps` steps: their stress is gone, what it stored and
 /// their granular energy are booked. \return whether anybody went
-bool detach_lone(State&, const GrainStressSettings&);
+bool detach_isolated(MovingSet&, const GrainStressSettings&);
 
 /// Takes back what has landed, as dense grains without load.
-void attach_landed(State&);
+void attach_landed(MovingSet&);
 
-/// Puts the grains of the continuum first in storage and sets State::n_listed.
-void put_listed_first(State&);
+/// Puts the grains of the continuum first in storage and sets MovingSet::n_listed.
+void put_listed_first(MovingSet&);
 
 /// Takes back parcels that have come among at least `attach_neighbors` others, grains or parcels,
 /// that fill more than `attach_fraction`, with the granular temperature of the grains found there.
 /// Lists must be fresh. \return whether anybody came
-bool attach_near(State&, const GrainStressSettings&, const NeighborLists&, ParcelSearch&);
+bool attach_near(const Domain&, MovingSet&, const GrainStressSettings&, const NeighborLists&,
+                 ParcelSearch&);
 
 }  // namespace sturz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The numbers of the states that grains pass through when they part (physics.md A.4, A.7, B.9).
+/// The numbers of the states that grains pass through when they part (A.4, A.7, B.9).
 #pragma once
 
 #include "engine/laws/frictional_pressure.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Granular temperature and kinetic stress of one grain from n to n+1 (physics.md A.4, B.6, B.9).
+/// Granular temperature and kinetic stress of one grain from n to n+1 (A.4, B.6, B.9).
 #pragma once
 
 #include "engine/core/symmetric_tensor.hpp"

@@ -2,6 +2,7 @@
 #include "engine/effects/motion/accounts.hpp"
 
 #include "engine/core/parallel.hpp"
+#include "engine/effects/fields.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +34,14 @@ void combine(MotionSums& total, const MotionSums& block) {
 
 /// Works are taken with the mean velocity of the step: then a particle that is held at rest works
 /// on nothing, and the sum of all works is the change of kinetic energy.
-void book_step(const State& s, const double* const before[3], std::size_t i, double dt,
-               MotionSums& out) {
-  const ParticleSet& p = s.grains;
+void book_step(const MovingSet& p, double gravity, const double* const before[3], std::size_t i,
+               double dt, MotionSums& out) {
   const double bx = before[0][i], by = before[1][i], bz = before[2][i];
   const double dx = p.vx[i] - bx, dy = p.vy[i] - by, dz = p.vz[i] - bz;
   const double mx = bx + 0.5 * dx, my = by + 0.5 * dy, mz = bz + 0.5 * dz;
-  const double m = p.mass[i] * dt, ax = s.ax[i], ay = s.ay[i], az = s.az[i];
+  const double m = p.mass[i] * dt, ax = p.ax[i], ay = p.ay[i], az = p.az[i];
   out.change2 = std::max(out.change2, dx * dx + dy * dy + dz * dz);
-  out.gravity_work -= m * s.gravity * mz;
+  out.gravity_work -= m * gravity * mz;
   out.stress_work += m * (ax * mx + ay * my + az * mz);
   out.impulse[0] += m * ax;
   out.impulse[1] += m * ay;
@@ -51,9 +51,8 @@ void book_step(const State& s, const double* const before[3], std::size_t i, dou
 
 }  // namespace
 
-void refresh_motion(State& s, double dt) {
-  const ParticleSet& p = s.grains;
-  const Field* field = p.find_field("velocity_before");
+void refresh_motion(const State& s, MovingSet& p, double dt) {
+  const Field* field = p.find(fields::velocity_before);
   const double* before[3] = {};
   for (int k = 0; field && k < 3; ++k) before[k] = field->component[k].data();
   const MotionSums sums = ordered_reduce(
@@ -69,15 +68,15 @@ void refresh_motion(State& s, double dt) {
             out.lo[k] = std::min(out.lo[k], v[k]);
             out.hi[k] = std::max(out.hi[k], v[k]);
           }
-          if (field && dt > 0) book_step(s, before, i, dt, out);
+          if (field && dt > 0) book_step(p, s.gravity, before, i, dt, out);
         }
       },
       combine);
-  s.motion.max_speed = std::sqrt(sums.speed2);
-  s.motion.max_acceleration = dt > 0 ? std::sqrt(sums.change2) / dt : 0;
-  for (int k = 0; k < 3; ++k) s.motion.velocity_range[k] = p.size() ? sums.hi[k] - sums.lo[k] : 0;
-  s.motion.finite = std::isfinite(sums.check) && !s.corrupt;
-  Ledger& book = s.ledger;
+  p.motion.max_speed = std::sqrt(sums.speed2);
+  p.motion.max_acceleration = dt > 0 ? std::sqrt(sums.change2) / dt : 0;
+  for (int k = 0; k < 3; ++k) p.motion.velocity_range[k] = p.size() ? sums.hi[k] - sums.lo[k] : 0;
+  p.motion.finite = std::isfinite(sums.check) && !p.corrupt;
+  Ledger& book = p.ledger;
   book.kinetic = sums.kinetic;
   book.gravity_work += sums.gravity_work;
   book.stress_work += sums.stress_work;

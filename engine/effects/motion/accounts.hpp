@@ -7,6 +7,6 @@
 namespace sturz {
 
 /// Fills the ledger's kinetic energy and works and the motion bounds; dt = 0 before the first step.
-void refresh_motion(State&, double dt);
+void refresh_motion(const State&, MovingSet&, double dt);
 
 }  // namespace sturz

@@ -18,33 +18,34 @@ struct DriftSums {
 
 class Motion final : public Pass {
  public:
-  explicit Motion(const MotionSettings& m) : settings_(m) {}
+  Motion(std::size_t set, const MotionSettings& m) : set_(set), settings_(m) {}
   std::string_view name() const override { return "motion"; }
   std::string_view effect() const override { return EffectName::motion; }
   Stage stage() const override { return Stage::move; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
     const double none = std::numeric_limits<double>::infinity();
-    const double v = s.motion.max_speed, a = s.motion.max_acceleration;
+    const MovingSet& p = s.sets[set_];
+    const double v = p.motion.max_speed, a = p.motion.max_acceleration;
     out.push_back({"advection", v > 0 ? 0.25 * settings_.spacing / v : none});
     out.push_back({"force", a > 0 ? 0.25 * std::sqrt(settings_.smoothing_length / a) : none});
   }
 
   void apply(State& s, double dt) override {
-    if (s.any_outside) remove_outside(s, keep_);
-    drift(s, dt);
-    refresh_motion(s, dt);
+    MovingSet& p = s.sets[set_];
+    if (p.any_leaving) remove_outside(s, p, keep_);
+    drift(s, p, dt);
+    refresh_motion(s, p, dt);
   }
 
  private:
-  void drift(State& s, double dt) const {
-    ParticleSet& p = s.grains;
+  static void drift(const State& s, MovingSet& p, double dt) {
     const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
     const DriftSums sums = ordered_reduce(
         p.size(), s.threads, DriftSums{},
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (rim) out.stopped_energy += p.mass[i] * stop_at_rim(s, i, dt);
+            if (rim) out.stopped_energy += p.mass[i] * stop_at_rim(s, p, i, dt);
             p.x[i] += dt * p.vx[i];
             p.y[i] += dt * p.vy[i];
             p.z[i] += dt * p.vz[i];
@@ -55,19 +56,19 @@ class Motion final : public Pass {
           total.risen += block.risen;
           total.stopped_energy += block.stopped_energy;
         });
-    s.ledger.potential += s.gravity * sums.risen;
-    s.ledger.lost_energy += sums.stopped_energy;
+    p.ledger.potential += s.gravity * sums.risen;
+    p.ledger.lost_energy += sums.stopped_energy;
   }
 
+  std::size_t set_;
   MotionSettings settings_;
   std::vector<std::uint8_t> keep_;
 };
 
 }  // namespace
 
-void add_motion(Step& step, State& state, const MotionSettings& settings) {
-  (void)state;
-  step.add(std::make_unique<Motion>(settings));
+void add_motion(Step& step, std::size_t set, const MotionSettings& settings) {
+  step.add(std::make_unique<Motion>(set, settings));
 }
 
 }  // namespace sturz

@@ -13,7 +13,7 @@ struct MotionSettings {
 };
 
 /// Adds x_{n+1} = x_n + v_{n+1/2} dt, the removal or return of particles off the known terrain,
-/// the advection limit 0.25 dx/|v| and the force limit 0.25 sqrt(h/|a|) (physics.md B.12).
-void add_motion(Step&, State&, const MotionSettings&);
+/// the advection limit 0.25 dx/|v| and the force limit 0.25 sqrt(h/|a|) (docs/physics.md B.12).
+void add_motion(Step&, std::size_t set, const MotionSettings&);
 
 }  // namespace sturz

@@ -7,6 +7,6 @@
 namespace sturz {
 
 /// Adds the kick pass; pair forces are expected in State::ax..az (zero when no effect writes them).
-void add_gravity(Step&, State&);
+void add_gravity(Step&, State&, std::size_t set);
 
 }  // namespace sturz

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/motion/losses.hpp"
 
+#include "engine/effects/fields.hpp"
+
 #include <cmath>
 
 namespace sturz {
@@ -8,40 +10,38 @@ namespace {
 
 /// At the start of the step, as the pack pass left it.
 Vec3 start_velocity(const ParticleSet& p, std::size_t i) {
-  const Field* before = p.find_field("velocity_before");
+  const Field* before = p.find(fields::velocity_before);
   if (!before) return {p.vx[i], p.vy[i], p.vz[i]};
   return {before->component[0][i], before->component[1][i], before->component[2][i]};
 }
 
 }  // namespace
 
-void remove_outside(State& s, std::vector<std::uint8_t>& keep) {
-  ParticleSet& p = s.grains;
+void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& keep) {
   keep.resize(p.size());
   std::size_t n_kept = 0, n_listed = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    keep[i] = !s.leaves(i);
+    keep[i] = !s.leaves(p, i);
     n_kept += keep[i];
-    n_listed += keep[i] && i < s.n_listed;
+    n_listed += keep[i] && i < p.n_listed;
     if (keep[i]) continue;
-    s.corrupt = s.corrupt || !std::isfinite(p.x[i] + p.y[i] + p.z[i]);
-    s.ledger.lost_mass += p.mass[i];
-    s.ledger.lost_energy += 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
+    p.corrupt = p.corrupt || !std::isfinite(p.x[i] + p.y[i] + p.z[i]);
+    p.ledger.lost_mass += p.mass[i];
+    p.ledger.lost_energy += 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
   }
   if (n_kept == p.size()) return;
-  for (auto* a : {&s.ax, &s.ay, &s.az}) {
+  for (auto* a : {&p.ax, &p.ay, &p.az}) {
     std::size_t n = 0;
     for (std::size_t i = 0; i < keep.size(); ++i)
       if (keep[i]) (*a)[n++] = (*a)[i];
     a->resize(n);
   }
   p.compact(keep);
-  s.n_listed = n_listed;
-  s.order_changed = true;
+  p.n_listed = n_listed;
+  p.order_changed = true;
 }
 
-double stop_at_rim(State& s, std::size_t i, double dt) {
-  ParticleSet& p = s.grains;
+double stop_at_rim(const State& s, MovingSet& p, std::size_t i, double dt) {
   const double vx = p.vx[i], vy = p.vy[i];
   auto known = [&](double ux, double uy) {
     double x = p.x[i] + dt * ux, y = p.y[i] + dt * uy, z = p.z[i];

@@ -11,11 +11,11 @@ namespace sturz {
 /// Takes out the particles that State::leaves names, with the kinetic energy they had at the start
 /// of the step: the works of this step are booked for those that stay.
 /// \param keep  scratch
-void remove_outside(State&, std::vector<std::uint8_t>& keep);
+void remove_outside(const State&, MovingSet&, std::vector<std::uint8_t>& keep);
 
 /// A rim that is a wall takes the velocity component that would lead particle i off the known
 /// ground within dt.
 /// \return kinetic energy per mass that the rim took, with the mean velocity of the step [J/kg]
-double stop_at_rim(State&, std::size_t i, double dt);
+double stop_at_rim(const State&, MovingSet&, std::size_t i, double dt);
 
 }  // namespace sturz

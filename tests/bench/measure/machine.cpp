@@ -2,7 +2,7 @@
 #include "tests/bench/measure/machine.hpp"
 
 #include "engine/effects/sweep/fused_sweep.hpp"
-#include "ensemble/app/version.hpp"
+#include "ensemble/workflow/version.hpp"
 #include "tests/bench/measure/clocks.hpp"
 
 #include <fmt/core.h>
@@ -41,9 +41,9 @@ nlohmann::ordered_json machine_facts() {
           {"cores", available_cores()},
           {"instruction_set", std::string(to_string(best_instruction_set()))},
           {"date", now_utc()},
-          {"compiler", app::compiler},
-          {"build_type", app::build_type},
-          {"commit", app::git_commit}};
+          {"compiler", workflow::compiler},
+          {"build_type", workflow::build_type},
+          {"commit", workflow::git_commit}};
 }
 
 double load_average() {

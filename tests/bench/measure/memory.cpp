@@ -10,10 +10,12 @@ std::size_t bytes(const std::vector<T>& v) {
 }
 
 std::size_t state_bytes(const State& s) {
-  std::size_t sum = bytes(s.outside) + bytes(s.boundary.share);
-  sum += bytes(s.wrapped_x) + bytes(s.wrapped_y);
-  const BoundarySupport& b = s.boundary;
-  for (const auto* v : {&s.ax, &s.ay, &s.az, &b.distance, &b.nx, &b.ny, &b.nz}) sum += bytes(*v);
+  std::size_t sum = bytes(s.grains().fate) + bytes(s.grains().boundary.share);
+  sum += bytes(s.grains().wrapped_x) + bytes(s.grains().wrapped_y);
+  const BoundarySupport& b = s.grains().boundary;
+  for (const auto* v :
+       {&s.grains().ax, &s.grains().ay, &s.grains().az, &b.distance, &b.nx, &b.ny, &b.nz})
+    sum += bytes(*v);
   for (int k = 0; k < 6; ++k) sum += bytes(b.moment[k]) + bytes(b.gradient[k]);
   return sum;
 }
@@ -21,8 +23,8 @@ std::size_t state_bytes(const State& s) {
 }  // namespace
 
 MemoryPerParticle memory_per_particle(const State& state, const Step& step) {
-  const double n = static_cast<double>(state.grains.size());
-  return {static_cast<double>(state.grains.bytes_per_particle()),
+  const double n = static_cast<double>(state.grains().size());
+  return {static_cast<double>(state.grains().bytes_per_particle()),
           static_cast<double>(step.bytes()) / n, static_cast<double>(state_bytes(state)) / n};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/reference/by_hand.hpp"
 
+#include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
 
@@ -9,11 +10,11 @@ namespace {
 
 State particles_of(const Release& release, const Terrain& bed) {
   State s(bed, Domain{});
-  ParticleSet& p = s.grains;
-  p.resize(release.x.size());
+  MovingSet& p = s.grains();
+  p.grow(release.x.size());
   p.x = release.x, p.y = release.y, p.z = release.z;
   p.mass = release.mass;
-  for (double m : p.mass) s.ledger.released_mass += m;
+  for (double m : p.mass) s.grains().ledger.released_mass += m;
   return s;
 }
 
@@ -27,18 +28,19 @@ ByHand by_hand(const ScenePlan& plan) {
     settings.base.resize(1);
     settings.earth_pressure.assign(1, EarthPressure{});
     settings.zones = {};
-    add_depth_averaged(made.step, s, settings, plan.release.thickness);
+    add_depth_averaged(made.step, s, 0, settings, plan.release.thickness);
   } else {
     ContactSettings contact = plan.contact;
     contact.base.resize(1);
     contact.zones = {};
-    add_grain_stress(made.step, s, plan.stress, plan.release.depth);
-    add_gravity(made.step, s);
-    add_terrain_contact(made.step, s, contact);
-    add_motion(made.step, s, {plan.stress.spacing, plan.stress.smoothing_length});
+    add_grain_stress(made.step, s, 0, plan.stress, plan.release.depth);
+    add_gravity(made.step, s, 0);
+    add_terrain_contact(made.step, 0, contact);
+    if (!s.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
+    add_motion(made.step, 0, {plan.stress.spacing, plan.stress.smoothing_length});
   }
-  refresh_motion(s, 0);
-  s.ledger.kinetic_0 = s.ledger.kinetic;
+  refresh_motion(s, s.grains(), 0);
+  s.grains().ledger.kinetic_0 = s.grains().ledger.kinetic;
   return made;
 }
 

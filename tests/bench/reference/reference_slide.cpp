@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/reference/reference_slide.hpp"
 
+#include "engine/effects/fields.hpp"
 #include "engine/laws/contact_impulse.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 #include "tests/bench/measure/clocks.hpp"
@@ -49,13 +50,13 @@ ReferenceSlide::ReferenceSlide(const SimulationParts& parts, const ScenePlan& pl
       neighbors_((2 + skin_per_h) * numbers_.h),
       skin_(skin_per_h * numbers_.h),
       moved_(skin_) {
-  const ParticleSet& p = parts.state.grains;
+  const ParticleSet& p = parts.state.grains();
   const double x0 = p.x[0], y0 = p.y[0], z0 = p.z[0];
   x_ = shifted(p.x, x0), y_ = shifted(p.y, y0), z_ = shifted(p.z, z0);
   vx_ = as_floats(p.vx), vy_ = as_floats(p.vy), vz_ = as_floats(p.vz);
   mass_ = as_floats(p.mass);
-  compression_ = as_floats(p.find_field("compression")->component[0]);
-  for (int c = 0; c < 6; ++c) stress_[c] = as_floats(p.find_field("stress")->component[c]);
+  compression_ = as_floats(p.scalar(fields::compression));
+  for (int c = 0; c < 6; ++c) stress_[c] = as_floats(p.components(fields::stress)[c]);
   for (auto* v : {&ax_, &ay_, &az_}) v->assign(p.size(), 0);
   for (auto& v : gradient_) v.assign(p.size(), 0);
   records_.assign(record_floats * p.size(), 0);

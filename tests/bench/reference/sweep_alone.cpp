@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/bench/reference/sweep_alone.hpp"
 
+#include "engine/effects/fields.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
 #include "tests/bench/measure/clocks.hpp"
 
@@ -10,7 +11,7 @@ namespace sturz::bench {
 
 SweepAlone::SweepAlone(const SimulationParts& parts, const ScenePlan& plan, InstructionSet isa)
     : set_of_instructions_(isa),
-      set_(parts.state.grains),
+      set_(parts.state.grains()),
       lists_(2 * plan.stress.smoothing_length, plan.stress.skin * plan.stress.smoothing_length,
              sweeps(isa).tight_list) {
   const GrainStressSettings& g = plan.stress;
@@ -31,8 +32,8 @@ SweepAlone::SweepAlone(const SimulationParts& parts, const ScenePlan& plan, Inst
 
 void SweepAlone::fill_records(const GrainStressSettings& g) {
   lists_.pack_positions(set_, 0, set_.size());
-  const auto& compression = set_.find_field("compression")->component[0];
-  const auto& stress = set_.find_field("stress")->component;
+  const auto& compression = set_.scalar(fields::compression);
+  const auto& stress = set_.components(fields::stress);
   auto f = [](double v) { return static_cast<float>(v); };
   for (std::size_t i = 0; i < set_.size(); ++i) {
     PackedRecord& r = lists_.records()[i];

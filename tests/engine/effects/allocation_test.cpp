@@ -56,7 +56,7 @@ long allocations(const Scenario& s, int warm_up, int steps, bool rebuild) {
   for (int n = 0; n < warm_up; ++n) simulation.step();
   const long before = n_allocations;
   for (int n = 0; n < steps; ++n) {
-    if (rebuild) simulation.parts().state.order_changed = true;
+    if (rebuild) simulation.parts().state.grains().order_changed = true;
     simulation.step();
   }
   return n_allocations - before;
@@ -84,7 +84,7 @@ TEST(Allocation, ARebuildOfTheListsSettlesIntoItsMemory) {
 }
 
 Scenario as_columns(Scenario s) {
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   return s;
 }
 
@@ -93,7 +93,7 @@ TEST(Allocation, AStepOfColumnsNeedsNoNewMemory) {
   const int settled = 60;
   Scenario sheet = as_columns(thin_sheet(1));  // periodic
   EXPECT_EQ(allocations(sheet, settled, 100, false), 0);
-  sheet.grains->earth_pressure = "active_passive";
+  sheet.grains->earth_pressure = LateralPressure::active_passive;
   sheet.basal.turbulent_coefficient_m_s2 = Uncertain(200);
   EXPECT_EQ(allocations(sheet, settled, 100, false), 0);
   // A wall, a period and columns at rest.

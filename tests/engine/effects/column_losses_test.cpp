@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Columns that leave the ground, rims and walls that hold them: booked once, and nobody else's
 /// books change.
+#include "engine/effects/fields.hpp"
 #include "tests/support/hand_made.hpp"
 
 #include <gtest/gtest.h>
@@ -36,9 +37,9 @@ struct Worst {
 };
 
 Worst worst_over(HandMade& made, int steps) {
-  const Ledger& book = made.state.ledger;
+  const Ledger& book = made.state.grains().ledger;
   Worst w;
-  for (int n = 0; n < steps && made.state.grains.size() > 0; ++n) {
+  for (int n = 0; n < steps && made.state.grains().size() > 0; ++n) {
     made.advance();
     w.unexplained = std::max(w.unexplained, std::abs(unexplained(book)) / book.kinetic_0);
     w.residual = std::max(w.residual, std::abs(book.residual()) / book.kinetic_0);
@@ -48,25 +49,25 @@ Worst worst_over(HandMade& made, int steps) {
 
 TEST(ColumnLosses, MassThatLeavesIsBookedExactly) {
   HandMade made = slide(0, NodataRule::outflow);
-  for (int n = 0; n < 100 && made.state.grains.size() > 0; ++n) {
+  for (int n = 0; n < 100 && made.state.grains().size() > 0; ++n) {
     made.advance();
-    const Ledger& book = made.state.ledger;
-    ASSERT_NEAR(total(made.state.grains.mass) + book.lost_mass, book.released_mass, 1e-9);
+    const Ledger& book = made.state.grains().ledger;
+    ASSERT_NEAR(total(made.state.grains().mass) + book.lost_mass, book.released_mass, 1e-9);
   }
-  EXPECT_GT(made.state.ledger.lost_mass, 0);
-  EXPECT_EQ(made.state.ledger.leaked_mass, 0);
+  EXPECT_GT(made.state.grains().ledger.lost_mass, 0);
+  EXPECT_EQ(made.state.grains().ledger.leaked_mass, 0);
 }
 
 TEST(ColumnLosses, EverythingThatBelongsToAColumnLeavesWithIt) {
   HandMade made =
       columns_on(even_ground(16), {{20, 0, 0}, {0, 0, 0}, {30, 0, 0}, {3, 0, 0}}, 0.7, {0, 0, 0});
-  made.state.grains.find_field("reach")->component[0] = {1, 2, 3, 2.1};
+  made.state.grains().scalar(fields::support_radius) = {1, 2, 3, 2.1};
   made.advance();
-  const ParticleSet& p = made.state.grains;
+  const ParticleSet& p = made.state.grains();
   EXPECT_EQ(p.id, (std::vector<std::uint32_t>{1, 3}));
-  EXPECT_EQ(made.state.ax.size(), 2u);
-  EXPECT_EQ(p.find_field("ground")->component[4].size(), 2u);
-  for (double r : p.find_field("reach")->component[0]) EXPECT_NEAR(r, 2.05, 0.3);
+  EXPECT_EQ(made.state.grains().ax.size(), 2u);
+  EXPECT_EQ(p.components(fields::ground)[4].size(), 2u);
+  for (double r : p.scalar(fields::support_radius)) EXPECT_NEAR(r, 2.05, 0.3);
   made.advance();
   EXPECT_EQ(p.size(), 2u);
 }
@@ -74,8 +75,8 @@ TEST(ColumnLosses, EverythingThatBelongsToAColumnLeavesWithIt) {
 TEST(ColumnLosses, KineticEnergyLeavesAsItWas) {
   // Two columns out of each other's reach; the eastern one leaves.
   HandMade made = columns_on(even_ground(16), {{6, 0, 0}, {-6, 0, 0}}, 0.7, {9, 0, 0});
-  const ParticleSet& p = made.state.grains;
-  const Ledger& book = made.state.ledger;
+  const ParticleSet& p = made.state.grains();
+  const Ledger& book = made.state.grains().ledger;
   double kinetic = 0;
   for (int n = 0; n < 100 && book.lost_mass == 0; ++n) {
     kinetic = 0.5 * p.mass[0] * Vec3(p.vx[0], p.vy[0], p.vz[0]).squaredNorm();
@@ -90,7 +91,7 @@ TEST(ColumnLosses, KineticEnergyChangesOnlyByBookedWorks) {
   for (const double slope : {0.0, 0.3}) {
     HandMade made = slide(slope, NodataRule::outflow);
     const Worst worst = worst_over(made, 200);
-    EXPECT_GT(made.state.ledger.lost_mass, 0);
+    EXPECT_GT(made.state.grains().ledger.lost_mass, 0);
     EXPECT_LT(worst.unexplained, 1e-12) << slope;  // rounding
   }
 }
@@ -106,10 +107,10 @@ TEST(ColumnLosses, TheBooksCloseWhileAndAfterMassLeaves) {
 TEST(ColumnLosses, AWallRimHoldsTheColumns) {
   HandMade made = slide(0, NodataRule::wall, {9, 4, 0});
   const Worst worst = worst_over(made, 100);
-  const ParticleSet& p = made.state.grains;
+  const ParticleSet& p = made.state.grains();
   EXPECT_EQ(p.size(), 30u);
-  EXPECT_EQ(made.state.ledger.lost_mass, 0);
-  EXPECT_GT(made.state.ledger.lost_energy, 0.1 * made.state.ledger.kinetic_0);
+  EXPECT_EQ(made.state.grains().ledger.lost_mass, 0);
+  EXPECT_GT(made.state.grains().ledger.lost_energy, 0.1 * made.state.grains().ledger.kinetic_0);
   for (double x : p.x) EXPECT_LE(x, 7.5);
   for (double y : p.y) EXPECT_LE(y, 7.5);
   EXPECT_LT(worst.unexplained, 1e-12);
@@ -119,7 +120,7 @@ TEST(ColumnLosses, AWallRimHoldsTheColumns) {
 TEST(ColumnLosses, AWallRimHoldsColumnsOnASlope) {
   HandMade made = slide(0.3, NodataRule::wall, {9, 4, 0});
   const Worst worst = worst_over(made, 100);
-  EXPECT_EQ(made.state.grains.size(), 30u);
+  EXPECT_EQ(made.state.grains().size(), 30u);
   EXPECT_LT(worst.unexplained, 1e-12);
   EXPECT_LT(worst.residual, 5e-3);  // as the grains' rim; measured
 }
@@ -139,9 +140,10 @@ TEST(ColumnLosses, AWallHoldsColumnsUntilItIsRemoved) {
   auto farthest = [](HandMade& made) {
     for (int n = 0; n < 80; ++n) {
       made.advance();
-      EXPECT_LT(std::abs(unexplained(made.state.ledger)), 1e-12 * made.state.ledger.kinetic_0);
+      EXPECT_LT(std::abs(unexplained(made.state.grains().ledger)),
+                1e-12 * made.state.grains().ledger.kinetic_0);
     }
-    return *std::max_element(made.state.grains.x.begin(), made.state.grains.x.end());
+    return *std::max_element(made.state.grains().x.begin(), made.state.grains().x.end());
   };
   EXPECT_LE(farthest(shut), 3 + 1e-12);
   EXPECT_GT(farthest(open), 3.5);
@@ -151,9 +153,9 @@ TEST(ColumnLosses, AWallHoldsColumnsUntilItIsRemoved) {
 TEST(ColumnLosses, AnEmptyGroundStaysQuiet) {
   HandMade made = columns_on(even_ground(16), {{7, 0, 0}}, 0.7, {20, 0, 0});
   for (int n = 0; n < 50; ++n) made.step.apply(made.state, 0.01);
-  EXPECT_EQ(made.state.grains.size(), 0u);
-  EXPECT_EQ(made.state.motion.max_speed, 0);
-  EXPECT_TRUE(made.state.motion.finite);
+  EXPECT_EQ(made.state.grains().size(), 0u);
+  EXPECT_EQ(made.state.grains().motion.max_speed, 0);
+  EXPECT_TRUE(made.state.grains().motion.finite);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole members whose grains part, fly alone and come back.
+#include "engine/effects/fields.hpp"
 #include "engine/effects/isolated/flight.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
@@ -17,8 +18,10 @@
 namespace sturz {
 namespace {
 
+constexpr auto in_flight = static_cast<std::uint8_t>(fields::Membership::in_flight);
+
 Scenario with_states(Scenario s) {
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.numerics.accept_unresolved = true;
   s.grains->states.emplace();
   s.grains->states->dilute.emplace();
@@ -36,7 +39,7 @@ Simulation made(const Scenario& s, int threads = 1, InstructionSet set = best_in
   return assemble(s, load_scene_inputs(s), 0, threads, set);
 }
 
-std::size_t in_flight_now(const State& s) { return s.grains.size() - s.n_listed; }
+std::size_t in_flight_now(const State& s) { return s.grains().size() - s.grains().n_listed; }
 
 TEST(GrainStates, GiveTheSameBitsAtAnyNumberOfThreads) {
   const auto one = made(short_cliff(), 1).run(), two = made(short_cliff(), 2).run();
@@ -54,9 +57,12 @@ TEST(GrainStates, AreAbsentWhereTheSceneDoesNotNameThem) {
   Scenario s = short_cliff();
   s.grains->states.reset();
   const Simulation simulation = made(s);
-  for (const char* field :
-       {"state", "fill", "granular_temperature", "kinetic_stress", "steps_alone", "spin"})
-    EXPECT_EQ(simulation.parts().state.grains.find_field(field), nullptr) << field;
+  const MovingSet& grains = simulation.parts().state.grains();
+  for (const FieldKey* key :
+       {&fields::fill, &fields::granular_temperature, &fields::kinetic_stress, &fields::spin})
+    EXPECT_FALSE(grains.has(*key)) << key->name;
+  for (const FlagKey* key : {&fields::state, &fields::steps_alone, &fields::membership})
+    EXPECT_FALSE(grains.has(*key)) << key->name;
 }
 
 TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
@@ -66,15 +72,15 @@ TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
   const State& state = simulation.parts().state;
   EXPECT_LT(std::abs(result.scalars.energy_residual), 0.01);
   EXPECT_LT(std::abs(result.scalars.mass_error), 1e-12);
-  EXPECT_EQ(state.ledger.leaked_mass, 0);
-  EXPECT_GT(state.ledger.collisions, 0);
+  EXPECT_EQ(state.grains().ledger.leaked_mass, 0);
+  EXPECT_GT(state.grains().ledger.collisions, 0);
   // What viscosity and discretisation take is a loss, never a gain.
-  EXPECT_GT(state.ledger.numerical(), 0);
+  EXPECT_GT(state.grains().ledger.numerical(), 0);
   EXPECT_LT(result.scalars.max_speed_m_s, std::sqrt(2 * 9.81 * result.scalars.drop_m));
 }
 
 /// A block on level ground whose grains are thrown apart and up.
-Simulation explosion(const char* contacts) {
+Simulation explosion(ParcelContactLaw contacts) {
   Scenario s = with_states(pile(1));
   s.release.cylinder.reset();
   s.release.paraboloid.reset();
@@ -84,21 +90,22 @@ Simulation explosion(const char* contacts) {
   s.numerics.end_time_s = 12;
   Simulation simulation = made(s);
   State& state = simulation.parts().state;
-  ParticleSet& p = state.grains;
-  Field& before = *p.find_field("velocity_before");
+  MovingSet& p = state.grains();
+  Field& before = *p.find(fields::velocity_before);
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.vx[i] = before.component[0][i] = 3 * p.x[i];
     p.vy[i] = before.component[1][i] = 3 * p.y[i];
     p.vz[i] = before.component[2][i] = 4 * p.z[i];
   }
-  refresh_motion(state, 0);
-  state.ledger.kinetic_0 = state.ledger.kinetic;
+  refresh_motion(state, state.grains(), 0);
+  state.grains().ledger.kinetic_0 = state.grains().ledger.kinetic;
   return simulation;
 }
 
 /// B.8, I13, I16: detached grains keep mass and momentum, fly, land, and are taken back.
 TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
-  for (const char* contacts : {"none", "hertz_mindlin"}) {
+  for (const ParcelContactLaw contacts :
+       {ParcelContactLaw::none, ParcelContactLaw::hertz_mindlin}) {
     Simulation simulation = explosion(contacts);
     std::size_t most = 0;
     RunControl control;
@@ -109,60 +116,60 @@ TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
     };
     const MemberResult result = simulation.run(control);
     const State& state = simulation.parts().state;
-    EXPECT_GT(most, state.grains.size() / 2) << contacts;
-    EXPECT_EQ(in_flight_now(state), 0u) << contacts;
-    EXPECT_LT(std::abs(result.scalars.energy_residual), 1e-2) << contacts;
-    EXPECT_EQ(state.ledger.leaked_mass, 0);
+    EXPECT_GT(most, state.grains().size() / 2) << to_string(contacts);
+    EXPECT_EQ(in_flight_now(state), 0u) << to_string(contacts);
+    EXPECT_LT(std::abs(result.scalars.energy_residual), 1e-2) << to_string(contacts);
+    EXPECT_EQ(state.grains().ledger.leaked_mass, 0);
     EXPECT_LT(std::abs(result.scalars.mass_error), 1e-13);
-    EXPECT_LT(state.ledger.kinetic, 1e-3 * state.ledger.kinetic_0);
+    EXPECT_LT(state.grains().ledger.kinetic, 1e-3 * state.grains().ledger.kinetic_0);
   }
 }
 
 /// In free flight nobody is listed: a parcel follows its parabola to the bit of the same parcel
 /// without states.
 TEST(GrainStates, ALoneParcelFliesItsParabola) {
-  Simulation simulation = explosion("none");
+  Simulation simulation = explosion(ParcelContactLaw::none);
   const State& state = simulation.parts().state;
-  const auto& alone = state.grains.find_field("steps_alone")->component[0];
-  std::size_t followed = state.grains.size();
+  const auto& membership = state.grains().flags(fields::membership);
+  std::size_t followed = state.grains().size();
   while (state.time < 1) {
     simulation.step();
     if (in_flight_now(state) > 0) break;
   }
   ASSERT_GT(in_flight_now(state), 0u);
-  followed = state.grains.id[state.n_listed];
+  followed = state.grains().id[state.grains().n_listed];
   const auto place = [&] {
-    return std::find(state.grains.id.begin(), state.grains.id.end(), followed) -
-           state.grains.id.begin();
+    return std::find(state.grains().id.begin(), state.grains().id.end(), followed) -
+           state.grains().id.begin();
   };
   auto i = static_cast<std::size_t>(place());
-  const double t0 = state.time, vx = state.grains.vx[i], x0 = state.grains.x[i];
+  const double t0 = state.time, vx = state.grains().vx[i], x0 = state.grains().x[i];
   for (int n = 0; n < 20; ++n) simulation.step();
   i = static_cast<std::size_t>(place());
-  ASSERT_EQ(alone[i], in_flight);
-  EXPECT_EQ(state.grains.vx[i], vx);
-  EXPECT_NEAR(state.grains.x[i], x0 + vx * (state.time - t0), 1e-12);
+  ASSERT_EQ(membership[i], in_flight);
+  EXPECT_EQ(state.grains().vx[i], vx);
+  EXPECT_NEAR(state.grains().x[i], x0 + vx * (state.time - t0), 1e-12);
 }
 
 /// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others
 /// far apart from everybody; all as lone parcels. \return how many are taken back as grains
 std::size_t taken_back(const std::vector<Vec3>& places) {
-  Simulation simulation = explosion("none");
+  Simulation simulation = explosion(ParcelContactLaw::none);
   State& state = simulation.parts().state;
-  ParticleSet& p = state.grains;
-  const double dx = simulation.parts().spacing_m;
-  std::fill(p.find_field("steps_alone")->component[0].begin(),
-            p.find_field("steps_alone")->component[0].end(), in_flight);
+  MovingSet& p = state.grains();
+  const double dx = simulation.parts().facts.spacing_m;
+  auto& membership = p.flags(fields::membership);
+  std::fill(membership.begin(), membership.end(), in_flight);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double above = 10.0 * static_cast<double>(i);
     const Vec3 at = i < places.size() ? places[i] : Vec3(0, 0, 10 + above);
     p.x[i] = dx * at.x(), p.y[i] = dx * at.y(), p.z[i] = 100 + dx * at.z();
     p.vx[i] = p.vy[i] = p.vz[i] = 0;
-    for (auto& before : p.find_field("velocity_before")->component) before[i] = 0;
+    for (auto& before : p.components(fields::velocity_before)) before[i] = 0;
   }
-  refresh_motion(state, 0);
+  refresh_motion(state, state.grains(), 0);
   simulation.step();
-  return state.n_listed;
+  return state.grains().n_listed;
 }
 
 /// B.9: eight neighbours among the grains. One that stays in flight is nobody's neighbour.
@@ -184,9 +191,10 @@ TEST(GrainStates, ALooseReleaseIsSetDownDense) {
   loose.grains->solid_fraction = Uncertain(0.5);
   dense.grains->solid_fraction = Uncertain(0.6);
   const auto a = made(loose), b = made(dense);
-  EXPECT_NEAR(a.parts().state.ledger.released_mass / b.parts().state.ledger.released_mass,
-              0.5 / 0.6, 1e-12);
-  EXPECT_NEAR(a.parts().reference_density, b.parts().reference_density, 1e-9);
+  EXPECT_NEAR(
+      a.parts().state.grains().ledger.released_mass / b.parts().state.grains().ledger.released_mass,
+      0.5 / 0.6, 1e-12);
+  EXPECT_NEAR(a.parts().state.grains().bulk_density, b.parts().state.grains().bulk_density, 1e-9);
 }
 
 }  // namespace

@@ -23,41 +23,41 @@ double unexplained(const Ledger& book) {
 
 TEST(Losses, MassThatLeavesIsBookedExactly) {
   auto made = test::grains_on(even_ground(16), block({6, 5, 3}, {1, -2, 0}), {9, 0, 0});
-  for (int n = 0; n < 600 && made.state.grains.size() > 0; ++n) {
+  for (int n = 0; n < 600 && made.state.grains().size() > 0; ++n) {
     made.advance();
-    const Ledger& book = made.state.ledger;
-    ASSERT_EQ(total(made.state.grains.mass) + book.lost_mass, book.released_mass);
+    const Ledger& book = made.state.grains().ledger;
+    ASSERT_EQ(total(made.state.grains().mass) + book.lost_mass, book.released_mass);
   }
-  EXPECT_GT(made.state.ledger.lost_mass, 0);
-  EXPECT_EQ(made.state.ledger.leaked_mass, 0);
-  EXPECT_GE(made.state.ax.size(), made.state.grains.size());
+  EXPECT_GT(made.state.grains().ledger.lost_mass, 0);
+  EXPECT_EQ(made.state.grains().ledger.leaked_mass, 0);
+  EXPECT_GE(made.state.grains().ax.size(), made.state.grains().size());
 }
 
 TEST(Losses, AccelerationsFollowTheirParticles) {
   // Works are booked after the removal: everybody's with the own acceleration.
   auto made =
       test::parcels_on(even_ground(16), {{20, 0, 5}, {0, 0, 5}, {30, 0, 5}, {3, 0, 5}}, {0, 0, 0});
-  made.state.ax = {1, 2, 3, 4};
+  made.state.grains().ax = {1, 2, 3, 4};
   made.advance();
-  EXPECT_EQ(made.state.grains.id, (std::vector<std::uint32_t>{1, 3}));
-  EXPECT_EQ(made.state.ax, (std::vector<float>{2, 4}));
+  EXPECT_EQ(made.state.grains().id, (std::vector<std::uint32_t>{1, 3}));
+  EXPECT_EQ(made.state.grains().ax, (std::vector<float>{2, 4}));
 }
 
 TEST(Losses, KineticEnergyChangesOnlyByBookedWorks) {
   auto made = test::grains_on(even_ground(16), block({6, 5, 3}, {1, -2, 0}), {9, 0, 0});
   double worst = 0;
-  for (int n = 0; n < 600 && made.state.grains.size() > 0; ++n) {
+  for (int n = 0; n < 600 && made.state.grains().size() > 0; ++n) {
     made.advance();
-    worst = std::max(worst, std::abs(unexplained(made.state.ledger)));
+    worst = std::max(worst, std::abs(unexplained(made.state.grains().ledger)));
   }
-  EXPECT_GT(made.state.ledger.lost_mass, 0);
-  EXPECT_LT(worst, 1e-3 * made.state.ledger.kinetic_0);
+  EXPECT_GT(made.state.grains().ledger.lost_mass, 0);
+  EXPECT_LT(worst, 1e-3 * made.state.grains().ledger.kinetic_0);
 }
 
 TEST(Losses, StoredAndKineticEnergyLeaveWithTheirParticle) {
   // Thrown off the rim, never touching: what the books lose is what the particles had.
   auto made = test::grains_on(even_ground(16), block({2, 2, 2}, {7, 0, 30}), {20, 0, 0});
-  Ledger& book = made.state.ledger;
+  Ledger& book = made.state.grains().ledger;
   double kinetic = 0, elastic = 0;
   for (int n = 0; n < 200 && book.lost_mass == 0; ++n) {
     kinetic = book.kinetic;
@@ -71,11 +71,11 @@ TEST(Losses, StoredAndKineticEnergyLeaveWithTheirParticle) {
 
 TEST(Losses, ElasticEnergyIsBookedWhenItsParticleLeaves) {
   auto made = test::grains_on(even_ground(16), {{20, 0, 5}, {0, 0, 5}}, {0, 0, 0});
-  Ledger& book = made.state.ledger;
+  Ledger& book = made.state.grains().ledger;
   const double each = 0.5 * book.elastic_0;  // both start under the load of half a metre
   ASSERT_GT(each, 0);
   made.advance();
-  ASSERT_EQ(made.state.grains.size(), 1u);
+  ASSERT_EQ(made.state.grains().size(), 1u);
   EXPECT_NEAR(book.lost_energy, each, 1e-6 * each);
   EXPECT_NEAR(book.elastic, each, 1e-6 * each);
 }
@@ -86,9 +86,9 @@ TEST(Losses, WhatSinksUnderTheGroundIsRemovedOnceWhateverTheRim) {
     places.push_back({-3, -3, -2.5});  // two and a half spacings under the ground
     auto made = test::parcels_on(even_ground(16, 0, rule), places, {0, 0, 0});
     for (int n = 0; n < 20; ++n) made.advance();
-    EXPECT_EQ(made.state.grains.size(), 4u);
-    EXPECT_EQ(made.state.ledger.leaked_mass, 1560);
-    EXPECT_EQ(made.state.ledger.lost_mass, 1560);
+    EXPECT_EQ(made.state.grains().size(), 4u);
+    EXPECT_EQ(made.state.grains().ledger.leaked_mass, 1560);
+    EXPECT_EQ(made.state.grains().ledger.lost_mass, 1560);
   }
 }
 
@@ -96,19 +96,20 @@ TEST(Losses, AWallRimHoldsTheMass) {
   auto made = test::grains_on(even_ground(16, 0, NodataRule::wall), block({6, 5, 3}, {1, -2, 0}),
                               {9, 2, 0});
   for (int n = 0; n < 300; ++n) made.advance();
-  EXPECT_EQ(made.state.grains.size(), 90u);
-  EXPECT_EQ(made.state.ledger.lost_mass, 0);
-  EXPECT_GT(made.state.ledger.lost_energy, 0);
-  for (double x : made.state.grains.x) EXPECT_LE(x, 7.5);
-  EXPECT_LT(std::abs(unexplained(made.state.ledger)), 5e-3 * made.state.ledger.kinetic_0);
+  EXPECT_EQ(made.state.grains().size(), 90u);
+  EXPECT_EQ(made.state.grains().ledger.lost_mass, 0);
+  EXPECT_GT(made.state.grains().ledger.lost_energy, 0);
+  for (double x : made.state.grains().x) EXPECT_LE(x, 7.5);
+  EXPECT_LT(std::abs(unexplained(made.state.grains().ledger)),
+            5e-3 * made.state.grains().ledger.kinetic_0);
 }
 
 TEST(Losses, AnEmptyGroundStaysQuiet) {
   auto made = test::parcels_on(even_ground(16), {{7, 0, 0.5}}, {20, 0, 0});
   for (int n = 0; n < 50; ++n) made.step.apply(made.state, 0.01);
-  EXPECT_EQ(made.state.grains.size(), 0u);
-  EXPECT_EQ(made.state.motion.max_speed, 0);
-  EXPECT_TRUE(made.state.motion.finite);
+  EXPECT_EQ(made.state.grains().size(), 0u);
+  EXPECT_EQ(made.state.grains().motion.max_speed, 0);
+  EXPECT_TRUE(made.state.grains().motion.finite);
 }
 
 }  // namespace

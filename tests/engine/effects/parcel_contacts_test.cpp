@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Lone parcels in flight that hit each other and the ground: what is kept, what is lost.
-#include "engine/effects/isolated/effect.hpp"
+#include "engine/effects/isolated/contacts.hpp"
 #include "tests/support/parcel_flight.hpp"
 
 #include <gtest/gtest.h>
@@ -23,14 +23,14 @@ TEST(ParcelContacts, TwoParcelsKeepTheirMomentumAndTheBooksClose) {
   // Unlike sizes, off centre: they slide, spin and part.
   Flight f({{{-1, 0, 100}, {6, 1, 0}, 0.5}, {{1, 0.3, 100.2}, {-5, 0, 0.5}, 0.8}}, free_flight());
   const Vec3 momentum = f.momentum(), angular = f.angular_momentum();
-  const double kinetic = f.state.ledger.kinetic, scale = f.state.grains.mass[1] * 6;
+  const double kinetic = f.state.grains().ledger.kinetic, scale = f.state.grains().mass[1] * 6;
   for (int n = 0; n < 60; ++n) {
     f.advance(0.005);
     ASSERT_LT((f.momentum() - momentum).norm(), 1e-12 * scale);
     ASSERT_LT((f.angular_momentum() - angular).norm(), 1e-12 * 100 * scale);
-    ASSERT_LT(std::abs(f.state.ledger.residual()), 1e-12 * kinetic);
+    ASSERT_LT(std::abs(f.state.grains().ledger.residual()), 1e-12 * kinetic);
   }
-  const Ledger& book = f.state.ledger;
+  const Ledger& book = f.state.grains().ledger;
   EXPECT_GT((f.place(1) - f.place(0)).norm(), 1.3 + 0.1);
   EXPECT_GT(f.spin(0).norm(), 1);
   EXPECT_GT(book.rotational, 0);
@@ -85,20 +85,20 @@ TEST(ParcelContacts, ABagKeepsMomentumAndNeverGainsEnergy) {
   for (double dt : {0.002, 0.02}) {  // 0.02: they fly a radius per step
     Flight f(bag(50, 15), free_flight());
     const Vec3 momentum = f.momentum();
-    const double start = f.state.ledger.kinetic;
+    const double start = f.state.grains().ledger.kinetic;
     double scale = 0, last = start, pairs = 0;
-    for (double m : f.state.grains.mass) scale += m * 20;
+    for (double m : f.state.grains().mass) scale += m * 20;
     for (double t = 0; t < 1; t += dt) {
       f.advance(dt);
       ASSERT_LT((f.momentum() - momentum).norm(), 1e-12 * scale);
       ASSERT_LE(f.energy(), last + 1e-9 * start) << "at " << t;
-      ASSERT_LT(std::abs(f.state.ledger.residual()), 1e-11 * start);
+      ASSERT_LT(std::abs(f.state.grains().ledger.residual()), 1e-11 * start);
       last = std::min(last, f.energy());
-      pairs = std::max(pairs, f.state.ledger.parcel_elastic);
+      pairs = std::max(pairs, f.state.grains().ledger.parcel_elastic);
     }
     EXPECT_GT(pairs, 0);
     EXPECT_LT(f.energy(), 0.6 * start);
-    EXPECT_GT(f.state.ledger.parcel_dissipated(), 0.4 * start);
+    EXPECT_GT(f.state.grains().ledger.parcel_dissipated(), 0.4 * start);
   }
 }
 
@@ -106,7 +106,7 @@ TEST(ParcelContacts, FasterThanTheBoundTheyOverlapMoreButGainNothing) {
   Scene scene = free_flight();
   scene.contacts.speed_bound = 4;  // they meet at up to 40
   Flight f(bag(50, 15), scene);
-  const double start = f.state.ledger.kinetic;
+  const double start = f.state.grains().ledger.kinetic;
   for (int n = 0; n < 50; ++n) {
     const double before = f.energy();
     f.advance(0.02);
@@ -117,7 +117,7 @@ TEST(ParcelContacts, FasterThanTheBoundTheyOverlapMoreButGainNothing) {
 
 TEST(ParcelContacts, WithoutLossesABagKeepsItsEnergy) {
   Flight f(bag(50, 15), free_flight(1, 0));
-  const double start = f.state.ledger.kinetic;
+  const double start = f.state.grains().ledger.kinetic;
   for (int n = 0; n < 200; ++n) {
     f.advance(0.004);
     ASSERT_NEAR(f.energy(), start, 0.01 * start) << n;
@@ -131,17 +131,17 @@ TEST(ParcelContacts, GiveTheSameBitsAgainAndInAnyStorageOrder) {
   std::vector<std::uint32_t> order(50);
   std::iota(order.begin(), order.end(), 0u);
   std::shuffle(order.begin(), order.end(), std::mt19937(5));
-  h.state.grains.permute(order);
+  h.state.grains().permute(order);
   h.state.threads = 2;
   for (int n = 0; n < 60; ++n) {
     for (Flight* each : {&f, &g, &h}) each->advance(0.004);
     if (n % 20 != 0) continue;
     std::shuffle(order.begin(), order.end(), std::mt19937(n));
-    h.state.grains.permute(order);
+    h.state.grains().permute(order);
   }
-  ASSERT_LT(f.energy(), 0.8 * f.state.ledger.kinetic_0);
+  ASSERT_LT(f.energy(), 0.8 * f.state.grains().ledger.kinetic_0);
   for (std::size_t k = 0; k < 50; ++k) {
-    const std::uint32_t i = h.state.grains.id[k];
+    const std::uint32_t i = h.state.grains().id[k];
     EXPECT_EQ(f.place(i), g.place(i));
     EXPECT_EQ(f.spin(i), g.spin(i));
     EXPECT_EQ(f.place(i), h.place(k));
@@ -162,7 +162,7 @@ TEST(ParcelContacts, NobodyNearIsNotTouched) {
       ASSERT_EQ(f.place(i), x[i]);
     }
   }
-  EXPECT_EQ(f.state.ledger.parcel_work, 0);
+  EXPECT_EQ(f.state.grains().ledger.parcel_work, 0);
   EXPECT_EQ(f.velocity(0), Vec3(3, 1, 0));
 }
 
@@ -181,7 +181,7 @@ TEST(ParcelContacts, OnlyTheGroupThatTouchesIsStepped) {
 
 TEST(ParcelContacts, GrainsOfTheContinuumAreNotParcels) {
   Flight f({{{-0.6, 0, 100}, {10, 0, 0}}, {{0.6, 0, 100}, {-10, 0, 0}}}, free_flight());
-  f.state.n_listed = 1;
+  f.state.grains().n_listed = 1;
   for (int n = 0; n < 30; ++n) f.advance(0.005);
   EXPECT_EQ(f.velocity(0), Vec3(10, 0, 0));
   EXPECT_EQ(f.velocity(1), Vec3(-10, 0, 0));
@@ -198,7 +198,7 @@ TEST(ParcelContacts, BecomingAParcelSetsNoEnergyFree) {
   Flight meet({{{0, 0, 100}, {2, 0, 0}}, {{0.75, 0, 100}, {-2, 0, 0}}}, free_flight(0.7));
   for (int n = 0; n < 100; ++n) {
     meet.advance(0.002);
-    ASSERT_LE(meet.energy(), meet.state.ledger.kinetic_0 * (1 + 1e-3));
+    ASSERT_LE(meet.energy(), meet.state.grains().ledger.kinetic_0 * (1 + 1e-3));
   }
   EXPECT_NEAR(meet.velocity(1).x(), 1.4, 0.03);
   EXPECT_EQ(meet.spin(0).norm(), 0);
@@ -209,7 +209,7 @@ TEST(ParcelContacts, BecomingAParcelSetsNoEnergyFree) {
   EXPECT_EQ(part.velocity(1), Vec3(1, 0, 0));
   const double gap = part.place(1).x() - part.place(0).x();
   ASSERT_LT(gap, 1);
-  part.state.grains.vx = {1, -1};
+  part.state.grains().vx = {1, -1};
   double nearest = gap;
   for (int n = 0; n < 40; ++n) {
     part.advance(0.01);
@@ -223,13 +223,13 @@ TEST(ParcelContacts, ANewParcelHasNoSpin) {
   Flight f({{{-0.6, 0, 100}, {10, 0, 0}}, {{0.6, 0.5, 100}, {-10, 0, 0}}}, free_flight());
   for (int n = 0; n < 30; ++n) f.advance(0.005);
   ASSERT_GT(f.spin(0).norm(), 1);
-  f.state.n_listed = 2;
+  f.state.grains().n_listed = 2;
   f.advance(0.005);
-  EXPECT_EQ(f.state.ledger.rotational, 0);
-  f.state.n_listed = 0;
+  EXPECT_EQ(f.state.grains().ledger.rotational, 0);
+  f.state.grains().n_listed = 0;
   f.advance(0.005);
   EXPECT_EQ(f.spin(0), Vec3(0, 0, 0));
-  EXPECT_EQ(f.state.ledger.rotational, 0);
+  EXPECT_EQ(f.state.grains().ledger.rotational, 0);
 }
 
 TEST(ParcelContacts, MeetAcrossAPeriod) {
@@ -247,7 +247,7 @@ TEST(ParcelContacts, KineticEnergyChangesOnlyByBookedWorksUnderGravity) {
   scene.gravity = 9.81;
   scene.works = true;
   Flight f(bag(50, 15), scene);
-  const Ledger& book = f.state.ledger;
+  const Ledger& book = f.state.grains().ledger;
   f.advance(1e-12);  // the first kick takes half a step only
   for (int n = 0; n < 200; ++n) {
     f.advance(0.004);
@@ -275,7 +275,7 @@ TEST(ParcelContacts, BounceFromTheGroundAsItsRestitutionSays) {
   const double gain = -0.3 * 1.9 * v;
   EXPECT_NEAR(f.velocity(1).x() - 20, gain, 0.03 * std::abs(gain));
   EXPECT_NEAR(f.spin(1).y(), -2.5 * gain / 0.5, 0.03 * 2.5 * std::abs(gain) / 0.5);
-  EXPECT_GT(f.state.ledger.parcel_dissipated(), 0);
+  EXPECT_GT(f.state.grains().ledger.parcel_dissipated(), 0);
 }
 
 TEST(ParcelContacts, ASlidingParcelIsSlowedByCoulombFrictionAlone) {
@@ -307,8 +307,9 @@ TEST(ParcelContacts, ASlidingParcelEndsUpRolling) {
   EXPECT_NEAR(f.velocity(0).x(), rolling, 0.01 * rolling);
   EXPECT_NEAR(f.spin(0).y() * 0.5, rolling, 0.01 * rolling);
   EXPECT_NEAR(f.place(0).z(), 0.5, 0.01);
-  EXPECT_NEAR(f.state.ledger.parcel_dissipated(), 2.0 / 7 * f.state.ledger.kinetic_0,
-              0.02 * f.state.ledger.kinetic_0);
+  EXPECT_NEAR(f.state.grains().ledger.parcel_dissipated(),
+              2.0 / 7 * f.state.grains().ledger.kinetic_0,
+              0.02 * f.state.grains().ledger.kinetic_0);
 }
 
 }  // namespace

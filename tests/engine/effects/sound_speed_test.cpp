@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sound speed follows the flow: bounded Mach number and density error, the same story, fewer
 // steps, and no pressure that jumps.
+#include "engine/effects/fields.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/simulation.hpp"
 #include "io/site/scene_inputs.hpp"
@@ -35,7 +36,7 @@ TEST(SoundSpeed, KeepsMachAndDensityBoundedAndSavesSteps) {
 }
 
 std::vector<double> pressures(const ParticleSet& p) {
-  const auto& s = p.find_field("stress")->component;
+  const auto& s = p.components(fields::stress);
   std::vector<double> out(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) out[p.id[i]] = -(s[0][i] + s[1][i] + s[2][i]) / 3;
   return out;
@@ -45,15 +46,15 @@ std::vector<double> pressures(const ParticleSet& p) {
 TEST(SoundSpeed, ChangesWithoutAJumpOfPressure) {
   Simulation simulation = made(slide(true));
   State& s = simulation.parts().state;
-  const double top = simulation.parts().reference_density * 9.81 * 10;
+  const double top = simulation.parts().state.grains().bulk_density * 9.81 * 10;
   double largest_change = 0;
   for (int step = 0; step < 1500; ++step) {
-    const double before = s.sound_speed;
-    const std::vector<double> p0 = pressures(s.grains);
+    const double before = s.grains().sound_speed;
+    const std::vector<double> p0 = pressures(s.grains());
     simulation.step();
-    if (s.sound_speed == before) continue;
-    largest_change = std::max(largest_change, std::abs(s.sound_speed / before - 1));
-    const std::vector<double> p1 = pressures(s.grains);
+    if (s.grains().sound_speed == before) continue;
+    largest_change = std::max(largest_change, std::abs(s.grains().sound_speed / before - 1));
+    const std::vector<double> p1 = pressures(s.grains());
     std::vector<double> jump;
     for (std::size_t i = 0; i < p0.size(); ++i) jump.push_back(std::abs(p1[i] - p0[i]));
     std::nth_element(jump.begin(), jump.begin() + jump.size() / 2, jump.end());
@@ -66,9 +67,9 @@ TEST(SoundSpeed, StaysWhereTheSceneIsSlow) {
   Scenario s = pile(2);
   s.numerics.end_time_s = 2;
   Simulation simulation = made(s);
-  const double start = simulation.parts().state.sound_speed;
+  const double start = simulation.parts().state.grains().sound_speed;
   simulation.run();
-  EXPECT_EQ(simulation.parts().state.sound_speed, start);
+  EXPECT_EQ(simulation.parts().state.grains().sound_speed, start);
 }
 
 TEST(SoundSpeed, FixedMeansNoPass) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/step.hpp"
 
+#include "engine/effects/fields.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "tests/support/hand_made.hpp"
 
 #include <gmock/gmock.h>
@@ -107,7 +109,7 @@ TEST(Step, TheSmallestLimitBindsAndIsNamed) {
 
 TEST(Step, EveryLimitBindsInItsOwnSituation) {
   auto made = test::grains_on(even_ground(16), test::block({2, 2, 2}), {0, 0, 0});
-  MotionBounds& m = made.state.motion;
+  MotionBounds& m = made.state.grains().motion;
   const auto binding = [&] { return std::string(made.step.limit(made.state).name); };
   EXPECT_EQ(binding(), "terrain spring");  // 0.2/sqrt(4000) = 3.2 ms < 0.25 * 1.3/60
   EXPECT_DOUBLE_EQ(made.step.limit(made.state).dt, 0.2 / std::sqrt(4000.0));
@@ -142,7 +144,7 @@ TEST(Step, WhatASceneDoesNotCallForIsNotThere) {
   EXPECT_THAT(lone.step.pass_names(),
               testing::ElementsAre("boundary: ground and wall support", "kick: gravity and kick",
                                    "contact: terrain contact", "move: motion"));
-  EXPECT_EQ(lone.state.grains.find_field("stress"), nullptr);
+  EXPECT_EQ(lone.state.grains().find(fields::stress), nullptr);
   Domain walled;
   walled.walls.push_back({{0, 0, 0}, {1, 0, 0}, 0, 1});
   const auto made = test::parcels_on(even_ground(16), {{1, 0, 5}}, {0, 0, 0}, walled);
@@ -154,7 +156,7 @@ TEST(Step, FreeFlightFollowsTheParabola) {
   auto lone = test::parcels_on(even_ground(200), {{0, 0, 50}}, {20, 5, 0});
   const double dt = 1e-3;
   for (int n = 0; n < 1000; ++n) lone.step.apply(lone.state, dt);
-  const ParticleSet& p = lone.state.grains;
+  const ParticleSet& p = lone.state.grains();
   EXPECT_NEAR(p.x[0], 20, 1e-9);
   EXPECT_NEAR(p.y[0], 5, 1e-9);
   EXPECT_NEAR(p.z[0], 50 - 0.5 * 9.81, 1e-9);
@@ -162,21 +164,21 @@ TEST(Step, FreeFlightFollowsTheParabola) {
 
 TEST(Step, BoundsOfTheMotionAreTheExtremes) {
   auto made = test::parcels_on(even_ground(16), {{0, 0, 5}, {1, 0, 5}, {2, 0, 5}}, {0, 0, 0});
-  ParticleSet& p = made.state.grains;
+  ParticleSet& p = made.state.grains();
   p.vx = {3, -1, 0}, p.vy = {4, 0, 0}, p.vz = {0, 0, -2};
-  refresh_motion(made.state, 0);
-  EXPECT_EQ(made.state.motion.max_speed, 5);
-  EXPECT_EQ(made.state.motion.velocity_range[0], 4);
-  EXPECT_EQ(made.state.motion.velocity_range[2], 2);
-  EXPECT_EQ(made.state.ledger.kinetic, 0.5 * 1560 * (25 + 1 + 4));
-  EXPECT_TRUE(made.state.motion.finite);
+  refresh_motion(made.state, made.state.grains(), 0);
+  EXPECT_EQ(made.state.grains().motion.max_speed, 5);
+  EXPECT_EQ(made.state.grains().motion.velocity_range[0], 4);
+  EXPECT_EQ(made.state.grains().motion.velocity_range[2], 2);
+  EXPECT_EQ(made.state.grains().ledger.kinetic, 0.5 * 1560 * (25 + 1 + 4));
+  EXPECT_TRUE(made.state.grains().motion.finite);
   p.vz[1] = std::nan("");
-  refresh_motion(made.state, 0);
-  EXPECT_FALSE(made.state.motion.finite);
+  refresh_motion(made.state, made.state.grains(), 0);
+  EXPECT_FALSE(made.state.grains().motion.finite);
   p.vz[1] = 0;
   p.y[2] = -none;
-  refresh_motion(made.state, 0);
-  EXPECT_FALSE(made.state.motion.finite);
+  refresh_motion(made.state, made.state.grains(), 0);
+  EXPECT_FALSE(made.state.grains().motion.finite);
 }
 
 TEST(Step, WallsHoldUntilTheyAreTakenAway) {
@@ -184,10 +186,10 @@ TEST(Step, WallsHoldUntilTheyAreTakenAway) {
   gate.walls.push_back({{2, 0, 0}, {-1, 0, 0}, 0, 0.5});
   auto lone = test::parcels_on(even_ground(100, 0), {{0, 0, 0.5}}, {6, 0, 0}, gate, 0);
   while (lone.state.time < 0.45) lone.advance();
-  EXPECT_LT(lone.state.grains.x[0], 2);
-  lone.state.grains.vx[0] = 6;
+  EXPECT_LT(lone.state.grains().x[0], 2);
+  lone.state.grains().vx[0] = 6;
   while (lone.state.time < 1.5) lone.advance();
-  EXPECT_GT(lone.state.grains.x[0], 4);
+  EXPECT_GT(lone.state.grains().x[0], 4);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/laws/basal_resistance.hpp"
 
+#include "engine/core/constants.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,7 +10,7 @@
 namespace sturz {
 namespace {
 
-constexpr double g = 9.81, density = 2000;
+constexpr double g = standard_gravity, density = 2000;
 
 /// A base with nothing but the named terms.
 BasalResistance bare(double friction = 0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/laws/contact_impulse.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/vec.hpp"
 
 #include <Eigen/Geometry>
@@ -45,7 +46,7 @@ Touch random_touch(std::mt19937& random) {
 
 TEST(ContactImpulse, StickingIsExact) {
   // A slope of 20 degrees under tan 25: gravity's share of one step never moves the particle.
-  const double slope = 0.349, g = 9.81, dt = 1e-3;
+  const double slope = 0.349, g = standard_gravity, dt = 1e-3;
   Touch t;
   t.law.friction = 0.466;
   t.normal = {std::sin(slope), 0, std::cos(slope)};

@@ -18,7 +18,7 @@ FrictionalPressure with_max(double max_fraction) {
   return law;
 }
 
-TEST(FrictionalPressure, HasThePublishedValues) {  // physics.md A.7, B.9
+TEST(FrictionalPressure, HasThePublishedValues) {  // docs/physics.md A.7, B.9
   const struct {
     double max_fraction, fraction, pressure, digits;
   } published[] = {{0.63, 0.55, 38, 0.5},   {0.63, 0.58, 1.0e3, 50}, {0.63, 0.60, 20.6e3, 50},

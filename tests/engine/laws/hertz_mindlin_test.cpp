@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// physics.md A.5: R = 10 mm, E = 50 GPa, nu = 0.28, rho = 2600, v = 1 m/s.
+/// docs/physics.md A.5: R = 10 mm, E = 50 GPa, nu = 0.28, rho = 2600, v = 1 m/s.
 constexpr double R = 0.01, speed = 1;
 const GrainMaterial rock;
 
@@ -255,7 +255,7 @@ TEST(HertzMindlin, ObliqueImpactSlidesBeyondTheCriticalAngle) {  // V12b
 }
 
 TEST(HertzMindlin, SoftenedModulusKeepsOverlapsSmall) {
-  // The rule's factors as published, physics.md A.5.
+  // The rule's factors as published, docs/physics.md A.5.
   EXPECT_NEAR(softest_modulus(1, 1, 0.05, true), 5.0e3, 50);
   EXPECT_NEAR(softest_modulus(1, 1, 0.01, true), 2.8e5, 3e3);
   GrainMaterial hard = rock;  // rock itself overlaps by 5 % at 40 m/s
@@ -274,7 +274,7 @@ TEST(HertzMindlin, SoftenedModulusKeepsOverlapsSmall) {
 }
 
 TEST(HertzMindlin, TimeStepResolvesWavesAndImpacts) {
-  // physics.md B.12: 0.2 T_R = 2.5e-6 s at R = 10 mm, E = 50 GPa.
+  // docs/physics.md B.12: 0.2 T_R = 2.5e-6 s at R = 10 mm, E = 50 GPa.
   EXPECT_NEAR(0.2 * rayleigh_time(rock, R), 2.5e-6, 0.1e-6);
   EXPECT_NEAR(rayleigh_time(rock, R),
               pi * R * std::sqrt(2600 * 2 * 1.28 / 5e10) / (0.1631 * 0.28 + 0.8766), 1e-12);

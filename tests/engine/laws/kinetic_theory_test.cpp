@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// physics.md V10, V11: d = 10 mm, alpha_max = 0.63.
+/// docs/physics.md V10, V11: d = 10 mm, alpha_max = 0.63.
 KineticTheory grains(double restitution) {
   KineticTheory law;
   law.grain_density = 2600;
@@ -51,7 +51,7 @@ TEST(KineticTheory, EqualsTheExpandedForms) {
 }
 
 TEST(KineticTheory, ViscosityIsNotThePapersPrintedOne) {
-  // Eq. 17 as printed: 2 sqrt(5 pi)/96, and no 1/((1+e) g0); physics.md A.4 has the ratio 3.88.
+  // Eq. 17 as printed: 2 sqrt(5 pi)/96, and no 1/((1+e) g0); A.4 has the ratio 3.88.
   KineticTheory law = grains(0.9);
   const double a = 0.3, rho = law.grain_density, d = law.grain_diameter;
   for (double max_fraction : {0.62, 0.63, 0.64}) {

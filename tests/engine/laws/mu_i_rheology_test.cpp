@@ -12,7 +12,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Glass beads as in physics.md B.5: mu_s = tan 20.9, mu_2 = tan 32.76 degrees.
+/// Glass beads as in docs/physics.md A.3: mu_s = tan 20.9, mu_2 = tan 32.76 degrees.
 MuIRheology beads() {
   MuIRheology law;
   law.static_friction = std::tan(20.9 * degree);

@@ -19,7 +19,7 @@ struct Cloud {
   std::vector<double> reach;
 
   void add(double x, double y, double r, double z = 0) {
-    set.resize(reach.size() + 1);
+    set.grow(1);
     set.x.back() = x, set.y.back() = y, set.z.back() = z;
     reach.push_back(r);
   }

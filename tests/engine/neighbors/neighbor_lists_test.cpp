@@ -23,7 +23,7 @@ NeighborLists make_lists() {
 
 ParticleSet set_of(const std::vector<Vec3>& points) {
   ParticleSet set;
-  set.resize(points.size());
+  set.grow(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     set.x[i] = points[i].x(), set.y[i] = points[i].y(), set.z[i] = points[i].z();
   return set;

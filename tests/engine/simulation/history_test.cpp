@@ -2,6 +2,7 @@
 /// The rows of a member's history: which are kept, what front and tail are.
 #include "engine/simulation/history.hpp"
 
+#include "engine/effects/arrivals.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/travel.hpp"
 #include "tests/support/hand_made.hpp"
@@ -109,9 +110,8 @@ SimulationParts moved_row(int n) {
   test::HandMade made = test::parcels_on(test::even_ground(2 * n + 4), places, {0, 0, 0});
   SimulationParts parts{std::move(made.state), std::move(made.step),
                         PeakMaps({.grid = Grid{1, 1, 0, 1, 1, ""}}), StopRule({})};
-  ParticleSet& p = parts.state.grains;
-  parts.start_x = p.x;
-  parts.start_y = p.y;
+  MovingSet& p = parts.state.grains();
+  mark_start(parts.state.domain, p, 0);
   for (int i = 0; i < n; ++i) p.x[i] += i, p.vx[i] = i;
   return parts;
 }
@@ -119,7 +119,7 @@ SimulationParts moved_row(int n) {
 TEST(Travel, IsThatOfTheMass) {
   const SimulationParts parts = moved_row(201);
   std::vector<ParticleTravel> each;
-  const Displacement d = measure(parts, each);
+  const Displacement d = measure(parts.state, each);
   EXPECT_EQ(d.front, 200);
   EXPECT_NEAR(d.com, 100, 1e-12);
   EXPECT_NEAR(d.mean_speed, 100, 1e-12);
@@ -131,7 +131,7 @@ TEST(Travel, IsThatOfTheMass) {
 TEST(Travel, FrontAndTailAreSharesOfTheMass) {
   const SimulationParts parts = moved_row(201);
   std::vector<ParticleTravel> each;
-  measure(parts, each);
+  measure(parts.state, each);
   const FrontAndTail ends = front_and_tail(each);
   EXPECT_EQ(ends.front_speed, 199.5);  // parcels 199 and 200 of 201
   EXPECT_EQ(ends.tail_speed, 1);       // 0, 1, 2: two of 201 are less than 1 %
@@ -140,9 +140,9 @@ TEST(Travel, FrontAndTailAreSharesOfTheMass) {
 
 TEST(Travel, AHeavyParcelCountsByItsMass) {
   SimulationParts parts = moved_row(201);
-  parts.state.grains.mass[150] *= 1e6;
+  parts.state.grains().mass[150] *= 1e6;
   std::vector<ParticleTravel> each;
-  measure(parts, each);
+  measure(parts.state, each);
   const FrontAndTail ends = front_and_tail(each);
   EXPECT_EQ(ends.tail_travel, 150);
   EXPECT_NEAR(ends.front_speed, 175.5, 1e-9);  // all ahead of it are less than 1 % of the mass
@@ -151,10 +151,10 @@ TEST(Travel, AHeavyParcelCountsByItsMass) {
 
 TEST(Travel, OneParcelIsFrontAndTail) {
   SimulationParts parts = moved_row(1);
-  parts.state.grains.vz[0] = -3;
-  parts.state.grains.x[0] += 4;
+  parts.state.grains().vz[0] = -3;
+  parts.state.grains().x[0] += 4;
   std::vector<ParticleTravel> each;
-  measure(parts, each);
+  measure(parts.state, each);
   const FrontAndTail ends = front_and_tail(each);
   EXPECT_EQ(ends.front_speed, 3);
   EXPECT_EQ(ends.tail_speed, 3);
@@ -164,11 +164,11 @@ TEST(Travel, OneParcelIsFrontAndTail) {
 TEST(Travel, CountsWholePeriodsAndIdsRatherThanPlaces) {
   SimulationParts parts = moved_row(3);
   std::vector<std::uint32_t> turned{2, 0, 1};
-  parts.state.grains.permute(turned);
-  parts.state.wrapped_x = {10, 20, 30};  // by id
-  parts.state.wrapped_y = {0, 0, 0};
+  parts.state.grains().permute(turned);
+  parts.state.grains().wrapped_x = {10, 20, 30};  // by id
+  parts.state.grains().wrapped_y = {0, 0, 0};
   std::vector<ParticleTravel> each;
-  const Displacement d = measure(parts, each);
+  const Displacement d = measure(parts.state, each);
   EXPECT_EQ(d.front, 32);
   EXPECT_NEAR(d.com, 21, 1e-12);
 }

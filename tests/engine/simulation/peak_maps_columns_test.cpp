@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Maps of depth-averaged columns, which bring their own widths; and layers across the thickness.
+#include "engine/effects/fields.hpp"
 #include "engine/simulation/peak_maps.hpp"
 #include "tests/support/peak_map_reading.hpp"
 
@@ -19,15 +20,15 @@ using test::sum_of;
 constexpr double density = 1500;
 const Grid grid{120, 100, 0, 500, 5, ""};
 
-/// Columns at rest, with the field "reach".
+/// Columns at rest, with a support radius each.
 struct Columns {
   ParticleSet set;
 
-  Columns() { set.add_field("reach", 1); }
+  Columns() { set.add(fields::support_radius); }
   void add(double x, double y, double volume, double reach) {
-    set.resize(set.size() + 1);
+    set.grow(1);
     set.x.back() = x, set.y.back() = y, set.mass.back() = density * volume;
-    set.find_field("reach")->component[0].back() = reach;
+    set.scalar(fields::support_radius).back() = reach;
   }
 };
 
@@ -45,7 +46,7 @@ Columns random_columns(int n, double least, double most, unsigned seed = 1) {
 /// The same place and mass, spread over a width that all particles share.
 MemberResult particle_of_width(double x, double y, double volume, double width) {
   ParticleSet p;
-  p.resize(1);
+  p.grow(1);
   p.x[0] = x, p.y[0] = y, p.mass[0] = density * volume;
   return maps_of({grid, width, density, 1e-6}, p);
 }
@@ -109,8 +110,8 @@ TEST(ColumnMaps, KeepVolumeWhateverTheReaches) {
 
 TEST(ColumnMaps, FollowReachesThatGrowAndShrink) {
   Columns c = random_columns(200, 20, 20);
-  auto& reach = c.set.find_field("reach")->component[0];
-  PeakMaps maps({grid, 1, density, 1e-3});
+  auto& reach = c.set.scalar(fields::support_radius);
+  test::OneSetMaps maps({grid, 1, density, 1e-3});
   for (const double now : {20.0, 110.0, 6.0, 61.0}) {
     std::fill(reach.begin(), reach.end(), now);
     maps.record(c.set, now);
@@ -141,12 +142,12 @@ TEST(ColumnMaps, WidthsThatJustTouchOneMoreCellStayInTheirRoom) {
 }
 
 /// n x n particles of 1 m spacing on the centres of cells of 1 m: `layers` thick but at its rim.
-PeakMaps plate(int n, double layers) {
+test::OneSetMaps plate(int n, double layers) {
   ParticleSet p;
-  p.resize(static_cast<std::size_t>(n) * n);
+  p.grow(static_cast<std::size_t>(n) * n);
   for (int i = 0; i < n * n; ++i)
     p.x[i] = 10.5 + i % n, p.y[i] = 10.5 + i / n, p.mass[i] = density * layers;
-  PeakMaps maps({Grid{n + 20, n + 20, 0, n + 20.0, 1, ""}, 1, density, 1e-6});
+  test::OneSetMaps maps({Grid{n + 20, n + 20, 0, n + 20.0, 1, ""}, 1, density, 1e-6});
   maps.record(p, 0);
   return maps;
 }
@@ -171,9 +172,9 @@ TEST(LayerCount, WeighsByMass) {
   // One particle on a cell's centre: 9/16 of it in that cell, 3/32 in each side, 1/64 in each
   // corner; 16 layers in the middle are 8/3 at the sides and 4/9 in the corners.
   ParticleSet p;
-  p.resize(1);
+  p.grow(1);
   p.x[0] = 10.5, p.y[0] = 10.5, p.mass[0] = density * 16 * 16 / 9;
-  PeakMaps maps({Grid{20, 20, 0, 20, 1, ""}, 1, density, 1e-6});
+  test::OneSetMaps maps({Grid{20, 20, 0, 20, 1, ""}, 1, density, 1e-6});
   maps.record(p, 0);
   const LayerCount c = maps.layers();
   EXPECT_NEAR(c.thin_fraction, 7.0 / 16, 1e-12);
@@ -182,14 +183,14 @@ TEST(LayerCount, WeighsByMass) {
 }
 
 TEST(LayerCount, IsThatOfTheLastInstant) {
-  PeakMaps maps = plate(40, 20);
+  test::OneSetMaps maps = plate(40, 20);
   ParticleSet p;
-  p.resize(1);
+  p.grow(1);
   p.x[0] = 20.5, p.y[0] = 20.5, p.mass[0] = density;
   maps.record(p, 1);
   EXPECT_EQ(maps.layers().thin_fraction, 1);
   EXPECT_NEAR(maps.layers().median / (9.0 / 16), 1, 0.051);
-  EXPECT_EQ(PeakMaps({grid, 1, density, 1e-6}).layers().median, 0) << "nothing yet";
+  EXPECT_EQ(test::OneSetMaps({grid, 1, density, 1e-6}).layers().median, 0) << "nothing yet";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ ParticleSet cloud(std::size_t n, double x0, double y0, double size, unsigned see
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit;
   ParticleSet p;
-  p.resize(n);
+  p.grow(n);
   for (std::size_t i = 0; i < n; ++i) {
     p.x[i] = x0 + size * unit(random);
     p.y[i] = y0 + size * unit(random);
@@ -47,7 +47,7 @@ TEST(PeakMaps, KeepVolumeAtEveryRatioOfSpacingToCell) {
 TEST(PeakMaps, KeepVolumeExactlyWhereFloatsCan) {
   // On cell centres and corners all weights and masses are short binary fractions.
   ParticleSet p;
-  p.resize(600);
+  p.grow(600);
   for (int i = 0; i < 600; ++i) {
     p.x[i] = 100 + 2 * (i % 25), p.y[i] = 100 + 2 * (i / 25);
     p.mass[i] = 1024 * (1 + i % 3);
@@ -59,7 +59,7 @@ TEST(PeakMaps, KeepVolumeExactlyWhereFloatsCan) {
 
 TEST(PeakMaps, OneParticleIsSpreadByTheQuadraticBSpline) {
   ParticleSet p;
-  p.resize(1);
+  p.grow(1);
   p.x[0] = 22.0, p.y[0] = 30.5, p.mass[0] = density;  // 0.4 cells west, 0.2 north of a centre
   const MemberResult r = maps_of({Grid{20, 20, 0, 60, 3, ""}, 1, density, 1e-9}, p);
   const double u = (22.0 - 22.5) / 3, v = (30.5 - 31.5) / 3;
@@ -96,7 +96,7 @@ TEST(PeakMaps, MoveWithTheParticles) {
 TEST(PeakMaps, PlugFlowHasItsSpeedEnergyAndPressure) {
   const Grid g{60, 60, 0, 300, 5, ""};
   ParticleSet p;
-  p.resize(40 * 40);
+  p.grow(40 * 40);
   for (int i = 0; i < 1600; ++i) {  // 2 m of flow on 100 x 100 m
     p.x[i] = 100 + 2.5 * (i % 40 + 0.5), p.y[i] = 100 + 2.5 * (i / 40 + 0.5);
     p.vx[i] = 6, p.vz[i] = -8;
@@ -122,7 +122,7 @@ TEST(PeakMaps, TakeTheMaximumOfProductsNotTheProductOfMaxima) {
     fast.vx[i] = 20, fast.vy[i] = fast.vz[i] = 0;
     fast.mass[i] *= 0.05;
   }
-  PeakMaps maps({g, 5, density, 1e-4});
+  test::OneSetMaps maps({g, 5, density, 1e-4});
   maps.record(slow, 1);
   maps.record(fast, 2);
   MemberResult r;
@@ -138,7 +138,7 @@ TEST(PeakMaps, TakeTheMaximumOfProductsNotTheProductOfMaxima) {
 
 TEST(PeakMaps, ArrivalIsTheFirstInstantAboveTheLimit) {
   const Grid g{60, 30, 0, 150, 5, ""};
-  PeakMaps maps({g, 5, density, 0.05});
+  test::OneSetMaps maps({g, 5, density, 0.05});
   ParticleSet p = cloud(300, 20, 60, 20);
   const int row = g.row_of(70);
   for (int t = 0; t < 20; ++t) {
@@ -171,7 +171,7 @@ TEST(PeakMaps, ThinCellsKeepTheirThicknessButAreNotReached) {
 TEST(PeakMaps, MassBeyondTheGridIsDroppedNotPushedIn) {
   const Grid g{20, 20, 0, 100, 5, ""};
   ParticleSet p;
-  p.resize(3);
+  p.grow(3);
   p.x = {0.0, 50, 500}, p.y = {50, 50, 50};  // on the western rim, inside, far away
   p.mass = {density, density, density};
   const MemberResult r = maps_of({g, 5, density, 1e-6}, p);
@@ -184,7 +184,7 @@ TEST(PeakMaps, MassBeyondTheGridIsDroppedNotPushedIn) {
 TEST(PeakMaps, TheWindowIsTightAndNothingMakesAnEmptyOne) {
   const Grid g{200, 100, 0, 500, 5, ""};
   ParticleSet p;
-  p.resize(1);
+  p.grow(1);
   p.x[0] = 502.5, p.y[0] = 252.5, p.mass[0] = density;  // on a cell centre: 3 x 3 cells
   const MemberResult r = maps_of({g, 5, density, 1e-6}, p);
   EXPECT_EQ(r.window.n_rows, 3);
@@ -200,7 +200,7 @@ TEST(PeakMaps, TheWindowIsTightAndNothingMakesAnEmptyOne) {
 TEST(PeakMaps, GrowWithoutForgettingAndRepeatBitwise) {
   const Grid g{400, 400, 0, 2000, 5, ""};
   const auto run = [&](bool backwards) {
-    PeakMaps maps({g, 7, density, 0.01});
+    test::OneSetMaps maps({g, 7, density, 0.01});
     const ParticleSet here = cloud(200, 900, 900, 60), there = cloud(200, 1500, 300, 60, 2);
     maps.record(backwards ? there : here, 1);
     maps.record(backwards ? here : there, 1);

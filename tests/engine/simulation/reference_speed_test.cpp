@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/reference_speed.hpp"
 
+#include "engine/core/constants.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +12,7 @@
 namespace sturz {
 namespace {
 
-constexpr double g = 9.81;
+constexpr double g = standard_gravity;
 
 Terrain terrain_of(const std::function<double(double, double)>& f, double cell = 5,
                    int n_cols = 400, int n_rows = 60) {

@@ -95,7 +95,7 @@ TEST(SimulationHistory, StatesSumToOneAndAgreeWithTheScalars) {
 
 TEST(SimulationHistory, ColumnsHaveAHistoryButKnowNothingOfParting) {
   Scenario s = over_the_cliff();
-  s.formulation = "depth_averaged";
+  s.formulation = Formulation::depth_averaged;
   const MemberResult r = run(s);
   EXPECT_TRUE(std::isnan(r.scalars.parted_fraction));
   EXPECT_EQ(r.scalars.dilute_fraction, 0);
@@ -186,8 +186,7 @@ TEST(SimulationHistory, TheComputingTimeIsSharedOutByEffect) {
   const MemberResult without = run(dense), with = run(loose);
   expect_effects_of(dense, without);
   expect_effects_of(loose, with);
-  for (const auto name :
-       {EffectName::states, EffectName::kinetic_theory, EffectName::lone_parcels}) {
+  for (const auto name : {EffectName::states, EffectName::kinetic_theory, EffectName::isolated}) {
     EXPECT_EQ(seconds_of(without.effect_seconds, name), nullptr) << name;
     ASSERT_NE(seconds_of(with.effect_seconds, name), nullptr) << name;
     EXPECT_GT(*seconds_of(with.effect_seconds, name), 0) << name;

@@ -3,6 +3,7 @@
 #include "engine/simulation/simulation.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/simulation/parts.hpp"
 #include "io/site/scene_inputs.hpp"
@@ -75,9 +76,9 @@ TEST(Simulation, MembersOfOneNumberAreEqualAndOfAnotherAreNot) {
 TEST(Simulation, KeepsItsMassExactly) {
   const Scenario s = small_slide();
   Simulation simulation = assemble(s, load_scene_inputs(s), 0, 1);
-  std::vector<double> before = simulation.parts().state.grains.mass;
+  std::vector<double> before = simulation.parts().state.grains().mass;
   const MemberResult result = simulation.run();
-  std::vector<double> after = simulation.parts().state.grains.mass;
+  std::vector<double> after = simulation.parts().state.grains().mass;
   std::sort(before.begin(), before.end());
   std::sort(after.begin(), after.end());
   EXPECT_EQ(before, after);
@@ -91,7 +92,7 @@ TEST(Simulation, PairForcesHaveNoDrift) {
   const Scenario s = small_slide();
   Simulation simulation = assemble(s, load_scene_inputs(s), 0, 1);
   simulation.run();
-  const Ledger& book = simulation.parts().state.ledger;
+  const Ledger& book = simulation.parts().state.grains().ledger;
   for (double impulse : book.stress_impulse)
     EXPECT_LT(std::abs(impulse), 1e-6 * book.stress_impulse_scale);
 }
@@ -160,7 +161,7 @@ TEST(Simulation, NotANumberIsAnOutcome) {
     for (auto column : {&ParticleSet::vx, &ParticleSet::vy, &ParticleSet::vz, &ParticleSet::z}) {
       Simulation simulation = assemble(s, in, 0, 1);
       simulation.step();
-      (simulation.parts().state.grains.*column)[7] = poison;
+      (simulation.parts().state.grains().*column)[7] = poison;
       const MemberResult result = simulation.run();
       EXPECT_EQ(result.outcome, Outcome::diverged);
       EXPECT_THAT(result.reason, testing::HasSubstr("not finite"));
@@ -172,9 +173,9 @@ TEST(Simulation, ARunawayParticleIsAnOutcome) {
   const Scenario s = small_slide();
   Simulation simulation = assemble(s, load_scene_inputs(s), 0, 1);
   for (int n = 0; n < 5; ++n) simulation.step();
-  ParticleSet& p = simulation.parts().state.grains;
+  ParticleSet& p = simulation.parts().state.grains();
   p.vy[3] = 1e7;
-  refresh_motion(simulation.parts().state, 0);
+  refresh_motion(simulation.parts().state, simulation.parts().state.grains(), 0);
   const MemberResult result = simulation.run();
   EXPECT_EQ(result.outcome, Outcome::diverged);
   EXPECT_THAT(result.reason, testing::HasSubstr("time step collapsed"));
@@ -263,7 +264,8 @@ TEST(Simulation, TravelCountsWholePeriods) {
   RunControl control;
   control.progress_every_s = 0;
   control.on_progress = [&](const Progress&) {
-    return simulation.parts().state.order_changed = true;  // lists anew: particles are wrapped
+    return simulation.parts().state.grains().order_changed =
+               true;  // lists anew: particles are wrapped
   };
   const MemberResult result = simulation.run(control);
   const double slope = 30 * std::acos(-1.0) / 180;

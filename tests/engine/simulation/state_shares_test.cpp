@@ -2,6 +2,7 @@
 #include "engine/simulation/state_shares.hpp"
 
 #include "engine/effects/dense/settings.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/member_result.hpp"
 
@@ -13,20 +14,33 @@ namespace sturz {
 namespace {
 
 /// Four grains of 1, 2, 3 and 4 kg in the four states.
-ParticleSet four_grains() {
-  ParticleSet p;
-  p.resize(4);
+MovingSet four_grains() {
+  MovingSet p;
+  p.grow(4);
   p.mass = {1, 2, 3, 4};
-  p.add_field("compression", 1).component[0] = {0.01, -0.019, -0.5, -0.99};
-  p.add_field("state", 1).component[0] = {
-      static_cast<double>(GrainState::dense), static_cast<double>(GrainState::transition),
-      static_cast<double>(GrainState::dilute), static_cast<double>(GrainState::ultradilute)};
-  p.add_field("granular_temperature", 1).component[0] = {0, 0.5, 2, 0};
+  p.add(fields::compression).component[0] = {0.01, -0.019, -0.5, -0.99};
+  p.add(fields::state).value = {static_cast<std::uint8_t>(GrainState::dense),
+                                static_cast<std::uint8_t>(GrainState::transition),
+                                static_cast<std::uint8_t>(GrainState::dilute),
+                                static_cast<std::uint8_t>(GrainState::ultradilute)};
+  p.add(fields::granular_temperature).component[0] = {0, 0.5, 2, 0};
   return p;
 }
 
+StateShares shares_of(const MovingSet& set) { return state_shares({&set, 1}); }
+
+TEST(StateShares, AreSharesOfTheMassOfAllSets) {
+  const MovingSet sets[] = {four_grains(), four_grains()};
+  const StateShares both = state_shares(sets);
+  EXPECT_DOUBLE_EQ(both.dilute, 0.3);
+  MovingSet dense = four_grains();
+  dense.flags(fields::state).assign(4, static_cast<std::uint8_t>(GrainState::dense));
+  const MovingSet half_dense[] = {four_grains(), dense};
+  EXPECT_DOUBLE_EQ(state_shares(half_dense).dense, 0.55);
+}
+
 TEST(StateShares, AreSharesOfTheMass) {
-  const StateShares s = state_shares(four_grains());
+  const StateShares s = shares_of(four_grains());
   EXPECT_DOUBLE_EQ(s.dense, 0.1);
   EXPECT_DOUBLE_EQ(s.transition, 0.2);
   EXPECT_DOUBLE_EQ(s.dilute, 0.3);
@@ -41,15 +55,15 @@ TEST(StateShares, PartAtTheStrainThatTheStressLawKnows) {
 }
 
 TEST(StateShares, AreNotMadeUpWhereNothingIsKnown) {
-  ParticleSet columns;
-  columns.resize(2);
+  MovingSet columns;
+  columns.grow(2);
   columns.mass = {1, 1};
-  const StateShares none = state_shares(columns);
+  const StateShares none = shares_of(columns);
   EXPECT_TRUE(std::isnan(none.parted));
   EXPECT_EQ(none.dense + none.transition + none.dilute + none.ultradilute, 0);
-  ParticleSet empty = four_grains();
+  MovingSet empty = four_grains();
   empty.compact(std::vector<std::uint8_t>{0, 0, 0, 0});
-  EXPECT_EQ(state_shares(empty).parted, 0);
+  EXPECT_EQ(shares_of(empty).parted, 0);
 }
 
 TEST(StateTimes, WeighSharesByHowLongTheyHeld) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/stop_rule.hpp"
 
+#include "engine/core/constants.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +34,7 @@ double stop_time(const StopSettings& settings, const std::function<MotionSummary
   return never;
 }
 
-double window(double spacing) { return std::max(1.0, 5 * std::sqrt(spacing / 9.81)); }
+double window(double spacing) { return std::max(1.0, 5 * std::sqrt(spacing / standard_gravity)); }
 
 /// A slide that reaches its peak at 5 s, then loses energy and speed exponentially.
 MotionSummary slide(double t) {
@@ -43,7 +45,7 @@ MotionSummary slide(double t) {
 
 TEST(StopRule, NeverStopsBeforeItIsArmed) {
   // Nothing has moved yet: a mass may need time to start, so 5 sqrt(H/g) must pass.
-  const double armed = 5 * std::sqrt(10 / 9.81);
+  const double armed = 5 * std::sqrt(10 / standard_gravity);
   const auto still = [](double) { return MotionSummary{}; };
   const double t = stop_time(field_scale(), still);
   EXPECT_GT(t, armed + window(2) - 0.03);
@@ -127,8 +129,8 @@ TEST(StopRule, WindowsShrinkWithTheScale) {
   flume.release_height_m = 0.3;
   flume.available_energy_j = 100;
   const auto still = [](double) { return MotionSummary{}; };
-  const double armed = 5 * std::sqrt(0.3 / 9.81);
-  EXPECT_LT(stop_time(flume, still), armed + 5 * std::sqrt(0.015 / 9.81) + 0.1);
+  const double armed = 5 * std::sqrt(0.3 / standard_gravity);
+  EXPECT_LT(stop_time(flume, still), armed + 5 * std::sqrt(0.015 / standard_gravity) + 0.1);
 }
 
 TEST(StopRule, CanBeSwitchedOffAndKnowsItsEnd) {

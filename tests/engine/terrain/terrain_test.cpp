@@ -224,14 +224,6 @@ TEST(Terrain, PatchCanFillNodataAndCutIt) {
   EXPECT_THROW(t.with_patch(5, 5, 2, 2, {1, 1, 1, 1}), std::logic_error);
 }
 
-TEST(Terrain, SteepestGradientIsTheSteepestStep) {
-  auto r = raster_of([](double x, double) { return 0.3 * x; }, 8, 6, 2);
-  r->at(3, 4) = nan_d;
-  EXPECT_NEAR(Terrain(r, NodataRule::outflow).steepest_gradient(), 0.3, 1e-12);
-  r->at(1, 1) += 4;
-  EXPECT_NEAR(Terrain(r, NodataRule::outflow).steepest_gradient(), 2.3, 1e-12);
-}
-
 TEST(Terrain, RefusesGroundWithoutASurface) {
   EXPECT_THROW(Terrain(raster_of([](double, double) { return 1.0; }, 1, 5, 1), NodataRule::wall),
                SetupError);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Zones of the base: which one a point lies in, and that parcels and columns feel theirs.
+#include "engine/core/constants.hpp"
+#include "engine/effects/fields.hpp"
 #include "engine/terrain/zone_map.hpp"
 #include "tests/support/hand_made.hpp"
 
@@ -14,7 +16,7 @@ namespace {
 using test::even_ground;
 using test::HandMade;
 
-constexpr double g = 9.81;
+constexpr double g = standard_gravity;
 
 /// Zone by map point on 30 x 30 cells of 1 m around the origin.
 ZoneMap zones_of(const std::function<int(double, double)>& zone) {
@@ -63,7 +65,7 @@ TEST(ZonesOfTheBase, AParcelFeelsTheFrictionOfItsZone) {
   HandMade made = test::parcels_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
                                          {{0.2}, {0.6}, {0.6, 0.5}}, strips());
   advance_to(made, 0.8);
-  const ParticleSet& p = made.state.grains;
+  const ParticleSet& p = made.state.grains();
   // What bounces does not weigh: the contact's first millimetres are the one per cent.
   EXPECT_NEAR(p.vx[0], 6 - 0.2 * g * 0.8, 0.01 * 0.2 * g);
   EXPECT_NEAR(p.vx[1], 6 - 0.6 * g * 0.8, 0.01 * 0.6 * g);
@@ -75,9 +77,9 @@ TEST(ZonesOfTheBase, AParcelFeelsTheCohesionOfItsZone) {
                                          {{0}, {0, 0, 1560 * 2.0}, {0}}, strips());
   advance_to(made, 0.8);
   // A parcel of 1 m^3 and 1560 kg on 1 m^2: 2 m/s^2.
-  EXPECT_EQ(made.state.grains.vx[0], 6);
-  EXPECT_NEAR(made.state.grains.vx[1], 6 - 2 * 0.8, 1e-9);
-  EXPECT_EQ(made.state.grains.vx[2], 6);
+  EXPECT_EQ(made.state.grains().vx[0], 6);
+  EXPECT_NEAR(made.state.grains().vx[1], 6 - 2 * 0.8, 1e-9);
+  EXPECT_EQ(made.state.grains().vx[2], 6);
 }
 
 TEST(ZonesOfTheBase, AParcelChangesZonesOnItsWay) {
@@ -87,8 +89,8 @@ TEST(ZonesOfTheBase, AParcelChangesZonesOnItsWay) {
   advance_to(made, 3);
   // v^2/2 = 18: three metres take 0.2 g each, the rest 0.6 g.
   const double stop = (18 - 3 * 0.2 * g) / (0.6 * g);
-  EXPECT_NEAR(made.state.grains.x[0], stop, 0.01 * (3 + stop));
-  EXPECT_EQ(made.state.grains.vx[0], 0);
+  EXPECT_NEAR(made.state.grains().x[0], stop, 0.01 * (3 + stop));
+  EXPECT_EQ(made.state.grains().vx[0], 0);
 }
 
 /// The ground repeats every 20 m; its western half is rough.
@@ -104,7 +106,7 @@ TEST(ZonesOfTheBase, AParcelBeyondThePeriodFeelsTheZoneOfItsImage) {
                                          {{0.2}, {0.6}}, rough_west);
   advance_to(made, 3);
   const double way = 1 + (18 - 0.2 * g) / (0.6 * g);
-  EXPECT_NEAR(made.state.grains.x[0], 9 + way, 0.01 * way);
+  EXPECT_NEAR(made.state.grains().x[0], 9 + way, 0.01 * way);
 }
 
 DepthAveragedSettings column_bases(std::vector<double> friction, ZoneMap zones) {
@@ -123,7 +125,7 @@ TEST(ZonesOfTheBase, AColumnFeelsTheFrictionOfItsZone) {
   // A column's speed stands in the middle of the last step, 1 ms ago.
   const double t = 0.8 - 0.5 * made.state.previous_dt;
   for (const auto& [i, mu] : {std::pair(0, 0.2), {1, 0.6}, {2, 0.3}})
-    EXPECT_NEAR(made.state.grains.vx[i], 6 - mu * g * t, 1e-9) << i;
+    EXPECT_NEAR(made.state.grains().vx[i], 6 - mu * g * t, 1e-9) << i;
 }
 
 TEST(ZonesOfTheBase, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
@@ -131,7 +133,7 @@ TEST(ZonesOfTheBase, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
                                    column_bases({0.2, 0.6}, rough_west));
   advance_to(made, 3);
   const double way = 1 + (18 - 0.2 * g) / (0.6 * g);
-  const double wrapped = made.state.grains.x[0] + made.state.wrapped_x[0];
+  const double wrapped = made.state.grains().x[0] + made.state.grains().wrapped_x[0];
   EXPECT_NEAR(wrapped, 9 + way, 0.005 * way);
 }
 
@@ -142,11 +144,11 @@ TEST(ZonesOfTheBase, AnEarthPressureOtherThanOneIsFollowed) {
   HandMade made =
       test::columns_on(even_ground(40), test::block({8, 8, 1}), 1, {3, 0, 0}, {}, rough);
   for (int n = 0; n < 10; ++n) made.advance();
-  const Field* k = made.state.grains.find_field("earth_pressure");
+  const Field* k = made.state.grains().find(fields::earth_pressure);
   ASSERT_NE(k, nullptr);
   for (double value : k->component[0]) EXPECT_NEAR(value, 1 + 2 * 0.38 * 0.38, 1e-12);
   HandMade plain = test::columns_on(even_ground(40), test::block({8, 8, 1}), 1, {3, 0, 0});
-  EXPECT_EQ(plain.state.grains.find_field("earth_pressure"), nullptr);
+  EXPECT_EQ(plain.state.grains().find(fields::earth_pressure), nullptr);
 }
 
 }  // namespace

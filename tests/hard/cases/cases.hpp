@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The hard cases by name; numbers are those of physics.md B.13.
+/// The hard cases by name; numbers are those of docs/physics.md B.13.
 #pragma once
 
 #include "tests/hard/hard_case.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // I1: cohesive grains under tension. Particles that attract each other gather in clumps where the
 // scheme is not stable against tension; the mass then breaks where nothing breaks it.
+#include "engine/effects/fields.hpp"
 #include "tests/hard/cases/cases.hpp"
 #include "tests/hard/spacing.hpp"
 #include "tests/physics/verification.hpp"
@@ -23,7 +24,7 @@ double critical_height() {
 Scenario bank(double height, double times) {
   const double dx = height / 10, half = 1.2 * height, reach = 5 * height;
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.terrain.synthetic = SyntheticTerrain{
       "plane", 2 * dx, {{"slope_deg", 0}, {"length_m", 2 * reach}, {"width_m", 4 * dx}}};
   s.release.box = ReleaseBox{{-half, half}, {-2 * dx, 2 * dx}};
@@ -50,7 +51,7 @@ struct Fall {
 Fall let_go(double height, double times, States states) {
   const Scenario s = with_states(bank(height, times), states);
   Simulation simulation = build(s);
-  const ParticleSet start = simulation.parts().state.grains;
+  const ParticleSet start = simulation.parts().state.grains();
   std::vector<Vec3> at(start.size());
   for (std::size_t i = 0; i < start.size(); ++i)
     at[start.id[i]] = Vec3(start.x[i], start.y[i], start.z[i]);
@@ -59,7 +60,7 @@ Fall let_go(double height, double times, States states) {
                    {0.05 * s.numerics.end_time_s, [&](double, const SimulationParts& p) {
                       closest = std::min(closest, closest_pair(p));
                     }});
-  const ParticleSet& p = f.simulation.parts().state.grains;
+  const ParticleSet& p = f.simulation.parts().state.grains();
   double moved = 0;
   for (std::size_t i = 0; i < p.size(); ++i)
     moved = std::max(moved, std::hypot(p.x[i] - at[p.id[i]].x(), p.z[i] - at[p.id[i]].z()));
@@ -90,7 +91,7 @@ CaseReport tall_bank_falls(States states) {
 CaseReport stretched_bar(States states) {
   constexpr double half = 12, speed = 0.5, strain = 0.3;
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.terrain.synthetic =
       SyntheticTerrain{"plane", 2, {{"slope_deg", 0}, {"length_m", 100}, {"width_m", 40}}};
   s.release.box = ReleaseBox{{-half, half}, {-3, 3}};
@@ -100,11 +101,11 @@ CaseReport stretched_bar(States states) {
   s.numerics.spacing_m = 1;
   Simulation simulation = build(with_states(std::move(s), states));
   SimulationParts& parts = simulation.parts();
-  ParticleSet& p = parts.state.grains;
+  ParticleSet& p = parts.state.grains();
   parts.state.gravity = 0;
   for (double& z : p.z) z += 30;
-  for (const char* name : {"stress", "compression"})
-    for (auto& column : p.find_field(name)->component) std::fill(column.begin(), column.end(), 0.0);
+  for (const FieldKey* key : {&fields::stress, &fields::compression})
+    for (auto& column : p.components(*key)) std::fill(column.begin(), column.end(), 0.0);
   std::vector<double> pull(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
     pull[p.id[i]] = p.x[i] > half - 3 ? speed : p.x[i] < 3 - half ? -speed : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// I14: the damper of a Hertz contact pulls while the two part (physics.md A.5). Slow parcels must
+// I14: the damper of a Hertz contact pulls while the two part (A.5). Slow parcels must
 // come off each other all the same, with the restitution that was set.
 #include "tests/hard/cases/cases.hpp"
 #include "tests/support/parcel_flight.hpp"
@@ -10,7 +10,7 @@
 namespace sturz::test {
 namespace {
 
-/// Restitution as set, and as the cut of the pull turns it out (table of physics.md A.5).
+/// Restitution as set, and as the cut of the pull turns it out (table of docs/physics.md A.5).
 struct Restitution {
   double set, cut;
 
@@ -78,7 +78,7 @@ Meeting meet(const Scene& scene, double speed, double offset, double steps, doub
   m.restitution = last / speed;
   m.pulling_share = pulled / pushed;
   m.parted = way.norm() > 2 * radius_m && parting.dot(way) > 0;
-  m.energy_gained = f.energy() / f.state.ledger.kinetic_0 - 1;
+  m.energy_gained = f.energy() / f.state.grains().ledger.kinetic_0 - 1;
   return m;
 }
 

@@ -21,7 +21,7 @@ namespace {
 /// too few neighbours fix it [1/s].
 std::vector<double> shear_rates(const SimulationParts& parts,
                                 const std::vector<std::vector<Neighbor>>& around) {
-  const ParticleSet& p = parts.state.grains;
+  const ParticleSet& p = parts.state.grains();
   std::vector<double> rate(p.size(), std::nan(""));
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (around[i].size() < 12) continue;
@@ -87,9 +87,9 @@ CaseReport heap_on_a_slope(States states) {
   bool begun = false;
   const Finished f = run(with_states(s, states), {0.05, [&](double t, const SimulationParts& p) {
                                                     if (begun || t < settled) return;
-                                                    start = place(p.state.grains), begun = true;
+                                                    start = place(p.state.grains()), begun = true;
                                                   }});
-  const Place end = place(f.simulation.parts().state.grains);
+  const Place end = place(f.simulation.parts().state.grains());
   const double dx = s.numerics.spacing_m;
   const double moved = std::hypot(end.centre.x - start.centre.x, end.centre.y - start.centre.y,
                                   end.centre.z - start.centre.z) /
@@ -139,7 +139,7 @@ CaseReport gate_removal(States states) {
   int after = 0;
   const Finished f =
       run(with_states(s, states), {0, [&](double t, const SimulationParts& p) {
-                                     const Ledger& l = p.state.ledger;
+                                     const Ledger& l = p.state.grains().ledger;
                                      const double energy = mechanical_energy(l);
                                      if (t < open_s) {
                                        before = least = energy, residual_before = l.residual();

@@ -26,8 +26,8 @@ CaseReport drop(double face_deg, States states) {
   s.release.velocity_m_s = {0, 0, -100};
   s.numerics.end_time_s = 3;
   Simulation simulation = build(with_states(std::move(s), states));
-  for (double& z : simulation.parts().state.grains.z) z += 30;
-  simulation.parts().release_top_m += 30;
+  for (double& z : simulation.parts().state.grains().z) z += 30;
+  simulation.parts().facts.release.top_m += 30;
   const Survival survived = survive(std::move(simulation), 100, 0);
   return {checks_of(survived, true), survived.particles, survived.seconds};
 }

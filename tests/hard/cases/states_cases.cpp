@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // I5, I6, I13, I15, I16: grains on the borders between their states, and the parcels that leave.
+#include "engine/effects/fields.hpp"
+#include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "io/site/scene_inputs.hpp"
 #include "scenarios/assembly/assemble.hpp"
@@ -21,7 +23,7 @@ namespace {
 /// Grains without weight, 8 x 8 x 8 of them 1 m apart, high over level ground.
 Simulation floating_box() {
   Scenario s;
-  s.formulation = "full_stress";
+  s.formulation = Formulation::full_stress;
   s.terrain.synthetic =
       SyntheticTerrain{"plane", 2, {{"slope_deg", 0}, {"length_m", 200}, {"width_m", 200}}};
   s.release.box = ReleaseBox{{-4, 4}, {-4, 4}};
@@ -32,9 +34,9 @@ Simulation floating_box() {
   Simulation simulation = build(with_states(std::move(s), States::all));
   SimulationParts& parts = simulation.parts();
   parts.state.gravity = 0;
-  for (double& z : parts.state.grains.z) z += 60;
-  for (const char* name : {"stress", "compression"})
-    for (auto& column : parts.state.grains.find_field(name)->component)
+  for (double& z : parts.state.grains().z) z += 60;
+  for (const FieldKey* key : {&fields::stress, &fields::compression})
+    for (auto& column : parts.state.grains().components(*key))
       std::fill(column.begin(), column.end(), 0.0);
   return simulation;
 }
@@ -48,7 +50,7 @@ struct Flips {
 Flips breathe(double low, double high, int cycles, double period_s) {
   Simulation simulation = floating_box();
   SimulationParts& parts = simulation.parts();
-  ParticleSet& p = parts.state.grains;
+  ParticleSet& p = parts.state.grains();
   const double start = 0.6, middle = std::sqrt(low * high), swing = 0.5 * std::log(high / low);
   std::vector<double> changes(p.size()), before(p.size(), -1);
   const double lead_s = period_s;  // from the release to the middle of the swing
@@ -60,7 +62,7 @@ Flips breathe(double low, double high, int cycles, double period_s) {
     for (std::size_t i = 0; i < p.size(); ++i)
       p.vx[i] = a * p.x[i], p.vy[i] = a * p.y[i], p.vz[i] = a * (p.z[i] - 64);
     simulation.step();
-    const auto& state = p.find_field("state")->component[0];
+    const auto& state = p.flags(fields::state);
     for (std::size_t i = 0; i < p.size(); ++i) {
       double& last = before[p.id[i]];
       if (t > 0 && last >= 0 && last != state[i]) ++changes[p.id[i]];
@@ -76,7 +78,8 @@ Flips breathe(double low, double high, int cycles, double period_s) {
 }
 
 double in_flight(const State& s) {
-  return static_cast<double>(s.grains.size() - s.n_listed) / static_cast<double>(s.grains.size());
+  return static_cast<double>(s.grains().size() - s.grains().n_listed) /
+         static_cast<double>(s.grains().size());
 }
 
 }  // namespace
@@ -108,8 +111,8 @@ CaseReport pressed_to_the_limit(States states) {
   s.grains->states->max_fraction = Uncertain(0.64);
   const double estimate = describe(s, load_scene_inputs(s)).dt_s;
   Simulation simulation = build(s);
-  for (double& z : simulation.parts().state.grains.z) z += 3;
-  simulation.parts().release_top_m += 3;
+  for (double& z : simulation.parts().state.grains().z) z += 3;
+  simulation.parts().facts.release.top_m += 3;
   const Survival survived = survive(std::move(simulation), 10, estimate);
   return {checks_of(survived), survived.particles, survived.seconds};
 }
@@ -123,19 +126,19 @@ CaseReport jet_breaks_up(States states) {
   s.release.velocity_m_s = {20, 0, 20};
   s.numerics.end_time_s = 3.5;
   Simulation simulation = build(with_states(std::move(s), states));
-  ParticleSet& p = simulation.parts().state.grains;
+  ParticleSet& p = simulation.parts().state.grains();
   const MeanMotion before = mean_motion(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
     p.vx[i] += 1.5 * (p.x[i] - before.x), p.vy[i] += 1.5 * (p.y[i] - before.y);
     p.vz[i] += 1.5 * (p.z[i] - before.z);
     p.z[i] += 10;
   }
-  refresh_motion(simulation.parts().state, 0);
-  simulation.parts().release_top_m += 10;
+  refresh_motion(simulation.parts().state, simulation.parts().state.grains(), 0);
+  simulation.parts().facts.release.top_m += 10;
   double most_in_flight = 0, off = 0;
   Survival survived = survive(std::move(simulation), 40, 0, [&](const SimulationParts& parts) {
     most_in_flight = std::max(most_in_flight, in_flight(parts.state));
-    const MeanMotion m = mean_motion(parts.state.grains);
+    const MeanMotion m = mean_motion(parts.state.grains());
     const double t = parts.state.time;
     off = std::max({off, std::abs(m.x - before.x - 20 * t), std::abs(m.y - before.y),
                     std::abs(m.z - before.z - 10 - 20 * t + 0.5 * gravity_m_s2 * t * t)});
@@ -149,7 +152,7 @@ CaseReport jet_breaks_up(States states) {
 CaseReport masses_mix(States states) {
   const HardMember m = RandomMembers::on_steep_ground(states).member(100);
   Simulation simulation = assemble(m.scenario, m.inputs, 100, 1);
-  const auto& mass = simulation.parts().state.grains.mass;
+  const auto& mass = simulation.parts().state.grains().mass;
   const auto [least, most] = std::minmax_element(mass.begin(), mass.end());
   return {{at_most("heaviest parcel / lightest", *most / *least, 8)},
           static_cast<double>(mass.size()),
@@ -162,14 +165,14 @@ CaseReport parcels_come_and_go(States states) {
   double residual = 0, jump = 0, most_in_flight = 0;
   std::size_t listed = 0, events = 0;
   const Finished f = run(s, {0, [&](double, const SimulationParts& p) {
-                               const double now = p.state.ledger.residual();
-                               if (listed != 0 && listed != p.state.n_listed)
+                               const double now = p.state.grains().ledger.residual();
+                               if (listed != 0 && listed != p.state.grains().n_listed)
                                  ++events, jump = std::max(jump, std::abs(now - residual));
-                               residual = now, listed = p.state.n_listed;
+                               residual = now, listed = p.state.grains().n_listed;
                                most_in_flight = std::max(most_in_flight, in_flight(p.state));
                              }});
   const MemberScalars& m = f.result.scalars;
-  const double released = f.simulation.parts().state.ledger.released_energy();
+  const double released = f.simulation.parts().state.grains().ledger.released_energy();
   return {
       {at_most("energy from nothing as parcels come and go, of released", jump / released, 1e-3),
        at_least("steps in which parcels came or went", static_cast<double>(events), 10),

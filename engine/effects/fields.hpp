@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Every field that an effect can add to a particle set: name, components, unit, owner.
+#pragma once
+
+#include "engine/particles/field.hpp"
+
+#include <cstdint>
+
+namespace sturz::fields {
+
+// Of every set that keeps energy books.
+/// Velocity at the start of the step.
+inline constexpr FieldKey velocity_before{"velocity_before", 3, "m s-1", "motion"};
+
+// Grain stress (dense/).
+/// rho / rho_ref - 1.
+inline constexpr FieldKey compression{"compression", 1, "1", "grain stress"};
+/// Stress of enduring contacts, tension positive.
+inline constexpr FieldKey stress{"stress", 6, "Pa", "grain stress"};
+/// Artificial viscosity over the friction that acts, see dense/viscous_share.hpp.
+inline constexpr FieldKey viscous_ratio{"viscous_ratio", 1, "1", "grain stress"};
+
+// States of the grains (kinetic/).
+/// GrainState by number.
+inline constexpr FlagKey state{"state", "states of the grains"};
+/// How complete the support is with neighbours and ground, 1 inside a dense mass.
+inline constexpr FieldKey fill{"fill", 1, "1", "states of the grains", 1.0};
+inline constexpr FieldKey granular_temperature{"granular_temperature", 1, "m2 s-2",
+                                               "kinetic theory"};
+/// Stress of collisions, tension positive.
+inline constexpr FieldKey kinetic_stress{"kinetic_stress", 6, "Pa", "kinetic theory"};
+
+// Isolated particles (isolated/).
+/// For how many steps on end a grain has been without neighbours, at most detach_steps.
+inline constexpr FlagKey steps_alone{"steps_alone", "isolated particles"};
+/// Membership by number.
+inline constexpr FlagKey membership{"membership", "isolated particles"};
+inline constexpr FieldKey spin{"spin", 3, "rad s-1", "contacts of isolated particles"};
+
+/// Where a particle belongs: to the continuum, or on its own.
+enum class Membership : std::uint8_t {
+  listed,     ///< a grain of the continuum
+  in_flight,  ///< isolated: in no neighbour list
+  landed,     ///< isolated, and come to rest: taken back at the next sorting
+};
+
+// Depth-averaged columns (columns/).
+/// Normal to the ground.
+inline constexpr FieldKey thickness{"thickness", 1, "m", "column pressure"};
+/// Support radius of a column's smoothing.
+inline constexpr FieldKey support_radius{"support_radius", 1, "m", "column pressure"};
+/// Normal reaction of the ground per mass.
+inline constexpr FieldKey normal_gravity{"normal_gravity", 1, "m s-2", "column pressure"};
+/// Centripetal momentum per mass: curvature met over the thickness.
+inline constexpr FieldKey turning{"turning", 1, "m s-1", "column pressure"};
+/// Slope east and north [-], second derivatives ee, en, nn [1/m] of the ground below.
+inline constexpr FieldKey ground{"ground", 5, "mixed", "column pressure"};
+/// Lateral over normal stress.
+inline constexpr FieldKey earth_pressure{"earth_pressure", 1, "1", "column pressure", 1.0};
+
+}  // namespace sturz::fields

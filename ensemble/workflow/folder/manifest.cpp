@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/folder/manifest.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/workflow/version.hpp"
+#include "io/files/text_files.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <utility>
+
+namespace sturz::workflow {
+namespace fs = std::filesystem;
+using json = nlohmann::ordered_json;
+
+void Manifest::write(const fs::path& file) {
+  version = workflow::version;
+  git_commit = workflow::git_commit;
+  compiler = workflow::compiler;
+  build_type = workflow::build_type;
+  json inputs_json = json::array();
+  for (const auto& [name, checksum] : inputs)
+    inputs_json.push_back({{"file", name}, {"checksum", checksum}});
+  const json all = {{"kind", kind},
+                    {"program",
+                     {{"name", "sturz"},
+                      {"version", version},
+                      {"git_commit", git_commit},
+                      {"compiler", compiler},
+                      {"build_type", build_type}}},
+                    {"started", started},
+                    {"updated", utc_now()},
+                    {"command", command},
+                    {"design", design},
+                    {"seed", seed},
+                    {"members", members},
+                    {"spacing_m", spacing_m},
+                    {"inputs", inputs_json},
+                    {"description", description},
+                    {"notes", notes},
+                    {"warnings", warnings},
+                    {"compute_s", compute_s},
+                    {"hazard_hash", hazard_hash}};
+  write_text_atomic(file, all.dump(2) + "\n");
+}
+
+namespace {
+
+[[noreturn]] void not_a_manifest(const fs::path& file, const std::string& why) {
+  throw SetupError(
+      fmt::format("{}: not a manifest that sturz wrote ({}). Use another folder, or "
+                  "take the file from a backup.",
+                  file.string(), why));
+}
+
+/// The library would make any number of 1e300 or -1.
+template <class T>
+T whole(const fs::path& file, const json& all, const char* key) {
+  const json& value = all.at(key);
+  const bool fits = value.is_number_unsigned()
+                        ? std::in_range<T>(value.get<std::uint64_t>())
+                        : value.is_number_integer() && std::in_range<T>(value.get<std::int64_t>());
+  if (!fits) not_a_manifest(file, fmt::format("{} is {}", key, value.dump()));
+  return value.get<T>();
+}
+
+}  // namespace
+
+Manifest Manifest::read(const fs::path& file) {
+  Manifest m;
+  try {
+    const json all = json::parse(read_text(file));
+    m.kind = all.at("kind").get<std::string>();
+    m.version = all.at("program").at("version").get<std::string>();
+    m.git_commit = all.at("program").at("git_commit").get<std::string>();
+    m.compiler = all.at("program").at("compiler").get<std::string>();
+    m.build_type = all.at("program").at("build_type").get<std::string>();
+    m.started = all.at("started").get<std::string>();
+    m.command = all.at("command").get<std::string>();
+    m.design = all.at("design").get<std::string>();
+    m.seed = whole<std::uint64_t>(file, all, "seed");
+    m.members = whole<std::int64_t>(file, all, "members");
+    m.spacing_m = all.at("spacing_m").get<double>();
+    for (const auto& input : all.at("inputs"))
+      m.inputs.emplace_back(input.at("file").get<std::string>(),
+                            input.at("checksum").get<std::string>());
+    m.description = all.at("description").get<std::vector<std::string>>();
+    m.notes = all.at("notes").get<std::vector<std::string>>();
+    m.warnings = all.at("warnings").get<std::vector<std::string>>();
+    m.compute_s = all.at("compute_s").get<double>();
+    m.hazard_hash = all.at("hazard_hash").get<std::string>();
+  } catch (const json::exception& problem) {
+    not_a_manifest(file, problem.what());
+  }
+  return m;
+}
+
+std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
+  std::vector<std::pair<std::string, std::string>> out = {
+      {"program", fmt::format("sturz {} ({})", version, git_commit)},
+      {"compiler", fmt::format("{}, {}", compiler, build_type)},
+      {"started", started},
+      {"command", command},
+      {"spacing", fmt::format("{} m", spacing_m)}};
+  if (kind == "ensemble") {
+    out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
+    out.emplace_back("hash of the maps", hazard_hash);
+  }
+  for (const auto& [name, checksum] : inputs) out.emplace_back("input " + name, checksum);
+  return out;
+}
+
+std::string utc_now() {
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)));
+}
+
+}  // namespace sturz::workflow

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// manifest.json: how the results of a folder came to be.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sturz::workflow {
+
+/// What a results folder says about how it came to be: manifest.json.
+struct Manifest {
+  std::string kind;     ///< "ensemble" or "run"
+  std::string started;  ///< UTC, ISO 8601
+  std::string command;
+  std::string design;
+  std::uint64_t seed = 0;
+  std::int64_t members = 0;                                 ///< planned
+  std::vector<std::pair<std::string, std::string>> inputs;  ///< file, checksum
+  std::vector<std::string> description, notes, warnings;    ///< as `describe` says them
+  double spacing_m = 0;
+  double compute_s = 0;     ///< wall time of all calls so far
+  std::string hazard_hash;  ///< of every value of the maps; empty: no maps yet
+  // Of the program that wrote it; filled in by write().
+  std::string version, git_commit, compiler, build_type;
+
+  void write(const std::filesystem::path& file);
+  /// \throws SetupError when the file is damaged
+  static Manifest read(const std::filesystem::path& file);
+  /// Name and value of every line that people want to see, in order.
+  std::vector<std::pair<std::string, std::string>> lines() const;
+};
+
+/// "2026-01-31T12:00:00Z"
+std::string utc_now();
+
+}  // namespace sturz::workflow

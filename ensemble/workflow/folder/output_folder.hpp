@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Where the files of one ensemble or run lie, and when an old folder may go on.
+#pragma once
+
+#include "scenarios/scenario.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+/// Names of everything in a results folder.
+struct OutputFolder {
+  std::filesystem::path root;
+
+  std::filesystem::path scenario() const { return root / "scenario.yaml"; }
+  std::filesystem::path design() const { return root / "design.csv"; }
+  std::filesystem::path manifest() const { return root / "manifest.json"; }
+  std::filesystem::path log() const { return root / "log.txt"; }
+  std::filesystem::path members() const { return root / "members"; }
+  std::filesystem::path members_csv() const { return root / "members.csv"; }
+  std::filesystem::path hazard_nc() const { return root / "hazard.nc"; }
+  std::filesystem::path peaks_nc() const { return root / "peaks.nc"; }
+  std::filesystem::path tif_folder() const { return root / "hazard"; }
+  std::filesystem::path particles() const { return root / "particles"; }
+  std::filesystem::path report() const { return root / "report.html"; }
+};
+
+/// True when the folder already holds results of that kind; false when it is free to be used.
+/// \throws SetupError when it holds something else
+bool holds_results(const OutputFolder&, const std::string& kind);
+
+/// Each difference between two scenes that changes what a member computes, as "key: old -> new".
+/// Left out: titles, thresholds, quantiles, the accepted share of failures, the number of members,
+/// and the names of files (their checksums count instead).
+std::vector<std::string> differences(const Scenario& before, const Scenario& now);
+
+/// Results folder for a scenario file that was given none: out/<its name or its folder's name>.
+std::string default_folder(const std::string& scenario_file);
+
+}  // namespace sturz::workflow

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The design of an ensemble, drawn once; from then on the saved table is the truth.
+#pragma once
+
+#include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/folder/output_folder.hpp"
+
+namespace sturz::workflow {
+
+/// Draws the design, or reads the user's table when the scenario says `design: table`.
+DesignTable new_design(const Scenario&);
+
+/// The table of the folder. \throws SetupError when it is missing or damaged
+DesignTable saved_design(const OutputFolder&);
+
+/// The folder's table, grown to `wanted` when that asks for more members and the larger table
+/// begins with the saved rows bit by bit.
+/// \throws SetupError when it asks for fewer members or the design cannot grow
+DesignTable continued_design(const OutputFolder&, const DesignTable& wanted);
+
+}  // namespace sturz::workflow

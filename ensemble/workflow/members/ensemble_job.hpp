@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What is known of an ensemble before its first member starts.
+#pragma once
+
+#include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/folder/manifest.hpp"
+#include "ensemble/workflow/folder/output_folder.hpp"
+#include "ensemble/workflow/observer.hpp"
+#include "ensemble/workflow/scene.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+/// Part k of n of the members, 1 <= k <= n.
+struct Shard {
+  int k = 1, n = 1;
+};
+
+struct EnsembleRequest {
+  SceneRequest scene;
+  std::filesystem::path folder;  ///< of the results; a begun one of the same scene goes on
+  int members = 0;               ///< 0: as the scenario says
+  int workers = 0;               ///< members at a time; 0: all cores available to the process
+  Shard shard;
+  bool retry_failed = false;  ///< compute failed members again
+  std::string command;        ///< how the user asked for it, for the manifest
+};
+
+struct EnsembleJob {
+  Scene scene;
+  OutputFolder folder;
+  Manifest manifest;
+  DesignTable design;
+  std::vector<std::int64_t> to_do;
+  std::int64_t finished_before = 0;  ///< of this call's share
+  int workers = 1;                   ///< members at a time
+  int threads = 1;                   ///< of each member
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+};
+
+/// Reads and checks the scene, then begins the results folder or finds out what is left to do in
+/// it. Nothing is written before everything that the user could have wrong has been looked at.
+/// Warns of damaged members, which count as absent, and of fewer workers than wanted.
+/// \throws SetupError; IoError when the folder cannot be written
+EnsembleJob prepare_ensemble(const EnsembleRequest&, Observer&);
+
+}  // namespace sturz::workflow

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/members/run_ensemble.hpp"
+
+#include "ensemble/workflow/members/member_order.hpp"
+#include "io/members/member_file.hpp"
+
+#include <utility>
+
+namespace sturz::workflow {
+
+MemberResult run_member(const EnsembleJob& job, std::int64_t member,
+                        const std::atomic<bool>& cancel) {
+  const Scenario numbers = member_scenario(job.scene.scenario, job.design, member);
+  RunControl control;
+  control.on_progress = [&cancel](const Progress&) { return !cancel.load(); };
+  control.max_wall_s = numbers.numerics.max_wall_time_s;
+  return assemble(numbers, job.scene.inputs, member, job.threads).run(control);
+}
+
+void store_member(const EnsembleJob& job, const MemberResult& result) {
+  if (result.grid.n_cells() > 0) {
+    write_member(job.folder.members(), result);
+  } else {  // it failed before it knew its maps
+    MemberResult with_grid = result;
+    with_grid.grid = job.scene.inputs.hazard_grid;
+    write_member(job.folder.members(), with_grid);
+  }
+}
+
+MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
+                        const std::atomic<bool>& cancel) {
+  RunPlan plan;
+  plan.members = start_order(job);
+  plan.workers = job.workers;
+  RunCallbacks callbacks;
+  callbacks.run_member = [&job](std::int64_t member, const std::atomic<bool>& stop) {
+    return run_member(job, member, stop);
+  };
+  callbacks.store = [&](const MemberResult& result) {
+    store_member(job, result);
+    observer.member_stored(result);
+  };
+  callbacks.on_progress = [&](const RunnerProgress& progress) {
+    observer.ensemble_progress(progress, job.finished_before);
+  };
+  RunReport report = run_members(plan, callbacks, cancel);
+  MembersRun run;
+  run.finished = job.finished_before + report.progress.n_done;
+  run.total = job.finished_before + report.progress.n_total;
+  run.failed = std::move(report.failed);
+  run.interrupted = report.interrupted;
+  run.store_error = std::move(report.store_error);
+  return run;
+}
+
+}  // namespace sturz::workflow

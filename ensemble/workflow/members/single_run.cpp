@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/members/single_run.hpp"
+
+#include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/results/peak_layers.hpp"
+#include "ensemble/workflow/results/report_page.hpp"
+#include "ensemble/workflow/version.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/members/member_file.hpp"
+#include "io/members/particle_frames.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
+
+#include <fmt/core.h>
+
+#include <string>
+
+namespace sturz::workflow {
+namespace {
+
+/// "grain stress 1.25 s; base 0.31 s", for a text attribute.
+std::string as_text(const NamedSeconds& times) {
+  std::string text;
+  for (const auto& [name, seconds] : times)
+    text += fmt::format("{}{} {:.6g} s", text.empty() ? "" : "; ", name, seconds);
+  return text;
+}
+
+MemberSummary summary_of(const MemberResult& r) {
+  return {r.member,   r.outcome,    r.reason,  r.formulation, r.binding_limit,
+          r.warnings, r.state_hash, r.scalars, r.window,      r.effect_seconds};
+}
+
+}  // namespace
+
+SingleRun prepare_run(const RunRequest& request, Observer& observer) {
+  SingleRun run;
+  run.scene = load_scene(request.scene);
+  run.folder.root = request.folder;
+  run.threads = request.threads > 0 ? request.threads : available_cores();
+  run.particles_every_s = request.particles_every_s;
+  holds_results(run.folder, "run");  // refuses a folder of anything else
+  run.manifest = manifest_of(run.scene, "run", request.command);
+  run.manifest.members = 1;
+  make_folder(run.folder.root);
+  run.manifest.write(run.folder.manifest());
+  save_scenario(run.folder, run.scene.medians);
+  observer.folder_ready(run.folder);
+  return run;
+}
+
+MemberResult compute_run(const SingleRun& run, Observer& observer,
+                         const std::atomic<bool>& cancel) {
+  Simulation simulation = assemble(run.scene.medians, run.scene.inputs, 0, run.threads);
+  RunControl control;
+  control.max_wall_s = run.scene.medians.numerics.max_wall_time_s;
+  control.on_progress = [&](const Progress& progress) {
+    observer.run_progress(progress);
+    return !cancel.load();
+  };
+  std::filesystem::remove_all(run.folder.particles());  // of an earlier run
+  std::optional<ParticleFrameWriter> frames;
+  if (run.particles_every_s) {
+    frames.emplace(run.folder.particles());
+    control.frame_every_s = *run.particles_every_s;
+    control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
+  }
+  return simulation.run(control);
+}
+
+void store_run(SingleRun& run, const MemberResult& result) {
+  const OutputFolder& folder = run.folder;
+  const Scene& scene = run.scene;
+  Manifest& manifest = run.manifest;
+  manifest.compute_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
+  manifest.write(folder.manifest());
+  write_member(folder.members(), result);
+  LayerStack peaks = peak_layers(result);
+  peaks.attributes = {
+      {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
+      {"source", fmt::format("sturz {} ({})", version, git_commit)},
+      {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+      {"outcome", std::string(to_string(result.outcome))},
+      {"formulation", result.formulation},
+      {"computing_time_by_effect", as_text(result.effect_seconds)}};
+  write_layers(folder.peaks_nc(), peaks, result.history);
+  const MemberSummary summary = summary_of(result);
+  PageContent page;
+  page.peaks = &peaks;
+  page.elevation = scene.inputs.elevation.get();
+  page.members = {&summary, 1};
+  page.run = &result;
+  write_page(folder, manifest, scene.medians, page);
+}
+
+}  // namespace sturz::workflow

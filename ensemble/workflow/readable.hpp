@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers as people read them, for descriptions, manifests, logs and the terminal.
+#pragma once
+
+#include <string>
+
+namespace sturz::workflow {
+
+/// "3 min 20 s", "1 h 05 min", "0.8 s".
+std::string duration_text(double seconds);
+/// 491000 -> "491 000"; big whole numbers for people.
+std::string grouped(double value);
+
+}  // namespace sturz::workflow

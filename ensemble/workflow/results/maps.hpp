@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From the members of a folder to its maps, table and page.
+#pragma once
+
+#include "engine/terrain/raster.hpp"
+#include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/folder/manifest.hpp"
+#include "ensemble/workflow/folder/output_folder.hpp"
+#include "ensemble/workflow/members/ensemble_job.hpp"
+#include "ensemble/workflow/observer.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace sturz::workflow {
+
+/// How complete the maps are, and what identifies them.
+struct MapsMade {
+  OutputFolder folder;
+  std::int64_t planned = 0, finished = 0, valid = 0;
+  double max_failed_fraction = 0;  ///< ensemble.max_failed_fraction of the scenario
+  double seconds = 0;              ///< of making them
+  std::string hazard_hash;         ///< of every value of the maps
+
+  std::int64_t failed() const { return finished - valid; }
+  /// More of the finished members failed than the scenario accepts, or there are none.
+  bool too_many_failed() const;
+};
+
+/// Reads all member files, writes hazard.nc, hazard/*.tif, members.csv and report.html, and puts
+/// the maps' hash into the manifest, which is saved.
+/// \param elevation for the page's relief; may be null
+/// \throws SetupError; IoError when the disk refuses (members are not touched)
+MapsMade make_maps(const OutputFolder&, Manifest&, const Scenario&, const DesignTable&,
+                   const Raster<double>* elevation, Observer&);
+
+/// The same at the end of an ensemble, whose computing time so far goes into the manifest.
+MapsMade make_maps(EnsembleJob&, Observer&);
+
+}  // namespace sturz::workflow

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/results/report_page.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/workflow/folder/finished_folder.hpp"
+#include "ensemble/workflow/folder/saved_design.hpp"
+#include "io/files/text_files.hpp"
+#include "io/members/member_file.hpp"
+#include "io/members/member_store.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
+#include "reports/page/report.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace sturz::workflow {
+namespace {
+
+/// Of all members, largest first.
+NamedSeconds sum_of_effects(std::span<const MemberSummary> members) {
+  NamedSeconds sums;
+  for (const MemberSummary& m : members) {
+    for (const auto& [name, seconds] : m.effect_seconds) add_seconds(sums, name, seconds);
+    if (m.effect_seconds.empty() && m.scalars.wall_s > 0)
+      add_seconds(sums, "members that do not say", m.scalars.wall_s);
+  }
+  std::stable_sort(sums.begin(), sums.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  return sums;
+}
+
+/// What took less than a hundredth of the time comes as one.
+NamedSeconds largest_first(NamedSeconds passes) {
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  double total = 0, rest = 0;
+  for (const auto& [name, seconds] : passes) total += seconds;
+  int n_small = 0;
+  while (!passes.empty() && passes.back().second < 0.01 * total) {
+    rest += passes.back().second;
+    ++n_small;
+    passes.pop_back();
+  }
+  if (n_small > 0) passes.emplace_back(fmt::format("{} others under 1 % each", n_small), rest);
+  return passes;
+}
+
+}  // namespace
+
+void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
+                const PageContent& content) {
+  ReportInput input;
+  input.title = scenario.title.empty() ? folder.root.filename().string() : scenario.title;
+  input.scenario_yaml = read_text(folder.scenario());
+  input.manifest = manifest.lines();
+  input.elevation = content.elevation;
+  input.hazard = content.hazard;
+  input.peaks = content.peaks;
+  input.members.assign(content.members.begin(), content.members.end());
+  if (content.design && !content.design->keys.empty())
+    input.samples = sampled_values(*content.design, content.members);
+  input.convergence.assign(content.convergence.begin(), content.convergence.end());
+  input.warnings = manifest.warnings;
+  input.notes = manifest.notes;
+  input.description = manifest.description;
+  if (content.run) {
+    input.history = &content.run->history;
+    input.pass_timings = largest_first(content.run->pass_seconds);
+  }
+  input.timings = sum_of_effects(content.members);
+  input.elapsed_s = manifest.compute_s;
+  const bool particles =
+      std::any_of(content.members.begin(), content.members.end(), [](const MemberSummary& m) {
+        return m.formulation != to_string(Formulation::depth_averaged);
+      });
+  input.resolved_thickness_m = particles ? 0.5 * manifest.spacing_m : 0;
+  write_text_atomic(folder.report(), make_report(input));
+}
+
+std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer) {
+  const FinishedFolder finished = open_finished(folder, observer);
+  const bool one_run = finished.manifest.kind == "run";
+  const auto maps = one_run ? finished.folder.peaks_nc() : finished.folder.hazard_nc();
+  require(std::filesystem::exists(maps),
+          fmt::format("{} does not exist (the page shows its maps). {}", maps.string(),
+                      one_run ? "Run the scene again." : "Make it with `sturz merge`."));
+  const LayerStack stack = read_layers(maps);
+  const MemberStore store(finished.folder.members());
+  DesignTable design;
+  std::vector<ConvergencePoint> convergence;
+  MemberResult run;
+  PageContent page;
+  (one_run ? page.peaks : page.hazard) = &stack;
+  if (!one_run) {
+    design = saved_design(finished.folder);
+    page.design = &design;
+    convergence = probability_convergence(store);
+    page.convergence = convergence;
+  }
+  page.elevation = finished.elevation.get();
+  page.members = store.members();
+  if (one_run && !page.members.empty()) {
+    run = read_member(finished.folder.members() / member_file_name(page.members.front().member));
+    page.run = &run;
+  }
+  write_page(finished.folder, finished.manifest, finished.scenario, page);
+  return finished.folder.report();
+}
+
+}  // namespace sturz::workflow

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Collects what the page of a results folder needs, and writes it.
+#pragma once
+
+#include "engine/simulation/member_result.hpp"
+#include "ensemble/hazard/convergence.hpp"
+#include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/folder/manifest.hpp"
+#include "ensemble/workflow/folder/output_folder.hpp"
+#include "ensemble/workflow/observer.hpp"
+#include "scenarios/layers/layer_stack.hpp"
+
+#include <filesystem>
+#include <span>
+
+namespace sturz::workflow {
+
+/// What there is to show; absent parts are null or empty.
+struct PageContent {
+  const LayerStack* hazard = nullptr;
+  const LayerStack* peaks = nullptr;
+  const DesignTable* design = nullptr;
+  const Raster<double>* elevation = nullptr;
+  std::span<const MemberSummary> members;
+  std::span<const ConvergencePoint> convergence;
+  const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
+};
+
+/// Writes report.html. \throws IoError
+void write_page(const OutputFolder&, const Manifest&, const Scenario&, const PageContent&);
+
+/// Writes the page of a results folder again, from its maps and members.
+/// \return the page's file. \throws SetupError when the folder has no maps
+std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer&);
+
+}  // namespace sturz::workflow

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A scene as every door meets it: scenario, its files, and what it will be.
+#pragma once
+
+#include "ensemble/workflow/folder/manifest.hpp"
+#include "ensemble/workflow/folder/output_folder.hpp"
+#include "ensemble/workflow/machine/machine_speed.hpp"
+#include "scenarios/assembly/assemble.hpp"
+#include "scenarios/scene_inputs.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+/// Which scene is meant.
+struct SceneRequest {
+  std::string file;                    ///< scenario file
+  std::vector<std::string> overrides;  ///< "key=value"
+  SpeedCache speed_cache;              ///< for the prediction of seconds
+};
+
+struct Scene {
+  Scenario scenario;  ///< with overrides and defaults, distributions in place
+  Scenario medians;   ///< the same with each distribution's median
+  SceneInputs inputs;
+  SceneDescription description;  ///< of the medians
+};
+
+/// Reads, overrides, validates, loads and describes. Everything that can be wrong with the user's
+/// data is found here, before a folder is made or a step computed.
+/// \throws SetupError
+Scene load_scene(const SceneRequest&);
+
+/// The description in sentences, as `describe` prints it and reports keep it.
+std::vector<std::string> description_lines(const Scene&);
+
+/// A manifest filled with what the scene says about itself.
+Manifest manifest_of(const Scene&, const std::string& kind, const std::string& command);
+
+/// Writes scenario.yaml into the folder. \throws IoError
+void save_scenario(const OutputFolder&, const Scenario&);
+
+}  // namespace sturz::workflow

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which raster a scenario names, and what it says about it.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace sturz {
+
+/// More cells than this are refused before anything is allocated.
+inline constexpr double max_raster_cells = 400e6;
+
+struct RasterRequest {
+  std::string path;                    ///< as written; relative paths start at `directory`
+  std::string key = "terrain.raster";  ///< scenario key, for messages
+  std::string directory;               ///< of the scenario file
+  std::string crs;                     ///< replaces the file's own system; empty: not given
+  std::string crs_key = "terrain.crs";
+  std::string fallback_crs;  ///< stands in only when the file has none; empty: refuse
+  std::string fallback_crs_key;
+  double factor = 1;                  ///< multiplies the values of a thickness raster
+  std::optional<double> cell_size_m;  ///< wanted cells; default: the raster's own
+  double max_cells = max_raster_cells;
+};
+
+}  // namespace sturz

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/layer_titles.hpp"
+
+#include "reports/page/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz {
+std::string title(Quantity q) {
+  switch (q) {
+    case Quantity::reached:
+      return "Reached";
+    case Quantity::thickness:
+      return "Flow thickness";
+    case Quantity::speed:
+      return "Flow speed";
+    case Quantity::energy:
+      return "Kinetic energy per area";
+    case Quantity::pressure:
+      return "Dynamic pressure";
+    case Quantity::arrival:
+      return "Arrival time";
+    case Quantity::deposit:
+      return "Deposit thickness";
+    case Quantity::intensity:
+      return "Intensity";
+    case Quantity::members:
+      return "Members";
+    case Quantity::other:
+      break;
+  }
+  return "Other";
+}
+
+std::string plane_label(const Layer& layer, std::size_t plane) {
+  const LayerMeaning& meaning = layer.meaning;
+  if (meaning.intensity != IntensityClass::none) return std::string(to_string(meaning.intensity));
+  if (layer.axis.values.empty()) {
+    if (meaning.quantity == Quantity::reached) return std::string(to_string(meaning.quantity));
+    return std::string(to_string(meaning.statistic));
+  }
+  const double value = layer.axis.values[plane];
+  if (meaning.statistic == Statistic::quantile)
+    return value == 0.5 ? "median" : shown_number(100 * value) + "\u00A0% quantile";
+  return (meaning.statistic == Statistic::probability ? ">\u00A0" : "") +
+         with_unit(value, layer.axis.units);
+}
+
+std::string plane_title(const Layer& layer, std::size_t plane) {
+  const LayerMeaning& meaning = layer.meaning;
+  const std::string what = title(meaning.quantity);
+  std::string lower = what;
+  lower[0] = static_cast<char>(lower[0] - 'A' + 'a');
+  if (meaning.quantity == Quantity::other || meaning.quantity == Quantity::members) {
+    const std::string base = layer.long_name.empty() ? words(layer.name) : layer.long_name;
+    return layer.axis.values.empty() ? base : base + ", " + plane_label(layer, plane);
+  }
+  switch (meaning.statistic) {
+    case Statistic::probability:
+      if (meaning.quantity == Quantity::reached) return "Probability that the flow arrives";
+      if (meaning.quantity == Quantity::intensity)
+        return "Probability of " + plane_label(layer, plane) + " intensity";
+      if (layer.axis.values.empty()) return "Probability of " + lower;
+      return "Probability that " + lower + " exceeds " +
+             with_unit(layer.axis.values[plane], layer.axis.units);
+    case Statistic::quantile:
+      return what + ", " +
+             (layer.axis.values.empty() ? std::string("quantile") : plane_label(layer, plane));
+    case Statistic::mean:
+      return what + ", mean of members";
+    case Statistic::peak:
+      return meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::deposit
+                 ? what
+                 : "Peak " + lower;
+    default:
+      break;
+  }
+  return layer.long_name.empty() ? words(layer.name) : layer.long_name;
+}
+
+std::vector<const Layer*> shown_layers(const LayerStack& maps) {
+  std::vector<const Layer*> shown;
+  for (const Layer& layer : maps.layers) {
+    if (layer.is_count() || layer.meaning.is_bound()) continue;
+    const bool defined = std::any_of(layer.values.begin(), layer.values.end(),
+                                     [](float v) { return std::isfinite(v); });
+    if (defined && layer.values.size() == layer.n_planes() * maps.grid.n_cells())
+      shown.push_back(&layer);
+  }
+  return shown;
+}
+
+const Layer* default_layer(const LayerStack& maps) {
+  const auto shown = shown_layers(maps);
+  const auto pick = [&](Quantity q, Statistic s) -> const Layer* {
+    for (const Layer* l : shown)
+      if (l->meaning.quantity == q && l->meaning.statistic == s) return l;
+    return nullptr;
+  };
+  for (const auto& [q, s] : {std::pair{Quantity::reached, Statistic::probability},
+                             std::pair{Quantity::thickness, Statistic::probability},
+                             std::pair{Quantity::thickness, Statistic::peak}})
+    if (const Layer* found = pick(q, s)) return found;
+  return shown.empty() ? nullptr : shown.front();
+}
+
+}  // namespace sturz

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/assembly/effect_table.hpp"
+
+#include "engine/effects/bed/effect.hpp"
+#include "engine/effects/columns/effect.hpp"
+#include "engine/effects/dense/effect.hpp"
+#include "engine/effects/isolated/contacts.hpp"
+#include "engine/effects/isolated/effect.hpp"
+#include "engine/effects/kinetic/effect.hpp"
+#include "engine/effects/motion/effect.hpp"
+#include "engine/effects/motion/gravity.hpp"
+
+namespace sturz {
+namespace {
+
+bool columns(const ScenePlan& plan) { return plan.formulation.depth_averaged; }
+
+Called always(const Scenario&, const ScenePlan&) { return {true, "always"}; }
+
+/// A key or block whose presence is the switch.
+Called by_key(const char* key, bool given) {
+  return {given, (given ? "`" : "no `") + std::string(key) + "`"};
+}
+
+/// The same for what only grains in full stress can have.
+Called by_grain_key(const ScenePlan& plan, const char* key, bool given) {
+  if (given && columns(plan)) return {false, "not in depth_averaged"};
+  return by_key(key, given);
+}
+
+const GrainStatesSpec* states_of(const Scenario& s) {
+  return s.grains->states ? &*s.grains->states : nullptr;
+}
+
+Called base_called(const Scenario&, const ScenePlan&) {
+  return {true, "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"};
+}
+Called walls_called(const Scenario& s, const ScenePlan&) {
+  return by_key("domain.walls", !s.domain.walls.empty());
+}
+Called grain_stress_called(const Scenario&, const ScenePlan& plan) {
+  if (columns(plan)) return {false, "not in depth_averaged"};
+  return {true, "`grains`: elastic + mu(I), 3-D, full stress"};
+}
+Called kinetic_theory_called(const Scenario& s, const ScenePlan& plan) {
+  const auto* states = states_of(s);
+  return by_grain_key(plan, "grains.states.dilute", states && states->dilute);
+}
+Called states_called(const Scenario& s, const ScenePlan& plan) {
+  return by_grain_key(plan, "grains.states", states_of(s) != nullptr);
+}
+Called isolated_called(const Scenario& s, const ScenePlan& plan) {
+  const auto* states = states_of(s);
+  return by_grain_key(plan, "grains.states.ultradilute", states && states->ultradilute);
+}
+Called contacts_called(const Scenario&, const ScenePlan& plan) {
+  return by_grain_key(plan, "grains.states.ultradilute.contacts: hertz_mindlin",
+                      plan.parcel_contacts.has_value());
+}
+Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
+  if (!columns(plan)) return {false, "not in full_stress"};
+  if (s.grains->earth_pressure == LateralPressure::isotropic)
+    return {true, "`grains.earth_pressure: isotropic`, K = 1"};
+  return {true, "`grains.earth_pressure: active_passive`"};
+}
+Called turbulence_called(const Scenario& s, const ScenePlan&) {
+  return by_key("basal.turbulent_coefficient_m_s2", s.basal.turbulent_coefficient_m_s2.has_value());
+}
+Called viscosity_called(const Scenario& s, const ScenePlan&) {
+  return by_key("basal.viscosity_pa_s", s.basal.viscosity_pa_s.has_value());
+}
+Called zones_called(const Scenario& s, const ScenePlan&) {
+  return by_key("basal.zones", !s.basal.zones.empty());
+}
+Called periods_called(const Scenario& s, const ScenePlan&) {
+  return by_key("domain.periodic", !s.domain.periodic.empty());
+}
+Called excavation_called(const Scenario& s, const ScenePlan&) {
+  return {s.release.surface == ReleaseSurface::pre_failure,
+          "`release.surface: " + std::string(to_string(s.release.surface)) + "`"};
+}
+
+constexpr std::size_t grains = 0;  // index of the set
+
+// Columns bring gravity, bed, walls and motion in passes of their own.
+void add_kick(SceneParts& p) {
+  if (!columns(p.plan)) add_gravity(p.step, p.state, grains);
+}
+void add_bed(SceneParts& p) {
+  if (!columns(p.plan)) add_terrain_contact(p.step, grains, p.plan.contact);
+}
+void add_walls(SceneParts& p) {
+  if (!columns(p.plan)) add_wall_contact(p.step, grains, p.plan.contact);
+}
+void add_drift(SceneParts& p) {
+  const GrainStressSettings& g = p.plan.stress;
+  if (!columns(p.plan)) add_motion(p.step, grains, {g.spacing, g.smoothing_length});
+}
+void add_stress(SceneParts& p) {
+  p.grain_stress = add_grain_stress(p.step, p.state, grains, p.plan.stress, p.plan.release.depth);
+}
+void add_collisions(SceneParts& p) { add_kinetic_theory(p.step, p.state, p.grain_stress); }
+void add_states(SceneParts& p) { add_grain_states(p.step, p.state, p.grain_stress); }
+void add_isolated(SceneParts& p) { add_isolated_particles(p.step, p.state, p.grain_stress); }
+void add_contacts(SceneParts& p) {
+  add_isolated_contacts(p.step, p.state, grains, *p.plan.parcel_contacts);
+}
+void add_columns(SceneParts& p) {
+  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);
+}
+
+constexpr EffectRow table[] = {
+    {EffectName::gravity, always, add_kick},
+    {EffectName::base, base_called, add_bed},
+    {EffectName::walls, walls_called, add_walls},
+    {EffectName::grain_stress, grain_stress_called, add_stress, grain_stress_bytes_per_particle},
+    {EffectName::kinetic_theory, kinetic_theory_called, add_collisions},
+    {EffectName::states, states_called, add_states},
+    {EffectName::isolated, isolated_called, add_isolated},
+    {EffectName::isolated_contacts, contacts_called, add_contacts},
+    {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
+    {"turbulent base", turbulence_called},
+    {"viscous base", viscosity_called},
+    {"zones of the base", zones_called},
+    {"periodic images", periods_called},
+    {EffectName::motion, always, add_drift},
+    {"excavation", excavation_called},
+};
+
+}  // namespace
+
+std::span<const EffectRow> effect_table() { return table; }
+
+void add_effects(const Scenario& scenario, SceneParts& parts) {
+  for (const EffectRow& row : table)
+    if (row.add && row.called(scenario, parts.plan).active) row.add(parts);
+}
+
+}  // namespace sturz

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a scenario file chooses by a word: each set of choices once, with the words of the file.
+#pragma once
+
+#include "engine/core/words.hpp"
+
+namespace sturz {
+
+/// How a member is computed; `automatic` decides by the layers that resolve its flow.
+enum class Formulation { automatic, full_stress, depth_averaged };
+constexpr auto words_of(Formulation) {
+  using enum Formulation;
+  return std::array{Word{automatic, "auto"}, Word{full_stress, "full_stress"},
+                    Word{depth_averaged, "depth_averaged"}};
+}
+
+/// What the edge of the known ground does to the mass: lets it out or holds it.
+enum class TerrainEdge { outflow, wall };
+constexpr auto words_of(TerrainEdge) {
+  using enum TerrainEdge;
+  return std::array{Word{outflow, "outflow"}, Word{wall, "wall"}};
+}
+
+/// What the terrain shows where the mass lies: the bed under it, or the surface before failure.
+enum class ReleaseSurface { bed, pre_failure };
+constexpr auto words_of(ReleaseSurface) {
+  using enum ReleaseSurface;
+  return std::array{Word{bed, "bed"}, Word{pre_failure, "pre_failure"}};
+}
+
+/// Lateral earth pressure of columns.
+enum class LateralPressure { isotropic, active_passive };
+constexpr auto words_of(LateralPressure) {
+  using enum LateralPressure;
+  return std::array{Word{isotropic, "isotropic"}, Word{active_passive, "active_passive"}};
+}
+
+/// One continuous stress law from dense to dilute, or the paper's switch between laws.
+enum class StressMode { unified, seed };
+constexpr auto words_of(StressMode) {
+  using enum StressMode;
+  return std::array{Word{unified, "unified"}, Word{seed, "seed"}};
+}
+
+/// What parcels in free flight do when they meet.
+enum class ParcelContactLaw { none, hertz_mindlin };
+constexpr auto words_of(ParcelContactLaw) {
+  using enum ParcelContactLaw;
+  return std::array{Word{none, "none"}, Word{hertz_mindlin, "hertz_mindlin"}};
+}
+
+/// How the uncertain values of an ensemble are drawn; `table` brings its own.
+enum class Design { monte_carlo, latin_hypercube, sobol, table };
+constexpr auto words_of(Design) {
+  using enum Design;
+  return std::array{Word{monte_carlo, "monte_carlo"}, Word{latin_hypercube, "latin_hypercube"},
+                    Word{sobol, "sobol"}, Word{table, "table"}};
+}
+
+}  // namespace sturz

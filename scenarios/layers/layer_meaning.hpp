@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a map of results shows: which quantity, and which statistic of it.
+#pragma once
+
+#include "engine/core/words.hpp"
+#include "engine/simulation/member_result.hpp"
+
+namespace sturz {
+
+enum class Quantity {
+  reached,    ///< whether the flow came at all
+  thickness,  ///< of the flow, vertical
+  speed,
+  energy,     ///< kinetic, per area
+  pressure,   ///< dynamic
+  arrival,    ///< time until the flow comes
+  deposit,    ///< thickness left behind
+  intensity,  ///< a class of thickness and speed together
+  members,    ///< of the ensemble
+  other
+};
+
+enum class Statistic {
+  probability,  ///< share of members; of those beyond the axis value where there is an axis
+  lower_bound,  ///< of that probability's interval
+  upper_bound,
+  quantile,  ///< at the levels of the axis
+  mean,
+  peak,  ///< of one member: largest over time; of an arrival the first, of a deposit the last
+  count,
+  value  ///< none of these
+};
+
+/// Which class an intensity is about.
+enum class IntensityClass { none, medium, high };
+
+// The words stand in result files and in the page's data.
+constexpr auto words_of(Quantity) {
+  using enum Quantity;
+  return std::array{Word{reached, "reached"},   Word{thickness, "thickness"},
+                    Word{speed, "speed"},       Word{energy, "energy"},
+                    Word{pressure, "pressure"}, Word{arrival, "arrival"},
+                    Word{deposit, "deposit"},   Word{intensity, "intensity"},
+                    Word{members, "members"},   Word{other, "other"}};
+}
+constexpr auto words_of(Statistic) {
+  using enum Statistic;
+  return std::array{Word{probability, "probability"},
+                    Word{lower_bound, "lower_bound"},
+                    Word{upper_bound, "upper_bound"},
+                    Word{quantile, "quantile"},
+                    Word{mean, "mean"},
+                    Word{peak, "peak"},
+                    Word{count, "count"},
+                    Word{value, "value"}};
+}
+constexpr auto words_of(IntensityClass) {
+  using enum IntensityClass;
+  return std::array{Word{none, "none"}, Word{medium, "medium"}, Word{high, "high"}};
+}
+
+struct LayerMeaning {
+  Quantity quantity = Quantity::other;
+  Statistic statistic = Statistic::value;
+  IntensityClass intensity = IntensityClass::none;
+
+  /// The numbers of the layer's axis are thresholds that members exceed (else levels of quantiles).
+  bool has_thresholds() const { return statistic == Statistic::probability || is_bound(); }
+  bool is_bound() const {
+    return statistic == Statistic::lower_bound || statistic == Statistic::upper_bound;
+  }
+  bool operator==(const LayerMeaning&) const = default;
+};
+
+/// The quantity that a map of one member holds.
+constexpr Quantity quantity_of(PeakLayer layer) {
+  switch (layer) {
+    case PeakLayer::thickness:
+      return Quantity::thickness;
+    case PeakLayer::speed:
+      return Quantity::speed;
+    case PeakLayer::energy:
+      return Quantity::energy;
+    case PeakLayer::pressure:
+      return Quantity::pressure;
+    case PeakLayer::arrival:
+      return Quantity::arrival;
+    case PeakLayer::deposit:
+      return Quantity::deposit;
+  }
+  return Quantity::other;
+}
+
+}  // namespace sturz

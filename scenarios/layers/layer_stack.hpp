@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Named maps of results with their meaning: what ensemble computes, io stores and reports draw.
+///
+/// It lies in scenarios because a scene asks for its maps (HazardSpec: thresholds, quantiles), and
+/// because io and ensemble, which do not see each other, both see scenarios.
+#pragma once
+
+#include "engine/terrain/raster.hpp"
+#include "scenarios/layers/layer_meaning.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sturz {
+
+/// One extra coordinate of a layer: thresholds or quantile levels, see LayerMeaning.
+struct LayerAxis {
+  std::string name;           ///< netCDF dimension and variable name, e.g. "thickness_threshold"
+  std::string standard_name;  ///< CF standard name or empty
+  std::string units;          ///< UDUNITS text, "1" for fractions
+  std::vector<double> values;
+};
+
+/// One named field of results: [axis.values.size() or 1][n_rows][n_cols], NaN where undefined.
+struct Layer {
+  std::string name;  ///< variable name, e.g. "probability_of_peak_thickness_above_threshold"
+  LayerMeaning meaning;
+  std::string long_name;
+  std::string standard_name;  ///< CF standard name or empty
+  std::string units;          ///< UDUNITS text
+  std::string cell_methods;   ///< CF cell_methods or empty
+  std::string comment;        ///< free text (rules, 'not resolved' notes) or empty
+  LayerAxis axis;             ///< empty values: a plain map
+  std::vector<float> values;
+
+  std::size_t n_planes() const { return axis.values.empty() ? 1 : axis.values.size(); }
+  /// Whole numbers: stored as int32, never quantised.
+  bool is_count() const { return meaning.statistic == Statistic::count; }
+};
+
+/// Everything that one results file holds, in the order in which it is written.
+struct LayerStack {
+  Grid grid;
+  std::vector<Layer> layers;
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< global text attributes
+
+  const Layer* find(const std::string& name) const {
+    for (const auto& l : layers)
+      if (l.name == name) return &l;
+    return nullptr;
+  }
+};
+
+}  // namespace sturz

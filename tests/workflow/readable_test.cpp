@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/readable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace sturz::test {
+namespace {
+
+TEST(DurationText, SaysNoMoreThanOneNeeds) {
+  EXPECT_EQ(workflow::duration_text(0.84), "0.8 s");
+  EXPECT_EQ(workflow::duration_text(59.4), "59 s");
+  EXPECT_EQ(workflow::duration_text(59.6), "1 min 00 s");
+  EXPECT_EQ(workflow::duration_text(200), "3 min 20 s");
+  EXPECT_EQ(workflow::duration_text(3900), "1 h 05 min");
+  EXPECT_EQ(workflow::duration_text(-1), "unknown");
+  EXPECT_EQ(workflow::duration_text(std::numeric_limits<double>::quiet_NaN()), "unknown");
+}
+
+TEST(Grouped, SetsThousandsApart) {
+  EXPECT_EQ(workflow::grouped(0), "0");
+  EXPECT_EQ(workflow::grouped(999), "999");
+  EXPECT_EQ(workflow::grouped(491000), "491 000");
+  EXPECT_EQ(workflow::grouped(-1234567), "-1 234 567");
+  EXPECT_EQ(workflow::grouped(-0.2), "0");
+}
+
+}  // namespace
+}  // namespace sturz::test
