@@ -14,6 +14,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sturz {
@@ -53,6 +54,12 @@ struct SurfaceDistance {
   Vec3 normal{0, 0, 1};  ///< at the nearest point [-]
 };
 
+/// A new elevation of a cell centre.
+struct NodeChange {
+  int row = 0, col = 0;
+  double z = 0;  ///< [m]
+};
+
 class Terrain {
  public:
   /// \param elevation metres above datum, NaN = nodata. At least 2 x 2 cells.
@@ -64,6 +71,18 @@ class Terrain {
   /// \pre the window lies on the grid
   Terrain with_patch(int row0, int col0, int n_rows, int n_cols,
                      std::vector<double> new_elevation) const;
+
+  /// Changes nodes of this terrain alone: erosion and deposition under one member. The base stays
+  /// shared. Work follows the changed nodes; the member's patch grows now and then, with room to
+  /// spare, and is never copied for a step.
+  /// \pre nodes lie on the grid, elevations are finite
+  void change(std::span<const NodeChange>);
+  /// Goes up with every change.
+  std::size_t n_changes() const { return n_changes_; }
+  /// Memory of what only this member has [bytes].
+  std::size_t patch_bytes() const {
+    return patch_.capacity() * sizeof(double) + patch_bounds_.capacity() * sizeof(SurfaceBound);
+  }
 
   const Grid& grid() const { return base_->grid; }
   NodataRule nodata_rule() const { return rule_; }
@@ -112,6 +131,8 @@ class Terrain {
   };
   struct Closest;
 
+  void cover(int row0, int col0, int row1, int col1);
+  void refresh_bounds(int row0, int col0, int row1, int col1);
   bool find(double x, double y, Block& block) const;
   Block block_at(int row, int col) const;
   bool block_inside(int row, int col) const;
@@ -134,6 +155,7 @@ class Terrain {
       patch_cols_ = 0;  ///< with a rim of base nodes
   std::vector<double> patch_;
   std::vector<SurfaceBound> patch_bounds_;
+  std::size_t n_changes_ = 0;
 };
 
 inline Terrain::Block Terrain::block_at(int row, int col) const {

@@ -146,6 +146,12 @@ ANCHOR = re.compile(
 DOCUMENT = re.compile(r"[\w.\-/]*\w\.md\b")
 
 
+def source_of(cited):
+    """What an installed document is in the repository."""
+    cited = re.sub(r"^(usr/)?share/doc/sturz/", "", cited.lstrip("/"))
+    return re.sub(r"^(usr/)?share/sturz/", "scenarios/", cited)
+
+
 def prose(path, line):
     """Comments and string literals of C++, everything of other files; without addresses."""
     if path.suffix in CODE:
@@ -179,7 +185,7 @@ def references(root):
                 label = next(filter(None, found.groups()))
                 if label not in anchors:
                     yield f"{name}:{n}: {label} has no place in docs/physics.md."
-            for cited in (m.group(0).lstrip("/") for m in DOCUMENT.finditer(text)):
+            for cited in (source_of(m.group(0)) for m in DOCUMENT.finditer(text)):
                 if not ((root / cited).is_file() or (path.parent / cited).is_file()
                         or cited in documents):
                     yield f"{name}:{n}: the document {cited} is not in the repository."

@@ -107,7 +107,9 @@ class BoundaryPass final : public Pass {
     MovingSet& p = s.sets[set_];
     make_room(s.domain, p);
     // Where nothing moved in storage, what was far from the ground has come no nearer than it went.
-    const bool known = p.n_sorts == sorts_ && p.size() == n_;
+    const bool known =
+        p.n_sorts == sorts_ && p.size() == n_ && s.terrain.n_changes() == ground_changes_;
+    ground_changes_ = s.terrain.n_changes();
     sorts_ = p.n_sorts;
     n_ = p.size();
     const auto travel = static_cast<float>(1.0001 * p.motion.max_speed * s.previous_dt);
@@ -203,7 +205,7 @@ class BoundaryPass final : public Pass {
 
   std::size_t set_;
   ContactSettings settings_;
-  std::size_t sorts_ = 0, n_ = 0;  // of the step before
+  std::size_t sorts_ = 0, n_ = 0, ground_changes_ = 0;  // of the step before
 };
 
 void book(MovingSet& p, const ContactSums& sums) {
