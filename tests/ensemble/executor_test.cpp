@@ -2,7 +2,6 @@
 #include "ensemble/members/executor.hpp"
 
 #include "engine/core/error.hpp"
-#include "tests/support/thread_sanitizer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +19,6 @@ namespace {
 
 class EveryExecutor : public testing::TestWithParam<ThreadLibrary> {
  protected:
-  void SetUp() override {
-    if (test::under_thread_sanitizer && GetParam() == ThreadLibrary::tbb)
-      GTEST_SKIP() << test::skip_tbb;
-  }
-
   std::atomic<bool> stop_{false};
 };
 

@@ -2,7 +2,6 @@
 #include "ensemble/members/runner.hpp"
 
 #include "engine/core/error.hpp"
-#include "tests/support/thread_sanitizer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,11 +28,6 @@ struct Case {
 /// A run of twenty pretended members; what was stored is kept by number.
 class EveryRunner : public testing::TestWithParam<Case> {
  protected:
-  void SetUp() override {
-    if (test::under_thread_sanitizer && GetParam().threads == ThreadLibrary::tbb)
-      GTEST_SKIP() << test::skip_tbb;
-  }
-
   EveryRunner() {
     plan_.members.resize(20);
     std::iota(plan_.members.begin(), plan_.members.end(), 0);
