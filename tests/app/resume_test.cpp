@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Interruptions, shards and dilation_ratio leave no trace in the maps.
+// Interruptions, shards and growth leave no trace in the maps.
 #include "tests/app/app_fixture.hpp"
 
 #include <signal.h>

@@ -45,9 +45,9 @@ Report scaling(const Options& options) {
   // Round after round over all sizes: the core's speed drifts alike for all of them.
   for (int round = -1; round < options.pairs; ++round)
     for (Sized& s : members) time_slice(s, round >= 0);
-  const Sized* bed = nullptr;
+  const Sized* base = nullptr;
   for (const Sized& s : members)
-    if (s.size == base_size) bed = &s;
+    if (s.size == base_size) base = &s;
 
   Report report;
   Table table("scaling", "Cost of a particle-update in the dense slide, one core, thread time",
@@ -60,7 +60,7 @@ Report scaling(const Options& options) {
   for (const Sized& s : members) {
     const SimulationParts& parts = s.member.parts();
     const Cell relative =
-        bed ? interval_cell(summarize(ratios(s.ns_per_update, bed->ns_per_update)), 2) : cell("-");
+        base ? interval_cell(summarize(ratios(s.ns_per_update, base->ns_per_update)), 2) : cell("-");
     table.add({cell(static_cast<std::size_t>(s.size)), cell(parts.state.grains().size()),
                cell(parts.facts.release.layers, 1), range_cell(summarize(s.ns_per_update), 0),
                relative, cell(memory_per_particle(parts.state, parts.step).total(), 0)});

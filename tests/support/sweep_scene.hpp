@@ -33,7 +33,7 @@ SweepRun kinetic_sweep(const std::vector<SlowParticle>&, const SweepConstants&, 
 std::vector<SlowParticle> lattice(std::array<int, 3> n, double dx, double jitter,
                                   const Vec3& center = {0, 0, 0}, unsigned seed = 1);
 
-/// Random velocity, stress, density_change and volume for every particle.
+/// Random velocity, stress, density change and volume for every particle.
 void roughen(std::vector<SlowParticle>&, double dx, unsigned seed = 2);
 
 /// sqrt(sum |a - b|^2 / sum |b|^2) of one part of the rates.

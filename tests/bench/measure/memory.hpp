@@ -7,7 +7,7 @@
 namespace sturz::bench {
 
 struct MemoryPerParticle {
-  double set = 0;     ///< the particle set: bed columns and the effects' fields
+  double set = 0;     ///< the particle set: base columns and the effects' fields
   double passes = 0;  ///< what the passes say that they hold: lists, records, results
   double state = 0;   ///< accelerations, ground and wall support, flags
   double total() const { return set + passes + state; }

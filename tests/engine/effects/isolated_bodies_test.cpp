@@ -160,7 +160,7 @@ TEST(IsolatedSearch, FindsEveryPairAndNoOtherWhileTheyMove) {
   }
 }
 
-TEST(IsolatedSearch, SeesNewcomersAndWhoWasWrapped) {
+TEST(IsolatedSearch, SeesNewAndWrappedParticles) {
   std::vector<IsolatedSphere> spheres{{{0, 0, 0}, {0, 0, 0}, 0.5, 4},
                                       {{9, 0, 0}, {0, 0, 0}, 0.5, 2}};
   IsolatedSearch search;
@@ -176,7 +176,7 @@ TEST(IsolatedSearch, SeesNewcomersAndWhoWasWrapped) {
   EXPECT_EQ(search.n_grids(), 4u);
 }
 
-TEST(IsolatedSearch, SurvivesParticlesThatRanAway) {
+TEST(IsolatedSearch, SurvivesDistantParticles) {
   std::vector<IsolatedSphere> spheres(5);
   const double nowhere = std::numeric_limits<double>::quiet_NaN();
   const Vec3 positions[] = {{0, 0, 0}, {0.9, 0, 0}, {1e300, 0, 0}, {nowhere, 0, 0}, {-1e12, 5, 5}};

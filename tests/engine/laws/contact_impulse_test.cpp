@@ -92,21 +92,21 @@ double accounted_friction(Touch t) {
 }
 
 TEST(ContactImpulse, EveryNormalImpulseEntersTheCoulombCap) {
-  Touch bed;
-  bed.law = {1000, 5, 0.5, 0.4, 0, -1};
-  bed.normal = Vec3(0.3, -0.2, 1).normalized();
-  bed.velocity = {30, 10, 0};
-  Touch spring = bed;
+  Touch named;
+  named.law = {1000, 5, 0.5, 0.4, 0, -1};
+  named.normal = Vec3(0.3, -0.2, 1).normalized();
+  named.velocity = {30, 10, 0};
+  Touch spring = named;
   spring.distance = 0.2;
   EXPECT_NEAR(accounted_friction(spring), 0.4, 1e-9);
-  Touch pressure = bed;
+  Touch pressure = named;
   pressure.pressure = 300;
   EXPECT_NEAR(accounted_friction(pressure), 0.4, 1e-9);
   Touch both = spring;
   both.pressure = 300;
   EXPECT_NEAR(accounted_friction(both), 0.4, 1e-9);
   // The guard: a centre under the ground that still sinks is stopped, which is an impulse too.
-  Touch guard = bed;
+  Touch guard = named;
   guard.distance = -1e-9;
   guard.law.stiffness = 1e-6;
   guard.law.damping = 0;

@@ -147,20 +147,20 @@ TEST(CurvedSurface, StaysWithinTheNodesAroundIt) {
 /// What with_patch shows against a ground built with the patched raster.
 void expect_patch_seen(int row0, int col0, int n_rows, int n_cols) {
   Raster<double> nodes = rubble();
-  const Terrain bed = ground_of(nodes);
+  const Terrain base = ground_of(nodes);
   std::vector<double> patch;
   for (int r = row0; r < row0 + n_rows; ++r)
     for (int c = col0; c < col0 + n_cols; ++c) {
       patch.push_back(nodes.at(r, c) - 5 - r - 2 * c);
       nodes.at(r, c) = patch.back();
     }
-  const Terrain patched = bed.with_patch(row0, col0, n_rows, n_cols, patch);
+  const Terrain patched = base.with_patch(row0, col0, n_rows, n_cols, patch);
   const Terrain whole = ground_of(nodes);
   bool changed = false;
   for (double y = -79; y < 0; y += 0.73)
     for (double x = 1; x < 100; x += 0.73) {
       expect_same(patched.curved(x, y), whole.curved(x, y), x, y);
-      changed |= patched.curved(x, y).z != bed.curved(x, y).z;
+      changed |= patched.curved(x, y).z != base.curved(x, y).z;
     }
   EXPECT_TRUE(changed);
 }

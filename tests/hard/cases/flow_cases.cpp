@@ -66,7 +66,7 @@ double mechanical_energy(const Ledger& l) {
 
 }  // namespace
 
-/// A heap 4 m high on a slope of 20 degrees, inside and bed far from yielding, over 10 s.
+/// A heap 4 m high on a slope of 20 degrees, inside and at the bed far from yielding, over 10 s.
 CaseReport heap_on_a_slope(States states) {
   Scenario s = pile(1);
   s.terrain.synthetic->parameters["slope_deg"] = 20;
