@@ -74,10 +74,10 @@ Meeting meet(const Scene& scene, double speed, double offset, double steps, doub
     (now > last ? pushed : pulled) += std::abs(now - last);
     last = now;
   }
-  const Vec3 offset = f.position(1) - f.position(0), separation = f.velocity(1) - f.velocity(0);
+  const Vec3 between = f.position(1) - f.position(0), separation = f.velocity(1) - f.velocity(0);
   m.restitution = last / speed;
   m.pulling_share = pulled / pushed;
-  m.separated = offset.norm() > 2 * radius_m && separation.dot(offset) > 0;
+  m.separated = between.norm() > 2 * radius_m && separation.dot(between) > 0;
   m.energy_gained = f.energy() / f.state.grains().ledger.kinetic_0 - 1;
   return m;
 }
