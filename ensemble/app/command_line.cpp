@@ -31,7 +31,7 @@ using workflow::version;
 using Action = std::function<int(Console&)>;
 
 /// Everything the parser fills in; lives as long as the parser.
-struct Words {
+struct ParsedOptions {
   RunOptions run;
   EnsembleOptions ensemble;
   MergeOptions merge;
@@ -47,11 +47,11 @@ struct Words {
 
 /// A sub-command that calls `function` with its options.
 template <class Options>
-CLI::App* add_command(CLI::App& app, Words& words, const char* name, const char* help,
+CLI::App* add_command(CLI::App& app, ParsedOptions& parsed, const char* name, const char* help,
                       Options& options, int (*function)(const Options&, Console&)) {
   CLI::App* command = app.add_subcommand(name, help);
-  command->callback([&words, &options, function] {
-    words.action = [&options, function](Console& console) { return function(options, console); };
+  command->callback([&parsed, &options, function] {
+    parsed.action = [&options, function](Console& console) { return function(options, console); };
   });
   return command;
 }
@@ -71,7 +71,7 @@ void add_json(CLI::App* command, bool& json, const char* help) {
   command->add_flag("--json", json, help);
 }
 
-void add_run(CLI::App& app, Words& w) {
+void add_run(CLI::App& app, ParsedOptions& w) {
   auto* c = add_command(app, w, "run", "Compute one member: medians of all distributions", w.run,
                         &run_command);
   add_scenario(c, w.run.scenario, w.run.set);
@@ -86,7 +86,7 @@ void add_run(CLI::App& app, Words& w) {
   add_json(c, w.json, "JSON lines instead of words");
 }
 
-void add_ensemble(CLI::App& app, Words& w) {
+void add_ensemble(CLI::App& app, ParsedOptions& w) {
   auto* c = add_command(app, w, "ensemble",
                         "Compute many members and the hazard maps; the same command resumes",
                         w.ensemble, &ensemble_command);
@@ -105,7 +105,7 @@ void add_ensemble(CLI::App& app, Words& w) {
   add_json(c, w.json, "JSON lines instead of words");
 }
 
-void add_others(CLI::App& app, Words& w) {
+void add_others(CLI::App& app, ParsedOptions& w) {
   auto* m = add_command(app, w, "merge", "Make the maps from the members of a results folder",
                         w.merge, &merge_command);
   m->add_option("folder", w.merge.folder, "Folder of an ensemble")->type_name("DIR")->required();
@@ -154,7 +154,7 @@ void add_others(CLI::App& app, Words& w) {
 }
 
 /// The table itself as manual page or completion: for the build, and so not in `--help`.
-void add_print_help(CLI::App& app, Words& w) {
+void add_print_help(CLI::App& app, ParsedOptions& w) {
   CLI::App* c = app.add_subcommand("print-help", "Print this program's help in another format");
   c->group("");
   c->add_option("format", w.help_format)->required()->check(CLI::IsMember({"man", "bash"}));
@@ -174,7 +174,7 @@ void add_print_help(CLI::App& app, Words& w) {
 }
 
 /// The grammar: every sub-command with its options. Help, manual page and completion walk it.
-void build_grammar(CLI::App& app, Words& words) {
+void build_grammar(CLI::App& app, ParsedOptions& parsed) {
   app.set_version_flag(
       "--version", fmt::format("sturz {} ({}, {}, {})", version, git_commit, compiler, build_type));
   app.require_subcommand(1);
@@ -182,10 +182,10 @@ void build_grammar(CLI::App& app, Words& words) {
   app.footer(
       "Exit codes: 0 done, 1 usage or scenario error, 2 too many failed members, "
       "3 interrupted (resumable).");
-  add_run(app, words);
-  add_ensemble(app, words);
-  add_others(app, words);
-  add_print_help(app, words);
+  add_run(app, parsed);
+  add_ensemble(app, parsed);
+  add_others(app, parsed);
+  add_print_help(app, parsed);
 }
 
 /// Runs the action; turns whatever it throws into one message and an exit code.
@@ -207,15 +207,15 @@ int guarded(const Action& action, Console& console) {
 
 int command_line(int argc, char** argv) {
   CLI::App app{"sturz: from an elevation raster to a landslide hazard map", "sturz"};
-  Words words;
-  build_grammar(app, words);
+  ParsedOptions parsed;
+  build_grammar(app, parsed);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     return app.exit(problem) == 0 ? ok : usage_or_scenario_error;
   }
-  Console console(words.json);
-  return guarded(words.action, console);
+  Console console(parsed.json);
+  return guarded(parsed.action, console);
 }
 
 }  // namespace sturz::app

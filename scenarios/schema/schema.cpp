@@ -37,12 +37,12 @@ std::vector<BlockInfo> all_optional_blocks() {
       optional_block("grains.friction", "Internal friction that grows with the shear rate, mu(I).",
                      friction),
       optional_block("grains.states",
-                     "Grains that part: pressure of loose packings, dilute and lone grains.",
+                     "Grains that part: pressure of loose packings, dilute and isolated grains.",
                      states),
       optional_block("grains.states.dilute",
                      "Grains that collide: kinetic theory, granular temperature.", dilute),
       optional_block("grains.states.ultradilute",
-                     "Grains without neighbours: parcels in free flight.", ultradilute),
+                     "Grains without neighbours: isolated particles in free flight.", ultradilute),
   };
 }
 

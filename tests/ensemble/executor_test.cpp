@@ -53,7 +53,7 @@ TEST_P(EveryExecutor, RunsAsManyPiecesAtOnceAsItHasWorkers) {
   EXPECT_EQ(threads.size(), 3U);
 }
 
-TEST_P(EveryExecutor, GivesTheNextPieceToWhoeverIsFree) {
+TEST_P(EveryExecutor, GivesTheNextPieceToTheFirstFreeWorker) {
   std::atomic<int> others{0};
   std::atomic<bool> all_done_meanwhile{false};
   make_executor(2, GetParam())->for_each(40, stop_, [&](std::size_t i) {

@@ -57,7 +57,7 @@ class EveryRunner : public testing::TestWithParam<Case> {
   static MemberResult endless(std::int64_t member, const std::atomic<bool>& cancel) {
     const auto limit = std::chrono::steady_clock::now() + 20s;
     while (!cancel && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(1ms);
-    EXPECT_TRUE(cancel) << "nobody told the member to stop";
+    EXPECT_TRUE(cancel) << "the member was not told to stop";
     MemberResult r;
     r.member = member;
     r.outcome = Outcome::cancelled;

@@ -49,7 +49,7 @@ Scenario box(int layers) {
   return s;
 }
 
-/// All stresses are compression; errors are relative to rho g depth.
+/// All stresses are compressive; errors are relative to rho g depth.
 struct Rest {
   double profile = 0;                          ///< L2 over the layers' mean vertical stress
   double particle = 0;                         ///< L2 over all particles

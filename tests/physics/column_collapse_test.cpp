@@ -52,7 +52,7 @@ Scenario sand(double aspect, int particles_along) {
 double sand_run_out(double a) { return a < 2.3 ? 1.2 * a : 1.9 * std::pow(a, 2.0 / 3); }
 double sand_height(double a) { return a < 0.7 ? a : std::cbrt(a); }
 
-/// mu(I) of Jop et al. in the grains, their avalanche angle of 27.4 degrees at the rough base.
+/// mu(I) of Jop et al. in the grains, their avalanche angle of 27.4 degrees at the rough bed.
 Scenario beads(double aspect, int particles_along) {
   Scenario s = column_collapse(aspect, particles_along);
   s.grains->diameter_m = 0.01;

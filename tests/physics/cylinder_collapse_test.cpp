@@ -61,9 +61,9 @@ Simulation quarter_of(Scenario s) {
   const double mass = sum.value();
   p.start_x = p.x;
   p.start_y = p.y;
-  Ledger& book = state.grains().ledger;
-  book.elastic_0 = book.elastic *= mass / book.released_mass;
-  book.released_mass = mass;
+  Ledger& ledger = state.grains().ledger;
+  ledger.elastic_0 = ledger.elastic *= mass / ledger.released_mass;
+  ledger.released_mass = mass;
   return simulation;
 }
 
@@ -197,7 +197,7 @@ TEST(CylinderCollapse, QuarterBetweenWallsRunsAsTheFullCircle) {
          full.finished);
 }
 
-/// Grains that part, collide and fly on the way down.
+/// Grains that separate, collide and fly on the way down.
 TEST(CylinderCollapse, StatesOfTheGrainsRunOutAlike) {
   for (const auto& [aspect, n] : {std::pair{2.0, 10}, {5.0, 7}}) {
     Scenario s = scene(aspect, n);
@@ -229,7 +229,7 @@ TEST(CylinderCollapse, FrictionViscosityAndBaseAreReported) {
   for (const double angle : {25.0, 40.0}) {
     Scenario s = scene(1, 10);
     s.basal.friction_coefficient = std::tan(angle * degree);
-    reported(fmt::format("base {} deg", angle), s);
+    reported(fmt::format("bed {} deg", angle), s);
   }
 }
 

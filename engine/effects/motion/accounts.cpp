@@ -34,8 +34,8 @@ void combine(MotionSums& total, const MotionSums& block) {
 
 /// Works are taken with the mean velocity of the step: then a particle that is held at rest works
 /// on nothing, and the sum of all works is the change of kinetic energy.
-void book_step(const MovingSet& p, double gravity, const double* const before[3], std::size_t i,
-               double dt, MotionSums& out) {
+void account_step(const MovingSet& p, double gravity, const double* const before[3], std::size_t i,
+                  double dt, MotionSums& out) {
   const double bx = before[0][i], by = before[1][i], bz = before[2][i];
   const double dx = p.vx[i] - bx, dy = p.vy[i] - by, dz = p.vz[i] - bz;
   const double mx = bx + 0.5 * dx, my = by + 0.5 * dy, mz = bz + 0.5 * dz;
@@ -68,7 +68,7 @@ void refresh_motion(const State& s, MovingSet& p, double dt) {
             out.lo[k] = std::min(out.lo[k], v[k]);
             out.hi[k] = std::max(out.hi[k], v[k]);
           }
-          if (field && dt > 0) book_step(p, s.gravity, before, i, dt, out);
+          if (field && dt > 0) account_step(p, s.gravity, before, i, dt, out);
         }
       },
       combine);
@@ -76,12 +76,12 @@ void refresh_motion(const State& s, MovingSet& p, double dt) {
   p.motion.max_acceleration = dt > 0 ? std::sqrt(sums.change2) / dt : 0;
   for (int k = 0; k < 3; ++k) p.motion.velocity_range[k] = p.size() ? sums.hi[k] - sums.lo[k] : 0;
   p.motion.finite = std::isfinite(sums.check) && !p.corrupt;
-  Ledger& book = p.ledger;
-  book.kinetic = sums.kinetic;
-  book.gravity_work += sums.gravity_work;
-  book.stress_work += sums.stress_work;
-  for (int k = 0; k < 3; ++k) book.stress_impulse[k] += sums.impulse[k];
-  book.stress_impulse_scale += sums.scale;
+  Ledger& ledger = p.ledger;
+  ledger.kinetic = sums.kinetic;
+  ledger.gravity_work += sums.gravity_work;
+  ledger.stress_work += sums.stress_work;
+  for (int k = 0; k < 3; ++k) ledger.stress_impulse[k] += sums.impulse[k];
+  ledger.stress_impulse_scale += sums.scale;
 }
 
 }  // namespace sturz
