@@ -2,6 +2,8 @@
 /// Where mass, momentum and energy of a member went; every pass accounts for what it did.
 #pragma once
 
+#include "engine/core/vec.hpp"
+
 #include <iterator>
 
 namespace sturz {
@@ -48,7 +50,7 @@ struct Ledger {
       0;  ///< mass times time on ground that curves away faster than it falls [kg s]
 
   /// Sum of m a dt of pair forces alone: zero but for rounding.
-  double stress_impulse[3] = {0, 0, 0};
+  Vec3 stress_impulse{0, 0, 0};
   double stress_impulse_scale = 0;  ///< sum of |m a dt|
 
   /// The accounts of another particle set beside these.
@@ -89,7 +91,7 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));
   for (const Entry entry : entries) this->*entry += other.*entry;
-  for (int k = 0; k < 3; ++k) stress_impulse[k] += other.stress_impulse[k];
+  stress_impulse += other.stress_impulse;
   return *this;
 }
 

@@ -60,7 +60,8 @@ Report scaling(const Options& options) {
   for (const Sized& s : members) {
     const SimulationParts& parts = s.member.parts();
     const Cell relative =
-        base ? interval_cell(summarize(ratios(s.ns_per_update, base->ns_per_update)), 2) : cell("-");
+        base ? interval_cell(summarize(ratios(s.ns_per_update, base->ns_per_update)), 2)
+             : cell("-");
     table.add({cell(static_cast<std::size_t>(s.size)), cell(parts.state.grains().size()),
                cell(parts.facts.release.layers, 1), range_cell(summarize(s.ns_per_update), 0),
                relative, cell(memory_per_particle(parts.state, parts.step).total(), 0)});

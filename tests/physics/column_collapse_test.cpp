@@ -31,7 +31,7 @@ Deposit deposit_of(const SimulationParts& parts) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double x = std::max(0.0, p.x[i]);
     add_to_slice(thickness, static_cast<std::size_t>(x / dx),
-                 p.mass[i] / parts.reference_density / (dx * 4 * dx));
+                 p.mass[i] / parts.state.grains().bulk_density / (dx * 4 * dx));
     if (x < 0.3) out.height = std::max(out.height, p.z[i] + 0.5 * dx);
   }
   out.run_out = deposit_edge(thickness, dx);

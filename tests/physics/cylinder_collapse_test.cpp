@@ -89,7 +89,7 @@ Collapse collapse(Simulation simulation, double share_of_circle) {
     const double r = std::hypot(p.x[i], p.y[i]);
     const auto ring = static_cast<std::size_t>(r / dx);
     const double area = share_of_circle * std::numbers::pi * dx * dx * (2.0 * ring + 1);
-    add_to_slice(thickness, ring, p.mass[i] / parts.reference_density / area);
+    add_to_slice(thickness, ring, p.mass[i] / parts.state.grains().bulk_density / area);
     if (r < 0.3) c.deposit.height = std::max(c.deposit.height, p.z[i] + 0.5 * dx);
     c.deposit.mean_radius += r * p.mass[i] / parts.state.grains().ledger.released_mass;
   }

@@ -6,7 +6,6 @@
 #include "engine/laws/contact_impulse.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -79,7 +78,7 @@ class StartVelocity {
  public:
   explicit StartVelocity(const ParticleSet& p)
       : set_(p), before_(set_.find(fields::velocity_before)) {}
-  std::array<double, 3> operator()(std::size_t i) const {
+  Vec3 operator()(std::size_t i) const {
     if (!before_) return {set_.vx[i], set_.vy[i], set_.vz[i]};
     return {before_->component[0][i], before_->component[1][i], before_->component[2][i]};
   }
