@@ -59,9 +59,9 @@ Scenario block_on_plane(double friction_coefficient, double pore_pressure_ratio)
 Scenario column_collapse(double aspect, int particles_along) {
   const double length = 1, spacing = length / particles_along;
   // In whole cells, so that the column's edges lie between cells: behind none of it is the wall.
-  const double reach = 2 * spacing * std::ceil(length * (1.5 + 3 * aspect) / (2 * spacing));
+  const double runout = 2 * spacing * std::ceil(length * (1.5 + 3 * aspect) / (2 * spacing));
   Scenario s = on_ground("Collapse of a granular column", "plane", 2 * spacing,
-                         {{"slope_deg", 0}, {"length_m", 2 * reach}, {"width_m", 4 * spacing}});
+                         {{"slope_deg", 0}, {"length_m", 2 * runout}, {"width_m", 4 * spacing}});
   s.release.box = ReleaseBox{{0, length}, {-2 * spacing, 2 * spacing}};
   s.release.thickness_m = Uncertain(aspect * length);
   s.grains->diameter_m = 0.002;
@@ -77,9 +77,9 @@ Scenario cylinder_collapse(double aspect, int particles_along) {
   const double radius = 1, spacing = radius / particles_along;
   // Twice the run-out that experiments show, in whole cells so that the axis is a node.
   const double run_out = radius * std::min(1.24 * aspect, 2 * std::sqrt(aspect));
-  const double reach = 2 * spacing * std::ceil((1.5 * radius + 2 * run_out) / (2 * spacing));
+  const double runout = 2 * spacing * std::ceil((1.5 * radius + 2 * run_out) / (2 * spacing));
   Scenario s = on_ground("Collapse of a round column of glass beads", "plane", 2 * spacing,
-                         {{"slope_deg", 0}, {"length_m", 2 * reach}, {"width_m", 2 * reach}});
+                         {{"slope_deg", 0}, {"length_m", 2 * runout}, {"width_m", 2 * runout}});
   s.release.cylinder = ReleaseCylinder{{0, 0}, radius};
   s.release.thickness_m = Uncertain(aspect * radius);
   s.grains->diameter_m = 0.002;

@@ -13,7 +13,7 @@
 namespace sturz {
 
 /// A loose block on an even 30 degree slope that it slides down with constant acceleration.
-/// \param friction_coefficient of the base; \param pore_pressure_ratio r_u of the base
+/// \param friction_coefficient of the bed; \param pore_pressure_ratio r_u of the bed
 Scenario block_on_plane(double friction_coefficient = 0.46630765815499858,  // tan 25 deg
                         double pore_pressure_ratio = 0);
 
@@ -33,19 +33,19 @@ Scenario pile(double spacing_m = 1);
 /// A box of grains that slides over the edge of a 20 m high, 60 degree cliff.
 Scenario cliff(double spacing_m = 1);
 
-/// A sheet of `layers` particles on a 30 degree slope, periodic in x and y, base tan 25 degrees.
+/// A sheet of `layers` particles on a 30 degree slope, periodic in x and y, bed tan 25 degrees.
 Scenario thin_sheet(int layers = 1);
 
-/// A round mass that falls 100 m on a 30 degree slope and runs out on level ground; base tan 20
+/// A round mass that falls 100 m on a 30 degree slope and runs out on level ground; bed tan 20
 /// degrees. \param azimuth_deg downhill direction, to test that the grid's axes do not matter
 Scenario ramp_slide(double azimuth_deg = 90, double spacing_m = 3);
 
-/// V7: a slab 0.1 m thick of glass beads, periodic in x and y, on an even slope with a base that
+/// V7: a slab 0.1 m thick of glass beads, periodic in x and y, on an even slope with a bed that
 /// holds its lowest layer: a tenth rougher than the slope is steep. Starts at rest.
 /// \param layers  spacings over the thickness
 Scenario bagnold_slab(double slope_deg = 24, int layers = 10);
 
-/// V18: a parabolic cap, 160 m long and 4 m thick, that spreads down a 35 degree slope over a base
+/// V18: a parabolic cap, 160 m long and 4 m thick, that spreads down a 35 degree slope over a bed
 /// of tan 25 degrees; depth_averaged.
 Scenario similarity_slide(double spacing_m = 4);
 

@@ -36,16 +36,16 @@ constexpr auto words_of(LateralPressure) {
 }
 
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
-enum class StressMode { unified, seed };
+enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {
   using enum StressMode;
-  return std::array{Word{unified, "unified"}, Word{seed, "seed"}};
+  return std::array{Word{unified, "unified"}, Word{paper_switch, "paper_switch"}};
 }
 
-/// What parcels in free flight do when they meet.
-enum class ParcelContactLaw { none, hertz_mindlin };
-constexpr auto words_of(ParcelContactLaw) {
-  using enum ParcelContactLaw;
+/// What isolated particles do when they meet.
+enum class IsolatedContactLaw { none, hertz_mindlin };
+constexpr auto words_of(IsolatedContactLaw) {
+  using enum IsolatedContactLaw;
   return std::array{Word{none, "none"}, Word{hertz_mindlin, "hertz_mindlin"}};
 }
 

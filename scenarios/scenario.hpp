@@ -79,11 +79,11 @@ struct DiluteSpec {
   bool operator==(const DiluteSpec&) const = default;
 };
 
-/// Grains that have lost their neighbours: parcels in free flight.
+/// Grains that have lost their neighbours: isolated particles in free flight.
 struct UltradiluteSpec {
-  ParcelContactLaw contacts = ParcelContactLaw::none;
-  Uncertain restitution{0.7};           ///< of two parcels, where they meet
-  Uncertain friction_coefficient{0.5};  ///< of two parcels
+  IsolatedContactLaw contacts = IsolatedContactLaw::none;
+  Uncertain restitution{0.7};           ///< of two isolated particles, where they meet
+  Uncertain friction_coefficient{0.5};  ///< of two isolated particles
   double youngs_modulus_pa = 5e10;      ///< softened to the speeds of the scene
   bool operator==(const UltradiluteSpec&) const = default;
 };
@@ -126,14 +126,14 @@ struct BasalSpec {
   Uncertain cohesion_pa{0};
   Uncertain restitution{0.2};                           ///< full_stress only
   std::optional<Uncertain> turbulent_coefficient_m_s2;  ///< Voellmy's xi; depth_averaged only
-  std::optional<Uncertain> viscosity_pa_s;   ///< laminar drag at the base; depth_averaged only
+  std::optional<Uncertain> viscosity_pa_s;   ///< laminar drag at the bed; depth_averaged only
   std::optional<Uncertain> yield_stress_pa;  ///< Bingham, with viscosity_pa_s; depth_averaged only
   std::vector<BasalZone> zones;              ///< where two overlap, the later one holds
   bool operator==(const BasalSpec&) const = default;
 };
 
 struct NumericsSpec {
-  double spacing_m = 0;  ///< particle spacing dx; 0 = not given (an error)
+  double spacing_m = 0;  ///< initial particle spacing dx; 0 = not given (an error)
   double end_time_s = 120;
   double courant = 0.25;           ///< dt <= courant h / (c0 + |v|)
   double sound_speed_factor = 10;  ///< c0 = factor * expected flow speed

@@ -27,7 +27,7 @@ struct SceneInputs {
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
   /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.
   std::shared_ptr<const Terrain> ground, column_ground;
-  /// Zone of the base per cell of the same grid: 0 none, k the k-th of basal.zones; null: no zones.
+  /// Zone of the bed per cell of the same grid: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;
   Grid hazard_grid;           ///< the maps' common grid
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where mass, momentum and energy of a member went; every pass books what it did.
+/// Where mass, momentum and energy of a member went; every pass accounts for what it did.
 #pragma once
+
+#include "engine/core/vec.hpp"
 
 #include <iterator>
 
@@ -8,46 +10,48 @@ namespace sturz {
 
 /// Energies in J, dissipation positive; impulses in N s; mass in kg.
 ///
-/// Kinetic energy changes only through booked works:
+/// Kinetic energy changes only through accounted works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
 ///   lost_energy + added_energy + outer_work.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
-/// and among lone parcels -(change of rotational and parcel_elastic + parcel_dissipated).
+/// and among isolated particles -(change of rotational and isolated_elastic + isolated_dissipated).
 struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
   double added_mass = 0;                                     ///< by effects, after the release
   double added_energy = 0;                                   ///< kinetic energy that it brought
   double outer_work = 0;  ///< by forces of effects that nothing below names, such as wind
 
-  /// Now. Potential is the booked change since release: it counts what left as it was when it
+  /// Now. Potential is the accounted change since release: it counts what left as it was when it
   /// left, and a periodic image's jump not at all.
   double kinetic = 0, potential = 0, elastic = 0, spring = 0;
   double kinetic_0 = 0, elastic_0 = 0, spring_0 = 0;  ///< at release
 
   double gravity_work = 0;
-  double stress_work = 0;    ///< by pair forces and the wall's share of the pressure field
+  double stress_work = 0;    ///< by pair forces and the mirrored pressure of walls
   double stress_power = 0;   ///< integral of V sigma : D
-  double frictional = 0;     ///< stored by the frictional pressure of grains that part
+  double frictional = 0;     ///< stored by the frictional pressure of grains that separate
   double granular = 0;       ///< of granular temperature, now
   double conducted = 0;      ///< gained by its conduction: zero but for rounding
   double collisions = 0;     ///< dissipated by collisions of grains
   double granular_lost = 0;  ///< with grains that left the continuum, less what came back
   double plastic = 0;        ///< dissipated by yielding
   double diffusion = 0;      ///< elastic energy added by density diffusion and stress smoothing
-  double contact_work = 0;   ///< by contact springs, dampers and the ground guard, parcel_work too
-  double parcel_work = 0;    ///< by contacts of lone parcels, on their flight
+  double contact_work = 0;  ///< by contact springs, dampers and the ground guard, isolated_work too
+  double isolated_work = 0;  ///< by contacts of isolated particles, on their flight
   /// Now: spins of isolated particles, springs of their contacts.
-  double rotational = 0, parcel_elastic = 0;
-  double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the base
+  double rotational = 0, isolated_elastic = 0;
+  double friction = 0;      ///< dissipated by Coulomb friction and cohesion at the bed
   double rest_damping = 0;  ///< dissipated below the speed of rest (docs/physics.md I4)
-  double lost_energy = 0;   ///< kinetic and elastic energy that left or was taken by the rim
+  double lost_energy =
+      0;  ///< kinetic and elastic energy that left or was taken by the domain boundary
 
-  double take_off = 0;  ///< mass times time on ground that bends away faster than it falls [kg s]
+  double detachment =
+      0;  ///< mass times time on ground that curves away faster than it falls [kg s]
 
   /// Sum of m a dt of pair forces alone: zero but for rounding.
-  double stress_impulse[3] = {0, 0, 0};
+  Vec3 stress_impulse{0, 0, 0};
   double stress_impulse_scale = 0;  ///< sum of |m a dt|
 
   /// The accounts of another particle set beside these.
@@ -58,56 +62,41 @@ struct Ledger {
   /// Dissipated by artificial viscosity and discretisation.
   double numerical() const { return -stress_work - stress_power; }
   /// Dissipated in normal contact with ground and walls.
-  double damping() const { return -(contact_work - parcel_work) - (spring - spring_0); }
-  /// Dissipated by contacts of lone parcels, or lost with a parcel that was pressed or spun.
-  double parcel_dissipated() const { return -parcel_work - rotational - parcel_elastic; }
-  /// Energy that no booking explains [J]: time integration of gravity and of the stress law.
+  double damping() const { return -(contact_work - isolated_work) - (spring - spring_0); }
+  /// Dissipated by contacts of isolated particles, or lost with a particle that was pressed or
+  /// spun.
+  double isolated_dissipated() const { return -isolated_work - rotational - isolated_elastic; }
+  /// Energy that no account explains [J]: time integration of gravity and of the stress law.
   double residual() const {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +
-           rest_damping + damping() + rotational + parcel_elastic + parcel_dissipated() +
+           rest_damping + damping() + rotational + isolated_elastic + isolated_dissipated() +
            numerical() - diffusion + lost_energy - added_energy - outer_work;
   }
 };
 
 inline Ledger& Ledger::operator+=(const Ledger& other) {
   using Entry = double Ledger::*;
-  constexpr Entry entries[] = {&Ledger::released_mass,
-                               &Ledger::lost_mass,
-                               &Ledger::leaked_mass,
-                               &Ledger::added_mass,
-                               &Ledger::added_energy,
-                               &Ledger::kinetic,
-                               &Ledger::potential,
-                               &Ledger::elastic,
-                               &Ledger::spring,
-                               &Ledger::kinetic_0,
-                               &Ledger::elastic_0,
-                               &Ledger::spring_0,
-                               &Ledger::gravity_work,
-                               &Ledger::stress_work,
-                               &Ledger::stress_power,
-                               &Ledger::frictional,
-                               &Ledger::granular,
-                               &Ledger::conducted,
-                               &Ledger::collisions,
-                               &Ledger::granular_lost,
-                               &Ledger::plastic,
-                               &Ledger::diffusion,
-                               &Ledger::contact_work,
-                               &Ledger::parcel_work,
-                               &Ledger::rotational,
-                               &Ledger::parcel_elastic,
-                               &Ledger::friction,
-                               &Ledger::rest_damping,
-                               &Ledger::lost_energy,
-                               &Ledger::take_off,
-                               &Ledger::stress_impulse_scale,
-                               &Ledger::outer_work};
+  constexpr Entry entries[] = {&Ledger::released_mass,    &Ledger::lost_mass,
+                               &Ledger::leaked_mass,      &Ledger::added_mass,
+                               &Ledger::added_energy,     &Ledger::kinetic,
+                               &Ledger::potential,        &Ledger::elastic,
+                               &Ledger::spring,           &Ledger::kinetic_0,
+                               &Ledger::elastic_0,        &Ledger::spring_0,
+                               &Ledger::gravity_work,     &Ledger::outer_work,
+                               &Ledger::stress_work,      &Ledger::stress_power,
+                               &Ledger::frictional,       &Ledger::granular,
+                               &Ledger::conducted,        &Ledger::collisions,
+                               &Ledger::granular_lost,    &Ledger::plastic,
+                               &Ledger::diffusion,        &Ledger::contact_work,
+                               &Ledger::isolated_work,    &Ledger::rotational,
+                               &Ledger::isolated_elastic, &Ledger::friction,
+                               &Ledger::rest_damping,     &Ledger::lost_energy,
+                               &Ledger::detachment,       &Ledger::stress_impulse_scale};
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));
   for (const Entry entry : entries) this->*entry += other.*entry;
-  for (int k = 0; k < 3; ++k) stress_impulse[k] += other.stress_impulse[k];
+  stress_impulse += other.stress_impulse;
   return *this;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Random numbers by index: the same number for the same key and counter, whoever asks and when.
+/// Random numbers by index: the same number for the same key and counter, whichever caller asks and
+/// when.
 ///
 /// Philox4x32-10 (Salmon et al. 2011) through Random123. There is no state to carry along, so a
 /// member drawn alone, after a resume or among thousands gets the same bits.

@@ -14,6 +14,9 @@ struct Word {
   Enum value;
   std::string_view text;
 };
+// clang 14 does not deduce this for an aggregate by itself.
+template <class Enum>
+Word(Enum, std::string_view) -> Word<Enum>;
 
 /// An enumeration joins by declaring, beside itself, its table in the order in which it is listed:
 ///   constexpr auto words_of(Colour) { return std::array{Word{Colour::red, "red"}, ...}; }

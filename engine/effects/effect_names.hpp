@@ -8,7 +8,7 @@ namespace sturz {
 
 struct EffectName {
   static constexpr std::string_view gravity = "gravity";
-  static constexpr std::string_view base = "base";
+  static constexpr std::string_view bed = "bed";
   static constexpr std::string_view grain_stress = "grain stress";
   static constexpr std::string_view states = "states of the grains";
   static constexpr std::string_view kinetic_theory = "kinetic theory";
@@ -17,7 +17,7 @@ struct EffectName {
   static constexpr std::string_view column_pressure = "lateral pressure of columns";
   static constexpr std::string_view walls = "walls";
   static constexpr std::string_view motion = "motion";
-  /// Nobody asks for it: peak maps, history, limits of the time step.
+  /// No scenario key asks for it: peak maps, history, limits of the time step.
   static constexpr std::string_view bookkeeping = "bookkeeping";
 };
 

@@ -8,13 +8,13 @@
 
 namespace sturz::fields {
 
-// Of every set that keeps energy books.
+// Of every set that accounts for energy.
 /// Velocity at the start of the step.
 inline constexpr FieldKey velocity_before{"velocity_before", 3, "m s-1", "motion"};
 
 // Grain stress (dense/).
-/// rho / rho_ref - 1.
-inline constexpr FieldKey compression{"compression", 1, "1", "grain stress"};
+/// Relative density change rho / rho_ref - 1.
+inline constexpr FieldKey density_change{"density_change", 1, "1", "grain stress"};
 /// Stress of enduring contacts, tension positive.
 inline constexpr FieldKey stress{"stress", 6, "Pa", "grain stress"};
 /// Artificial viscosity over the friction that acts, see dense/viscous_share.hpp.
@@ -24,7 +24,8 @@ inline constexpr FieldKey viscous_ratio{"viscous_ratio", 1, "1", "grain stress"}
 /// GrainState by number.
 inline constexpr FlagKey state{"state", "states of the grains"};
 /// How complete the support is with neighbours and ground, 1 inside a dense mass.
-inline constexpr FieldKey fill{"fill", 1, "1", "states of the grains", 1.0};
+inline constexpr FieldKey support_completeness{"support_completeness", 1, "1",
+                                               "states of the grains", 1.0};
 inline constexpr FieldKey granular_temperature{"granular_temperature", 1, "m2 s-2",
                                                "kinetic theory"};
 /// Stress of collisions, tension positive.
@@ -51,8 +52,9 @@ inline constexpr FieldKey thickness{"thickness", 1, "m", "column pressure"};
 inline constexpr FieldKey support_radius{"support_radius", 1, "m", "column pressure"};
 /// Normal reaction of the ground per mass.
 inline constexpr FieldKey normal_gravity{"normal_gravity", 1, "m s-2", "column pressure"};
-/// Centripetal momentum per mass: curvature met over the thickness.
-inline constexpr FieldKey turning{"turning", 1, "m s-1", "column pressure"};
+/// Momentum per mass of curvature met and not yet borne by the ground.
+inline constexpr FieldKey centripetal_momentum{"centripetal_momentum", 1, "m s-1",
+                                               "column pressure"};
 /// Slope east and north [-], second derivatives ee, en, nn [1/m] of the ground below.
 inline constexpr FieldKey ground{"ground", 5, "mixed", "column pressure"};
 /// Lateral over normal stress.

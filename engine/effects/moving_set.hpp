@@ -27,13 +27,13 @@ struct MotionBounds {
 /// image: same stress, same tangential and opposite normal velocity. Momentum then gains
 /// 2 p_n W_plane(d)/rho along n, the velocity gradient 2 W_plane(d) v_n n (x) n, and the moment
 /// matrix 2 d W_plane(d) n (x) n, which keeps linear fields without flow through the wall exact
-/// (shear along the normal is felt too weakly in the last two layers). Force and strain are
+/// (shear along the normal is too weak in the last two layers). Force and strain are
 /// adjoint, so a bouncing column neither gains nor loses energy at the wall.
 struct BoundarySupport {
   std::vector<float> distance;    ///< to the ground along its normal; beyond 2h no more than it [m]
   std::vector<float> nx, ny, nz;  ///< that normal, up to date within 2h
-  std::vector<float> share;       ///< 0..1, from the sweep: how much of the mirrored half acts
-  std::vector<float> moment[6];   ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
+  std::vector<float> mirror_weight;  ///< 0..1, from the sweep: how much of the mirrored half acts
+  std::vector<float> moment[6];  ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
   std::vector<float> gradient[6];  ///< the same order [1/s]
 };
 

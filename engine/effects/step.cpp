@@ -10,7 +10,7 @@
 namespace sturz {
 
 std::string_view to_string(Stage stage) {
-  constexpr std::string_view names[] = {"neighbors", "boundary", "pack",   "force",
+  constexpr std::string_view names[] = {"neighbors", "boundary", "gather", "force",
                                         "kick",      "contact",  "stress", "move"};
   return names[static_cast<int>(stage)];
 }

@@ -18,7 +18,7 @@ namespace sturz {
 enum class Stage {
   neighbors,  ///< sort and list
   boundary,   ///< what ground and walls are to each particle at x_n
-  pack,       ///< records for the pair sweep
+  gather,     ///< neighbour records for the pair sweep
   force,      ///< accelerations, velocity gradients at x_n
   kick,       ///< v_{n-1/2} -> v_{n+1/2} by acceleration
   contact,    ///< impulses of ground and walls, friction last
@@ -36,7 +36,7 @@ struct StepLimit {
 /// A part of a pass that works for another effect than the pass itself.
 struct EffectPart {
   std::string_view effect;  ///< EffectName; empty: no such part
-  std::string_view name;    ///< after the pass's name, e.g. "groups that fly"
+  std::string_view name;    ///< after the pass's name, e.g. "dispersed groups"
   double share = 0;         ///< of the last `apply`'s time, 0..1
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the base takes from a depth-averaged column: Coulomb with pore pressure, cohesion, and the
+/// What the bed takes from a depth-averaged column: Coulomb with pore pressure, cohesion, and the
 /// optional turbulent (Voellmy), laminar and Bingham terms.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace sturz {
 
-/// Shear stress at the base over density and thickness is a deceleration:
+/// Shear stress at the bed over density and thickness is a deceleration:
 ///   Coulomb    mu (1 - r_u) g_n                  Hungr's form, docs/physics.md A.8
 ///   cohesion   c / (rho h)
 ///   Voellmy    g v^2 / (xi h)

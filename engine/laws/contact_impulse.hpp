@@ -10,12 +10,12 @@ namespace sturz {
 /// v_t <- v_t max(0, 1 - [mu (1 - r_u) J_n + c_b A dt / m] / |v_t|), so it can stop a particle
 /// but never turn it round, and sticking is exact.
 struct ContactLaw {
-  double stiffness = 1;       ///< k [1/s^2], per mass
-  double damping = 0;         ///< 2 zeta sqrt(k) [1/s]
-  double reach = 0.5;         ///< contact distance dx/2 [m]
-  double friction = 0;        ///< mu (1 - r_u) [-]
-  double cohesion_rate = 0;   ///< c_b A / m [m/s^2], for particles within `cohesion_reach`
-  double cohesion_reach = 0;  ///< [m]
+  double stiffness = 1;           ///< k [1/s^2], per mass
+  double damping = 0;             ///< 2 zeta sqrt(k) [1/s]
+  double contact_distance = 0.5;  ///< dx/2 [m]
+  double friction = 0;            ///< mu (1 - r_u) [-]
+  double cohesion_rate = 0;       ///< c_b A / m [m/s^2], for particles within `cohesion_distance`
+  double cohesion_distance = 0;   ///< [m]
 };
 
 /// Damping ratio of a restitution: zeta = -ln e / sqrt(pi^2 + ln^2 e).
@@ -33,7 +33,7 @@ struct ContactEnergy {
 /// Applies one contact to a velocity.
 /// \param distance  to the surface along its normal, may be negative      [m]
 /// \param nx,ny,nz  unit normal into the free side
-/// \param pressure_acceleration  the wall's share of the pressure field, >= 0 [m/s^2]
+/// \param pressure_acceleration  mirrored pressure of the wall, >= 0 [m/s^2]
 /// \param before    velocity at the start of the step                      [m/s]
 /// \param vx,vy,vz  in and out                                             [m/s]
 inline ContactEnergy apply_contact(const ContactLaw& law, double distance, double nx, double ny,
@@ -45,7 +45,7 @@ inline ContactEnergy apply_contact(const ContactLaw& law, double distance, doubl
   const double from_pressure = pressure_acceleration * dt;
   vn += from_pressure;
   double impulse = 0;
-  const double overlap = law.reach - distance;
+  const double overlap = law.contact_distance - distance;
   if (overlap > 0) {
     impulse = std::fmax(0.0, law.stiffness * overlap - law.damping * vn) * dt;
     energy.spring = 0.5 * law.stiffness * overlap * overlap;
@@ -55,7 +55,7 @@ inline ContactEnergy apply_contact(const ContactLaw& law, double distance, doubl
   }
   const double normal_impulse = from_pressure + impulse;  // every one enters the Coulomb cap
   double cap = law.friction * normal_impulse;
-  if (distance < law.cohesion_reach) cap += law.cohesion_rate * dt;
+  if (distance < law.cohesion_distance) cap += law.cohesion_rate * dt;
   const double tx = vx - vn_before * nx, ty = vy - vn_before * ny, tz = vz - vn_before * nz;
   const double speed2 = tx * tx + ty * ty + tz * tz;
   double keep = 1;

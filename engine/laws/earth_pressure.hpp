@@ -7,7 +7,7 @@
 
 namespace sturz {
 
-/// Least and greatest K of a Coulomb material over a rough base (Savage & Hutter 1989):
+/// Least and greatest K of a Coulomb material over a rough bed (Savage & Hutter 1989):
 ///   K = 2 (1 -+ sqrt(1 - cos^2 phi (1 + tan^2 delta))) / cos^2 phi - 1
 struct EarthPressure {
   double active = 1, passive = 1;
@@ -27,7 +27,7 @@ struct EarthPressure {
     e.passive = passive * (1 - ratio) + ratio;
     return e;
   }
-  /// Differs from the isotropic 1 anywhere. Over a base as rough as the mass, active and passive
+  /// Differs from the isotropic 1 anywhere. Over a bed as rough as the mass, active and passive
   /// meet at 1 + 2 tan^2 phi.
   bool varies() const { return active != 1 || passive != 1; }
 

@@ -7,23 +7,23 @@
 
 namespace sturz {
 
-/// Gao et al. section 4.2; docs/physics.md B.9. A label for output and for `stress_mode: seed`: the
-/// stress itself is one continuous law.
+/// Gao et al. section 4.2; docs/physics.md B.9. A label for output and for `stress_mode:
+/// paper_switch`: the stress itself is one continuous law.
 enum class GrainState : std::uint8_t { dense, transition, dilute, ultradilute };
 
-/// Fractions alpha_p that part the states [-].
+/// Fractions alpha_p that separate the states [-].
 inline constexpr double dense_fraction = 0.60;        ///< above: dense
 inline constexpr double transition_fraction = 0.50;   ///< above: enduring contacts carry load
-inline constexpr double ultradilute_fraction = 0.02;  ///< below: lone parcels
+inline constexpr double ultradilute_fraction = 0.02;  ///< below: isolated particles
 
 /// Hysteresis of the labels, so that no grain flips each step (docs/physics.md B.9, I5).
 inline constexpr double leave_dense_fraction = 0.58;    ///< a dense grain stays so down to here
 inline constexpr double reenter_dense_fraction = 0.60;  ///< and becomes so again above
 inline constexpr double detach_fraction = 0.02;         ///< below this, or with
 inline constexpr int detach_neighbors = 4;              ///< fewer neighbours than this,
-inline constexpr int detach_steps = 5;                  ///< for so many steps on end: a lone parcel
-inline constexpr double attach_fraction = 0.03;         ///< above this, and with
-inline constexpr int attach_neighbors = 8;  ///< at least so many neighbours: a grain again
+inline constexpr int detach_steps = 5;           ///< for so many steps on end: an isolated particle
+inline constexpr double attach_fraction = 0.03;  ///< above this, and with
+inline constexpr int attach_neighbors = 8;       ///< at least so many neighbours: a grain again
 
 /// State by fraction alone, without memory.
 inline GrainState grain_state(double fraction) {

@@ -28,7 +28,7 @@ struct ContactPair {
   double mass = 1;           ///< m* = m_i m_j/(m_i+m_j); of a wall m_i [kg]
   double damping = 0;        ///< b = -ln e/sqrt(ln^2 e + pi^2), see damping_ratio [-]
   double friction = 0;       ///< mu_c [-]
-  /// Cuts F_n off at zero. By default the damper may pull while grains part: only so does the
+  /// Cuts F_n off at zero. By default the damper may pull while grains separate: only so does the
   /// restitution come out as set (0.5 gives 0.550 with the cut, docs/physics.md A.5, I14).
   bool never_pulls = false;
 };
@@ -52,7 +52,7 @@ struct ContactForce {
 
 /// Gao et al. Eqs. (18)-(22) in the corrected forms of docs/physics.md A.5 (those of LIGGGHTS):
 ///   k_n = 4/3 E* sqrt(R* delta)   S_n = 2 E* sqrt(R* delta)   k_t = S_t = 8 G* sqrt(R* delta)
-///   F_n = k_n delta - 2 sqrt(5/6) b sqrt(S_n m*) v_n          v_n > 0: parting
+///   F_n = k_n delta - 2 sqrt(5/6) b sqrt(S_n m*) v_n          v_n > 0: separating
 ///   F_t = -k_t xi, at most mu_c |F_n|; while it sticks, - 2 sqrt(5/6) b sqrt(S_t m*) v_t
 /// F_t with its damper is held to mu_c |F_n|, too, unlike there: a slow contact that slides lies at
 /// the limit, and looked at anew in every step it would count as sticking in the first of them.
@@ -61,7 +61,8 @@ struct ContactForce {
 /// \param overlap   delta > 0 [m]; without overlap there is no force and no history
 /// \param normal    unit, into the body that feels the force
 /// \param velocity  of that body's contact point relative to the other's, spins included [m/s]
-/// \param slip      way of that point relative to the other since the last call, velocity times
+/// \param slip      displacement of that point relative to the other since the last call, velocity
+/// times
 ///                  dt; its normal part does not count [m]
 /// \param history   xi, the stretched tangential spring, in and out [m]
 inline ContactForce press_contact(const ContactPair& pair, double overlap, const Vec3& normal,
@@ -127,7 +128,7 @@ inline GrainMaterial softened(GrainMaterial material, double modulus) {
   return material;
 }
 
-/// T_R = pi R sqrt(rho/G)/(0.1631 nu + 0.8766): a surface wave's way round half a sphere [s].
+/// T_R = pi R sqrt(rho/G)/(0.1631 nu + 0.8766): a surface wave's path round half a sphere [s].
 inline double rayleigh_time(const GrainMaterial& material, double radius) {
   return std::numbers::pi * radius * std::sqrt(material.density / material.shear_modulus()) /
          (0.1631 * material.poisson_ratio + 0.8766);

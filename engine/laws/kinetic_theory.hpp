@@ -39,7 +39,7 @@ struct KineticCoefficients {
 /// `longest_path` is this project's own bound, not in the paper. mu_kin and the first part of
 /// k_theta are what grains carry along their mean free path l = d/(6 sqrt(2) alpha g0). As alpha
 /// falls they tend to constants, so mu/(alpha rho_p) ~ l s grows without bound and takes the time
-/// step with it, although grains that meet nobody within a smoothing length do not exchange
+/// step with it, although grains without neighbours within a smoothing length do not exchange
 /// momentum at that rate. Where l is longer than the bound these parts are multiplied by
 /// longest_path/l; then mu/(alpha rho_p) tends to 5 sqrt(2 pi) longest_path s/(8 (1+e)).
 ///
@@ -55,14 +55,14 @@ inline KineticCoefficients kinetic_coefficients(
   // A floor far below any particle's fraction keeps 0/0 and infinity/infinity out.
   const double path = d / (6 * std::numbers::sqrt2 * std::max(fraction, 1e-12) * g0);
   const double streaming = root_pi * rho * d / (e1 * g0 * std::max(1.0, path / longest_path));
-  const double shear = 1 + 0.8 * collisions, heat = 1 + 1.2 * collisions;
+  const double shear = 1 + 0.8 * collisions, conducting = 1 + 1.2 * collisions;
 
   KineticCoefficients k;
   k.radial = g0;
   k.pressure = fraction * rho * (1 + 2 * collisions);
   k.bulk_viscosity = 4.0 / 3 * fraction * rho * d * collisions / root_pi;
   k.shear_viscosity = 0.6 * k.bulk_viscosity + 10.0 / 96 * streaming * shear * shear;
-  k.conductivity = 1.5 * k.bulk_viscosity + 150.0 / 384 * streaming * heat * heat;
+  k.conductivity = 1.5 * k.bulk_viscosity + 150.0 / 384 * streaming * conducting * conducting;
   k.dissipation = 12 * (1 - law.restitution) * fraction * rho * collisions / (d * root_pi);
   return k;
 }
@@ -73,7 +73,7 @@ inline KineticCoefficients kinetic_coefficients(
 ///   s = [s0 ((D-b) + (D+b) E) + 2a (1-E)] / [(D+b) + (D-b) E + 2 c s0 (1-E)].
 /// The smaller of D-b and D+b is taken as 4ac over the larger: nothing cancels, s >= 0 always.
 ///
-/// \param s0  >= 0 [m/s]; \param a heating >= 0 [m/s^2]; \param b [1/s], any sign;
+/// \param s0  >= 0 [m/s]; \param a production >= 0 [m/s^2]; \param b [1/s], any sign;
 /// \param c   dissipation >= 0 [1/m]; \param dt >= 0 [s]
 /// \return s(dt) [m/s]; infinite only where c = 0 and exp(-b dt) overflows
 inline double riccati_step(double s0, double a, double b, double c, double dt) {

@@ -8,9 +8,9 @@
 namespace sturz {
 namespace {
 
-/// Cells are flat rows cut finely: sixteen columns in a row of half a reach fill a patch about
-/// twice as long as high, and a run of neighbours ends near the circle around it.
-constexpr double height_per_reach = 0.5, width_per_reach = 0.125;
+/// Cells are flat rows cut finely: sixteen columns in a row of half a support radius fill a patch
+/// about twice as long as high, and a run of neighbours ends near the circle around it.
+constexpr double height_per_radius = 0.5, width_per_radius = 0.125;
 
 /// A group ends at the end of its row, and at a gap of this many cells, beyond which it would
 /// search a long strip between strangers.
@@ -24,23 +24,24 @@ struct Extent {
 }  // namespace
 
 void ColumnCells::build(const ParticleSet& set, const Domain& domain,
-                        const std::vector<double>& reach) {
-  const double longest = reach.empty() ? 0 : *std::max_element(reach.begin(), reach.end());
-  const double mean = std::accumulate(reach.begin(), reach.end(), 0.0) /
-                      static_cast<double>(std::max<std::size_t>(1, reach.size()));
+                        const std::vector<double>& support_radius) {
+  const double longest =
+      support_radius.empty() ? 0 : *std::max_element(support_radius.begin(), support_radius.end());
+  const double mean = std::accumulate(support_radius.begin(), support_radius.end(), 0.0) /
+                      static_cast<double>(std::max<std::size_t>(1, support_radius.size()));
   choose_frame(set, longest, mean);
   collect(set, domain, longest);
   sort_items();
   place(set);
-  make_groups(set, reach);
+  make_groups(set, support_radius);
 }
 
 void ColumnCells::choose_frame(const ParticleSet& set, double longest, double mean) {
   Extent x, y, z;
   for (std::size_t i = 0; i < set.size(); ++i) x.add(set.x[i]), y.add(set.y[i]), z.add(set.z[i]);
   if (set.size() == 0) x = y = z = {0, 0};
-  width_ = mean > 0 ? width_per_reach * mean : 1;
-  height_ = mean > 0 ? height_per_reach * mean : 1;
+  width_ = mean > 0 ? width_per_radius * mean : 1;
+  height_ = mean > 0 ? height_per_radius * mean : 1;
   // Room for periodic images around the columns.
   west_ = x.min - longest, south_ = y.min - longest;
   origin_z_ = 0.5 * (z.min + z.max);
@@ -65,7 +66,7 @@ std::int32_t ColumnCells::row_of(double y) const {
   return std::clamp(static_cast<std::int32_t>((y - south_) / height_), 0, n_rows_ - 1);
 }
 
-void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double reach) {
+void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double support_radius) {
   items_.clear();
   auto add = [&](std::size_t i, double dx, double dy, double dz) {
     const auto cell =
@@ -74,15 +75,15 @@ void ColumnCells::collect(const ParticleSet& set, const Domain& domain, double r
   };
   for (std::size_t i = 0; i < set.size(); ++i) add(i, 0, 0, 0);
   if (!domain.x.active && !domain.y.active) return;
-  // Images stand within one reach of the period's edges; where the period is shorter than the
-  // reach, several of them do. Those beyond the frame are nobody's neighbours and would not fit
-  // into the records' positions.
+  // Images stand within one support radius of the period's edges; where the period is shorter than
+  // the support radius, several of them do. Those beyond the frame are neighbours of no column and
+  // would not fit into the records' positions.
   const double east = west_ + n_cols_ * width_, north = south_ + n_rows_ * height_;
   auto for_each_turn = [&](const Period& p, double position, auto&& visit) {
     visit(0);
     if (!p.active) return;
-    for (int k = 1; position + (k - 1) * p.length() < p.min + reach; ++k) visit(k);
-    for (int k = 1; position - (k - 1) * p.length() >= p.max - reach; ++k) visit(-k);
+    for (int k = 1; position + (k - 1) * p.length() < p.min + support_radius; ++k) visit(k);
+    for (int k = 1; position - (k - 1) * p.length() >= p.max - support_radius; ++k) visit(-k);
   };
   for (std::size_t i = 0; i < set.size(); ++i)
     for_each_turn(domain.x, set.x[i], [&](int a) {
@@ -125,7 +126,7 @@ struct ColumnCells::Box {
   Extent x, y;
 };
 
-void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>& reach) {
+void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>& support_radius) {
   groups_.clear();
   runs_.clear();
   std::uint32_t begin = 0;
@@ -141,7 +142,7 @@ void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>&
       if (end > begin && static_cast<std::int32_t>(item.cell - sorted_[end - 1].cell) > widest_gap)
         break;
       box.x.add(set.x[item.source] + item.dx), box.y.add(set.y[item.source] + item.dy);
-      longest = std::max(longest, reach[item.source]);
+      longest = std::max(longest, support_radius[item.source]);
     }
     const auto first_run = static_cast<std::uint32_t>(runs_.size());
     add_runs(box, longest);
@@ -150,14 +151,18 @@ void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>&
   }
 }
 
-/// In each row what lies within `reach` of the box, no farther along than the row's distance
-/// leaves.
-void ColumnCells::add_runs(const Box& box, double reach) {
-  for (std::int32_t row = row_of(box.y.min - reach); row <= row_of(box.y.max + reach); ++row) {
+/// In each row what lies within `support_radius` of the box, no farther along than the row's
+/// distance leaves.
+void ColumnCells::add_runs(const Box& box, double support_radius) {
+  for (std::int32_t row = row_of(box.y.min - support_radius);
+       row <= row_of(box.y.max + support_radius); ++row) {
     const double south = south_ + row * height_, north = south + height_;
     // A hair wider than the circle: cells are found with rounding.
-    const double off = std::max({0.0, box.y.min - north, south - box.y.max}) - 1e-9 * reach;
-    const double along = off > 0 ? std::sqrt(std::max(0.0, reach * reach - off * off)) : reach;
+    const double off =
+        std::max({0.0, box.y.min - north, south - box.y.max}) - 1e-9 * support_radius;
+    const double along = off > 0
+                             ? std::sqrt(std::max(0.0, support_radius * support_radius - off * off))
+                             : support_radius;
     const std::uint32_t* cells = cell_begin_.data() + std::ptrdiff_t{row} * n_cols_;
     const std::uint32_t begin = cells[col_of(box.x.min - along)];
     const std::uint32_t end = cells[col_of(box.x.max + along) + 1];

@@ -19,8 +19,9 @@ class ColumnCells {
  public:
   /// Sorts the columns and their periodic images by cell and fills the records' positions; within
   /// a cell they keep their storage order. Positions must lie inside the domain's periods.
-  /// \param reach  support radius of each column [m], [n]; its largest bounds what images exist
-  void build(const ParticleSet&, const Domain&, const std::vector<double>& reach);
+  /// \param support_radius  of each column [m], [n]; its largest bounds what images
+  /// exist
+  void build(const ParticleSet&, const Domain&, const std::vector<double>& support_radius);
 
   /// Records and images, in order of their cells.
   std::size_t size() const { return source_.size(); }
@@ -38,12 +39,12 @@ class ColumnCells {
     double dx, dy, dz;  ///< of a periodic image [m]
   };
   void choose_frame(const ParticleSet&, double longest, double mean);
-  void collect(const ParticleSet&, const Domain&, double reach);
+  void collect(const ParticleSet&, const Domain&, double support_radius);
   void sort_items();
   void place(const ParticleSet&);
-  void make_groups(const ParticleSet&, const std::vector<double>& reach);
+  void make_groups(const ParticleSet&, const std::vector<double>& support_radius);
   struct Box;
-  void add_runs(const Box&, double reach);
+  void add_runs(const Box&, double support_radius);
   std::int32_t col_of(double x) const;
   std::int32_t row_of(double y) const;
 

@@ -3,7 +3,7 @@
 /// loop is compiled once per instruction set.
 #pragma once
 
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,12 +13,12 @@ namespace sturz {
 /// One column of a depth-averaged flow as neighbour. Positions are fixed point, see ColumnView.
 struct alignas(16) ColumnRecord {
   std::int32_t x, y, z;
-  float volume;         ///< [m^3]
-  float vx, vy, vz;     ///< [m/s]
-  float inverse_reach;  ///< one over the support radius [1/m]
-  float thickness;      ///< along the ground's normal [m]
-  float lateral;        ///< K g_n: lateral pressure over density and thickness [m/s^2]
-  float wave_speed;     ///< sqrt(K g_n thickness) [m/s]
+  float volume;          ///< [m^3]
+  float vx, vy, vz;      ///< [m/s]
+  float inverse_radius;  ///< one over the support radius [1/m]
+  float thickness;       ///< along the ground's normal [m]
+  float lateral;         ///< K g_n: lateral pressure over density and thickness [m/s^2]
+  float wave_speed;      ///< sqrt(K g_n thickness) [m/s]
   float spare;
 };
 static_assert(sizeof(ColumnRecord) == 48);

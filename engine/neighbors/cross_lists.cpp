@@ -74,7 +74,7 @@ void CrossLists::enter(const ParticleSet& to, const Domain& domain) {
 /// Cells that follow each other along x have neighbouring numbers: nine runs of three cells.
 void CrossLists::list(const ParticleSet& from, const ParticleSet& to, std::size_t i,
                       std::vector<std::uint32_t>& out) const {
-  const double reach = support_ + skin_;
+  const double search_radius = support_ + skin_;
   const auto by_cell = [](const Source& s, std::uint64_t cell) { return s.cell < cell; };
   for (int dz = -1; dz <= 1; ++dz)
     for (int dy = -1; dy <= 1; ++dy) {
@@ -84,7 +84,7 @@ void CrossLists::list(const ParticleSet& from, const ParticleSet& to, std::size_
       for (; s != sources_.end() && s->cell <= last; ++s) {
         const Vec3 r(from.x[i] - to.x[s->index] - s->dx, from.y[i] - to.y[s->index] - s->dy,
                      from.z[i] - to.z[s->index] - s->dz);
-        if (r.squaredNorm() < reach * reach)
+        if (r.squaredNorm() < search_radius * search_radius)
           out.push_back(static_cast<std::uint32_t>(s - sources_.begin()));
       }
     }

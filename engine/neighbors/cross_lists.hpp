@@ -67,7 +67,7 @@ class CrossLists {
   double origin_[3] = {0, 0, 0};                     ///< of the cells [m]
   std::vector<Source> sources_;                      ///< by cell
   std::vector<Run> runs_;                            ///< [from]
-  std::vector<std::vector<std::uint32_t>> entries_;  ///< [block] places in sources_
+  std::vector<std::vector<std::uint32_t>> entries_;  ///< [block] indices into sources_
 };
 
 template <class Visit>

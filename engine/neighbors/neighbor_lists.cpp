@@ -29,8 +29,8 @@ void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads,
   sort_particles(set);
   make_images(set, domain);
   // Padding records carry no volume, so a lane that shares their group sees nothing of them.
-  records_.assign(padded_size() + images_.size(), PackedRecord{});
-  pack_positions(set, 0, n_particles_);
+  records_.assign(padded_size() + images_.size(), NeighborRecord{});
+  gather_positions(set, 0, n_particles_);
   for (std::size_t i = n_particles_; i < padded_size(); ++i)
     records_[i] = records_[n_particles_ - 1];
   copy_images();
@@ -41,7 +41,7 @@ void NeighborLists::rebuild(ParticleSet& set, const Domain& domain, int threads,
   ++n_rebuilds_;
 }
 
-/// Nobody to list.
+/// No particle to list.
 void NeighborLists::rest() {
   images_.clear();
   records_.clear();
@@ -71,12 +71,12 @@ void NeighborLists::choose_frame(const ParticleSet& set, const Domain& domain) {
   while (bits > 10 && (extent + 4 * support_) / support_ * std::ldexp(1.0, bits) > 1.0e9) --bits;
   unit_ = std::ldexp(support_, -bits);
 
-  const double reach = support_ + skin_;
-  width_ = reach;
-  west_ = lo[0] - 2 * reach;
-  south_ = lo[1] - 2 * reach;
+  const double search_radius = support_ + skin_;
+  width_ = search_radius;
+  west_ = lo[0] - 2 * search_radius;
+  south_ = lo[1] - 2 * search_radius;
   auto count = [&](int k) {
-    return static_cast<std::uint32_t>((hi[k] - lo[k] + 4 * reach) / width_) + 1;
+    return static_cast<std::uint32_t>((hi[k] - lo[k] + 4 * search_radius) / width_) + 1;
   };
   // A few far particles must not cost a table of empty columns.
   while (double(count(0)) * count(1) > 8.0 * n_particles_ + 4096) width_ *= 2;
@@ -112,13 +112,13 @@ void NeighborLists::sort_particles(ParticleSet& set) {
 void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
   images_.clear();
   if (!domain.x.active && !domain.y.active) return;
-  const double reach = support_ + skin_;
+  const double search_radius = support_ + skin_;
   auto shifts = [&](const Period& p, double position, double out[3]) {
     int n = 0;
     out[n++] = 0;
     if (!p.active) return n;
-    if (position < p.min + reach) out[n++] = 1;
-    if (position >= p.max - reach) out[n++] = -1;
+    if (position < p.min + search_radius) out[n++] = 1;
+    if (position >= p.max - search_radius) out[n++] = -1;
     return n;
   };
   for (std::size_t i = 0; i < n_particles_; ++i) {
@@ -134,7 +134,7 @@ void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
   }
 }
 
-void NeighborLists::pack_positions(const ParticleSet& set, std::size_t begin, std::size_t end) {
+void NeighborLists::gather_positions(const ParticleSet& set, std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) {
     records_[i].x = to_units(set.x[i], origin_[0], unit_);
     records_[i].y = to_units(set.y[i], origin_[1], unit_);
@@ -145,7 +145,7 @@ void NeighborLists::pack_positions(const ParticleSet& set, std::size_t begin, st
 void NeighborLists::copy_images() {
   for (std::size_t k = 0; k < images_.size(); ++k) {
     const PeriodicImage& image = images_[k];
-    PackedRecord& r = records_[padded_size() + k];
+    NeighborRecord& r = records_[padded_size() + k];
     r = records_[image.source];
     r.x += to_units(image.dx, 0, unit_);
     r.y += to_units(image.dy, 0, unit_);
@@ -160,7 +160,7 @@ void NeighborLists::sort_records() {
   column_begin_.assign(std::size_t{n_cols_} * n_rows_ + 1, 0);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t r = k < n_particles_ ? k : padded_size() + k - n_particles_;
-    const PackedRecord& p = records_[r];
+    const NeighborRecord& p = records_[r];
     const auto column = column_of(origin_[0] + p.x * unit_, origin_[1] + p.y * unit_);
     keys_[k] =
         (std::uint64_t{column} << 32) | std::uint64_t(std::int64_t{p.z} + (std::int64_t{1} << 31));
@@ -182,17 +182,19 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
   const int n = static_cast<int>(std::min<std::size_t>(group_size, n_particles_ - first));
   std::int64_t lo[3] = {0, 0, 0}, hi[3] = {0, 0, 0};
   for (int k = 0; k < n; ++k) {
-    const PackedRecord& p = records_[first + k];
+    const NeighborRecord& p = records_[first + k];
     const std::int64_t c[3] = {p.x, p.y, p.z};
     for (int d = 0; d < 3; ++d) {
       lo[d] = k ? std::min(lo[d], c[d]) : c[d];
       hi[d] = k ? std::max(hi[d], c[d]) : c[d];
     }
   }
-  const double reach = support_ + skin_;
-  const auto reach_units = static_cast<std::int64_t>(reach / unit_) + 1;
-  const double x0 = origin_[0] + lo[0] * unit_ - reach, x1 = origin_[0] + hi[0] * unit_ + reach;
-  const double y0 = origin_[1] + lo[1] * unit_ - reach, y1 = origin_[1] + hi[1] * unit_ + reach;
+  const double search_radius = support_ + skin_;
+  const auto radius_units = static_cast<std::int64_t>(search_radius / unit_) + 1;
+  const double x0 = origin_[0] + lo[0] * unit_ - search_radius,
+               x1 = origin_[0] + hi[0] * unit_ + search_radius;
+  const double y0 = origin_[1] + lo[1] * unit_ - search_radius,
+               y1 = origin_[1] + hi[1] * unit_ + search_radius;
   auto clamp_index = [&](double v, double edge, std::uint32_t count) {
     return std::min<std::int64_t>(count - 1,
                                   std::max<std::int64_t>(0, std::int64_t((v - edge) / width_)));
@@ -204,19 +206,19 @@ std::size_t NeighborLists::collect(std::size_t group, std::vector<std::uint32_t>
       const std::size_t column = row * n_cols_ + (row % 2 ? n_cols_ - 1 - col : col);
       auto it = sorted_.begin() + column_begin_[column];
       const auto last = sorted_.begin() + column_begin_[column + 1];
-      it = std::lower_bound(it, last, lo[2] - reach_units,
+      it = std::lower_bound(it, last, lo[2] - radius_units,
                             [&](std::uint32_t r, std::int64_t z) { return records_[r].z < z; });
-      for (; it != last && records_[*it].z <= hi[2] + reach_units; ++it) {
-        const PackedRecord& p = records_[*it];
-        if (p.x >= lo[0] - reach_units && p.x <= hi[0] + reach_units &&
-            p.y >= lo[1] - reach_units && p.y <= hi[1] + reach_units)
+      for (; it != last && records_[*it].z <= hi[2] + radius_units; ++it) {
+        const NeighborRecord& p = records_[*it];
+        if (p.x >= lo[0] - radius_units && p.x <= hi[0] + radius_units &&
+            p.y >= lo[1] - radius_units && p.y <= hi[1] + radius_units)
           candidates.push_back(*it);
       }
     }
   const std::size_t start = out.size();
   out.resize(start + candidates.size());
   const std::size_t found = tight_(records_.data(), first, n, candidates.data(), candidates.size(),
-                                   static_cast<float>(reach / unit_), out.data() + start);
+                                   static_cast<float>(search_radius / unit_), out.data() + start);
   out.resize(start + found);
   return found;
 }
@@ -242,7 +244,7 @@ void NeighborLists::build_lists(int threads) {
   });
 }
 
-PackedView NeighborLists::view() const {
+NeighborView NeighborLists::view() const {
   return {records_.data(), n_particles_, blocks_.data(), list_end_.data(), unit_};
 }
 
@@ -255,7 +257,7 @@ std::size_t NeighborLists::n_entries() const {
 std::size_t NeighborLists::bytes() const {
   std::size_t blocks = 0;
   for (const auto& b : block_lists_) blocks += b.capacity() * sizeof(std::uint32_t);
-  return blocks + records_.capacity() * sizeof(PackedRecord) +
+  return blocks + records_.capacity() * sizeof(NeighborRecord) +
          keys_.capacity() * sizeof(std::uint64_t) +
          (order_.capacity() + sorted_.capacity() + column_begin_.capacity() +
           list_end_.capacity()) *

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/domain.hpp"
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 #include "engine/particles/particle_set.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 namespace sturz {
 
 /// Finds those of the candidates that are near a group; see Sweeps::tight_list.
-using TightList = std::size_t (*)(const PackedRecord*, std::size_t first, int n_in_group,
+using TightList = std::size_t (*)(const NeighborRecord*, std::size_t first, int n_in_group,
                                   const std::uint32_t* candidates, std::size_t n_candidates,
-                                  float reach_units, std::uint32_t* out);
+                                  float radius_units, std::uint32_t* out);
 
 /// A periodic image: record `source` moved by a whole period.
 struct PeriodicImage {
@@ -29,7 +29,7 @@ struct PeriodicImage {
 /// relative to each other since the last build.
 class NeighborLists {
  public:
-  /// \param support 2h [m]; \param skin extra reach [m]
+  /// \param support 2h [m]; \param skin extra radius [m]
   NeighborLists(double support, double skin, TightList tight);
 
   bool needs_rebuild() const { return stale_ || moved_ >= skin_; }
@@ -42,7 +42,7 @@ class NeighborLists {
   void rebuild(ParticleSet& set, const Domain& domain, int threads) {
     rebuild(set, domain, threads, set.size());
   }
-  /// The same for the first `n_listed` particles; the others keep their places behind them.
+  /// The same for the first `n_listed` particles; the others keep their positions behind them.
   void rebuild(ParticleSet&, const Domain&, int threads, std::size_t n_listed);
   /// Calls visit(record, r^2 [m^2]) for every listed particle or image within the support of a
   /// point, in a fixed order. An image's record stands for its source.
@@ -55,17 +55,17 @@ class NeighborLists {
   }
   /// Writes positions (fixed point) of all records; the caller fills the other values of records
   /// 0..n-1 and then calls copy_images().
-  void pack_positions(const ParticleSet&, std::size_t begin, std::size_t end);
+  void gather_positions(const ParticleSet&, std::size_t begin, std::size_t end);
   void copy_images();
 
-  PackedRecord* records() { return records_.data(); }
+  NeighborRecord* records() { return records_.data(); }
   std::size_t n_groups() const { return n_groups_; }
   std::size_t padded_size() const { return n_groups_ * group_size; }
   /// Particles, padding and images, in whole groups.
   std::size_t n_records_rounded() const {
     return (records_.size() + group_size - 1) / group_size * group_size;
   }
-  PackedView view() const;
+  NeighborView view() const;
   /// Entries of all lists: the work of one sweep is 16 times as many pairs.
   std::size_t n_entries() const;
   std::size_t n_rebuilds() const { return n_rebuilds_; }
@@ -95,12 +95,12 @@ class NeighborLists {
 
   std::size_t n_particles_ = 0, n_groups_ = 0;
   std::vector<PeriodicImage> images_;
-  std::vector<PackedRecord> records_;  // particles, padding to whole groups, images
-  std::vector<std::uint64_t> keys_;    // column and height of what is being sorted
+  std::vector<NeighborRecord> records_;  // particles, padding to whole groups, images
+  std::vector<std::uint64_t> keys_;      // column and height of what is being sorted
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> sorted_;  // record numbers in column order
   std::vector<std::uint32_t> column_begin_;
-  std::vector<std::uint32_t> list_end_;  // see PackedView
+  std::vector<std::uint32_t> list_end_;  // see NeighborView
   std::vector<std::vector<std::uint32_t>> block_lists_;
   std::vector<const std::uint32_t*> blocks_;
 };
@@ -124,7 +124,7 @@ void NeighborLists::for_each_near(double x, double y, double z, Visit&& visit) c
       const auto column =
           static_cast<std::size_t>(row * n_cols_ + (row % 2 ? n_cols_ - 1 - col : col));
       for (auto k = column_begin_[column]; k < column_begin_[column + 1]; ++k) {
-        const PackedRecord& r = records_[sorted_[k]];
+        const NeighborRecord& r = records_[sorted_[k]];
         const double dx = origin_[0] + r.x * unit_ - x, dy = origin_[1] + r.y * unit_ - y;
         const double dz = origin_[2] + r.z * unit_ - z, r2 = dx * dx + dy * dy + dz * dz;
         if (r2 < support_ * support_) visit(std::size_t{sorted_[k]}, r2);

@@ -13,7 +13,7 @@
 namespace sturz {
 
 /// Particles in storage order, which changes when neighbours are sorted and when particles come
-/// and go; `id` never does. Who wants to follow a particle follows its id.
+/// and go; `id` never does. A particle is followed by its id.
 struct ParticleSet {
   std::vector<double> x, y, z;     ///< position [m], map coordinates
   std::vector<double> vx, vy, vz;  ///< velocity at the last half step [m/s]

@@ -39,8 +39,8 @@ std::size_t stack_size(double thickness, double spacing) {
 /// The even stack h/k (1/2, 3/2, ...) would put the lowest particle nearer to the bed than the
 /// contact distance dx/2 wherever the layers are thinner than dx or the bed is inclined (vertical
 /// dx/2 is dx/2 n_z along the normal): the contact spring would start compressed and throw the
-/// mass up. So the lowest starts at contact distance, the highest keeps its place, and the masses,
-/// which carry the volume, stay as they are.
+/// mass up. So the lowest starts at contact distance, the highest keeps its position, and the
+/// masses, which carry the volume, stay as they are.
 struct Stack {
   double first, last;
   Stack(double thickness, std::size_t k, double spacing, double normal_z)
@@ -51,12 +51,12 @@ struct Stack {
   }
 };
 
-class Filler {
+class ParticleWriter {
  public:
-  Filler(const Terrain& bed, const ReleaseSettings& s, Release& out)
+  ParticleWriter(const Terrain& bed, const ReleaseSettings& s, Release& out)
       : bed_(bed), settings_(s), out_(out) {}
 
-  void fill(const ReleaseColumn& c) {
+  void deposit(const ReleaseColumn& c) {
     const double dx = settings_.spacing_m;
     const double x = (c.lattice_x + 0.5) * dx, y = (c.lattice_y + 0.5) * dx;
     require(bed_.inside(x, y),
@@ -90,7 +90,7 @@ class Filler {
     out_.thickness.push_back(c.thickness_m);
   }
 
-  /// A jittered point above the bed, counted by its place on the lattice so that the same particle
+  /// A jittered point above the bed, counted by its index on the lattice so that the same particle
   /// gets the same jitter whatever the extent of the release.
   Vec3 place(const ReleaseColumn& c, std::size_t layer, double x, double y, double offset) const {
     Vec3 p = jittered(c, layer, x, y, offset, settings_.jitter * settings_.spacing_m);
@@ -144,9 +144,10 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
   require(s.spacing_m > 0 && std::isfinite(s.spacing_m) && s.bulk_density_kg_m3 > 0,
           "release: spacing and bulk density must be positive (they give a particle its volume). "
           "Check numerics.spacing_m and the grains' density.");
-  require(s.jitter >= 0 && s.jitter < 0.5,
-          "release: the jitter must be in 0..0.5 spacings (more would swap lattice places). Check "
-          "numerics.jitter.");
+  require(
+      s.jitter >= 0 && s.jitter < 0.5,
+      "release: the jitter must be in 0..0.5 spacings (more would swap lattice positions). Check "
+      "numerics.jitter.");
   const ReleaseColumns columns = release_columns(thickness, s.spacing_m);
   Release out;
   out.volume_m3 = columns.volume_m3;
@@ -173,9 +174,9 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
   out.dropped_fraction = dropped.value() / (dropped.value() + all.value());
   for (auto* column : {&out.x, &out.y, &out.z, &out.mass, &out.depth, &out.thickness})
     column->reserve(n);
-  Filler filler(bed, s, out);
+  ParticleWriter writer(bed, s, out);
   for (const auto& c : columns.columns)
-    if (kept(c)) filler.fill(c);
+    if (kept(c)) writer.deposit(c);
   scale_to(s.bulk_density_kg_m3 * out.volume_m3, out.mass);
   return out;
 }

@@ -18,11 +18,11 @@ ParticleFrame FrameBuffers::frame(const State& s, std::size_t set) {
       pressure_[i] = density_[i] * g_n[i] * thickness->component[0][i];  // at the bed
   }
   if (const Field* stress = p.find(fields::stress)) {
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     solid_fraction_.assign(p.size(), p.reference_fraction);
     for (std::size_t i = 0; i < p.size(); ++i) {
-      density_[i] *= 1 + compression[i];
-      solid_fraction_[i] *= 1 + compression[i];
+      density_[i] *= 1 + density_change[i];
+      solid_fraction_[i] *= 1 + density_change[i];
       pressure_[i] =
           -(stress->component[0][i] + stress->component[1][i] + stress->component[2][i]) / 3;
     }

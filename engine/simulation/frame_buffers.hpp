@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The particles of one instant as whoever draws them wants them.
+/// The particles of one instant as they are drawn.
 #pragma once
 
 #include "engine/simulation/simulation.hpp"

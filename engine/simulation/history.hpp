@@ -8,8 +8,8 @@
 
 namespace sturz {
 
-/// One instant, of the mass that is still on the terrain. Travel is the horizontal way of a
-/// particle from where it started.
+/// One instant, of the mass that is still on the terrain. Travel is the horizontal displacement of
+/// a particle from where it started.
 struct HistoryRow {
   float time_s = 0;
   float front_travel_m = 0;   ///< of the farthest particle
@@ -38,7 +38,7 @@ struct HistoryColumn {
 /// Every column in file order, time first; the one table that netCDF and report share.
 std::span<const HistoryColumn> history_table();
 
-/// Not part of any hash: it says when someone looked, the state says what happened.
+/// Not part of any hash: it depends on when the state was sampled, not on what happened.
 struct MemberHistory {
   std::vector<HistoryRow> rows;  ///< time rises strictly
   bool has_states = false;       ///< grains.states was asked for

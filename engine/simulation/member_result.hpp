@@ -35,7 +35,7 @@ struct MemberScalars {
   double front_travel_m = 0;   ///< farthest horizontal displacement of a particle from its start
   double com_travel_m = 0;     ///< horizontal displacement of the centre of mass
   double drop_m = 0;           ///< highest release elevation minus lowest deposit elevation
-  double reached_area_m2 = 0;  ///< cells with smoothed thickness above the reach limit at any time
+  double reached_area_m2 = 0;  ///< cells with smoothed thickness above the runout limit at any time
   double deposit_area_m2 = 0;  ///< the same at the end
   double max_speed_m_s = 0;    ///< fastest particle (99.9 % quantile of mass when > 1000 particles)
   double max_mean_speed_m_s = 0;  ///< largest mass-averaged speed
@@ -45,7 +45,7 @@ struct MemberScalars {
   double max_pressure_pa = 0;
   double release_volume_m3 = 0;  ///< bulk
   double released_mass_kg = 0;
-  double lost_mass_kg = 0;     ///< left through the rim or removed, booked
+  double lost_mass_kg = 0;     ///< left through the domain boundary or removed, accounted for
   double mass_error = 0;       ///< (kept + lost - released) / released; exactly 0 expected
   double energy_residual = 0;  ///< unexplained energy / released energy (see Ledger)
   double release_layers = 0;   ///< volume-weighted median vertical thickness / spacing at release
@@ -54,7 +54,7 @@ struct MemberScalars {
       0;                  ///< cell thickness / spacing that half of the mass exceeds, time average
   double layers_p10 = 0;  ///< the same for 90 % of the mass
   double take_off_fraction =
-      0;  ///< mass and time on ground that bends away faster than it falls; depth_averaged
+      0;  ///< mass and time on ground that curves away faster than it falls; depth_averaged
   double max_mach = 0;           ///< fastest particle / sound speed
   double max_density_error = 0;  ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
   double end_time_s = 0;         ///< simulated

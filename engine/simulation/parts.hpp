@@ -14,7 +14,7 @@ namespace sturz {
 
 /// What a run has to know of its release.
 struct ReleaseFacts {
-  double layers = 0;        ///< volume-weighted median thickness over the particle spacing
+  double layers = 0;        ///< volume-weighted median thickness over the initial particle spacing
   double volume_m3 = 0;     ///< of the source
   double x_m = 0, y_m = 0;  ///< centre of mass
   double top_m = 0;         ///< highest elevation

@@ -86,13 +86,13 @@ PeakMaps::PeakMaps(PeakMapSettings settings) : settings_(std::move(settings)) {
 
 /// Columns bring their own widths.
 PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
-  const Field* reach = p.find(fields::support_radius);
+  const Field* support_radius = p.find(fields::support_radius);
   Width w;
-  w.reach = reach ? reach->component[0].data() : nullptr;
+  w.support_radius = support_radius ? support_radius->component[0].data() : nullptr;
   double width_m = p.spacing;
-  if (reach && p.size() > 0) {
-    const auto& all = reach->component[0];
-    width_m = settings_.width_per_reach * *std::max_element(all.begin(), all.end());
+  if (support_radius && p.size() > 0) {
+    const auto& all = support_radius->component[0];
+    width_m = settings_.width_per_radius * *std::max_element(all.begin(), all.end());
   }
   w.cells = cells_wide(width_m, settings_.grid.cell_m);
   w.n_weights = static_cast<int>(std::ceil(3 * w.cells));
@@ -100,7 +100,7 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
 }
 
 /// Widths of all sets, and the cells that they can touch.
-Window PeakMaps::look_at(std::span<const MovingSet> sets) {
+Window PeakMaps::bounds_of(std::span<const MovingSet> sets) {
   expect(!sets.empty() && (mass_.empty() || mass_.size() == sets.size()), "the sets stay the same");
   mass_.resize(sets.size());
   widths_.clear();
@@ -177,8 +177,8 @@ template <bool with_motion>
 void PeakMaps::scatter_set(const ParticleSet& p, const Width& spread, std::vector<double>& mass) {
   const Grid& g = settings_.grid;
   const double per_cell = 1 / g.cell_m, far = 1.5 * spread.cells + 1;
-  const double width_per_reach = settings_.width_per_reach, cell = g.cell_m;
-  const double* const reach = spread.reach;
+  const double width_per_radius = settings_.width_per_radius, cell = g.cell_m;
+  const double* const support_radius = spread.support_radius;
   // Copies, because the compiler must assume that writing a double may change any member.
   const Room room{weights_x_.data(), weights_y_.data(), mass.data(),
                   motion_.data(),    room_.n_rows,      room_.n_cols};
@@ -194,8 +194,8 @@ void PeakMaps::scatter_set(const ParticleSet& p, const Width& spread, std::vecto
         !std::isfinite(v2))
       continue;
     const Motion motion(vx, vy, vz, 0.5 * v2);
-    if (reach) {
-      width = cells_wide(width_per_reach * reach[i], cell);
+    if (support_radius) {
+      width = cells_wide(width_per_radius * support_radius[i], cell);
       n = static_cast<int>(std::ceil(3 * width));
     }
     switch (n) {
@@ -247,7 +247,7 @@ void PeakMaps::keep_peaks(std::span<const MovingSet> sets, const Window& w, floa
         mass_by_layers_[layer_bin(layers)] += mass_[n][k];
       }
       peak.thickness = std::max(peak.thickness, static_cast<float>(thickness));
-      if (thickness > settings_.reach_limit_m) {
+      if (thickness > settings_.runout_limit_m) {
         const double density =
             n_sets == 1 ? sets[0].bulk_density : mass * per_area / thickness;  // of the mixture
         const Motion& sums = motion_[k];
@@ -279,7 +279,7 @@ void PeakMaps::count_layers(double total_mass) {
 }
 
 void PeakMaps::record(std::span<const MovingSet> sets, double time_s) {
-  const Window w = look_at(sets);
+  const Window w = bounds_of(sets);
   if (w.n_cells() == 0) return;
   make_room(w);
   scatter<true>(sets);
@@ -332,7 +332,7 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
       result.layer(PeakLayer::arrival)[k] = p.arrival;
       result.layer(PeakLayer::deposit)[k] = p.deposit;
       totals.reached += !std::isnan(p.arrival);
-      totals.covered += p.deposit > settings_.reach_limit_m;
+      totals.covered += p.deposit > settings_.runout_limit_m;
       Peak& most = totals.most;
       most.thickness = std::max(most.thickness, p.thickness);
       most.deposit = std::max(most.deposit, p.deposit);
@@ -344,7 +344,7 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
 
 void PeakMaps::finish(std::span<const MovingSet> final_state, MemberResult& result) {
   for (Peak& peak : peak_) peak.deposit = 0;
-  const Window w = look_at(final_state);
+  const Window w = bounds_of(final_state);
   if (w.n_cells() > 0) {
     make_room(w);
     scatter<false>(final_state);

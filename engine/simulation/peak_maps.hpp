@@ -13,11 +13,11 @@
 namespace sturz {
 
 struct PeakMapSettings {
-  Grid grid;                    ///< the whole hazard grid
-  double reach_limit_m = 0.05;  ///< smoothed thickness that counts as reached: max(0.05, dx/10)
-  /// Width of a particle with a field "reach" (a column) over that reach: one and a half mean
-  /// distances of columns, so that a lattice leaves no pattern on the map.
-  double width_per_reach = 0.375;
+  Grid grid;                     ///< the whole hazard grid
+  double runout_limit_m = 0.05;  ///< smoothed thickness that counts as reached: max(0.05, dx/10)
+  /// Width of a particle with a field "support_radius" (a column) over that radius: one and a half
+  /// mean distances of columns, so that a lattice leaves no pattern on the map.
+  double width_per_radius = 0.375;
 };
 
 /// Thickness over spacing, weighted by mass, at one instant.
@@ -39,7 +39,7 @@ class PeakMaps {
 
   /// Takes in one instant of all sets; a particle's volume is its mass over its set's bulk density,
   /// so volume is exact. Serial, summed in double and in storage order: bitwise reproducible for
-  /// a given particle order. Particles without a finite place and speed are left out.
+  /// a given particle order. Particles without a finite position and speed are left out.
   void record(std::span<const MovingSet>, double time_s);
   /// Writes window, layers (deposit from `final_state`) and the map scalars (reached and deposit
   /// area, maxima) into `result`. Record the final state first, as any other instant.
@@ -62,13 +62,13 @@ class PeakMaps {
   using Motion = Eigen::Array4d;
   /// How wide the particles of a set are spread.
   struct Width {
-    double cells = 1;               ///< of the B-spline; the largest where it varies
-    int n_weights = 3;              ///< cells that one particle can touch per direction
-    const double* reach = nullptr;  ///< of columns, each its own
+    double cells = 1;                        ///< of the B-spline; the largest where it varies
+    int n_weights = 3;                       ///< cells that one particle can touch per direction
+    const double* support_radius = nullptr;  ///< of columns, each its own
   };
   Width width_of(const MovingSet&) const;
   Window cover(const ParticleSet&, const Width&) const;
-  Window look_at(std::span<const MovingSet>);
+  Window bounds_of(std::span<const MovingSet>);
   void make_room(const Window&);
   /// What adding a particle needs, at hand.
   struct Room {

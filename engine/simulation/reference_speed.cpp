@@ -57,7 +57,7 @@ class MassPoint {
     speed_ = speed;
   }
 
-  /// Largest speed until rest, rim or end.
+  /// Largest speed until rest, domain boundary or end.
   double fastest(double end_time) {
     const double cell = terrain_.grid().cell_m;
     const Grid& grid = terrain_.grid();
@@ -84,8 +84,8 @@ class MassPoint {
     if (!terrain_.inside(x_, y_)) return false;
     const Ground g = ground_at(terrain_, x_, y_);
     const double q = 1 + g.zx * g.zx + g.zy * g.zy;
-    const double bend = g.zxx * vx_ * vx_ + 2 * g.zxy * vx_ * vy_ + g.zyy * vy_ * vy_;
-    const double reaction = std::max(0.0, (gravity + bend) / q);
+    const double curvature = g.zxx * vx_ * vx_ + 2 * g.zxy * vx_ * vy_ + g.zyy * vy_ * vy_;
+    const double reaction = std::max(0.0, (gravity + curvature) / q);
     vx_ -= dt * reaction * g.zx;
     vy_ -= dt * reaction * g.zy;
     const double before = along_surface(g);

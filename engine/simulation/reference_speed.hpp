@@ -13,7 +13,7 @@ namespace sturz {
 /// the straight-line bound.
 ///
 /// The points slide on the ground smoothed over one cell, with centripetal reaction; where they
-/// would take off they stay on it, but never get faster than gravity and friction allow. A point
+/// would detach they stay on it, but never get faster than gravity and friction allow. A point
 /// ends at rest, where it leaves the known ground, or at end_time_s.
 /// \param effective_friction mu_b (1 - r_u) [-], negative counts as zero
 /// \param initial_speed       down the steepest slope [m/s]

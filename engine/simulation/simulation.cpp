@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 /// Between two looks at the motion at least [s]: a tenth of the time a particle takes to fall by
 /// its own size.
-double look_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
+double sample_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -43,7 +43,7 @@ bool any_has(const State& state, const auto& key) {
                      [&](const MovingSet& set) { return set.has(key); });
 }
 
-/// One member's run: the bookkeeping around the step.
+/// One member's run: the accounts around the step.
 class Run {
  public:
   Run(SimulationParts& parts, const RunControl& control)
@@ -51,13 +51,13 @@ class Run {
         control_(control),
         start_(Clock::now()),
         passes_before_(parts.step.timings()),
-        history_(look_interval(parts.facts.spacing_m)) {}
+        history_(sample_interval(parts.facts.spacing_m)) {}
 
   MemberResult operator()() {
     State& s = parts_.state;
     for (MovingSet& set : s.sets) set.ledger.kinetic_0 = set.ledger.kinetic;
     record();
-    look_at_motion();
+    sample_diagnostics();
     frame(true);
     while (!over()) {
       const StepLimit limit = parts_.step.limit(s);
@@ -106,9 +106,9 @@ class Run {
     const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
     if (travelled_ >= half_cell) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
-    if (s.time - looked_at_ > look_interval(parts_.facts.spacing_m) &&
-        s.n_steps - looked_at_step_ >= 4)
-      look_at_motion();
+    if (s.time - sampled_at_ > sample_interval(parts_.facts.spacing_m) &&
+        s.n_steps - sampled_step_ >= 4)
+      sample_diagnostics();
     frame(false);
     if (s.n_steps % 16 == 0) watch();
   }
@@ -126,21 +126,21 @@ class Run {
     travelled_ = 0;
   }
 
-  void look_at_motion() {
+  void sample_diagnostics() {
     const State& s = parts_.state;
     now_ = measure(s, each_);
     const StateShares shares = state_shares(s.sets);
-    state_times_.add(shares, s.time - looked_at_);
+    state_times_.add(shares, s.time - sampled_at_);
     if (s.n_particles() > 0 && history_.wants(s.time)) history_.add(history_row(shares));
-    looked_at_ = s.time;
-    looked_at_step_ = s.n_steps;
+    sampled_at_ = s.time;
+    sampled_step_ = s.n_steps;
     MemberScalars& m = result_.scalars;
     m.max_speed_m_s =
         std::max(m.max_speed_m_s, s.n_particles() > 1000 ? now_.high_speed : s.max_speed());
     m.max_mean_speed_m_s = std::max(m.max_mean_speed_m_s, now_.mean_speed);
     m.front_travel_m = std::max(m.front_travel_m, now_.front);
     for (const MovingSet& set : s.sets)
-      if (const Field* c = set.find(fields::compression))
+      if (const Field* c = set.find(fields::density_change))
         m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
     if (parts_.stop.at_rest({s.time, s.ledger().kinetic, now_.front, now_.com}) && !ended_)
       end(Outcome::settled, "");
@@ -169,9 +169,9 @@ class Run {
   }
 
   /// |rho/rho_ref - 1| under load that 99 % of the particles stay below.
-  double density_error(const std::vector<double>& compression) {
+  double density_error(const std::vector<double>& density_change) {
     loaded_.clear();
-    for (double c : compression)
+    for (double c : density_change)
       if (c > 0) loaded_.push_back(c);
     if (loaded_.empty()) return 0;
     const auto at = loaded_.begin() + static_cast<std::ptrdiff_t>(0.99 * (loaded_.size() - 1));
@@ -222,7 +222,7 @@ class Run {
     const bool sound = result_.outcome != Outcome::diverged;
     if (sound && s.n_particles() > 0) {
       record();
-      look_at_motion();
+      sample_diagnostics();
       history_.add_last(history_row(state_shares(s.sets)));
       frame(true);
     }
@@ -243,23 +243,23 @@ class Run {
     return std::move(result_);
   }
 
-  /// Release, mass and energy, by the books.
+  /// Release, mass and energy, by the ledger.
   void write_balance() {
     const State& s = parts_.state;
     MemberScalars& m = result_.scalars;
-    const Ledger book = s.ledger();
+    const Ledger ledger = s.ledger();
     const ReleaseFacts& release = parts_.facts.release;
-    const double brought = book.released_mass + book.added_mass;
+    const double brought = ledger.released_mass + ledger.added_mass;
     m.com_travel_m = now_.com;
     m.drop_m = release.top_m - now_.lowest;
     m.release_volume_m3 = release.volume_m3;
     m.release_layers = release.layers;
-    m.released_mass_kg = book.released_mass;
-    m.lost_mass_kg = book.lost_mass;
-    m.mass_error = (mass_on_terrain(s) + book.lost_mass - brought) / brought;
-    const double released = book.released_energy();
-    m.energy_residual = released > 0 ? book.residual() / released : 0;
-    m.take_off_fraction = s.time > 0 ? book.take_off / (book.released_mass * s.time) : 0;
+    m.released_mass_kg = ledger.released_mass;
+    m.lost_mass_kg = ledger.lost_mass;
+    m.mass_error = (mass_on_terrain(s) + ledger.lost_mass - brought) / brought;
+    const double released = ledger.released_energy();
+    m.energy_residual = released > 0 ? ledger.residual() / released : 0;
+    m.take_off_fraction = s.time > 0 ? ledger.detachment / (ledger.released_mass * s.time) : 0;
     std::size_t created = 0;
     for (const MovingSet& set : s.sets) created += set.n_created();
     m.n_particles = static_cast<double>(created);
@@ -274,11 +274,12 @@ class Run {
     m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
     m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
     state_times_.write(m);
-    double hottest = 0;
+    double largest_temperature = 0;
     for (const MovingSet& set : s.sets)
-      hottest = std::max(hottest, set.largest_granular_temperature);
-    m.max_granular_temperature_m2_s2 = hottest;
-    m.granular_ratio = m.max_speed_m_s > 0 ? hottest / (m.max_speed_m_s * m.max_speed_m_s) : 0;
+      largest_temperature = std::max(largest_temperature, set.largest_granular_temperature);
+    m.max_granular_temperature_m2_s2 = largest_temperature;
+    m.granular_ratio =
+        m.max_speed_m_s > 0 ? largest_temperature / (m.max_speed_m_s * m.max_speed_m_s) : 0;
     m.end_time_s = s.time;
     m.n_steps = static_cast<double>(s.n_steps);
     m.mean_dt_s = s.n_steps ? s.time / s.n_steps : 0;
@@ -286,13 +287,13 @@ class Run {
 
   void write_final_state() {
     const State& s = parts_.state;
-    const Ledger book = s.ledger();
+    const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
     result_.state_hash = hash_of(s);
-    if (is_valid(result_.outcome) && book.lost_mass > 0.01 * book.released_mass) {
+    if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.released_mass) {
       result_.outcome = Outcome::left_terrain;
-      result_.reason = std::to_string(100 * book.lost_mass / book.released_mass) +
+      result_.reason = std::to_string(100 * ledger.lost_mass / ledger.released_mass) +
                        " % of the mass left the terrain";
     }
   }
@@ -342,8 +343,8 @@ class Run {
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
   bool ended_ = false;
-  std::size_t looked_at_step_ = 0;
-  double travelled_ = 0, looked_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
+  std::size_t sampled_step_ = 0;
+  double travelled_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
          p10_time_ = 0, progress_at_ = 0, next_frame_ = 0;
   std::vector<ParticleTravel> each_;
   std::vector<double> loaded_;

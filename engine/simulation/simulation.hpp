@@ -53,6 +53,8 @@ class Simulation {
   explicit Simulation(std::unique_ptr<SimulationParts>);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
   ~Simulation();
 
   /// Runs to the stop. Never throws for numerical trouble: that is an Outcome.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How much of the mass is dense, parted, colliding or alone, at one instant and over time.
+/// How much of the mass is dense, dilated, colliding or alone, at one instant and over time.
 #pragma once
 
 #include "engine/effects/moving_set.hpp"
@@ -10,13 +10,13 @@ namespace sturz {
 
 struct MemberScalars;
 
-/// A mass that has grown by more than this has parted: its grains carry no load as a dense packing
-/// does. The same as GrainStressSettings::separation.
-inline constexpr double parted_compression = -0.02;
+/// A mass whose density fell by more than this has dilated: its grains carry no load as a dense
+/// packing does. The same as GrainStressSettings::separation_threshold.
+inline constexpr double dilated_density_change = -0.02;
 
 /// Shares of the mass present [1]; NaN and zeros where the scene has no such field.
 struct StateShares {
-  double parted = 0;                                              ///< NaN without compression
+  double dilated = 0;                                             ///< NaN without a density change
   double dense = 0, transition = 0, dilute = 0, ultradilute = 0;  ///< sum 1, or all 0
   double mean_theta = 0, max_theta = 0;  ///< granular temperature [m^2/s^2]
 };

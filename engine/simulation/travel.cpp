@@ -15,7 +15,9 @@ constexpr double end_share = 0.01;   // of the mass: front and tail
 constexpr double tail_share = 0.05;  // of the mass: left behind
 
 bool by_speed(const ParticleTravel& a, const ParticleTravel& b) { return a.speed < b.speed; }
-bool by_way(const ParticleTravel& a, const ParticleTravel& b) { return a.way2 < b.way2; }
+bool by_displacement(const ParticleTravel& a, const ParticleTravel& b) {
+  return a.displacement2 < b.displacement2;
+}
 
 double mass_of(std::span<const ParticleTravel> some) {
   double mass = 0;
@@ -35,7 +37,7 @@ std::size_t part_rearmost(std::span<ParticleTravel> all, double wanted) {
   std::size_t low = 0, high = all.size();
   while (high - low > 1) {
     const std::size_t middle = low + (high - low) / 2;
-    std::nth_element(all.begin() + low, all.begin() + middle, all.begin() + high, by_way);
+    std::nth_element(all.begin() + low, all.begin() + middle, all.begin() + high, by_displacement);
     const double mass = mass_of(all.subspan(low, middle - low));
     if (mass >= wanted) {
       high = middle;
@@ -62,14 +64,14 @@ void add_set(const MovingSet& p, Moments& sums, std::vector<ParticleTravel>& eac
       dy += p.wrapped_y[p.id[i]];
     }
     const double v = std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
-    const double way2 = dx * dx + dy * dy;
+    const double displacement2 = dx * dx + dy * dy;
     sums.mass += p.mass[i];
     sums.mx += p.mass[i] * dx;
     sums.my += p.mass[i] * dy;
     sums.momentum += p.mass[i] * v;
-    sums.front2 = std::max(sums.front2, way2);
+    sums.front2 = std::max(sums.front2, displacement2);
     sums.lowest = std::min(sums.lowest, p.z[i]);
-    each.push_back({way2, v, p.mass[i]});
+    each.push_back({displacement2, v, p.mass[i]});
   }
 }
 
@@ -101,7 +103,8 @@ FrontAndTail front_and_tail(std::vector<ParticleTravel>& each) {
   // Where the cut falls inside a particle, or all mass is in one, the particle counts as front.
   out.front_speed = mean_speed_of(all.subspan(std::min(last, all.size() - 1)));
   const std::size_t behind = part_rearmost(all, tail_share * mass);
-  out.tail_travel = std::sqrt(std::max_element(all.begin(), all.begin() + behind, by_way)->way2);
+  out.tail_travel = std::sqrt(
+      std::max_element(all.begin(), all.begin() + behind, by_displacement)->displacement2);
   out.tail_speed = mean_speed_of(all.first(part_rearmost(all, end_share * mass)));
   return out;
 }

@@ -17,11 +17,11 @@ struct Displacement {
   double lowest = 0;      ///< elevation of the lowest particle [m]
 };
 
-/// One particle's way since the start.
+/// Displacement of one particle since the start.
 struct ParticleTravel {
-  double way2 = 0;   ///< horizontal displacement squared [m^2]
-  double speed = 0;  ///< [m/s]
-  double mass = 0;   ///< [kg]
+  double displacement2 = 0;  ///< horizontal displacement squared [m^2]
+  double speed = 0;          ///< [m/s]
+  double mass = 0;           ///< [kg]
 };
 
 /// Looks at all particles; whole periods count. \param each  is filled anew, in no order
@@ -32,8 +32,9 @@ struct FrontAndTail {
   double tail_speed = 0;   ///< mean of the rearmost 1 % of the mass [m/s]
   double tail_travel = 0;  ///< that 5 % of the mass have not passed [m]
 };
-/// Foremost is who has come farthest, rearmost who has come least far; at least one particle each.
-/// Takes time in proportion to their number. \param each  is put into another order
+/// Foremost are the particles that have come farthest, rearmost those that have come least far; at
+/// least one particle each. Takes time in proportion to their number. \param each  is put into
+/// another order
 FrontAndTail front_and_tail(std::vector<ParticleTravel>& each);
 
 }  // namespace sturz

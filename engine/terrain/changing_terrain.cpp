@@ -10,7 +10,7 @@ namespace sturz {
 namespace {
 
 /// Bounds of a block see nodes so many rows and columns away (surface_bounds).
-constexpr int bound_reach = 3;
+constexpr int bound_stencil = 3;
 
 /// Room is added with this margin, so that a spreading change seldom moves the patch [nodes].
 int margin(int n) { return 8 + n / 4; }
@@ -20,9 +20,9 @@ int margin(int n) { return 8 + n / 4; }
 /// Makes the patch hold nodes row0..row1, col0..col1 and every block whose bounds they change.
 void Terrain::cover(int row0, int col0, int row1, int col1) {
   const Grid& g = grid();
-  const int top = std::max(0, row0 - bound_reach), left = std::max(0, col0 - bound_reach);
-  const int bottom = std::min(g.n_rows, row1 + 1 + bound_reach);
-  const int right = std::min(g.n_cols, col1 + 1 + bound_reach);
+  const int top = std::max(0, row0 - bound_stencil), left = std::max(0, col0 - bound_stencil);
+  const int bottom = std::min(g.n_rows, row1 + 1 + bound_stencil);
+  const int right = std::min(g.n_cols, col1 + 1 + bound_stencil);
   if (top >= patch_row_ && bottom <= patch_row_ + patch_rows_ && left >= patch_col_ &&
       right <= patch_col_ + patch_cols_)
     return;
@@ -38,19 +38,20 @@ void Terrain::cover(int row0, int col0, int row1, int col1) {
 
 void Terrain::refresh_bounds(int row0, int col0, int row1, int col1) {
   const Grid& g = grid();
-  const int top = std::max(0, row0 - 2 * bound_reach), left = std::max(0, col0 - 2 * bound_reach);
-  const int bottom = std::min(g.n_rows, row1 + 1 + 2 * bound_reach);
-  const int right = std::min(g.n_cols, col1 + 1 + 2 * bound_reach);
+  const int top = std::max(0, row0 - 2 * bound_stencil),
+            left = std::max(0, col0 - 2 * bound_stencil);
+  const int bottom = std::min(g.n_rows, row1 + 1 + 2 * bound_stencil);
+  const int right = std::min(g.n_cols, col1 + 1 + 2 * bound_stencil);
   const int n_cols = right - left;
   std::vector<double> nodes;
   nodes.reserve(static_cast<std::size_t>(bottom - top) * n_cols);
   for (int r = top; r < bottom; ++r)
     for (int c = left; c < right; ++c) nodes.push_back(node(r, c));
   const auto bounds = surface_bounds(nodes, bottom - top, n_cols, cell_m_);
-  const int last_row = std::min({row1 + bound_reach, bottom - 1, patch_row_ + patch_rows_ - 1});
-  const int last_col = std::min({col1 + bound_reach, right - 1, patch_col_ + patch_cols_ - 1});
-  for (int r = std::max({row0 - bound_reach, top, patch_row_}); r <= last_row; ++r)
-    for (int c = std::max({col0 - bound_reach, left, patch_col_}); c <= last_col; ++c) {
+  const int last_row = std::min({row1 + bound_stencil, bottom - 1, patch_row_ + patch_rows_ - 1});
+  const int last_col = std::min({col1 + bound_stencil, right - 1, patch_col_ + patch_cols_ - 1});
+  for (int r = std::max({row0 - bound_stencil, top, patch_row_}); r <= last_row; ++r)
+    for (int c = std::max({col0 - bound_stencil, left, patch_col_}); c <= last_col; ++c) {
       const SurfaceBound b = bounds[static_cast<std::size_t>(r - top) * n_cols + (c - left)];
       patch_bounds_[static_cast<std::size_t>(r - patch_row_) * patch_cols_ + (c - patch_col_)] = b;
       roughest_ = rougher(roughest_, b);

@@ -3,7 +3,7 @@
 //
 //        p .          A tangent plane sees only the ground straight below (b). Where a cliff
 //         /|          stands beside the particle, the nearest point is q on the next patch.
-//    q __/ |          Every patch within reach is asked for its closest point and the nearest
+//    q __/ |          Every near patch is asked for its closest point and the nearest
 //     |    b          wins: continuous across the seams, so that contact makes no energy.
 //     |____|____
 #include "engine/terrain/terrain.hpp"
@@ -26,10 +26,12 @@ struct Terrain::Closest {
 namespace {
 
 constexpr int newton_steps = 2;
-/// Below ground the way out is looked for this many reaches far, and at most so many cells.
-constexpr double deep_reaches = 4;
+/// Below ground the way out is looked for this many contact distances far, and at most so many
+/// cells.
+constexpr double deep_distances = 4;
 constexpr int most_cells = 8;
-/// On a seam closer than this part of reach, the line to the particle has no safe direction.
+/// On a seam closer than this part of the contact distance, the line to the particle has no safe
+/// direction.
 constexpr double seam_share = 0.02;
 
 /// Gauss-Newton step of half the squared distance over the plane (du, dv), du eastward and dv
@@ -59,7 +61,7 @@ struct BoxStep {
 
 }  // namespace
 
-SurfaceDistance Terrain::closest(const Vec3& p, const Slope& below, double reach) const {
+SurfaceDistance Terrain::closest(const Vec3& p, const Slope& below, double contact_distance) const {
   const double above = p.z() - below.z;
   const double sign = above < 0 ? -1 : 1;
   Closest best;
@@ -67,13 +69,13 @@ SurfaceDistance Terrain::closest(const Vec3& p, const Slope& below, double reach
   best.distance2 = above * above;
   best.patch_normal = upward_normal(below.east, below.north);
   best.x = p.x(), best.y = p.y();
-  const double radius = above >= 0 ? reach : deep_reaches * reach;
-  if (reach <= cell_m_)
+  const double radius = above >= 0 ? contact_distance : deep_distances * contact_distance;
+  if (contact_distance <= cell_m_)
     search_blocks(p, std::min(radius, most_cells * cell_m_), best);
   else
-    search_compass(p, reach, best);
+    search_compass(p, contact_distance, best);
   const double distance = std::sqrt(best.distance2);
-  if (best.on_seam && distance > seam_share * reach)
+  if (best.on_seam && distance > seam_share * contact_distance)
     return {sign * distance, best.to_point * (sign / distance)};
   return {sign * distance, best.patch_normal};
 }
@@ -122,9 +124,9 @@ void Terrain::try_block(int row, int col, const Vec3& p, Closest& best) const {
   }
 }
 
-/// For ground finer than the reach: looks in eight directions, then walks to the closest point
-/// across the patches. A patch-by-patch search would cost as much as the rest of the step.
-void Terrain::search_compass(const Vec3& p, double reach, Closest& best) const {
+/// For ground finer than the contact distance: looks in eight directions, then walks to the closest
+/// point across the patches. A patch-by-patch search would cost as much as the rest of the step.
+void Terrain::search_compass(const Vec3& p, double contact_distance, Closest& best) const {
   auto look = [&](double x, double y) -> bool {
     Block b;
     if (!find(x, y, b)) return false;
@@ -141,7 +143,7 @@ void Terrain::search_compass(const Vec3& p, double reach, Closest& best) const {
   constexpr std::array<std::array<double, 2>, 8> compass{
       {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
   for (const auto& [east, north] : compass)
-    look(p.x() + 0.6 * reach * east, p.y() + 0.6 * reach * north);
+    look(p.x() + 0.6 * contact_distance * east, p.y() + 0.6 * contact_distance * north);
   for (int k = 0; k < newton_steps; ++k) {
     // The step to the foot on the tangent plane at the best point.
     const Vec3 slide = best.to_point - best.to_point.dot(best.patch_normal) * best.patch_normal;

@@ -24,27 +24,27 @@ CurvedSurface Terrain::curved(double x, double y) const {
   CurvedSurface out;
   if (u >= 0.5 && v >= 0.5 && u < g.n_cols - 1.5 && v < g.n_rows - 1.5) {
     const int col = static_cast<int>(u + 0.5), row = static_cast<int>(v + 0.5);
-    // A patch carries a rim of base nodes: three rows and columns that are not wholly inside it
-    // touch nothing that it changed.
+    // A patch carries a margin of nodes of the base raster: three rows and columns that are not
+    // wholly inside it touch nothing that it changed.
     const int r = row - 1 - patch_row_, c = col - 1 - patch_col_;
     const bool patched = r >= 0 && c >= 0 && r + 2 < patch_rows_ && c + 2 < patch_cols_;
     const std::ptrdiff_t stride = patched ? patch_cols_ : g.n_cols;
     const double* corner = patched ? &patch_[static_cast<std::size_t>(r) * patch_cols_ + c]
                                    : &base_->values[g.index(row - 1, col - 1)];
     const Weights east(u - col), south(v - row);
-    double z[3], rise[3], bend[3];
+    double z[3], rise[3], curvature[3];
     for (int k = 0; k < 3; ++k) {
       const double* n = corner + k * stride;
-      z[k] = east.sum(n), rise[k] = east.rise(n), bend[k] = second(n);
+      z[k] = east.sum(n), rise[k] = east.rise(n), curvature[k] = second(n);
     }
     out.z = south.sum(z);
     if (std::isfinite(out.z)) {
       const double per_area = per_cell_ * per_cell_;
       out.east = south.sum(rise) * per_cell_;
       out.north = -south.rise(z) * per_cell_;
-      out.bend_ee = south.sum(bend) * per_area;
-      out.bend_en = -south.rise(rise) * per_area;
-      out.bend_nn = second(z) * per_area;
+      out.curvature_ee = south.sum(curvature) * per_area;
+      out.curvature_en = -south.rise(rise) * per_area;
+      out.curvature_nn = second(z) * per_area;
       return out;
     }
   }

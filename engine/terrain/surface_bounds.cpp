@@ -14,12 +14,12 @@ double larger(double a, double b) { return b > a ? b : a; }
 
 /// Greatest absolute differences of the nodes that the blocks of one row see, per block column.
 struct RowTerms {
-  std::vector<double> step_x;   ///< first differences along the row
-  std::vector<double> step_y;   ///< first differences to the next row
-  std::vector<double> bend_at;  ///< second differences centred on the row, both ways
-  std::vector<double> twist;    ///< mixed differences between the row and the next one
+  std::vector<double> step_x;        ///< first differences along the row
+  std::vector<double> step_y;        ///< first differences to the next row
+  std::vector<double> curvature_at;  ///< second differences centred on the row, both ways
+  std::vector<double> twist;         ///< mixed differences between the row and the next one
 
-  explicit RowTerms(std::size_t n) : step_x(n), step_y(n), bend_at(n), twist(n) {}
+  explicit RowTerms(std::size_t n) : step_x(n), step_y(n), curvature_at(n), twist(n) {}
 };
 
 /// Node rows above, at, below and two columns of NaN beside them; missing rows are NaN.
@@ -48,29 +48,29 @@ class PaddedRows {
 void fill_terms(const double* north, const double* here, const double* south, int n_blocks,
                 RowTerms& out) {
   for (int c = 0; c < n_blocks; ++c) {
-    double step_x = 0, step_y = 0, bend = 0, twist = 0;
+    double step_x = 0, step_y = 0, curvature = 0, twist = 0;
     for (int k = c - 1; k <= c + 1; ++k) {
       step_x = larger(step_x, std::abs(here[k + 1] - here[k]));
       twist = larger(twist, std::abs((here[k + 1] - here[k]) - (south[k + 1] - south[k])));
     }
     for (int k = c; k <= c + 1; ++k)
-      bend = larger(bend, std::abs(here[k - 1] - 2 * here[k] + here[k + 1]));
+      curvature = larger(curvature, std::abs(here[k - 1] - 2 * here[k] + here[k + 1]));
     for (int k = c - 1; k <= c + 2; ++k) {
       step_y = larger(step_y, std::abs(south[k] - here[k]));
-      bend = larger(bend, std::abs(north[k] - 2 * here[k] + south[k]));
+      curvature = larger(curvature, std::abs(north[k] - 2 * here[k] + south[k]));
     }
     out.step_x[c] = step_x;
     out.step_y[c] = step_y;
-    out.bend_at[c] = bend;
+    out.curvature_at[c] = curvature;
     out.twist[c] = twist;
   }
 }
 
-SurfaceBound bound_of(double step_x, double step_y, double bend, double cell_m) {
+SurfaceBound bound_of(double step_x, double step_y, double curvature, double cell_m) {
   const double slope2 = (step_x * step_x + step_y * step_y) / (cell_m * cell_m);
   SurfaceBound b;
-  b.bend_per_m = slope2 > 1 ? std::numeric_limits<float>::infinity()
-                            : static_cast<float>(bend / (cell_m * cell_m));
+  b.curvature_per_m = slope2 > 1 ? std::numeric_limits<float>::infinity()
+                                 : static_cast<float>(curvature / (cell_m * cell_m));
   // The margin keeps it a lower bound after rounding to float.
   b.min_normal_z = static_cast<float>((1 - 1e-6) / std::sqrt(1 + slope2));
   return b;
@@ -79,7 +79,7 @@ SurfaceBound bound_of(double step_x, double step_y, double bend, double cell_m) 
 }  // namespace
 
 SurfaceBound rougher(SurfaceBound a, SurfaceBound b) {
-  return {std::max(a.bend_per_m, b.bend_per_m), std::min(a.min_normal_z, b.min_normal_z)};
+  return {std::max(a.curvature_per_m, b.curvature_per_m), std::min(a.min_normal_z, b.min_normal_z)};
 }
 
 std::vector<SurfaceBound> surface_bounds(std::span<const double> nodes, int n_rows, int n_cols,
@@ -105,9 +105,11 @@ std::vector<SurfaceBound> surface_bounds(std::span<const double> nodes, int n_ro
     for (int c = 0; c < n_blocks; ++c) {
       const double step_x = std::max({t0.step_x[c], t1.step_x[c], t2.step_x[c], t3.step_x[c]});
       const double step_y = std::max({t0.step_y[c], t1.step_y[c], t2.step_y[c]});
-      const double bend = std::max({t0.bend_at[c], t0.twist[c], t1.bend_at[c], t1.twist[c],
-                                    t2.bend_at[c], t2.twist[c], t3.bend_at[c]});
-      bounds[static_cast<std::size_t>(b) * n_cols + c] = bound_of(step_x, step_y, bend, cell_m);
+      const double curvature =
+          std::max({t0.curvature_at[c], t0.twist[c], t1.curvature_at[c], t1.twist[c],
+                    t2.curvature_at[c], t2.twist[c], t3.curvature_at[c]});
+      bounds[static_cast<std::size_t>(b) * n_cols + c] =
+          bound_of(step_x, step_y, curvature, cell_m);
     }
   }
   return bounds;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How steep and how bent the ground can be around a point: what tells whether the tangent plane
+/// How steep and how curved the ground can be around a point: what tells whether the tangent plane
 /// below a particle is good enough, or whether a cliff beside it may be nearer.
 #pragma once
 
@@ -11,7 +11,8 @@ namespace sturz {
 
 /// Bounds for a block of four nodes and its eight neighbours (all that lies within one cell).
 struct SurfaceBound {
-  float bend_per_m = 0;    ///< greatest curvature [1/m]; infinite where a slope exceeds 45 degrees
+  float curvature_per_m =
+      0;                   ///< greatest curvature [1/m]; infinite where a slope exceeds 45 degrees
   float min_normal_z = 1;  ///< least n_z: height above ground * this <= distance to the ground
 };
 

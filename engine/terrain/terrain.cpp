@@ -12,7 +12,7 @@ namespace {
 
 /// Nodes around a patch that are copied along, so that every block whose bounds the patch changes
 /// lies wholly inside it and one test tells which of the two holds a block.
-constexpr int patch_rim = 2;
+constexpr int patch_margin = 2;
 
 /// Nearest point of the unit square at (col, row) to (u, v), all in cells.
 Vec2 nearest_in_square(int col, int row, double u, double v) {
@@ -63,8 +63,10 @@ Terrain Terrain::with_patch(int row0, int col0, int n_rows, int n_cols,
          "a patch has one value per cell");
   Terrain out = *this;
   if (n_rows == 0 || n_cols == 0) return out;
-  int top = std::max(0, row0 - patch_rim), bottom = std::min(g.n_rows, row0 + n_rows + patch_rim);
-  int left = std::max(0, col0 - patch_rim), right = std::min(g.n_cols, col0 + n_cols + patch_rim);
+  int top = std::max(0, row0 - patch_margin),
+      bottom = std::min(g.n_rows, row0 + n_rows + patch_margin);
+  int left = std::max(0, col0 - patch_margin),
+      right = std::min(g.n_cols, col0 + n_cols + patch_margin);
   if (patch_rows_ > 0) {
     top = std::min(top, patch_row_), bottom = std::max(bottom, patch_row_ + patch_rows_);
     left = std::min(left, patch_col_), right = std::max(right, patch_col_ + patch_cols_);
@@ -130,26 +132,27 @@ SurfacePoint Terrain::surface(double x, double y) const {
   return surface_outside(x, y);
 }
 
-bool Terrain::distance_inside(const Vec3& p, double reach, SurfaceDistance& out) const {
+bool Terrain::distance_inside(const Vec3& p, double contact_distance, SurfaceDistance& out) const {
   Block b;
   if (!find(p.x(), p.y(), b)) return false;
   const Slope s = evaluate(b, per_cell_);
   if (!std::isfinite(s.z)) return false;
   const double above = p.z() - s.z;
   // The block's bounds hold within one cell; farther away only the whole ground's do.
-  const SurfaceBound& bound = reach <= cell_m_ ? *b.bound : roughest_;
-  if (bound.bend_per_m * reach <= 0.2 || above * bound.min_normal_z > reach) {
+  const SurfaceBound& bound = contact_distance <= cell_m_ ? *b.bound : roughest_;
+  if (bound.curvature_per_m * contact_distance <= 0.2 ||
+      above * bound.min_normal_z > contact_distance) {
     const Vec3 normal = upward_normal(s.east, s.north);
     out = {above * normal.z(), normal};
   } else {
-    out = closest(p, s, reach);
+    out = closest(p, s, contact_distance);
   }
   return true;
 }
 
-SurfaceDistance Terrain::distance(const Vec3& p, double reach) const {
+SurfaceDistance Terrain::distance(const Vec3& p, double contact_distance) const {
   SurfaceDistance found;
-  if (distance_inside(p, reach, found)) return found;
+  if (distance_inside(p, contact_distance, found)) return found;
   const SurfacePoint level = surface_outside(p.x(), p.y());
   return {p.z() - level.z, level.normal};
 }
@@ -159,8 +162,8 @@ double Terrain::clearance(const Vec3& p) const {
   if (!all_known_ || !find(p.x(), p.y(), b)) return 0;
   const double above = (p.z() - evaluate(b, per_cell_).z) * roughest_.min_normal_z;
   const double u = (p.x() - west_node_m_) * per_cell_, v = (north_node_m_ - p.y()) * per_cell_;
-  const double rim = std::min({u, v, grid().n_cols - 1 - u, grid().n_rows - 1 - v}) * cell_m_;
-  return std::max(0.0, std::min(above, rim));
+  const double boundary = std::min({u, v, grid().n_cols - 1 - u, grid().n_rows - 1 - v}) * cell_m_;
+  return std::max(0.0, std::min(above, boundary));
 }
 
 SurfacePoint Terrain::surface_outside(double x, double y) const {

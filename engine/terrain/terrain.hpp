@@ -31,14 +31,14 @@ struct SurfacePoint {
 /// The ground rounded over about two cells: one smooth surface with its first and second
 /// derivatives, for what slides on it as a depth-averaged column.
 struct CurvedSurface {
-  double z = 0;                                  ///< [m]
-  double east = 0, north = 0;                    ///< slope [-]
-  double bend_ee = 0, bend_en = 0, bend_nn = 0;  ///< second derivatives [1/m]
-  bool known = true;                             ///< false off the known ground (level there)
+  double z = 0;                                                 ///< [m]
+  double east = 0, north = 0;                                   ///< slope [-]
+  double curvature_ee = 0, curvature_en = 0, curvature_nn = 0;  ///< second derivatives [1/m]
+  bool known = true;  ///< false off the known ground (level there)
 
   /// d2z/ds2 times speed squared, for a horizontal velocity [m/s^2].
-  double bend(double vx, double vy) const {
-    return bend_ee * vx * vx + 2 * bend_en * vx * vy + bend_nn * vy * vy;
+  double curvature(double vx, double vy) const {
+    return curvature_ee * vx * vx + 2 * curvature_en * vx * vy + curvature_nn * vy * vy;
   }
 };
 
@@ -102,16 +102,17 @@ class Terrain {
   /// unknown cells the bilinear surface stands in, without curvature.
   CurvedSurface curved(double x, double y) const;
   /// Distance of `p` to the surface, negative below it: (z - z_s) n_z where the ground within
-  /// `reach` is smooth. Where its slope exceeds 45 degrees or its curvature times `reach` 0.2, a
-  /// point that may touch gets the distance to the closest point (two Newton steps on every patch
-  /// within reach), so that a cliff beside a particle is felt. The sign is always that of z - z_s.
-  /// \param reach  the contact distance [m]; farther up the tangent plane's distance is returned.
+  /// `contact_distance` is smooth. Where its slope exceeds 45 degrees or its curvature times
+  /// `contact_distance` 0.2, a point that may touch gets the distance to the closest point (two
+  /// Newton steps on every patch within the contact distance), so that a cliff beside a particle
+  /// counts. The sign is always that of z - z_s. \param contact_distance  [m]; farther up the
+  /// tangent plane's distance is returned.
   ///               Up to one cell costs 20-40 ns; more (or a whole smoothing support) makes nearly
   ///               all of a mountain count as bent and costs several times as much
-  SurfaceDistance distance(const Vec3& p, double reach) const;
+  SurfaceDistance distance(const Vec3& p, double contact_distance) const;
   /// The same where the ground is known; false off it, and `out` untouched.
-  bool distance_inside(const Vec3& p, double reach, SurfaceDistance& out) const;
-  /// No point of the ground and no rim of the known ground is nearer than this [m]: the height
+  bool distance_inside(const Vec3& p, double contact_distance, SurfaceDistance& out) const;
+  /// No point of the ground and no boundary of the known ground is nearer than this [m]: the height
   /// above ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
   double clearance(const Vec3& p) const;
 
@@ -139,10 +140,10 @@ class Terrain {
   static Slope evaluate(const Block& block, double per_cell);
   std::optional<Vec2> nearest_inside(double x, double y) const;
   SurfacePoint surface_outside(double x, double y) const;
-  SurfaceDistance closest(const Vec3& p, const Slope& below, double reach) const;
+  SurfaceDistance closest(const Vec3& p, const Slope& below, double contact_distance) const;
   void try_block(int row, int col, const Vec3& p, Closest& best) const;
   void search_blocks(const Vec3& p, double radius, Closest& best) const;
-  void search_compass(const Vec3& p, double reach, Closest& best) const;
+  void search_compass(const Vec3& p, double contact_distance, Closest& best) const;
 
   std::shared_ptr<const Raster<double>> base_;
   std::shared_ptr<const std::vector<SurfaceBound>> bounds_;  ///< per block, at its NW node's index
@@ -152,7 +153,7 @@ class Terrain {
   double lowest_m_ = 0;
   bool all_known_ = true;  ///< no unknown node anywhere
   int patch_row_ = 0, patch_col_ = 0, patch_rows_ = 0,
-      patch_cols_ = 0;  ///< with a rim of base nodes
+      patch_cols_ = 0;  ///< with a margin of nodes of the base raster
   std::vector<double> patch_;
   std::vector<SurfaceBound> patch_bounds_;
   std::size_t n_changes_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which zone of the base a map point lies in.
+/// Which zone of the bed a map point lies in.
 #pragma once
 
 #include "engine/terrain/raster.hpp"

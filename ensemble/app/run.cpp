@@ -65,13 +65,13 @@ void print_states(const MemberResult& r, Console& console) {
   const MemberScalars& s = r.scalars;
   if (!r.history.has_states) {
     if (!std::isnan(s.parted_fraction))
-      print_line("parted",
+      print_line("dilated",
                  share_text(s.parted_fraction) + " of mass and time (states not asked for)",
                  console);
     return;
   }
-  const double parted = s.transition_fraction + s.dilute_fraction + s.ultradilute_fraction;
-  std::string text = "dense " + share_text(1 - parted);
+  const double dilated = s.transition_fraction + s.dilute_fraction + s.ultradilute_fraction;
+  std::string text = "dense " + share_text(1 - dilated);
   for (const auto& [name, share] :
        {std::pair("transition", s.transition_fraction), std::pair("dilute", s.dilute_fraction),
         std::pair("ultradilute", s.ultradilute_fraction)})

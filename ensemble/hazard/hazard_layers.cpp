@@ -67,7 +67,7 @@ class Builder {
     add(std::move(count), static_cast<float>(n_members_));
     out_.reached = add_probability(
         "probability_reached", Quantity::reached, "share of members that reach the cell",
-        "reached: smoothed thickness above the reach limit at any time", {}, {});
+        "reached: smoothed thickness above the runout limit at any time", {}, {});
     for (const PeakMaps& q : peaks) out_.quantities.push_back(add_peak(q));
     out_.arrival_quantile = add_quantiles(
         "arrival_time", Quantity::arrival, "time until the flow arrives", "s", "",

@@ -23,9 +23,9 @@ namespace {
 /// Intensity looks at arrival, thickness and speed together; the other layers come one by one.
 constexpr int blocks_at_once = 3;
 
-class Filler {
+class CellWriter {
  public:
-  Filler(HazardLayers& out, std::size_t n_members)
+  CellWriter(HazardLayers& out, std::size_t n_members)
       : out_(out), n_(static_cast<std::int64_t>(n_members)) {
     for (std::int64_t hits = 0; hits <= n_; ++hits) bounds_.push_back(wilson_interval(hits, n_));
   }
@@ -129,16 +129,16 @@ class Filler {
   std::vector<float> sorted_;              // scratch
 };
 
-void fill_tile(const Window& tile, const MemberTiles& members, const HazardLayers& layers,
-               Filler& fill, std::array<CellBlock, blocks_at_once>& blocks) {
+void write_tile(const Window& tile, const MemberTiles& members, const HazardLayers& layers,
+                CellWriter& writer, std::array<CellBlock, blocks_at_once>& blocks) {
   auto& [arrival, thickness, other] = blocks;
   members.read(PeakLayer::arrival, tile, arrival);
-  fill.reached(arrival);
+  writer.reached(arrival);
   for (const QuantityLayers& quantity : layers.quantities) {
     CellBlock& block = quantity.source == PeakLayer::thickness ? thickness : other;
     members.read(quantity.source, tile, block);
-    fill.quantity(quantity, block);
-    if (quantity.source == PeakLayer::speed) fill.intensity(thickness, other, arrival);
+    writer.quantity(quantity, block);
+    if (quantity.source == PeakLayer::speed) writer.intensity(thickness, other, arrival);
   }
 }
 
@@ -208,9 +208,9 @@ LayerStack make_hazard_map(const MemberSource& members, const HazardSpec& spec,
   HazardLayers layers =
       empty_hazard_layers(members.grid(), spec, unresolved_spacing(members.members(), context),
                           static_cast<std::int64_t>(tiles.n_members()));
-  Filler fill(layers, tiles.n_members());
+  CellWriter writer(layers, tiles.n_members());
   std::array<CellBlock, blocks_at_once> blocks;
-  for (const Window& tile : tiles.tiles()) fill_tile(tile, tiles, layers, fill, blocks);
+  for (const Window& tile : tiles.tiles()) write_tile(tile, tiles, layers, writer, blocks);
   add_attributes(layers.stack, members.members(), context);
   return std::move(layers.stack);
 }

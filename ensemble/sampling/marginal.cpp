@@ -88,10 +88,10 @@ std::function<double(double)> empirical(const Distribution& d) {
 }  // namespace
 
 Marginal::Marginal(const Distribution& d, const std::string& path) {
-  const std::string who = path.empty() ? "distribution" : path;
+  const std::string subject = path.empty() ? "distribution" : path;
   const auto problems = parameter_problems(d);
   require(problems.empty(),
-          fmt::format("{}: {}. Correct its parameters.", who, fmt::join(problems, ", ")));
+          fmt::format("{}: {}. Correct its parameters.", subject, fmt::join(problems, ", ")));
   OT::Log::Show(OT::Log::NONE);
   try {
     if (d.kind == Kind::table)
@@ -99,8 +99,8 @@ Marginal::Marginal(const Distribution& d, const std::string& path) {
     else
       quantile_ = [ot = open_turns(d)](double u) { return ot.computeQuantile(u)[0]; };
   } catch (const OT::Exception& error) {
-    throw SetupError(
-        fmt::format("{}: no such distribution ({}). Correct its parameters.", who, error.what()));
+    throw SetupError(fmt::format("{}: no such distribution ({}). Correct its parameters.", subject,
+                                 error.what()));
   }
   std::tie(lower_, upper_) = support(d);
 }

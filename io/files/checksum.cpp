@@ -63,7 +63,7 @@ std::string checksum_difference(const std::string& before, const std::string& no
   if (before == now) return {};
   if (kind_of(before) == kind_of(now)) return "other content than before";
   return fmt::format(
-      "its checksum is of another kind ({}, now {}), so nobody can tell whether it changed; "
+      "its checksum is of another kind ({}, now {}), so a change cannot be detected; "
       "another version of sturz began this folder",
       kind_of(before), kind_of(now));
 }

@@ -19,8 +19,8 @@
 namespace sturz {
 namespace {
 
-/// Cells count as square, and a wanted size as the file's own, when the rim moves less than this
-/// share of a cell.
+/// Cells count as square, and a wanted size as the file's own, when the outline moves less than
+/// this share of a cell.
 constexpr double placement_tolerance = 0.01;
 
 bool same_edge(double a, double b, int n_cells) {

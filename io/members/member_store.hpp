@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The finished members of a folder, for whoever reads many of them in bands of rows.
+/// The finished members of a folder, for readers of many of them in bands of rows.
 #pragma once
 
 #include "engine/simulation/member_result.hpp"

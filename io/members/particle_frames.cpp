@@ -7,6 +7,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -128,8 +129,10 @@ VtpParts vtp(const ParticleFrame& f) {
   return parts;
 }
 
-std::string frame_name(const std::string& name, std::size_t number) {
-  return fmt::format("{}_{:06d}.vtp", name, number);
+/// The first set has the plain name; the others carry theirs.
+std::string frame_name(const std::string& name, const ParticleFrame& frame, std::size_t number) {
+  if (frame.set_index == 0) return fmt::format("{}_{:06d}.vtp", name, number);
+  return fmt::format("{}_{}_{:06d}.vtp", name, frame.set, number);
 }
 
 }  // namespace
@@ -150,7 +153,10 @@ void ParticleFrameWriter::write(const ParticleFrame& frame) {
              fits(frame.granular_temperature.size()),
          "fields are empty or as long as the positions");
   const VtpParts parts = vtp(frame);
-  AtomicFile file(folder_ / frame_name(name_, times_.size()));
+  const auto earlier = std::count_if(entries_.begin(), entries_.end(),
+                                     [&](const Entry& e) { return e.part == frame.set_index; });
+  const std::string name = frame_name(name_, frame, static_cast<std::size_t>(earlier));
+  AtomicFile file(folder_ / name);
   const auto put = [&](std::string_view text) {
     file.write(std::as_bytes(std::span(text.data(), text.size())));
   };
@@ -158,14 +164,14 @@ void ParticleFrameWriter::write(const ParticleFrame& frame) {
   file.write(parts.data);
   put("\n  </AppendedData>\n</VTKFile>\n");
   file.commit();
-  times_.push_back(frame.time_s);
+  entries_.push_back({frame.time_s, frame.set_index, name});
 
   std::string pvd =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
       "byte_order=\"LittleEndian\">\n  <Collection>\n";
-  for (std::size_t i = 0; i < times_.size(); ++i)
-    pvd += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n", times_[i],
-                       frame_name(name_, i));
+  for (const Entry& e : entries_)
+    pvd += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"{}\" file=\"{}\"/>\n", e.time_s,
+                       e.part, e.file);
   write_text_atomic(index_, pvd + "  </Collection>\n</VTKFile>\n");
 }
 

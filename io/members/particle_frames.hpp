@@ -11,7 +11,8 @@
 namespace sturz {
 
 /// Writes folder/name_000000.vtp, ..., and folder/name.pvd after each frame, so a run that is
-/// killed leaves a series that opens.
+/// killed leaves a series that opens. Further particle sets of a scene are further parts of an
+/// instant, in files name_SET_000000.vtp.
 class ParticleFrameWriter {
  public:
   /// \throws IoError if the folder cannot be made
@@ -27,7 +28,12 @@ class ParticleFrameWriter {
  private:
   std::filesystem::path folder_, index_;
   std::string name_;
-  std::vector<double> times_;
+  struct Entry {
+    double time_s = 0;
+    std::size_t part = 0;  // the set's index
+    std::string file;
+  };
+  std::vector<Entry> entries_;
 };
 
 }  // namespace sturz

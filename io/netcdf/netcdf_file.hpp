@@ -17,7 +17,8 @@
 
 namespace sturz {
 
-/// The process-wide lock. Whoever else calls netCDF, HDF5 or GDAL's drivers on them takes it too.
+/// The process-wide lock. All other code that calls netCDF, HDF5 or GDAL's drivers on them takes it
+/// too.
 std::recursive_mutex& netcdf_mutex();
 
 enum class NcType { int32, float32, float64 };

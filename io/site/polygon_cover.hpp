@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Exact share of every cell that polygons cover, so that no source loses or gains volume.
 ///
-/// Each edge adds, row by row, the signed area between itself and the eastern rim of the grid; a
+/// Each edge adds, row by row, the signed area between itself and the eastern edge of the grid; a
 /// running sum along the row turns these into cell shares. Holes count negative. The sum over all
 /// cells is the polygon's area to round-off (a cell-centre test is off by per cents).
 #pragma once
@@ -24,7 +24,7 @@ class PolygonCover {
 
   /// Adds `weight` times the share of each cell inside the ring, whatever its orientation.
   /// Holes: the negative weight of their polygon. Rings must not cross themselves; what lies
-  /// outside the grid is pushed onto its rim, so check the extent before.
+  /// outside the grid is pushed onto its edge, so check the extent before.
   void add_ring(std::span<const Vec2> ring, double weight);
 
   /// Sum of all rings so far: shares 0..1 for weight 1, or thickness for weights in metres.

@@ -16,7 +16,8 @@ struct ShapeCover {
 /// \throws SetupError naming the key when the shape has no area or reaches beyond the terrain
 ShapeCover cover_of(const ReleaseBox& box, const Grid& terrain);
 ShapeCover cover_of(const ReleaseCylinder& cylinder, const Grid& terrain);
-/// Interior cells exactly, cells on the rim by 16 x 16 samples, then scaled to the exact volume.
+/// Interior cells exactly, cells on the outline by 16 x 16 samples, then scaled to the exact
+/// volume.
 ShapeCover cover_of(const ReleaseParaboloid& paraboloid, const Grid& terrain);
 
 }  // namespace sturz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Polygons of a zone of the base, as the terrain's cells whose centre they hold.
+/// Polygons of a zone of the bed, as the terrain's cells whose centre they hold.
 #pragma once
 
 #include "engine/terrain/raster.hpp"

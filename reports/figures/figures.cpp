@@ -67,7 +67,7 @@ std::string scale_bar(const Frame& frame) {
       x - 8, y - 17, width + 16, x, y, width, x + width / 2, y - 3, length_text(length));
 }
 
-/// Ticks with coordinates along the lower and left rim, inside the map.
+/// Ticks with coordinates along the lower and left edge, inside the map.
 std::string coordinate_ticks(const Frame& frame) {
   const Grid& g = frame.ground;
   const double step = nice_length((g.east_m() - g.west_m) / 3);

@@ -14,7 +14,7 @@ struct Slope {
 };
 
 /// Horn (1981): weighted differences over the 3 x 3 neighbourhood; unknown neighbours and those
-/// beyond the rim repeat the centre.
+/// beyond the edge repeat the centre.
 Slope slope_at(const Raster<double>& z, int row, int col) {
   const double centre = z.at(row, col);
   const auto node = [&](int dr, int dc) {

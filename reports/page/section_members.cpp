@@ -28,7 +28,7 @@ constexpr ScalarColumn scalar_columns[] = {
     {"max thickness", "m", &MemberScalars::max_thickness_m},
     {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
     {"layers", "1", &MemberScalars::release_layers},
-    {"parted", "1", &MemberScalars::parted_fraction, true},
+    {"dilated", "1", &MemberScalars::parted_fraction, true},
     {"in transition", "1", &MemberScalars::transition_fraction, true},
     {"dilute", "1", &MemberScalars::dilute_fraction, true},
     {"ultradilute", "1", &MemberScalars::ultradilute_fraction, true},

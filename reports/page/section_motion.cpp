@@ -45,7 +45,7 @@ std::string figure_html(const MotionChart& chart, const std::vector<double>& tim
 }
 
 std::string looser_text() {
-  return fmt::format("looser than {} of its packing at release", 1 + parted_compression);
+  return fmt::format("looser than {} of its packing at release", 1 + dilated_density_change);
 }
 
 bool has_states(const MemberScalars& m) {
@@ -90,23 +90,25 @@ std::string motion_html(const ReportInput& input) {
       "<section id=\"motion\"><h2>Motion over time</h2><div class=\"charts motion\">";
   for (const MotionChart& chart : charts) html += figure_html(chart, times);
   return html +
-         "</div><p class=\"note\">Travel is the horizontal way of each particle from where "
+         "</div><p class=\"note\">Travel is the horizontal displacement of each particle from "
+         "where "
          "it started, of the mass still on the terrain. " +
          html_escape(states_text(input.members.front().scalars, *input.history)) + "</p></section>";
 }
 
 std::string left_out_html(const std::vector<MemberSummary>& members) {
-  std::vector<double> parted;
+  std::vector<double> dilated;
   for (const MemberSummary& m : members)
     if (is_valid(m.outcome) && !has_states(m.scalars) && !std::isnan(m.scalars.parted_fraction))
-      parted.push_back(m.scalars.parted_fraction);
-  if (parted.empty()) return {};
-  std::sort(parted.begin(), parted.end());
+      dilated.push_back(m.scalars.parted_fraction);
+  if (dilated.empty()) return {};
+  std::sort(dilated.begin(), dilated.end());
   return fmt::format(
-      "<div><h3>What was left out</h3><p>Grains that part and meet again: at most {} of the mass "
+      "<div><h3>What was left out</h3><p>Grains that separate and meet again: at most {} of the "
+      "mass "
       "and time was {} in the median member, {} in the worst. Where that is much, ask for "
       "grains.states.</p></div>",
-      share_text(parted[parted.size() / 2]), looser_text(), share_text(parted.back()));
+      share_text(dilated[dilated.size() / 2]), looser_text(), share_text(dilated.back()));
 }
 
 }  // namespace sturz

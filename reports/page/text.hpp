@@ -12,7 +12,7 @@ std::string html_escape(std::string_view text);
 /// JSON made safe inside a script element: no '<' is left, so no `</script` or `<!--` either.
 std::string script_safe(std::string json);
 
-/// `value` rounded to `digits` significant digits, thousands parted by narrow spaces from 10 000
+/// `value` rounded to `digits` significant digits, thousands separated by narrow spaces from 10 000
 /// on, real minus sign; an en dash for NaN. Whole numbers keep all their digits.
 std::string shown_number(double value, int digits = 3);
 /// The same without any grouping and with a plain minus: for labels that are read as numbers.

@@ -61,7 +61,7 @@ void require_numbers(const Scenario& s) {
 
 /// Thickness that counts as reached [m]: what a tenth of a particle spread over its place gives;
 /// columns thin out continuously, so for them a fixed one.
-double reach_limit(const ScenePlan& plan, double dx) {
+double runout_limit(const ScenePlan& plan, double dx) {
   return plan.formulation.depth_averaged ? 0.05 : std::max(0.05, dx / 10);
 }
 
@@ -85,7 +85,7 @@ std::string joined(const std::vector<std::string>& parts) {
 }
 
 PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) {
-  return PeakMaps({grid, reach_limit(plan, s.numerics.spacing_m)});
+  return PeakMaps({grid, runout_limit(plan, s.numerics.spacing_m)});
 }
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {

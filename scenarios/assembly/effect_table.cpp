@@ -32,7 +32,7 @@ const GrainStatesSpec* states_of(const Scenario& s) {
   return s.grains->states ? &*s.grains->states : nullptr;
 }
 
-Called base_called(const Scenario&, const ScenePlan&) {
+Called bed_called(const Scenario&, const ScenePlan&) {
   return {true, "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"};
 }
 Called walls_called(const Scenario& s, const ScenePlan&) {
@@ -55,7 +55,7 @@ Called isolated_called(const Scenario& s, const ScenePlan& plan) {
 }
 Called contacts_called(const Scenario&, const ScenePlan& plan) {
   return by_grain_key(plan, "grains.states.ultradilute.contacts: hertz_mindlin",
-                      plan.parcel_contacts.has_value());
+                      plan.isolated_contacts.has_value());
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
@@ -103,7 +103,7 @@ void add_collisions(SceneParts& p) { add_kinetic_theory(p.step, p.state, p.grain
 void add_states(SceneParts& p) { add_grain_states(p.step, p.state, p.grain_stress); }
 void add_isolated(SceneParts& p) { add_isolated_particles(p.step, p.state, p.grain_stress); }
 void add_contacts(SceneParts& p) {
-  add_isolated_contacts(p.step, p.state, grains, *p.plan.parcel_contacts);
+  add_isolated_contacts(p.step, p.state, grains, *p.plan.isolated_contacts);
 }
 void add_columns(SceneParts& p) {
   add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);
@@ -111,7 +111,7 @@ void add_columns(SceneParts& p) {
 
 constexpr EffectRow table[] = {
     {EffectName::gravity, always, add_kick},
-    {EffectName::base, base_called, add_bed},
+    {EffectName::bed, bed_called, add_bed},
     {EffectName::walls, walls_called, add_walls},
     {EffectName::grain_stress, grain_stress_called, add_stress, grain_stress_bytes_per_particle},
     {EffectName::kinetic_theory, kinetic_theory_called, add_collisions},
@@ -119,9 +119,9 @@ constexpr EffectRow table[] = {
     {EffectName::isolated, isolated_called, add_isolated},
     {EffectName::isolated_contacts, contacts_called, add_contacts},
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
-    {"turbulent base", turbulence_called},
-    {"viscous base", viscosity_called},
-    {"zones of the base", zones_called},
+    {"turbulent bed", turbulence_called},
+    {"viscous bed", viscosity_called},
+    {"zones of the bed", zones_called},
     {"periodic images", periods_called},
     {EffectName::motion, always, add_drift},
     {"excavation", excavation_called},

@@ -65,7 +65,7 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
     c.reason = "`formulation: depth_averaged`";
   } else if (s.formulation == Formulation::full_stress) {
     c.reason = "`formulation: full_stress`; " + layers_text(c);
-    // A release without any mass is refused as such by whoever fills it.
+    // A release without any mass is refused as such where it is filled.
     const bool unresolved = c.release_layers > 0 && c.release_layers < unresolved_layers;
     require(!unresolved || s.numerics.accept_unresolved,
             "formulation = full_stress (" + short_number(c.release_layers) +

@@ -110,7 +110,7 @@ MuIRheology make_law(const GrainsSpec& g) {
   return law;
 }
 
-/// The base of each zone; what a zone does not give is that of the whole base.
+/// The bed of each zone; what a zone does not give is that of the whole bed.
 std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
   BasalResistance all;
   all.friction_coefficient = spec.friction_coefficient.value;
@@ -120,32 +120,32 @@ std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
     all.turbulent_coefficient = spec.turbulent_coefficient_m_s2->value;
   if (spec.viscosity_pa_s) all.viscosity_pa_s = spec.viscosity_pa_s->value;
   if (spec.yield_stress_pa) all.yield_stress_pa = spec.yield_stress_pa->value;
-  std::vector<BasalResistance> base{all};
+  std::vector<BasalResistance> bed{all};
   for (const BasalZone& zone : spec.zones) {
-    BasalResistance& b = base.emplace_back(all);
+    BasalResistance& b = bed.emplace_back(all);
     b.friction_coefficient = zone.friction_coefficient.value_or(b.friction_coefficient);
     b.pore_pressure_ratio = zone.pore_pressure_ratio.value_or(b.pore_pressure_ratio);
     b.cohesion_pa = zone.cohesion_pa.value_or(b.cohesion_pa);
   }
-  return base;
+  return bed;
 }
 
-void plan_columns(const Scenario& s, std::vector<BasalResistance> base, ScenePlan& plan) {
+void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan& plan) {
   DepthAveragedSettings& c = plan.columns;
   c.spacing = s.numerics.spacing_m;
   c.density = plan.bulk_density_kg_m3;
   c.courant = s.numerics.courant;
   c.zones = plan.zones;
   c.instruction_set = best_instruction_set();
-  c.earth_pressure.assign(base.size(), EarthPressure{});
+  c.earth_pressure.assign(bed.size(), EarthPressure{});
   if (s.grains->earth_pressure == LateralPressure::active_passive) {
     const double internal = make_law(*s.grains).static_friction;
-    for (std::size_t k = 0; k < base.size(); ++k)
+    for (std::size_t k = 0; k < bed.size(); ++k)
       // Only the grains' part of the stress is anisotropic (Iverson & Denlinger 2001).
-      c.earth_pressure[k] = EarthPressure(internal, base[k].effective_friction())
-                                .with_pore_pressure(base[k].pore_pressure_ratio);
+      c.earth_pressure[k] = EarthPressure(internal, bed[k].effective_friction())
+                                .with_pore_pressure(bed[k].pore_pressure_ratio);
   }
-  c.base = std::move(base);
+  c.bed = std::move(bed);
 }
 
 /// Grains that may part: reference packing and laws (docs/physics.md A.4, A.7, B.9).
@@ -161,13 +161,13 @@ GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
     states.dilute = KineticTheory{s.grains->density_kg_m3.value, s.grains->diameter_m.value,
                                   spec.dilute->restitution.value, states.friction.max_fraction};
   states.ultradilute = spec.ultradilute.has_value();
-  states.switched = spec.stress_mode == StressMode::seed;
+  states.paper_switch = spec.stress_mode == StressMode::paper_switch;
   return states;
 }
 
-ParcelContactSettings plan_parcel_contacts(const Scenario& s, double speed) {
+IsolatedContactSettings plan_isolated_contacts(const Scenario& s, double speed) {
   const UltradiluteSpec& spec = *s.grains->states->ultradilute;
-  ParcelContactSettings contacts;
+  IsolatedContactSettings contacts;
   contacts.material.youngs_modulus = spec.youngs_modulus_pa;
   contacts.material.poisson_ratio = s.grains->poisson_ratio.value;
   contacts.material.density = s.grains->density_kg_m3.value;
@@ -177,11 +177,10 @@ ParcelContactSettings plan_parcel_contacts(const Scenario& s, double speed) {
   return contacts;
 }
 
-void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& base,
-                      ScenePlan& plan) {
+void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed, ScenePlan& plan) {
   const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
-  double least_friction = base[0].effective_friction();
-  for (const BasalResistance& b : base)
+  double least_friction = bed[0].effective_friction();
+  for (const BasalResistance& b : bed)
     least_friction = std::min(least_friction, b.effective_friction());
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
@@ -215,8 +214,9 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
     softest.sound_speed = std::min(stress.sound_speed, stress.least_sound_speed);
     stress.states->friction.limit_slope(softest.bulk_modulus() / plan.reference_fraction);
     if (s.grains->states->ultradilute &&
-        s.grains->states->ultradilute->contacts != ParcelContactLaw::none)
-      plan.parcel_contacts = plan_parcel_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
+        s.grains->states->ultradilute->contacts != IsolatedContactLaw::none)
+      plan.isolated_contacts =
+          plan_isolated_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
   }
 
   ContactSettings& contact = plan.contact;
@@ -228,9 +228,9 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bas
       std::max(10 * standard_gravity * std::max(deepest, dx) / (dx * dx), impact * impact);
   contact.restitution = s.basal.restitution.value;
   contact.zones = plan.zones;
-  contact.base.clear();
-  for (const BasalResistance& b : base)
-    contact.base.push_back({b.friction_coefficient, b.pore_pressure_ratio, b.cohesion_pa});
+  contact.bed.clear();
+  for (const BasalResistance& b : bed)
+    contact.bed.push_back({b.friction_coefficient, b.pore_pressure_ratio, b.cohesion_pa});
 }
 
 /// Four layers or more on the whole, or a reader has to be told what is not resolved.
@@ -267,7 +267,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
 
   plan.reference_fraction = s.grains->solid_fraction.value;
   if (s.grains->states && !formulation.depth_averaged && plan.reference_fraction < dense_fraction) {
-    // A looser mass carries no load: it is set down as the packing it settles to at once.
+    // A looser mass carries no load: it is deposited as the packing it settles to at once.
     for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
     plan.reference_fraction = dense_fraction;
   }
@@ -277,11 +277,11 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
                          s.ensemble.seed, member, plan.formulation.depth_averaged});
   plan.zones = {in.zones};
-  const std::vector<BasalResistance> base = basal_by_zone(s.basal);
+  const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
   if (plan.formulation.depth_averaged)
-    plan_columns(s, base, plan);
+    plan_columns(s, bed, plan);
   else
-    plan_full_stress(s, base, plan);
+    plan_full_stress(s, bed, plan);
 
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
@@ -310,7 +310,7 @@ std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan)
   if (s.grains->states && plan.formulation.depth_averaged)
     out.push_back(
         "grains.states is not used: columns have no states. Use formulation: full_stress "
-        "where the grains may part");
+        "where the grains may disperse");
   const bool collides =
       s.grains->states && s.grains->states->dilute && !plan.formulation.depth_averaged;
   if (collides && s.grains->states->dilute->restitution.value < 0.7)

@@ -25,13 +25,13 @@ struct ScenePlan {
   Release release;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
-  GrainStressSettings stress;                            ///< full_stress
-  ContactSettings contact;                               ///< full_stress
-  std::optional<ParcelContactSettings> parcel_contacts;  ///< where lone parcels may meet
+  GrainStressSettings stress;                                ///< full_stress
+  ContactSettings contact;                                   ///< full_stress
+  std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;    ///< depth_averaged
   double reference_speed_m_s = 0;   ///< v_ref of the fastest expected mass point; full_stress
-  double available_energy_j = 0;    ///< release mass falling to the lowest ground in reach
+  double available_energy_j = 0;    ///< release mass falling to the lowest ground within runout
 
   explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
 };

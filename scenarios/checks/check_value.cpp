@@ -96,17 +96,17 @@ void Checker::check_support(const Distribution& d, const std::string& shown) con
   const bool low_good = touches || (std::isinf(low) ? std::isinf(key.min) : in_range(key, low));
   const bool high_good = std::isinf(high) ? std::isinf(key.max) : in_range(key, high);
   if (low_good && high_good) return;
-  std::string reach = "its values reach from " + number_text(low) + " to " + number_text(high) +
+  std::string range = "its values reach from " + number_text(low) + " to " + number_text(high) +
                       " but " + must_be(key) + ").";
   if (can_truncate(d)) {
-    reach += " Truncate it:";
-    if (!low_good) reach += " min: " + number_text(key.min);
-    if (!high_good) reach += std::string(low_good ? "" : ",") + " max: " + number_text(key.max);
-    reach += ".";
+    range += " Truncate it:";
+    if (!low_good) range += " min: " + number_text(key.min);
+    if (!high_good) range += std::string(low_good ? "" : ",") + " max: " + number_text(key.max);
+    range += ".";
   } else {
-    reach += sentence(unit_hint(key, low_good ? high : low));
+    range += sentence(unit_hint(key, low_good ? high : low));
   }
-  add(shown + reach);
+  add(shown + range);
 }
 
 void Checker::check_word(const std::string& word) const {
@@ -120,6 +120,9 @@ void Checker::check_word(const std::string& word) const {
   if (has(key.later_choices))
     return add(shown +
                "not available in this version). Available: " + comma_separated(key.choices) + ".");
+  const auto renamed = key.renamed_choices.find(word);
+  if (renamed != key.renamed_choices.end())
+    return add(shown + "has a new name in this version). Write " + renamed->second + ".");
   const std::string near = nearest_name(word, key.choices);
   add(shown + "must be one of " + comma_separated(key.choices) + ")." +
       sentence(near.empty() ? "" : "Did you mean " + near + "?"));

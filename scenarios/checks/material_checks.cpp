@@ -41,7 +41,7 @@ std::string shown(const Scenario& s, const char* path) {
   return std::string(path) + " = " + value_text(find_key(path)->get(s));
 }
 
-/// What grains that part need to be told apart by.
+/// What grains that separate need to be told apart by.
 void check_states(const Scenario& s, Problems& problems) {
   if (!s.grains || !s.grains->states) return;
   const GrainStatesSpec& states = *s.grains->states;

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <variant>
@@ -51,6 +52,8 @@ struct KeyInfo {
   bool above_min = false;                  ///< min itself is outside
   bool required = false;                   ///< must stand in every file
   std::vector<std::string> later_choices;  ///< words that a later version will know
+  /// Words of earlier versions and what they are called now.
+  std::map<std::string, std::string> renamed_choices = {};
 };
 
 /// All keys in file order.

@@ -53,8 +53,9 @@ void add_states(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
   keys.push_back(choice_key(
       states, &GrainStatesSpec::stress_mode, "grains.states.stress_mode",
-      "unified: one continuous law from dense to dilute; seed: the paper's switch between "
+      "unified: one continuous law from dense to dilute; paper_switch: the paper's switch between "
       "laws, with relaxation."));
+  keys.back().renamed_choices = {{"seed", "paper_switch"}};
   keys.push_back(key(states, &GrainStatesSpec::max_fraction,
                      {"grains.states.max_fraction", uncertain, "1", 0.55, 0.95,
                       "Densest packing of the grains; by default solid_fraction + 0.08, at least "
@@ -68,13 +69,13 @@ void add_states(std::vector<KeyInfo>& keys) {
                                 "made for 0.7 and more."})));
   keys.push_back(choice_key(ultradilute, &UltradiluteSpec::contacts,
                             "grains.states.ultradilute.contacts",
-                            "What lone parcels do when they meet."));
+                            "What isolated particles do when they meet."));
   keys.push_back(above_min(key(ultradilute, &UltradiluteSpec::restitution,
                                {"grains.states.ultradilute.restitution", uncertain, "1", 0, 0.999,
-                                "Share of the speed that two lone parcels keep."})));
+                                "Share of the speed that two isolated particles keep."})));
   keys.push_back(key(ultradilute, &UltradiluteSpec::friction_coefficient,
                      {"grains.states.ultradilute.friction_coefficient", uncertain, "1", 0, 2,
-                      "Friction between two lone parcels."}));
+                      "Friction between two isolated particles."}));
   keys.push_back(
       above_min(key(ultradilute, &UltradiluteSpec::youngs_modulus_pa,
                     {"grains.states.ultradilute.youngs_modulus_pa", number, "Pa", 0, 1e13,
@@ -89,7 +90,7 @@ void add_basal(std::vector<KeyInfo>& keys) {
                       "Coulomb friction coefficient between mass and ground."}));
   keys.push_back(key(basal, &BasalSpec::pore_pressure_ratio,
                      {"basal.pore_pressure_ratio", uncertain, "1", 0, 0.99,
-                      "Pore pressure over normal stress at the base, r_u."}));
+                      "Pore pressure over normal stress at the bed, r_u."}));
   keys.push_back(key(
       basal, &BasalSpec::cohesion_pa,
       {"basal.cohesion_pa", uncertain, "Pa", 0, no_limit, "Cohesion between mass and ground."}));
@@ -102,7 +103,7 @@ void add_basal(std::vector<KeyInfo>& keys) {
                                 "depth_averaged flow."})));
   keys.push_back(above_min(key(basal, &BasalSpec::viscosity_pa_s,
                                {"basal.viscosity_pa_s", uncertain, "Pa s", 0, no_limit,
-                                "Viscosity of the laminar drag at the base, in depth_averaged "
+                                "Viscosity of the laminar drag at the bed, in depth_averaged "
                                 "flow."})));
   keys.push_back(key(basal, &BasalSpec::yield_stress_pa,
                      {"basal.yield_stress_pa", uncertain, "Pa", 0, no_limit,
@@ -131,13 +132,13 @@ void add_material_blocks(std::vector<BlockInfo>& blocks) {
   blocks.push_back(optional_block(
       "grains.friction", "Internal friction that grows with the shear rate, mu(I).", friction));
   blocks.push_back(optional_block(
-      "grains.states", "Grains that part: pressure of loose packings, dilute and lone grains.",
+      "grains.states", "Grains that part: pressure of loose packings, dilute and isolated grains.",
       states));
   blocks.push_back(optional_block("grains.states.dilute",
                                   "Grains that collide: kinetic theory, granular temperature.",
                                   dilute));
   blocks.push_back(optional_block("grains.states.ultradilute",
-                                  "Grains without neighbours: parcels in free flight.",
+                                  "Grains without neighbours: isolated particles in free flight.",
                                   ultradilute));
 }
 

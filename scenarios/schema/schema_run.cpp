@@ -15,8 +15,7 @@ void add_numerics(std::vector<KeyInfo>& keys) {
   keys.push_back(is_required(absent_when_zero(above_min(
       key(numerics, &NumericsSpec::spacing_m,
           {"numerics.spacing_m", number, "m", 0, 1000,
-           "Distance between particles at the start; at least three should fit the source's "
-           "thickness."})))));
+           "Initial particle spacing; at least three should fit the source's thickness."})))));
   keys.push_back(above_min(key(numerics, &NumericsSpec::end_time_s,
                                {"numerics.end_time_s", number, "s", 0, 1e5,
                                 "Simulated time after which a member is stopped."})));
@@ -39,7 +38,7 @@ void add_numerics(std::vector<KeyInfo>& keys) {
                       "Strength of the density smoothing (delta-SPH)."}));
   keys.push_back(key(numerics, &NumericsSpec::jitter,
                      {"numerics.jitter", number, "1", 0, 0.25,
-                      "Random displacement of the start lattice, in spacings."}));
+                      "Random displacement of the start lattice, in initial particle spacings."}));
   keys.push_back(key(numerics, &NumericsSpec::stop_at_rest,
                      {"numerics.stop_at_rest", flag, "", -no_limit, no_limit,
                       "Stop a member when its mass has come to rest."}));

@@ -38,7 +38,7 @@ class MapText {
   std::string text_;
 };
 
-std::string one(const std::string& name, const std::string& value) {
+std::string single_entry(const std::string& name, const std::string& value) {
   return MapText().add(name, value).text();
 }
 
@@ -72,7 +72,7 @@ std::string synthetic_text(const SyntheticTerrain& terrain) {
   MapText own;
   own.add("cell_size_m", terrain.cell_size_m);
   for (const auto& [name, value] : terrain.parameters) own.add(quoted_text(name), value);
-  return one(quoted_text(terrain.shape), own.text());
+  return single_entry(quoted_text(terrain.shape), own.text());
 }
 
 struct ToText {
@@ -141,25 +141,25 @@ std::string distribution_text(const Distribution& d) {
   MapText map;
   switch (d.kind) {
     case uniform:
-      return one("uniform", pair_text(d));
+      return single_entry("uniform", pair_text(d));
     case log_uniform:
-      return one("log_uniform", pair_text(d));
+      return single_entry("log_uniform", pair_text(d));
     case normal:
       map.add("mean", d.mean).add("sd", d.sd).add("min", d.min).add("max", d.max);
-      return one("normal", map.text());
+      return single_entry("normal", map.text());
     case lognormal:
       map.add("median", d.median).add("sigma_ln", d.sigma_ln).add("min", d.min).add("max", d.max);
-      return one("lognormal", map.text());
+      return single_entry("lognormal", map.text());
     case triangular:
-      return one("triangular",
-                 numbers_text(std::array{d.min.value_or(0), d.mode, d.max.value_or(0)}));
+      return single_entry("triangular",
+                          numbers_text(std::array{d.min.value_or(0), d.mode, d.max.value_or(0)}));
     case beta:
       map.add("alpha", d.alpha).add("beta", d.beta).add("min", d.min).add("max", d.max);
-      return one("beta", map.text());
+      return single_entry("beta", map.text());
     case discrete:
-      return one("discrete", discrete_text(d));
+      return single_entry("discrete", discrete_text(d));
     case table:
-      return one("table", numbers_text(d.values));
+      return single_entry("table", numbers_text(d.values));
   }
   return {};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The numbers that a zone of the base may give in the place of basal's own.
+/// The numbers that a zone of the bed may give in the place of basal's own.
 #pragma once
 
 #include "scenarios/schema/schema.hpp"

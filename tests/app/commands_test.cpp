@@ -49,19 +49,19 @@ TEST_F(Commands, RunTellsTheStatesOfItsGrainsOrWhatItLeftOut) {
   const Ended dense = sturz({"run", path("scene.yaml"), "-o", path("dense")});
   ASSERT_EQ(dense.exit_code, 0) << dense.err;
   EXPECT_THAT(dense.out, ::testing::ContainsRegex(
-                             "parted +[0-9.]+ % of mass and time .states not asked for."));
+                             "dilated +[0-9.]+ % of mass and time .states not asked for."));
   EXPECT_THAT(read("dense/report.html"), HasSubstr("grains.states was not asked for"));
   const Ended loose = sturz({"run", path("scene.yaml"), "-o", path("loose"), "--set",
                              "grains.states.dilute.restitution=0.8"});
   ASSERT_EQ(loose.exit_code, 0) << loose.err;
   EXPECT_THAT(loose.out, ::testing::ContainsRegex("states +dense [0-9.]+ %.*.mass x time."));
   EXPECT_THAT(loose.out, HasSubstr("of the largest speed squared"));
-  EXPECT_THAT(loose.out, Not(HasSubstr("parted")));
+  EXPECT_THAT(loose.out, Not(HasSubstr("dilated")));
   EXPECT_THAT(read("loose/report.html"), HasSubstr("Share of the mass by state"));
   const Ended columns = sturz(
       {"run", path("scene.yaml"), "-o", path("columns"), "--set", "formulation=depth_averaged"});
   ASSERT_EQ(columns.exit_code, 0) << columns.err;
-  EXPECT_THAT(columns.out, Not(::testing::AnyOf(HasSubstr("parted"), HasSubstr("states"))));
+  EXPECT_THAT(columns.out, Not(::testing::AnyOf(HasSubstr("dilated"), HasSubstr("states"))));
 }
 
 TEST_F(Commands, RunTellsWhereItsTimeWent) {

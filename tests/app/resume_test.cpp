@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 class Resume : public App {
  protected:
-  /// The hash of an ensemble that nobody disturbed.
+  /// The hash of an ensemble that ran undisturbed.
   std::string undisturbed(const std::string& scene = "scene.yaml") {
     const Ended ended = sturz({"ensemble", path(scene), "-o", path("undisturbed")});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;

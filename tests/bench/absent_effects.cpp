@@ -18,7 +18,7 @@ namespace {
 
 constexpr double most_time_ratio = 1.02;
 
-/// A member under test, whoever put it together.
+/// A member under test, however it was put together.
 struct Moving {
   std::shared_ptr<void> owner;
   State* state = nullptr;
@@ -131,7 +131,7 @@ Report absent_effects(const Options& options) {
   report.tables.push_back(all.take());
   report.notes = {
       "By hand: the engine's effects alone (grain stress, gravity, terrain contact, motion; or "
-      "columns), without walls, zones, earth pressure, turbulence or viscosity of the base.",
+      "columns), without walls, zones, earth pressure, turbulence or viscosity of the bed.",
       "Holds: the interval's near end is below 1.02, the bytes are equal and no pass is more. "
       "Rows without a verdict tell what an effect costs that is there and has nothing to do; "
       "earth pressure does something."};

@@ -122,7 +122,7 @@ Report ensemble(const Options& options) {
   add_rows(small_member(end_time), options, options.members, table);
   report.tables.push_back(std::move(table));
   report.notes = {
-      fmt::format("{:.0f} s of flow a member at most, friction of the base varied by +-10 % with "
+      fmt::format("{:.0f} s of flow a member at most, friction of the bed varied by +-10 % with "
                   "the member's number.",
                   end_time),
       "Efficiency: wall time on one worker over workers x wall time. Overhead: workers x wall time "

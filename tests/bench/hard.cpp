@@ -124,7 +124,7 @@ Report hard(const Options& options) {
   report.notes.push_back(
       "Bounds of members: valid outcome, no NaN, mass error 1e-12, nothing leaked, energy residual "
       "and energy created 0.01, lowest centre -0.1 dx, speed 1.05 of free fall, mean step 0.05 of "
-      "the estimate, late growth of the kinetic energy 0.01 of its peak.");
+      "the estimate, late dilation_ratio of the kinetic energy 0.01 of its peak.");
   return report;
 }
 

@@ -124,7 +124,7 @@ Table members_table() {
            {"numerical", "numerical, least"},
            {"under_ground_dx", "lowest centre, dx"},
            {"speed_ratio", "speed / free fall"},
-           {"late_growth", "late growth"},
+           {"late_growth", "late dilation_ratio"},
            {"mean_dt_ratio", "mean step / estimate"},
            {"least_dt_ratio", "least step / estimate"},
            {"particles", "particles"},
@@ -204,7 +204,7 @@ std::size_t add_violations(const test::RandomMembers& members, const std::vector
 
 Table influence_table() {
   return {"influence",
-          "Rank correlation of the sampled numbers with the way of the front",
+          "Rank correlation of the sampled numbers with the travel of the front",
           {{"ground", "ground"},
            {"states", "states"},
            {"number", "number"},
@@ -214,14 +214,14 @@ Table influence_table() {
 void add_influence(const test::RandomMembers& members, const std::vector<HardRun>& runs,
                    Table& table) {
   const DesignTable& points = test::hard_points();
-  std::vector<double> way;
-  for (const HardRun& r : runs) way.push_back(r.survival.front_travel_m);
-  const auto way_ranks = ranks(way);
+  std::vector<double> travel;
+  for (const HardRun& r : runs) travel.push_back(r.survival.front_travel_m);
+  const auto travel_ranks = ranks(travel);
   for (std::size_t k = 0; k < points.keys.size(); ++k) {
     std::vector<double> value;
     for (const HardRun& r : runs) value.push_back(points.values[r.number][k]);
     table.add({cell(members.ground()), cell(std::string(to_string(members.states()))),
-               cell(points.keys[k]), cell(correlation(ranks(value), way_ranks), 2)});
+               cell(points.keys[k]), cell(correlation(ranks(value), travel_ranks), 2)});
   }
 }
 

@@ -30,7 +30,7 @@ Table violations_table();
 /// \return how many rows it added
 std::size_t add_violations(const test::RandomMembers&, const std::vector<HardRun>&, Table&);
 
-/// Spearman's rank correlation of each sampled number with the way of the front.
+/// Spearman's rank correlation of each sampled number with the travel of the front.
 Table influence_table();
 void add_influence(const test::RandomMembers&, const std::vector<HardRun>&, Table&);
 

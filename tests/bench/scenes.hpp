@@ -27,7 +27,7 @@ Scene column_slide(double n_columns, double end_time_s = 60);
 /// ground: a member of a screening ensemble in full stress.
 Scene small_member(double end_time_s = 60);
 
-/// The scenario of one member: the base's friction varied by +-10 % with the member's number.
+/// The scenario of one member: the bed's friction varied by +-10 % with the member's number.
 Scenario varied(const Scenario&, std::int64_t member);
 
 }  // namespace sturz::bench

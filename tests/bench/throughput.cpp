@@ -226,7 +226,7 @@ void Throughput::add_notes() {
       "instructions, whichever is faster here. It does velocity "
       "gradient, stress force, artificial viscosity, continuity, elastic + mu(I) update, spring "
       "ground with friction, integration. It leaves out: gradient correction, density diffusion, "
-      "stress smoothing, mirror image at the ground, drag at rest, parted grains, walls, periods, "
+      "stress smoothing, mirror image at the ground, drag at rest, dilated grains, walls, periods, "
       "zones, losses, energy ledger, double precision, thread-independent sums, step limits, peak "
       "maps, stop rule.",
       "Bytes per particle: what the passes and arrays say at the end of the timed run; lists count "

@@ -2,7 +2,6 @@
 #include "ensemble/members/executor.hpp"
 
 #include "engine/core/error.hpp"
-#include "tests/support/thread_sanitizer.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +19,6 @@ namespace {
 
 class EveryExecutor : public testing::TestWithParam<ThreadLibrary> {
  protected:
-  void SetUp() override {
-    if (test::under_thread_sanitizer && GetParam() == ThreadLibrary::tbb)
-      GTEST_SKIP() << test::skip_tbb;
-  }
-
   std::atomic<bool> stop_{false};
 };
 
@@ -59,7 +53,7 @@ TEST_P(EveryExecutor, RunsAsManyPiecesAtOnceAsItHasWorkers) {
   EXPECT_EQ(threads.size(), 3U);
 }
 
-TEST_P(EveryExecutor, GivesTheNextPieceToWhoeverIsFree) {
+TEST_P(EveryExecutor, GivesTheNextPieceToTheFirstFreeWorker) {
   std::atomic<int> others{0};
   std::atomic<bool> all_done_meanwhile{false};
   make_executor(2, GetParam())->for_each(40, stop_, [&](std::size_t i) {

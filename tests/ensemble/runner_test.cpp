@@ -2,7 +2,6 @@
 #include "ensemble/members/runner.hpp"
 
 #include "engine/core/error.hpp"
-#include "tests/support/thread_sanitizer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,11 +28,6 @@ struct Case {
 /// A run of twenty pretended members; what was stored is kept by number.
 class EveryRunner : public testing::TestWithParam<Case> {
  protected:
-  void SetUp() override {
-    if (test::under_thread_sanitizer && GetParam().threads == ThreadLibrary::tbb)
-      GTEST_SKIP() << test::skip_tbb;
-  }
-
   EveryRunner() {
     plan_.members.resize(20);
     std::iota(plan_.members.begin(), plan_.members.end(), 0);
@@ -63,7 +57,7 @@ class EveryRunner : public testing::TestWithParam<Case> {
   static MemberResult endless(std::int64_t member, const std::atomic<bool>& cancel) {
     const auto limit = std::chrono::steady_clock::now() + 20s;
     while (!cancel && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(1ms);
-    EXPECT_TRUE(cancel) << "nobody told the member to stop";
+    EXPECT_TRUE(cancel) << "the member was not told to stop";
     MemberResult r;
     r.member = member;
     r.outcome = Outcome::cancelled;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-averaged members from the corners of the scenario on ground that wants to break them. No
-// NaN, no column lost but over the rim, the ledger closed, no speed from nowhere.
+// NaN, no column lost but over the domain boundary, the ledger closed, no speed from nowhere.
 // STURZ_HARD_MEMBERS=500 runs as many; the usual number is for every change.
 #include "engine/core/constants.hpp"
 #include "engine/effects/fields.hpp"
@@ -47,12 +47,12 @@ TEST(SteepGround, ColumnsSurviveEveryCorner) {
     const MemberResult r = simulation.run();
     ++outcomes[std::string(to_string(r.outcome))];
     const MemberScalars& s = r.scalars;
-    const Ledger& book = simulation.parts().state.grains().ledger;
+    const Ledger& ledger = simulation.parts().state.grains().ledger;
     EXPECT_TRUE(is_valid(r.outcome)) << to_string(r.outcome) << ": " << r.reason;
     EXPECT_TRUE(is_finite(simulation.parts().state.grains()));
     EXPECT_LE(std::abs(s.mass_error), 1e-12);
-    EXPECT_EQ(book.leaked_mass, 0);
-    if (m.scenario.terrain.nodata == TerrainEdge::wall) EXPECT_EQ(book.lost_mass, 0);
+    EXPECT_EQ(ledger.leaked_mass, 0);
+    if (m.scenario.terrain.nodata == TerrainEdge::wall) EXPECT_EQ(ledger.lost_mass, 0);
     EXPECT_LE(std::abs(s.energy_residual), 0.01);
     EXPECT_LE(s.max_speed_m_s, most);
     EXPECT_GT(s.mean_dt_s, 1e-3 * std::sqrt(m.scenario.numerics.spacing_m / standard_gravity));

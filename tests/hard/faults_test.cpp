@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Fault{"Mass", [](State& s) { s.grains().mass[40] = nan; }, "not finite"},
                     Fault{"Stress", field(fields::stress, 3, nan), "not finite"},
                     Fault{"InfiniteStress", field(fields::stress, 2, -infinity), "not finite"},
-                    Fault{"Compression", field(fields::compression, 0, nan), "not finite"},
+                    Fault{"DensityChange", field(fields::density_change, 0, nan), "not finite"},
                     Fault{"HugeStress", field(fields::stress, 2, -1e30), ""},
                     Fault{"Speed", [](State& s) { s.grains().vz[40] = 1e9; }, ""}),
     [](const auto& i) { return i.param.name; });
@@ -92,9 +92,10 @@ TEST_P(FaultInARun, EndsTheMemberByNameAfterItsLastGoodFrame) {
   EXPECT_GT(last, 0);
 }
 
-/// A finite absurdity that stops nothing must at least show in the books.
+/// A finite absurdity that stops nothing must at least show in the ledger.
 TEST(FaultInARunThatGoesOn, ShowsInTheEnergyResidual) {
-  const MemberResult r = run_with({"Huge compression", field(fields::compression, 0, 1e12), ""});
+  const MemberResult r =
+      run_with({"Huge density change", field(fields::density_change, 0, 1e12), ""});
   EXPECT_TRUE(is_valid(r.outcome));
   EXPECT_GT(std::abs(r.scalars.energy_residual), 1);
 }

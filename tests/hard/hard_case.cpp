@@ -45,10 +45,10 @@ std::span<const HardCase> hard_cases() {
       {"I11", "block dropped on an 80 degree face at 100 m/s", drop_on_80_degrees},
       {"I12", "collapsing column, shear at the scale of the particles", banding},
       {"I13", "mass flies apart until all are alone", jet_breaks_up, true},
-      {"I14", "parcels touch at 1e-6 to 1 m/s and part", slow_contacts_part, true},
-      {"I15", "masses of the parcels of a member", masses_mix, true},
+      {"I14", "particles touch at 1e-6 to 1 m/s and separate", slow_contacts_part, true},
+      {"I15", "masses of the particles of a member", masses_mix, true},
       {"I16", "gate taken away from a column at rest", gate_removal},
-      {"I16", "parcels leave and come back over a cliff", parcels_come_and_go, true},
+      {"I16", "particles leave and come back over a cliff", isolated_come_and_go, true},
       {"I17", "steep member again, on two threads", same_bits},
   };
   return cases;

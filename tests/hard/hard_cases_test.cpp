@@ -59,14 +59,16 @@ TEST(HardStates, StepStaysBoundedUpToTheLargestFraction) {
 TEST(HardStates, MassThatFliesApartFollowsItsParabola) { expect_holds(jet_breaks_up(States::all)); }
 
 // I14
-TEST(HardStates, ParcelsThatTouchSlowlyPartAgain) { expect_holds(slow_contacts_part(States::all)); }
+TEST(HardStates, IsolatedParticlesThatTouchSlowlySeparateAgain) {
+  expect_holds(slow_contacts_part(States::all));
+}
 
 // I15
-TEST(HardStates, ParcelsOfAMemberAreAlikeInMass) { expect_holds(masses_mix(States::all)); }
+TEST(HardStates, ParticlesOfAMemberAreAlikeInMass) { expect_holds(masses_mix(States::all)); }
 
 // I16
-TEST(HardStates, ParcelsThatComeAndGoMakeNoEnergy) {
-  expect_holds(parcels_come_and_go(States::all));
+TEST(HardStates, IsolatedParticlesThatLeaveAndRejoinMakeNoEnergy) {
+  expect_holds(isolated_come_and_go(States::all));
 }
 
 }  // namespace

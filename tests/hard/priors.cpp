@@ -48,7 +48,7 @@ Distribution dry_or_damp() {
 }
 
 /// sd of .14 decades about the regression on the volume, 1.0081 V^-.0847 with V in m^3.
-Distribution base_friction() {
+Distribution bed_friction() {
   return lognormal(1.0081 * std::pow(1.2e6, -0.0847), 0.14 * std::numbers::ln10, 0.08, 0.7);
 }
 
@@ -57,7 +57,7 @@ Distribution base_friction() {
 std::vector<UncertainKey> rock_avalanche_priors() {
   Distribution fraction = between(Kind::triangular, 0.5, 0.72);
   fraction.mode = 0.6;
-  return {{"basal.friction_coefficient", "1", base_friction()},
+  return {{"basal.friction_coefficient", "1", bed_friction()},
           {"basal.pore_pressure_ratio", "1", dry_or_damp()},
           {"grains.friction_angle_deg", "degree", normal(33, 4, 22, 45)},
           {"release.volume_factor", "1", lognormal(1, 0.25, 0.3, 3)},

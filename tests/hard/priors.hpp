@@ -13,11 +13,11 @@ inline constexpr int n_corners = 64, n_random = 400, n_points = n_corners + n_ra
 ///   grains.friction_angle_deg  makes grains.friction.static = tan
 ///   grains.friction_gain       mu_2 - mu_s
 ///   release.volume_factor      of the volume that the survey gives
-/// The base has both the prior of mu_eff and that of r_u, so it gets weaker than either says.
+/// The bed has both the prior of mu_eff and that of r_u, so it gets weaker than either says.
 std::vector<UncertainKey> rock_avalanche_priors();
 
 /// Rows 0..63: all combinations of the 1 % and 99 % quantiles of the first six, the others at their
-/// median. Rows 64..463: a Latin hypercube of all ten, with D.2's correlation of base and internal
+/// median. Rows 64..463: a Latin hypercube of all ten, with D.2's correlation of bed and internal
 /// friction. The same numbers on every machine; drawn at the first call, so call it before workers
 /// start.
 const DesignTable& hard_points();

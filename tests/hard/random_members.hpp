@@ -17,13 +17,14 @@ namespace sturz::test {
 class RandomMembers {
  public:
   /// steep_ground: a cap of about 450 particles of 6 m whose place, shape and (in one of five)
-  /// start velocity go by the member's number. The rim lets mass out, or in one of five is a wall.
+  /// start velocity go by the member's number. The domain boundary lets mass out, or in one of five
+  /// is a wall.
   static RandomMembers on_steep_ground(States = States::dense_only);
   /// Monte Marsicano, 10 m cells: 1.2e6 m^3 dug out of the slope, about 700 particles of 12 m.
   /// \param folder  with marsicano_10m.tif and release_250m.geojson
   static RandomMembers on_marsicano(const std::string& folder, States = States::dense_only);
 
-  /// With all states every fourth member lets lone parcels meet (hertz_mindlin).
+  /// With all states every fourth member lets isolated particles meet (hertz_mindlin).
   HardMember member(int number) const;
   const std::string& ground() const { return name_; }
   States states() const { return states_; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Full-stress members from the priors' corners and random points: each one ends with a name, keeps
-// its books, and does nothing that gravity cannot do. STURZ_HARD_MEMBERS=1856 runs all.
+// its ledger, and does nothing that gravity cannot do. STURZ_HARD_MEMBERS=1856 runs all.
 #include "tests/hard/random_members.hpp"
 
 #include "tests/hard/expect_holds.hpp"
@@ -31,9 +31,10 @@ TEST(RandomMembers, SurviveSteepGround) {
     expect_survival(RandomMembers::on_steep_ground(states), spread(hard_members(20) / 4));
 }
 
-/// 58 diverged and 419 threw a grain at nine times the speed of free fall where lone parcels came
-/// back; in 206 a handful of grains bounced off the foot of the slope and threw one at 1.2 times.
-TEST(RandomMembers, ParcelsThatComeBackAndGrainsThatHitTheGroundAreNotThrown) {
+/// 58 diverged and 419 threw a grain at nine times the speed of free fall where isolated particles
+/// came back; in 206 a handful of grains bounced off the foot of the slope and threw one at 1.2
+/// times.
+TEST(RandomMembers, IsolatedParticlesThatRejoinAndGrainsThatHitTheGroundAreNotThrown) {
   expect_survival(RandomMembers::on_steep_ground(States::all), {58, 206, 419});
 }
 

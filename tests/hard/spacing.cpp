@@ -17,10 +17,10 @@ double nearest_image(double d, const Period& p) {
 
 }  // namespace
 
-std::vector<std::vector<Neighbor>> neighbors_within(const SimulationParts& parts, double reach) {
+std::vector<std::vector<Neighbor>> neighbors_within(const SimulationParts& parts, double radius) {
   const ParticleSet& p = parts.state.grains();
   const Domain& domain = parts.state.domain;
-  const double most2 = reach * reach * parts.facts.spacing_m * parts.facts.spacing_m;
+  const double most2 = radius * radius * parts.facts.spacing_m * parts.facts.spacing_m;
   std::vector<std::vector<Neighbor>> all(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {

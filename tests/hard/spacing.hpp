@@ -11,15 +11,15 @@ namespace sturz::test {
 /// Smallest distance of two particles, periodic images included [dx].
 double closest_pair(const SimulationParts&);
 
-/// Sets of particles in which everyone reaches everyone over steps of at most `link` dx.
+/// Sets of particles that are connected by steps of at most `link` dx.
 /// \return sizes, largest first
 std::vector<std::size_t> pieces(const SimulationParts&, double link);
 
-/// Neighbours of every particle within `reach` dx, images included: offset to each [m].
+/// Neighbours of every particle within `radius` dx, images included: offset to each [m].
 struct Neighbor {
   std::size_t index;
   double dx, dy, dz;
 };
-std::vector<std::vector<Neighbor>> neighbors_within(const SimulationParts&, double reach);
+std::vector<std::vector<Neighbor>> neighbors_within(const SimulationParts&, double radius);
 
 }  // namespace sturz::test

@@ -13,7 +13,7 @@ Scenario with_states(Scenario s, States states, double restitution, bool contact
   GrainStatesSpec& spec = s.grains->states.emplace();
   spec.dilute.emplace().restitution = restitution;
   spec.ultradilute.emplace().restitution = restitution;
-  if (contacts) spec.ultradilute->contacts = ParcelContactLaw::hertz_mindlin;
+  if (contacts) spec.ultradilute->contacts = IsolatedContactLaw::hertz_mindlin;
   return s;
 }
 

@@ -11,9 +11,9 @@ namespace sturz::test {
 enum class States { dense_only, all };
 std::string_view to_string(States);
 
-/// The scene with kinetic theory and lone parcels, or with dense grains alone.
-/// \param restitution  of grains and parcels
-/// \param contacts     whether lone parcels meet each other
+/// The scene with kinetic theory and isolated particles, or with dense grains alone.
+/// \param restitution  of grains and particles
+/// \param contacts     whether isolated particles meet each other
 Scenario with_states(Scenario, States, double restitution = 0.7, bool contacts = false);
 
 }  // namespace sturz::test

@@ -64,7 +64,7 @@ void choose_source(Dice& dice, Scenario& s, SceneInputs& in) {
   if (dice.often(0.2)) s.release.velocity_m_s = {dice.between(-20, 40), dice.between(-20, 20), 0};
 }
 
-void choose_base(Dice& dice, Scenario& s) {
+void choose_bed(Dice& dice, Scenario& s) {
   s.basal.friction_coefficient = dice.often(0.1) ? 0.0 : dice.between(0.0, 1.2);
   s.basal.pore_pressure_ratio = dice.often(0.3) ? 0.0 : dice.between(0.0, 0.99);
   s.basal.cohesion_pa = dice.often(0.6) ? 0.0 : dice.log_between(10, 50000);
@@ -97,7 +97,7 @@ HardMember hard_member(std::uint64_t number) {
   s.formulation = Formulation::depth_averaged;
   s.terrain.nodata = dice.often(0.2) ? TerrainEdge::wall : TerrainEdge::outflow;
   choose_source(dice, s, m.inputs);
-  choose_base(dice, s);
+  choose_bed(dice, s);
   s.numerics.spacing_m = dice.log_between(2.5, 25);
   s.numerics.end_time_s = 90;
   return m;

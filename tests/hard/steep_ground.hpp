@@ -10,10 +10,10 @@
 namespace sturz::test {
 
 /// 80 x 120 cells of 10 m: a 50 degree slope with sharp ridges and gullies, a 60 m cliff, pits, a
-/// saddle and a terrace, over rolling ground whose rim is open on all sides.
+/// saddle and a terrace, over rolling ground whose boundary is open on all sides.
 Raster<double> steep_ground();
 
-/// One random scene on it: where the mass lies, how much, how it starts, base, earth pressure,
+/// One random scene on it: where the mass lies, how much, how it starts, bed, earth pressure,
 /// spacing, all from the corners of what a scenario accepts.
 struct HardMember {
   Scenario scenario;

@@ -45,17 +45,17 @@ class Witness {
     out.lowest_dx = lowest_ / parts_.facts.spacing_m;
     out.speed_ratio = fastest_ / std::sqrt(start_speed * start_speed + 2 * gravity * fall);
     if (estimated_dt > 0) out.least_dt_ratio = least_dt_ / estimated_dt;
-    if (most_released_ > 0) write_books(out);
+    if (most_released_ > 0) write_ledger(out);
     write_end(out);
   }
 
  private:
-  void write_books(Survival& out) const {
+  void write_ledger(Survival& out) const {
     const Ledger& l = parts_.state.grains().ledger;
     out.energy_residual = std::abs(l.residual()) / most_released_;
     out.numerical_share = l.numerical() / most_released_;
     const double given = l.kinetic_0 + l.elastic_0 + l.gravity_work;
-    const double stored = l.elastic + l.frictional + l.granular + l.rotational + l.parcel_elastic;
+    const double stored = l.elastic + l.frictional + l.granular + l.rotational + l.isolated_elastic;
     const double kept = l.kinetic + stored + l.lost_energy + l.granular_lost;
     const double known = std::max(0.0, l.diffusion);
     out.created_energy = std::max(0.0, kept - known - given) / most_released_;
@@ -102,7 +102,7 @@ Survival survive(Simulation simulation, double start_speed, double estimated_dt,
   const MemberResult r = simulation.run(control);
   witness.look();
   const MemberScalars& m = r.scalars;
-  const Ledger& book = parts.state.grains().ledger;
+  const Ledger& ledger = parts.state.grains().ledger;
   Survival out;
   out.outcome = r.outcome, out.reason = r.reason;
   out.finite = all_finite(parts.state.grains());
@@ -110,8 +110,8 @@ Survival survive(Simulation simulation, double start_speed, double estimated_dt,
   out.end_time_s = m.end_time_s, out.seconds = m.wall_s;
   out.front_travel_m = m.front_travel_m, out.max_mach = m.max_mach;
   out.reported_residual = std::abs(m.energy_residual), out.mass_error = std::abs(m.mass_error);
-  out.leaked_share = book.leaked_mass / book.released_mass;
-  out.lost_share = book.lost_mass / book.released_mass;
+  out.leaked_share = ledger.leaked_mass / ledger.released_mass;
+  out.lost_share = ledger.lost_mass / ledger.released_mass;
   if (estimated_dt > 0) out.mean_dt_ratio = m.mean_dt_s / estimated_dt;
   witness.write(start_speed, estimated_dt, out);
   return out;

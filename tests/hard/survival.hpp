@@ -29,7 +29,7 @@ struct Survival {
   double mass_error = 0;    ///< |kept + lost - released| / released
   double leaked_share = 0;  ///< of the released mass: found under the ground
   double cold = 0;          ///< grains seen with a granular temperature below zero or NaN
-  double lost_share = 0;    ///< of the released mass: left over the rim, or leaked
+  double lost_share = 0;    ///< of the released mass: left over the domain boundary, or leaked
   double lowest_dx = 0;     ///< lowest centre above the ground, at any time looked at
   double speed_ratio = 0;   ///< fastest particle / sqrt(v0^2 + 2 g drop)
   double mean_dt_ratio = 0, least_dt_ratio = 0;  ///< over the estimate before the run

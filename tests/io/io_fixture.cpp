@@ -131,7 +131,7 @@ MemberResult made_up_member(std::int64_t number) {
   m.pass_seconds = {{"pair sweep", 0.1 * static_cast<double>(number + 1)},
                     {"peak maps, history, limits", 1e-9}};
   m.effect_seconds = {{"grain stress", 0.25 * static_cast<double>(number + 1)},
-                      {"base", 0.1},
+                      {"bed", 0.1},
                       {"bookkeeping", 1e-9}};
   m.grid = {12, 10, 500000.1, 4600000.3, 2.5, utm33_wkt()};
   m.window = {4, 5, 3, 4};

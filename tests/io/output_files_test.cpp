@@ -297,6 +297,22 @@ TEST_F(ParticleFrames, LeaveOutWhatTheSceneDoesNotHave) {
   EXPECT_THAT(vtp, Not(HasSubstr("granular_temperature")));
 }
 
+TEST_F(ParticleFrames, SetsOfOneInstantArePartsOfIt) {
+  ParticleFrameWriter writer(folder());
+  for (const double time : {0.0, 1.0}) {
+    ParticleFrame second = frame(time);
+    second.set = "fluid";
+    second.set_index = 1;
+    writer.write(frame(time));
+    writer.write(second);
+  }
+  EXPECT_THAT(names(), ElementsAre("particles.pvd", "particles_000000.vtp", "particles_000001.vtp",
+                                   "particles_fluid_000000.vtp", "particles_fluid_000001.vtp"));
+  EXPECT_THAT(read_text(writer.index()),
+              AllOf(HasSubstr("timestep=\"1\" part=\"0\" file=\"particles_000001.vtp\""),
+                    HasSubstr("timestep=\"1\" part=\"1\" file=\"particles_fluid_000001.vtp\"")));
+}
+
 TEST_F(ParticleFrames, AnEmptyFrameIsStillAFile) {
   ParticleFrameWriter writer(folder());
   writer.write(ParticleFrame{});

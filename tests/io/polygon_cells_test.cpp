@@ -38,10 +38,10 @@ TEST(PolygonCells, ACellBelongsWhereItsCentreLies) {
 
 TEST(PolygonCells, HolesAreLeftOutInAnyOrientation) {
   Ring hole = box(1, 1, 3, 3);
-  const auto rim = ElementsAre(0, 1, 2, 3, 4, 7, 8, 11, 12, 13, 14, 15);
-  EXPECT_THAT(cells_of(small, {box(0, 0, 4, 4), hole}), rim);
+  const auto edge = ElementsAre(0, 1, 2, 3, 4, 7, 8, 11, 12, 13, 14, 15);
+  EXPECT_THAT(cells_of(small, {box(0, 0, 4, 4), hole}), edge);
   std::reverse(hole.begin(), hole.end());
-  EXPECT_THAT(cells_of(small, {box(0, 0, 4, 4), hole}), rim);
+  EXPECT_THAT(cells_of(small, {box(0, 0, 4, 4), hole}), edge);
 }
 
 TEST(PolygonCells, WhatLiesOutsideIsLeftOut) {
@@ -91,11 +91,11 @@ TEST(PolygonCells, NeighboursShareNoCellAndLeaveNone) {
   // Edges run exactly through centres, and each is walked in both directions.
   const Grid grid{40, 40, 0, 40, 1, ""};
   std::vector<int> owners(grid.n_cells(), 0);
-  const std::vector<Vec2> rim = {{0, 0},   {20, 0},  {40, 0}, {40, 20},
-                                 {40, 40}, {20, 40}, {0, 40}, {0, 20}};
+  const std::vector<Vec2> edge = {{0, 0},   {20, 0},  {40, 0}, {40, 20},
+                                  {40, 40}, {20, 40}, {0, 40}, {0, 20}};
   const Vec2 middle(20.5, 19.5);
-  for (std::size_t i = 0; i < rim.size(); ++i)
-    for (const std::size_t cell : cells_of(grid, {{middle, rim[i], rim[(i + 1) % rim.size()]}}))
+  for (std::size_t i = 0; i < edge.size(); ++i)
+    for (const std::size_t cell : cells_of(grid, {{middle, edge[i], edge[(i + 1) % edge.size()]}}))
       ++owners[cell];
   EXPECT_EQ(std::count(owners.begin(), owners.end(), 1), 1600);
 }

@@ -62,6 +62,10 @@ TEST(ScenarioMessages, StatesOfGrains) {
     return problems(scene("  friction_angle_deg: 24\n  states: {" + text + "}\n"));
   };
   EXPECT_THAT(states("dilute: {}, ultradilute: {}"), ElementsAre());
+  EXPECT_THAT(states("stress_mode: paper_switch"), ElementsAre());
+  EXPECT_THAT(states("stress_mode: seed"),
+              ElementsAre(HasSubstr("grains.states.stress_mode = seed (has a new name in this "
+                                    "version). Write paper_switch.")));
   EXPECT_THAT(states("dilute: {restitution: 1.5}"),
               ElementsAre(HasSubstr("grains.states.dilute.restitution = 1.5")));
   EXPECT_THAT(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Zones of the base from their files to the terrain's cells.
+// Zones of the bed from their files to the terrain's cells.
 #include "io/gdal/cog.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"

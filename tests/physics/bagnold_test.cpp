@@ -154,7 +154,7 @@ TEST(Bagnold, SlabFlowsWithItsProfile) {
                    r.friction_error, 0, r.friction_error, 0.01},
                   f);
     record(relative(name + ", mean speed", "m/s", r.flow.mean, 0.6 * solution_m_s(height_m)), f);
-    EXPECT_LT(std::abs(r.flow.lowest), 1e-3) << "the base lets go";
+    EXPECT_LT(std::abs(r.flow.lowest), 1e-3) << "the bed lets go";
     EXPECT_LT(std::abs(r.drift), 0.005) << "not steady";
     expect_conserved(f);
     dx.push_back(f.simulation.parts().facts.spacing_m);
@@ -181,7 +181,7 @@ TEST(Bagnold, WhatViscosityAndARoughBaseCostIsReported) {
     Scenario rough = slab(slope_deg, layers);
     rough.basal.friction_coefficient = 10;
     const Steady r = flow_steadily(rough);
-    record({fmt::format("V7 slab, layers {}, base friction 10", layers), "L2 of u(z)", r.flow.l2, 0,
+    record({fmt::format("V7 slab, layers {}, bed friction 10", layers), "L2 of u(z)", r.flow.l2, 0,
             r.flow.l2, 0.05},
            r.finished);
     expect_conserved(r.finished);

@@ -35,8 +35,9 @@ Scenario one_particle(Scenario s, double spacing_m) {
 
 /// 10 x 10 x 4 particles that stay a block: cohesion beyond any stress of theirs, and a friction
 /// angle that leaves no lateral stress at the start (K_0 = 1 - sin 89 deg), which would make the
-/// block ring. Sliding friction excites it anyway; then parts of the base stick, or move across
-/// the slope, and the block as a whole feels less friction than a rigid one. Hence the viscosity.
+/// block ring. Sliding friction excites it anyway; then parts of its lowest layer stick, or move
+/// across the slope, and the block as a whole feels less friction than a rigid one. Hence the
+/// viscosity.
 Scenario elastic(Scenario s, double artificial_viscosity = 0.5) {
   s.grains->cohesion_pa = 1e7;
   s.grains->friction.reset();
@@ -164,7 +165,7 @@ class ThinSheet : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Layers, ThinSheet, testing::Values(1, 2, 3, 5),
                          [](const auto& i) { return fmt::format("Layers{}", i.param); });
 
-/// Periodic, 30 degrees, base tan 25: the acceleration does not know how many layers there are.
+/// Periodic, 30 degrees, bed tan 25: the acceleration does not know how many layers there are.
 /// A normal impulse that did not enter the Coulomb cap would show here first.
 TEST_P(ThinSheet, AcceleratesAsOneParticleDoes) {
   const Slide s = slide(thin_sheet(GetParam()), 2);

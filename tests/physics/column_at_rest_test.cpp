@@ -49,7 +49,7 @@ Scenario box(int layers) {
   return s;
 }
 
-/// All stresses are compression; errors are relative to rho g depth.
+/// All stresses are compressive; errors are relative to rho g depth.
 struct Rest {
   double profile = 0;                          ///< L2 over the layers' mean vertical stress
   double particle = 0;                         ///< L2 over all particles
@@ -66,7 +66,7 @@ struct LayerSums {
 Rest examine(const SimulationParts& parts, const std::vector<double>& start_z) {
   const ParticleSet& p = parts.state.grains();
   const auto& stress = p.components(fields::stress);
-  const double weight = parts.reference_density * gravity_m_s2;
+  const double weight = parts.state.grains().bulk_density * gravity_m_s2;
   std::vector<LayerSums> layers(
       static_cast<std::size_t>(std::lround(height_m / parts.facts.spacing_m)));
   Rest r;

@@ -31,7 +31,7 @@ Deposit deposit_of(const SimulationParts& parts) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double x = std::max(0.0, p.x[i]);
     add_to_slice(thickness, static_cast<std::size_t>(x / dx),
-                 p.mass[i] / parts.reference_density / (dx * 4 * dx));
+                 p.mass[i] / parts.state.grains().bulk_density / (dx * 4 * dx));
     if (x < 0.3) out.height = std::max(out.height, p.z[i] + 0.5 * dx);
   }
   out.run_out = deposit_edge(thickness, dx);
@@ -52,7 +52,7 @@ Scenario sand(double aspect, int particles_along) {
 double sand_run_out(double a) { return a < 2.3 ? 1.2 * a : 1.9 * std::pow(a, 2.0 / 3); }
 double sand_height(double a) { return a < 0.7 ? a : std::cbrt(a); }
 
-/// mu(I) of Jop et al. in the grains, their avalanche angle of 27.4 degrees at the rough base.
+/// mu(I) of Jop et al. in the grains, their avalanche angle of 27.4 degrees at the rough bed.
 Scenario beads(double aspect, int particles_along) {
   Scenario s = column_collapse(aspect, particles_along);
   s.grains->diameter_m = 0.01;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth-averaged flow on bent ground: V2, V21, a frictionless bowl, the ramp against full stress,
+// Depth-averaged flow on curved ground: V2, V21, a frictionless bowl, the ramp against full stress,
 // and the same bits on any number of threads.
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/descent.hpp"
@@ -15,10 +15,11 @@ Scenario columns(Scenario s) {
   return s;
 }
 
-/// The lone column follows the mass point; the bend presses it on (a regression test too: every
+/// The single column follows the mass point; the bend presses it on (a regression test too: every
 /// normal impulse counts for friction).
 TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
-  // The bend of 40 m is spread over two spacings of 8 m: there the energy's place is 2.1 % off.
+  // The bend of 40 m is spread over two spacings of 8 m: there the point of equal energy is 2.1 %
+  // off.
   for (const double spacing : {4.0, 2.0, 1.0}) {
     const Descent d = descend(columns(ramp_slide(90, spacing)));
     const EnergyLine line(d.s0, true), straight(d.s0, false);

@@ -61,9 +61,9 @@ Simulation quarter_of(Scenario s) {
   const double mass = sum.value();
   p.start_x = p.x;
   p.start_y = p.y;
-  Ledger& book = state.grains().ledger;
-  book.elastic_0 = book.elastic *= mass / book.released_mass;
-  book.released_mass = mass;
+  Ledger& ledger = state.grains().ledger;
+  ledger.elastic_0 = ledger.elastic *= mass / ledger.released_mass;
+  ledger.released_mass = mass;
   return simulation;
 }
 
@@ -89,7 +89,7 @@ Collapse collapse(Simulation simulation, double share_of_circle) {
     const double r = std::hypot(p.x[i], p.y[i]);
     const auto ring = static_cast<std::size_t>(r / dx);
     const double area = share_of_circle * std::numbers::pi * dx * dx * (2.0 * ring + 1);
-    add_to_slice(thickness, ring, p.mass[i] / parts.reference_density / area);
+    add_to_slice(thickness, ring, p.mass[i] / parts.state.grains().bulk_density / area);
     if (r < 0.3) c.deposit.height = std::max(c.deposit.height, p.z[i] + 0.5 * dx);
     c.deposit.mean_radius += r * p.mass[i] / parts.state.grains().ledger.released_mass;
   }
@@ -197,7 +197,7 @@ TEST(CylinderCollapse, QuarterBetweenWallsRunsAsTheFullCircle) {
          full.finished);
 }
 
-/// Grains that part, collide and fly on the way down.
+/// Grains that separate, collide and fly on the way down.
 TEST(CylinderCollapse, StatesOfTheGrainsRunOutAlike) {
   for (const auto& [aspect, n] : {std::pair{2.0, 10}, {5.0, 7}}) {
     Scenario s = scene(aspect, n);
@@ -229,7 +229,7 @@ TEST(CylinderCollapse, FrictionViscosityAndBaseAreReported) {
   for (const double angle : {25.0, 40.0}) {
     Scenario s = scene(1, 10);
     s.basal.friction_coefficient = std::tan(angle * degree);
-    reported(fmt::format("base {} deg", angle), s);
+    reported(fmt::format("bed {} deg", angle), s);
   }
 }
 

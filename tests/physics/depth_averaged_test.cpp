@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth-averaged flow against closed forms on even ground: V1, V1b, V4b, V18, and the speed at
-// which each kind of base holds a sheet.
+// which each kind of bed holds a sheet.
 #include "engine/effects/fields.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/verification.hpp"
@@ -183,14 +183,14 @@ TEST(DamBreak, FrontAndProfileFollowTheClosedForm) {
   fmt::print("V4b thickness: order {:.2f}\n", order.order);
 }
 
-/// A base that holds a sheet at a steady speed.
+/// A bed that holds a sheet at a steady speed.
 struct Steady {
   const char* name;
   double turbulent, viscosity, yield;
 };
 class SteadySheet : public testing::TestWithParam<Steady> {};
 void PrintTo(const Steady& s, std::ostream* out) { *out << s.name; }
-INSTANTIATE_TEST_SUITE_P(Bases, SteadySheet,
+INSTANTIATE_TEST_SUITE_P(Beds, SteadySheet,
                          // Slow enough that no roll waves grow: Froude number under 1/2 where
                          // drag is viscous, under 2 where it is turbulent.
                          testing::Values(Steady{"Voellmy", 20, 0, 0}, Steady{"Laminar", 0, 4000, 0},
@@ -198,28 +198,28 @@ INSTANTIATE_TEST_SUITE_P(Bases, SteadySheet,
                          [](const auto& i) { return std::string(i.param.name); });
 
 TEST_P(SteadySheet, ReachesTheSpeedOfTheFilm) {
-  const Steady& base = GetParam();
+  const Steady& bed = GetParam();
   Scenario s = sheet(1);
   s.numerics.end_time_s = 60;
-  s.basal.friction_coefficient = base.turbulent > 0 ? 0.2 : 0.0;
-  if (base.turbulent > 0) s.basal.turbulent_coefficient_m_s2 = Uncertain(base.turbulent);
-  if (base.viscosity > 0) s.basal.viscosity_pa_s = Uncertain(base.viscosity);
-  if (base.yield > 0) s.basal.yield_stress_pa = Uncertain(base.yield);
+  s.basal.friction_coefficient = bed.turbulent > 0 ? 0.2 : 0.0;
+  if (bed.turbulent > 0) s.basal.turbulent_coefficient_m_s2 = Uncertain(bed.turbulent);
+  if (bed.viscosity > 0) s.basal.viscosity_pa_s = Uncertain(bed.viscosity);
+  if (bed.yield > 0) s.basal.yield_stress_pa = Uncertain(bed.yield);
   const Finished f = run(s);
   const double h = std::cos(30 * degree), g = gravity_m_s2, sin30 = 0.5;
   const double density = f.simulation.parts().state.grains().bulk_density;
   double expected = 0;
-  if (base.turbulent > 0) {
-    expected = std::sqrt(base.turbulent * h * (sin30 - 0.2 * h));  // h = cos 30 deg for 1 m
+  if (bed.turbulent > 0) {
+    expected = std::sqrt(bed.turbulent * h * (sin30 - 0.2 * h));  // h = cos 30 deg for 1 m
   } else {
     // Film of a Bingham fluid: sheared below the plug, u_mean = u_plug (1 - d/(3 h)).
     const double stress = density * g * sin30;
-    const double sheared = h - base.yield / stress;
-    const double plug = stress * sheared * sheared / (2 * base.viscosity);
+    const double sheared = h - bed.yield / stress;
+    const double plug = stress * sheared * sheared / (2 * bed.viscosity);
     expected = plug * (1 - sheared / (3 * h));
   }
-  expect_within(relative(fmt::format("{} sheet, steady speed", base.name), "m/s",
-                         final_speed(f, 30), expected, 0.01),
+  expect_within(relative(fmt::format("{} sheet, steady speed", bed.name), "m/s", final_speed(f, 30),
+                         expected, 0.01),
                 f);
   expect_conserved(f);
 }

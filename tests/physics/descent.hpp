@@ -14,7 +14,7 @@ namespace sturz::test {
 inline constexpr double drop_m = 100;
 inline const double tan20 = std::tan(20 * degree);
 
-/// The ramp's ground along the fall line: z(s), its slope and bend.
+/// The ramp's ground along the fall line: z(s), its slope and curvature.
 struct Ramp {
   double fall = std::tan(30 * degree), half = 20;
   double z(double s) const {
@@ -23,10 +23,10 @@ struct Ramp {
   double slope(double s) const {
     return s <= -half ? -fall : s >= half ? 0 : fall * (s - half) / (2 * half);
   }
-  double bend(double s) const { return std::abs(s) < half ? fall / (2 * half) : 0; }
+  double curvature(double s) const { return std::abs(s) < half ? fall / (2 * half) : 0; }
 };
 
-/// A mass point on the ramp: energy height z + v^2/2g over the way from `start`, on the map.
+/// A mass point on the ramp: energy height z + v^2/2g over the path from `start`, on the map.
 ///
 /// Friction is mu N with N = m (g cos + v^2 kappa). Without the second part this is the straight
 /// line z_0 - mu (s - s_0) of depth-averaged codes; with it the bend presses the mass on and takes
@@ -39,7 +39,7 @@ class EnergyLine {
     for (; s < 400; s += step) {
       heights_.push_back(ramp.z(s) + u / (2 * gravity_m_s2));
       const double middle = s + 0.5 * step, p = ramp.slope(middle), q = 1 + p * p;
-      const double pressed = centripetal ? ramp.bend(middle) / q * u : 0;
+      const double pressed = centripetal ? ramp.curvature(middle) / q * u : 0;
       u -= step * 2 * (gravity_m_s2 * p + tan20 * (gravity_m_s2 + pressed));
       if (u <= 0) break;
     }
@@ -60,7 +60,7 @@ class EnergyLine {
   std::vector<double> heights_;
 };
 
-/// The way of the centre of mass and the mean energy height over it.
+/// The path of the centre of mass and the mean energy height over it.
 struct Descent {
   Finished finished;
   double s0 = 0, z0 = 0;

@@ -9,7 +9,7 @@
 namespace sturz::test {
 namespace {
 
-/// A disc that keeps its shape: the energy line knows no friction but the base's.
+/// A disc that keeps its shape: the energy line knows no friction but the bed's.
 Scenario disc(double artificial_viscosity) {
   Scenario s = ramp_slide(90, 2);
   s.release.thickness_m = Uncertain(6);
@@ -43,7 +43,7 @@ TEST(EnergyLine, HalfTheViscosityIsReported) {
   expect_conserved(d.finished);
 }
 
-/// Loose grains lose energy among themselves too, so their line is steeper than the base's.
+/// Loose grains lose energy among themselves too, so their line is steeper than the bed's.
 TEST(EnergyLine, LooseMassStopsEarlierThanADisc) {
   for (const double viscosity : {0.1, 0.05}) {
     Scenario s = ramp_slide(90, 3);

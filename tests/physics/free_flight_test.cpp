@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// V19 and V20 far from any ground: parcels fly parabolas, pair forces do not move the whole.
+// V19 and V20 far from any ground: particles fly parabolas, pair forces do not move the whole.
 #include "engine/effects/fields.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/effect.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double launch_height_m = 10;
 
-/// Four parcels at 20 m/s and 45 degrees, from far above the ground and far from each other.
+/// Four particles at 20 m/s and 45 degrees, from far above the ground and far from each other.
 Simulation launched(double spacing_m) {
   Scenario s;
   s.terrain.synthetic =
@@ -41,7 +41,7 @@ Simulation launched(double spacing_m) {
   return simulation;
 }
 
-/// Largest deviation from the range v^2/g, relative, when the parcels are back at launch height.
+/// Largest deviation from the range v^2/g, relative, when the particles are back at launch height.
 std::pair<Finished, double> flight(double spacing_m) {
   Simulation simulation = launched(spacing_m);
   const ParticleSet start = simulation.parts().state.grains();
@@ -69,9 +69,9 @@ std::pair<Finished, double> flight(double spacing_m) {
   return {std::move(f), worst};
 }
 
-TEST(FreeFlight, ParcelsFlyParabolas) {
+TEST(FreeFlight, IsolatedParticlesFollowParabolas) {
   const auto [f, error] = flight(0.1);
-  expect_within({"V19 lone parcels, dx 0.1 m", "range m", 400 / gravity_m_s2 * (1 + error),
+  expect_within({"V19 isolated particles, dx 0.1 m", "range m", 400 / gravity_m_s2 * (1 + error),
                  400 / gravity_m_s2, error, 1e-4},
                 f);
 }
@@ -80,7 +80,7 @@ TEST(FreeFlight, ParcelsFlyParabolas) {
 TEST(FreeFlight, WhatTheStepCostsIsReported) {
   for (const double dx : {1.0, 0.5}) {
     const auto [f, error] = flight(dx);
-    record({fmt::format("V19 lone parcels, dx {} m", dx), "range m",
+    record({fmt::format("V19 isolated particles, dx {} m", dx), "range m",
             400 / gravity_m_s2 * (1 + error), 400 / gravity_m_s2, error},
            f);
     EXPECT_LT(error, 1e-3);

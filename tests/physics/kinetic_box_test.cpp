@@ -80,7 +80,8 @@ void place(const Cloud& c, ParticleSet& p) {
 }
 
 void warm_up(const Cloud& c, State& s) {
-  for (double& e : s.grains().scalar(fields::compression)) e = c.fraction / reference_fraction - 1;
+  for (double& e : s.grains().scalar(fields::density_change))
+    e = c.fraction / reference_fraction - 1;
   for (auto& component : s.grains().components(fields::stress))
     std::fill(component.begin(), component.end(), 0.0);
   for (double& theta : s.grains().scalar(fields::granular_temperature)) theta = c.theta;
@@ -110,17 +111,18 @@ HandMade cloud_of(const Cloud& c, bool moving) {
   return made;
 }
 
-double total_heat(const State& s) {
+double total_granular_energy(const State& s) {
   double sum = 0;
   const auto& theta = s.grains().scalar(fields::granular_temperature);
   for (std::size_t i = 0; i < theta.size(); ++i) sum += 1.5 * s.grains().mass[i] * theta[i];
   return sum;
 }
 
-/// Largest deviation of the cloud's heat from Haff's law theta_0/(1 + t/tau)^2 within 3 tau.
+/// Largest deviation of the cloud's granular energy from Haff's law theta_0/(1 + t/tau)^2 within 3
+/// tau.
 struct Cooling {
   double worst = 0;
-  double stirred = 0;  ///< kinetic energy at the end over the heat at the start
+  double stirred = 0;  ///< kinetic energy at the end over the granular energy at the start
 };
 Cooling cool(const Cloud& c) {
   HandMade made = cloud_of(c, true);
@@ -128,20 +130,20 @@ Cooling cool(const Cloud& c) {
   const double e = c.law.restitution;
   const double tau = c.law.grain_diameter * std::sqrt(std::numbers::pi) /
                      (4 * (1 - e * e) * c.fraction * g0 * std::sqrt(c.theta));
-  const double heat = total_heat(made.state);
+  const double granular_energy = total_granular_energy(made.state);
   Cooling out;
   while (made.state.time < 3 * tau) {
     made.state.grains().motion.max_speed = 10;  // theta is bounded by the speed of the scene
     made.advance();
-    const double expected = heat / std::pow(1 + made.state.time / tau, 2);
-    out.worst = std::max(out.worst, std::abs(total_heat(made.state) / expected - 1));
+    const double expected = granular_energy / std::pow(1 + made.state.time / tau, 2);
+    out.worst = std::max(out.worst, std::abs(total_granular_energy(made.state) / expected - 1));
   }
-  out.stirred = made.state.grains().ledger.kinetic / heat;
-  EXPECT_LT(std::abs(made.state.grains().ledger.conducted), 1e-5 * heat);
+  out.stirred = made.state.grains().ledger.kinetic / granular_energy;
+  EXPECT_LT(std::abs(made.state.grains().ledger.conducted), 1e-5 * granular_energy);
   EXPECT_EQ(made.state.grains().n_listed, made.state.grains().size());
   fmt::print(
       "V10 box, jitter {}: {} steps to 3 tau = {:.2f} s, worst error {:.3f} %, stirred "
-      "{:.2f} % of the heat\n",
+      "{:.2f} % of the granular energy\n",
       c.jitter, made.state.n_steps, made.state.time, 100 * out.worst, 100 * out.stirred);
   return out;
 }
@@ -192,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shear{0.3, 1.0492, 1.9525, 0.291}, Shear{0.4, 0.93119, 4.4018, 0.299}),
     [](const auto& i) { return fmt::format("{:.0f}Percent", 100 * i.param.fraction); });
 
-/// V11 with particles held in uniform shear: gradient, heating, conduction and stress of the
+/// V11 with particles held in uniform shear: gradient, production, conduction and stress of the
 /// sweep, against the closed form, with a jittered cloud of free top and bottom.
 TEST_P(UniformShear, ReachesTheClosedForm) {
   for (const int layers : {10, 14, 20}) {
@@ -205,14 +207,14 @@ TEST_P(UniformShear, ReachesTheClosedForm) {
     HandMade made = cloud_of(c, false);
     State& s = made.state;
     const double rate = 2, scale = rate * c.law.grain_diameter;
-    auto& compression = s.grains().scalar(fields::compression);
+    auto& density_change = s.grains().scalar(fields::density_change);
     const double e0 = c.fraction / reference_fraction - 1;
     for (int step = 0; step < 1500; ++step) {
       // The shear is held: grains stay in place and keep the velocities that it gives them.
       for (std::size_t i = 0; i < s.grains().size(); ++i) {
         s.grains().vx[i] = rate * (s.grains().z[i] - c.bottom());
         s.grains().vy[i] = s.grains().vz[i] = 0;
-        compression[i] = e0;
+        density_change[i] = e0;
       }
       s.grains().motion.max_speed = 100;
       s.grains().motion.velocity_range[0] = 0;

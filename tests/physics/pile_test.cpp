@@ -131,7 +131,7 @@ TEST_P(SteepPile, ComesDownToASlopeBelowItsFrictionAngle) {
   expect_conserved(f);
 }
 
-/// Six layers without end on a rough base: the steepest slope that stands is the friction angle.
+/// Six layers without end on a rough bed: the steepest slope that stands is the friction angle.
 Scenario endless_slope(double slope) {
   Scenario s = thin_sheet(6);
   s.terrain.synthetic->parameters["slope_deg"] = slope;

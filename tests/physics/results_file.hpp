@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The accuracy-versus-time table on disk: one line per case, whoever runs it and in what order.
+/// The accuracy-versus-time table on disk: one line per case, in whatever order they ran.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // V18 in three dimensions: a parabolic ridge, one periodic slice of it, spreads down a 35 degree
-// slope over a base of tan 25 degrees. Full stress at four and more layers, columns beside it.
+// slope over a bed of tan 25 degrees. Full stress at four and more layers, columns beside it.
 #include "io/site/scene_inputs.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/catalogue.hpp"
@@ -73,18 +73,18 @@ struct Ridge {
   double centre = 0, half = 0, x99 = 0;
 
   explicit Ridge(const ParticleSet& p) {
-    std::vector<std::pair<double, double>> place;
+    std::vector<std::pair<double, double>> along;
     double mass = 0, xx = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      place.emplace_back((p.x[i] - start) / cos35, p.mass[i]);
-      mass += p.mass[i], centre += p.mass[i] * place.back().first;
+      along.emplace_back((p.x[i] - start) / cos35, p.mass[i]);
+      mass += p.mass[i], centre += p.mass[i] * along.back().first;
     }
     centre /= mass;
-    for (const auto& [x, m] : place) xx += m * (x - centre) * (x - centre);
+    for (const auto& [x, m] : along) xx += m * (x - centre) * (x - centre);
     half = std::sqrt(5 * xx / mass);  // a parabola's second moment is a^2/5
-    std::sort(place.begin(), place.end());
+    std::sort(along.begin(), along.end());
     double behind = 0;
-    for (const auto& [x, m] : place)
+    for (const auto& [x, m] : along)
       if ((behind += m) >= 0.99 * mass) {
         x99 = x;
         break;
@@ -101,18 +101,18 @@ void compare(const std::string& name, Simulation simulation, double half_toleran
              double front_tolerance) {
   const Finished f = run(std::move(simulation));
   const Ridge ridge(f.simulation.parts().state.grains());
-  const double way =
+  const double travel =
       0.5 * gravity_m_s2 * (sin35 - std::tan(25 * degree) * cos35) * end_time * end_time;
   const double a = spread();
   const Line half = line(name + ", half-length", ridge.half, a, half_tolerance);
-  const Line front = line(name + ", x99", ridge.x99, way + front_share() * a, front_tolerance);
-  record(line(name + ", centre", ridge.centre, way, reported_only), f);
+  const Line front = line(name + ", x99", ridge.x99, travel + front_share() * a, front_tolerance);
+  record(line(name + ", centre", ridge.centre, travel, reported_only), f);
   std::isnan(half_tolerance) ? record(half, f) : expect_within(half, f);
   std::isnan(front_tolerance) ? record(front, f) : expect_within(front, f);
   expect_conserved(f);
 }
 
-/// The closed form has K = 1. A mass that is rougher inside than its base spreads less (active K
+/// The closed form has K = 1. A mass that is rougher inside than its bed spreads less (active K
 /// under one); one that is much smoother shears inside, and its centre outruns the plug's.
 TEST(SimilarityStrip, FullStressSpreadsWithinATenthFromFourLayersOn) {
   for (const int layers : {4, 5})

@@ -50,22 +50,23 @@ MeanMotion mean_motion(const ParticleSet& p) {
 }
 
 void expect_conserved(const Finished& f) {
-  const Ledger& book = f.simulation.parts().state.grains().ledger;
+  const Ledger& ledger = f.simulation.parts().state.grains().ledger;
   const ParticleSet& p = f.simulation.parts().state.grains();
   EXPECT_TRUE(is_valid(f.result.outcome)) << to_string(f.result.outcome) << f.result.reason;
-  if (book.lost_mass == 0) {
+  if (ledger.lost_mass == 0) {
     EXPECT_EQ(p.size(), static_cast<std::size_t>(f.result.scalars.n_particles));
   }
   // What is left is the rounding of two sums over the same numbers.
   EXPECT_LE(std::abs(f.result.scalars.mass_error), 1e-13);
-  EXPECT_EQ(book.leaked_mass, 0);
+  EXPECT_EQ(ledger.leaked_mass, 0);
   double impulse2 = 0;
-  for (double i : book.stress_impulse) impulse2 += i * i;
+  for (double i : ledger.stress_impulse) impulse2 += i * i;
   // Where mass leaves, the last force on it is not in the sum but its reaction is.
   // Columns of a sheet push each other hard and no one moves: there rounding weighs more.
   const bool columns = f.result.formulation == to_string(Formulation::depth_averaged);
-  const double limit = book.lost_mass > 0 ? 1e-5 : columns ? 1e-6 : 1e-7;
-  EXPECT_LE(std::sqrt(impulse2), limit * book.stress_impulse_scale) << "pair forces push the whole";
+  const double limit = ledger.lost_mass > 0 ? 1e-5 : columns ? 1e-6 : 1e-7;
+  EXPECT_LE(std::sqrt(impulse2), limit * ledger.stress_impulse_scale)
+      << "pair forces push the whole";
   EXPECT_LE(std::abs(f.result.scalars.energy_residual), 0.01);
 }
 

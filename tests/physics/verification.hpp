@@ -48,8 +48,8 @@ struct MeanMotion {
 };
 MeanMotion mean_motion(const ParticleSet&);
 
-/// V20: mass to the last bit, pair forces without net momentum, energy booked within 1 % of the
-/// energy that was set free.
+/// V20: mass to the last bit, pair forces without net momentum, energy accounted for within 1 % of
+/// the energy that was set free.
 void expect_conserved(const Finished&);
 
 /// Least-squares slope of v over t.

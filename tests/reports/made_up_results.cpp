@@ -96,14 +96,14 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
   for (int k = 0; k < n_peak_layers; ++k)
     m.layers[k].assign(grid.n_cells(), info(static_cast<PeakLayer>(k)).untouched);
   const double effective = x[0] * (1 - x[1]);
-  const double reach = std::clamp(0.30 + 0.55 * std::exp(-(effective - 0.07) / 0.12), 0.25, 0.93);
+  const double runout = std::clamp(0.30 + 0.55 * std::exp(-(effective - 0.07) / 0.12), 0.25, 0.93);
   const double side = 0.6 * (x[2] - 0.6), length = grid.n_cols * grid.cell_m;
   const double aspect = length / (grid.n_rows * grid.cell_m);
   MemberScalars& sc = m.scalars;
   for (int row = 0; row < grid.n_rows; ++row)
     for (int col = 0; col < grid.n_cols; ++col) {
       const double s = (col + 0.5) / grid.n_cols, t = 0.5 - (row + 0.5) / grid.n_rows;
-      const double along = (s - 0.08) / (reach - 0.08);
+      const double along = (s - 0.08) / (runout - 0.08);
       if (along <= 0 || along >= 1) continue;
       const double fan = std::max(0.0, s - 0.62);
       const double centre = gully(s) * aspect / 1.5 + fan * side;
@@ -131,19 +131,19 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
       sc.max_energy_j_m2 = std::max(sc.max_energy_j_m2, 0.5 * 1500 * h * v * v);
       sc.max_pressure_pa = std::max(sc.max_pressure_pa, 1500 * v * v);
     }
-  sc.runout_m = (reach - 0.08) * length;
+  sc.runout_m = (runout - 0.08) * length;
   sc.release_layers = 2.7;
   sc.parted_fraction = 0.01 + 0.1 * x[1];
   sc.end_time_s = 74 + 20 * x[2];
   sc.n_particles = 2841;
   sc.n_steps = 18000 + 40 * static_cast<double>(number);
-  sc.wall_s = 11 + 6 * reach;
+  sc.wall_s = 11 + 6 * runout;
   m.warnings = fmt::format(
       "the release is {:.1f} particles thick (fewer than 3: stresses across the flow are not "
       "resolved). Use a finer spacing_m",
       sc.release_layers);
   m.outcome = Outcome::settled;
-  if (reach > 0.9) m.outcome = Outcome::out_of_time;
+  if (runout > 0.9) m.outcome = Outcome::out_of_time;
   if (scene.n_failed > 0 && number % (scene.n_members / scene.n_failed) == 11) {
     m.outcome = Outcome::diverged;
     m.reason =
@@ -263,10 +263,10 @@ ReportInput MadeUpResults::ensemble_input() const {
   in.description = {"full_stress  2 841 particles of 7 m, about 18 000 steps",
                     "gravity         on   always", "grain_stress    on   the scene has grains",
                     "fluid           off  no fluid block"};
-  in.timings = {{"grain stress", 361},  {"base", 74},
-                {"kinetic theory", 31}, {"motion", 12},
-                {"bookkeeping", 5.2},   {"gravity", 1.9},
-                {"lone parcels", 0.4},  {"states of the grains", 0.3}};
+  in.timings = {{"grain stress", 361},       {"bed", 74},
+                {"kinetic theory", 31},      {"motion", 12},
+                {"bookkeeping", 5.2},        {"gravity", 1.9},
+                {"isolated particles", 0.4}, {"states of the grains", 0.3}};
   in.elapsed_s = 251;
   in.resolved_thickness_m = 3.5;
   return in;
@@ -280,7 +280,7 @@ ReportInput MadeUpResults::single_input() const {
   in.members.resize(1);
   in.pass_timings = {{"pair sweep", 325},
                      {"ground and wall support", 74},
-                     {"pair sweep, groups that fly", 31},
+                     {"pair sweep, dispersed groups", 31},
                      {"others", 56}};
   if (!in.members.empty()) {
     MemberScalars& m = in.members.front().scalars;

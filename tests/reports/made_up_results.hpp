@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Results of an ensemble that nobody ran: a mountain, a gully, and members that follow it as far
+/// Made-up results of an ensemble: a mountain, a gully, and members that follow it as far
 /// as their made-up friction lets them. Maps come from the real make_hazard_map.
 #pragma once
 

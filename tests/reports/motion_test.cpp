@@ -134,7 +134,7 @@ TEST(MotionSection, AnEnsembleTellsWhatItsMembersLeftOut) {
   const ReportInput input = results.ensemble_input();
   const std::string page = make_report(input);
   EXPECT_TRUE(holds(page, "What was left out"));
-  EXPECT_TRUE(holds(page, ">parted<small>%</small>"));
+  EXPECT_TRUE(holds(page, ">dilated<small>%</small>"));
   EXPECT_FALSE(holds(page, ">ultradilute<small>"));
   std::vector<MemberSummary> three(3);
   for (auto& m : three) m.outcome = Outcome::settled;

@@ -141,7 +141,7 @@ TEST(Report, TellsWhereTheTimeWentByEffectAndFoldedByPass) {
   const std::string single = make_report(results.single_input());
   const std::size_t effects = single.find(">kinetic theory</th>");
   const std::size_t folded = single.find("<summary>By pass of a step</summary>");
-  const std::size_t passes = single.find(">pair sweep, groups that fly</th>");
+  const std::size_t passes = single.find(">pair sweep, dispersed groups</th>");
   ASSERT_NE(passes, std::string::npos);
   EXPECT_LT(effects, folded);
   EXPECT_LT(folded, passes);

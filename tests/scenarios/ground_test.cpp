@@ -108,10 +108,10 @@ TEST(SceneGround, IsTheRasterForParticlesAndItsMeansForColumns) {
 }
 
 TEST(SceneGround, PreparedGroundEqualsTheBuiltOne) {
-  for (const TerrainEdge rim : {TerrainEdge::outflow, TerrainEdge::wall})
+  for (const TerrainEdge edge : {TerrainEdge::outflow, TerrainEdge::wall})
     for (const double spacing : {1.0, 3.0}) {
       Scenario s = scene(spacing);
-      s.terrain.nodata = rim;
+      s.terrain.nodata = edge;
       const SceneInputs bare = inputs(40, 32, 1);
       SceneInputs prepared = bare;
       prepare_grounds(s, prepared);

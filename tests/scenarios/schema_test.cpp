@@ -158,7 +158,7 @@ TEST(Schema, EveryFileNameOfAValueIsFound) {
   EXPECT_EQ(s.basal.zones[0].layer, "a");
 }
 
-TEST(Schema, AZonesNumbersShareTheRowsOfTheBase) {
+TEST(Schema, AZonesNumbersShareTheRowsOfTheBed) {
   for (const auto& field : zone_fields) {
     EXPECT_EQ(find_zone_field(field.name), &field);
     ASSERT_NE(find_key(std::string("basal.") + field.name), nullptr) << field.name;

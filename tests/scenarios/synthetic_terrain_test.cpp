@@ -148,8 +148,8 @@ TEST(SyntheticTerrain, RampHasNoKinkAndTheRightHeights) {
   for (int col = 1; col < bed.grid.n_cols; ++col) {
     const double slope = bed.at(0, col) - bed.at(0, col - 1);
     EXPECT_LE(slope, 1e-12);
-    const double bend = col > 1 ? std::abs(slope - before) : 0;
-    EXPECT_LT(bend, fall / 40 + 1e-9) << col;
+    const double curvature = col > 1 ? std::abs(slope - before) : 0;
+    EXPECT_LT(curvature, fall / 40 + 1e-9) << col;
     before = slope;
   }
   EXPECT_NEAR(bed.at(0, bed.grid.col_of(-100.5)), 100.5 * fall, 1e-12);

@@ -218,6 +218,9 @@ TEST(Validate, UnknownWordsAreNamedAndChangeNothing) {
             "ensemble.design = sobl (must be one of monte_carlo, latin_hypercube, sobol, table). "
             "Did you mean sobol?");
   EXPECT_THAT(refusal("ensemble.design", "morris"), HasSubstr("(not available in this version)"));
+  EXPECT_EQ(
+      refusal("grains.states.stress_mode", "seed"),
+      "grains.states.stress_mode = seed (has a new name in this version). Write paper_switch.");
   EXPECT_EQ(refusal("formulation", "depth_average"),
             "formulation = depth_average (must be one of auto, full_stress, depth_averaged). Did "
             "you mean depth_averaged?");

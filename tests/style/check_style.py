@@ -99,16 +99,45 @@ FORBIDDEN_WORDS = {
 }
 
 
+# Words of this project alone, and what the field calls the thing. `parted_fraction` and
+# `take_off_fraction` are columns of members.csv and keep their names.
+PRIVATE_WORDS = {
+    r"parcels?|Parcel\w*|\w+_parcels?|lone (?:particle|grain|column)s?": "isolated particle",
+    r"groups? that fl(?:y|ies)|flying (?:grain|group)s?|calm groups?": "dispersed or dense group",
+    r"parted|Parting[A-Z]\w*": "dilated or separated",
+    r"hott?est|felt gradient|gradient felt": "largest granular temperature, pair-consistent gradient",
+    r"kick[ _]length": "kick interval",
+    r"take[ _-]offs?": "detachment",
+    r"wall_share": "mirror contribution",
+    r"[Pp]acked ?(?:Record|record)s?|PackedView|PackPass|[Pp]ack pass": "neighbour record, gather",
+    r"rims?|\w+_rim": "domain boundary, edge",
+    r"booked|bookings?|books": "accounted for, account, ledger",
+    r"bends?|bend_\w+": "curvature",
+    r"reach_\w+|\w+_reach|reaches of": "support radius, contact distance, search radius or runout",
+}
+# Particles, effects and callers are things.
+PERSONS = re.compile(r"\b(?:nobody|whoever|everybody|everyone|somebody|someone|anybody|anyone)\b"
+                     r"|\bwho (?:came|comes|goes|leaves|flies|lands|is near)\b", re.IGNORECASE)
+
+
 def words(root):
     patterns = {w: re.compile(rf"(?<![A-Za-z]){w}s?(?![A-Za-z])" if w == "DEM"
                               else rf"(?i:(?<![A-Za-z]){w}s?(?![A-Za-z]))") for w in FORBIDDEN_WORDS}
     allowed = re.compile(r"gdaldem|GDALDEM|smoothing[ _-]kernel|two[- ]phase", re.IGNORECASE)
-    for path, name in sources(root, LIBRARIES):
+    private = {re.compile(rf"\b(?:{w})\b"): known for w, known in PRIVATE_WORDS.items()}
+    for path, name in sources(root, LIBRARIES, CODE + (".js", ".css")):
         for n, line in enumerate(lines_of(path), 1):
             text = allowed.sub("", line)
             for word, pattern in patterns.items():
                 if pattern.search(text):
                     yield f"{name}:{n}: the bare word '{word}' ({FORBIDDEN_WORDS[word]})."
+            for pattern, known in private.items():
+                found = pattern.search(text)
+                if found:
+                    yield f"{name}:{n}: '{found.group(0)}' is no word of the field. Say: {known}."
+            found = PERSONS.search(text)
+            if found:
+                yield f"{name}:{n}: '{found.group(0)}' speaks of persons. Name the thing."
 
 
 def headers(root):

@@ -47,6 +47,25 @@ class CheckStyle(unittest.TestCase):
         for line in ("// gdaldem", "SmoothingKernel w;", "// demand", "// emphases", "// ademic"):
             self.assertFalse(self.findings("words", "io/a.cpp", line), line)
 
+    def test_private_words_are_found_in_libraries(self):
+        for line in ("// a lone parcel", "struct ParcelBody {", "// grains that parted again",
+                     "double hottest = 0;", "// groups that fly", "double kick_length(double dt);",
+                     "ledger.take_off += 1;", "// over the rim", "// what is booked here",
+                     "double bend_ee = 0;", "float inv_reach;", "// the gradient felt"):
+            self.assertTrue(self.findings("words", "engine/a.hpp", line), line)
+            self.assertTrue(self.findings("words", "reports/a.js", line), line)
+            self.assertFalse(self.findings("words", "tests/a.hpp", line), line)
+        for line in ("double parted_fraction = 0;", '"take_off_fraction", "1",', "// bookkeeping",
+                     "// separated by commas", "// departed", "// trim the rows", "unpacked(bytes);"):
+            self.assertFalse(self.findings("words", "engine/a.hpp", line), line)
+
+    def test_persons_are_found_in_libraries(self):
+        for line in ("// where nobody flies", "// whoever reads it", "// Everybody has it",
+                     "// who came for its sake", '"somebody must ask"'):
+            self.assertTrue(self.findings("words", "engine/a.hpp", line), line)
+        for line in ("// whose lists are kept", "// bodies", "// the whole"):
+            self.assertFalse(self.findings("words", "engine/a.hpp", line), line)
+
     def test_headers_without_licence_pragma_or_idea_are_found(self):
         self.assertFalse(self.findings("headers", "io/a.hpp", GOOD))
         for line in GOOD.splitlines(keepends=True):

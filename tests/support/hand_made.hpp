@@ -30,20 +30,21 @@ struct HandMade {
 std::vector<Vec3> block(std::array<int, 3> n, const Vec3& south_west_corner = {0, 0, 0});
 
 /// Grains with stress, gravity, contact and motion on `ground`; dx = 1 m.
-HandMade grains_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
+HandMade grains_on(Terrain ground, const std::vector<Vec3>& positions, const Vec3& velocity,
                    const Domain& domain = {}, double friction = 0.4);
 
 /// Particles without stress: gravity, contact and motion alone.
-HandMade parcels_on(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
-                    const Domain& domain = {}, double friction = 0.4);
+HandMade particles_on(Terrain ground, const std::vector<Vec3>& positions, const Vec3& velocity,
+                      const Domain& domain = {}, double friction = 0.4);
 
-/// The same with a base of its own in each zone.
-HandMade parcels_on_zones(Terrain ground, const std::vector<Vec3>& places, const Vec3& velocity,
-                          const Domain& domain, std::vector<GroundFriction> base, ZoneMap zones);
+/// The same with a bed of its own in each zone.
+HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& positions,
+                            const Vec3& velocity, const Domain& domain,
+                            std::vector<GroundFriction> bed, ZoneMap zones);
 
-/// Depth-averaged columns of density 1560 kg/m^3 on a lattice of 1 m (z of the places does not
+/// Depth-averaged columns of density 1560 kg/m^3 on a lattice of 1 m (z of the positions does not
 /// count), each with the vertical `thickness` [m].
-HandMade columns_on(Terrain ground, const std::vector<Vec3>& places, double thickness,
+HandMade columns_on(Terrain ground, const std::vector<Vec3>& positions, double thickness,
                     const Vec3& velocity, const Domain& domain = {},
                     DepthAveragedSettings settings = {});
 

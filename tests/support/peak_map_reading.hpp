@@ -23,13 +23,13 @@ inline float at(const MemberResult& r, PeakLayer layer, int row, int col) {
 /// What one particle set is recorded with.
 struct OneSet {
   Grid grid;
-  double spacing_m = 1, bulk_density_kg_m3 = 1, reach_limit_m = 0.05;
+  double spacing_m = 1, bulk_density_kg_m3 = 1, runout_limit_m = 0.05;
 };
 
 /// Peak maps of a single set of plain particles.
 class OneSetMaps {
  public:
-  explicit OneSetMaps(const OneSet& s) : one_(s), maps_({s.grid, s.reach_limit_m}) {}
+  explicit OneSetMaps(const OneSet& s) : one_(s), maps_({s.grid, s.runout_limit_m}) {}
 
   void record(const ParticleSet& p, double time_s) {
     const MovingSet set = moving(p);

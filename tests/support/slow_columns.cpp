@@ -14,9 +14,9 @@ namespace {
 double wave_speed(const SlowColumn& c) { return std::sqrt(c.lateral * c.thickness); }
 
 /// Monaghan's viscosity between approaching columns: Pi = -alpha c_ij mu / h_ij for mu < 0.
-double viscous(const SlowColumn& a, const SlowColumn& b, double reach, double alpha) {
+double viscous(const SlowColumn& a, const SlowColumn& b, double support_radius, double alpha) {
   const Vec3 r = a.position - b.position, v = a.velocity - b.velocity;
-  const double smoothing = 0.5 * reach;
+  const double smoothing = 0.5 * support_radius;
   const double mu = smoothing * v.dot(r) / (r.squaredNorm() + 0.01 * smoothing * smoothing);
   if (mu >= 0) return 0;
   const double speed = 0.5 * (wave_speed(a) + wave_speed(b));
@@ -27,14 +27,14 @@ double viscous(const SlowColumn& a, const SlowColumn& b, double reach, double al
 void add_pair(const SlowColumn& a, const SlowColumn& b, const ColumnConstants& k,
               ColumnRates& out) {
   const Vec3 r = a.position - b.position;
-  const double distance = r.norm(), reach = std::min(a.reach, b.reach);
-  if (distance >= reach) return;
-  const ColumnSmoothing w{reach};
+  const double distance = r.norm(), support_radius = std::min(a.support_radius, b.support_radius);
+  if (distance >= support_radius) return;
+  const ColumnSmoothing w{support_radius};
   out.thickness += b.volume * w.value(distance);
   out.density += w.value(distance);
   const Vec3 gradient = -w.gradient(distance) * r;
   const double lateral = 0.5 * (a.lateral + b.lateral);
-  const Vec3 pair = -b.volume * (lateral + viscous(a, b, reach, k.viscosity)) * gradient;
+  const Vec3 pair = -b.volume * (lateral + viscous(a, b, support_radius, k.viscosity)) * gradient;
   out.acceleration += pair;
   out.pull += pair.norm();
   out.divergence += b.volume * (b.velocity - a.velocity).dot(gradient);
@@ -46,7 +46,7 @@ ColumnRecord record_of(const SlowColumn& c, ColumnRecord r) {
   r.vx = static_cast<float>(c.velocity.x());
   r.vy = static_cast<float>(c.velocity.y());
   r.vz = static_cast<float>(c.velocity.z());
-  r.inverse_reach = static_cast<float>(1 / c.reach);
+  r.inverse_radius = static_cast<float>(1 / c.support_radius);
   r.thickness = static_cast<float>(c.thickness);
   r.lateral = static_cast<float>(c.lateral);
   r.wave_speed = static_cast<float>(wave_speed(c));
@@ -56,14 +56,14 @@ ColumnRecord record_of(const SlowColumn& c, ColumnRecord r) {
 ColumnCells cells_of(const std::vector<SlowColumn>& columns, const Domain& domain) {
   ParticleSet set;
   set.grow(columns.size());
-  std::vector<double> reach;
+  std::vector<double> support_radius;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Vec3& p = columns[i].position;
     set.x[i] = p.x(), set.y[i] = p.y(), set.z[i] = p.z();
-    reach.push_back(columns[i].reach);
+    support_radius.push_back(columns[i].support_radius);
   }
   ColumnCells cells;
-  cells.build(set, domain, reach);
+  cells.build(set, domain, support_radius);
   for (std::size_t k = 0; k < cells.size(); ++k)
     cells.records()[k] = record_of(columns[cells.source(k)], cells.records()[k]);
   return cells;

@@ -13,10 +13,10 @@ namespace sturz::test {
 /// A column as the sweep sees it.
 struct SlowColumn {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};
-  double volume = 1;      ///< [m^3]
-  double reach = 4;       ///< support radius R [m]
-  double thickness = 1;   ///< h [m]
-  double lateral = 9.81;  ///< K g_n [m/s^2]
+  double volume = 1;          ///< [m^3]
+  double support_radius = 4;  ///< support radius R [m]
+  double thickness = 1;       ///< h [m]
+  double lateral = 9.81;      ///< K g_n [m/s^2]
 };
 
 struct ColumnRates {

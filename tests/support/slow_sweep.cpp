@@ -40,8 +40,8 @@ Matrix3d correction(const Matrix3d& moment, bool& corrected) {
 }
 
 /// The same in units of the mean diagonal, for clouds.
-Matrix3d correction_in_a_cloud(const Matrix3d& moment, double growth, bool& corrected) {
-  const double least = std::max(1 / (growth * growth), 0.5);
+Matrix3d correction_in_a_cloud(const Matrix3d& moment, double dilation_ratio, bool& corrected) {
+  const double least = std::max(1 / (dilation_ratio * dilation_ratio), 0.5);
   const double mean = std::min(1.0, std::max(moment.trace() / 3, least));
   return correction(moment / mean, corrected) / mean;
 }
@@ -54,7 +54,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
   std::vector<SlowRates> out(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const SlowParticle& a = particles[i];
-    const double density_a = c.reference_density * (1 + a.compression);
+    const double density_a = c.reference_density * (1 + a.density_change);
     Matrix3d gradient = Matrix3d::Zero(), moment = Matrix3d::Zero();
     Vec3 force(0, 0, 0), grad_sum(0, 0, 0), density_gradient(0, 0, 0);
     double laplace = 0;
@@ -65,7 +65,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       if (distance == 0 || distance >= 2 * c.h) return;
       const Vec3 grad = derivative(distance, c) * r / distance;  // of W_ij at i
       const Vec3 u = a.velocity - b.velocity;
-      const double density_b = c.reference_density * (1 + b.compression);
+      const double density_b = c.reference_density * (1 + b.density_change);
       const double mass_b = b.volume * density_b;
       gradient += b.volume * (b.velocity - a.velocity) * grad.transpose();
       moment += b.volume * (b.position - a.position) * grad.transpose();
@@ -83,14 +83,14 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
         force -= b.volume / density_a * (a.tension + b.tension) * near2 * near2 * grad;
       }
       ++rates.neighbors;
-      const double rise = b.compression - a.compression;
+      const double rise = b.density_change - a.density_change;
       const double weight = -grad.dot(r) / r.squaredNorm();  // F_ij without the 0.01 h^2
       laplace += b.volume * weight * rise;
       const double conduction = 4 / (1 / a.conductivity + 1 / b.conductivity);
-      const double shared = b.volume * a.weight * b.weight / a.growth;
-      rates.heat += shared * conduction * weight * (b.theta - a.theta);
+      const double shared = b.volume * a.weight * b.weight / a.dilation_ratio;
+      rates.conducted += shared * conduction * weight * (b.theta - a.theta);
       const Matrix3d seen = -shared * u * grad.transpose();
-      rates.felt += 0.5 * (seen + seen.transpose());
+      rates.pair_gradient += 0.5 * (seen + seen.transpose());
       grad_sum += b.volume * grad;
       density_gradient += b.volume * rise * grad;
       rates.smoothing +=
@@ -100,18 +100,21 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       if (&b != &a) add(b);
     for (const SlowParticle& b : images) add(b);
     bool own_corrected = true;
-    // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no image.
-    rates.fill = moment.trace() / 3;
-    gradient *= a.growth;  // neighbours that parted alike leave too little
-    const Matrix3d grown = a.growth * moment;
+    // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no mirror
+    // contribution.
+    rates.support_completeness = moment.trace() / 3;
+    gradient *= a.dilation_ratio;  // neighbours that dilated alike leave too little
+    const Matrix3d grown = a.dilation_ratio * moment;
     const double along = grown.cwiseProduct(a.wall_moment).sum();
-    rates.wall_share = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
-    const Matrix3d imaged = grown + rates.wall_share * a.wall_moment;
-    rates.gradient = (gradient + rates.wall_share * a.wall_gradient) *
-                     (clouds ? correction_in_a_cloud(imaged, a.growth, rates.corrected)
-                             : correction(imaged, rates.corrected));
-    rates.fill += rates.wall_share * a.wall_moment.trace() / (3 * a.growth);
-    const Vec3 rise = correction(moment, own_corrected) * density_gradient;  // grad of compression
+    rates.mirror_weight = std::clamp(4 * along / std::max(a.wall_moment.trace(), 1e-6), 0.0, 1.0);
+    const Matrix3d mirrored = grown + rates.mirror_weight * a.wall_moment;
+    rates.gradient = (gradient + rates.mirror_weight * a.wall_gradient) *
+                     (clouds ? correction_in_a_cloud(mirrored, a.dilation_ratio, rates.corrected)
+                             : correction(mirrored, rates.corrected));
+    rates.support_completeness +=
+        rates.mirror_weight * a.wall_moment.trace() / (3 * a.dilation_ratio);
+    const Vec3 rise =
+        correction(moment, own_corrected) * density_gradient;  // gradient of the density change
     rates.acceleration = force;
     // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.
     rates.diffusion =

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/vec.hpp"
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 
 #include <Eigen/Dense>
 
@@ -15,16 +15,17 @@ namespace sturz::test {
 struct SlowParticle {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};
   double volume = 1;                                      ///< m/rho [m^3]
-  double compression = 0;                                 ///< rho/rho_ref - 1
+  double density_change = 0;                              ///< rho/rho_ref - 1
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();       ///< [Pa], tension positive
   double viscosity_share = 1;                             ///< of the artificial viscosity that acts
   Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();  ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
-  double ground_distance = 1e9;  ///< for the fast sweep, which makes the ground's image itself [m]
+  double ground_distance =
+      1e9;  ///< for the fast sweep, which makes the ground's mirror contribution itself [m]
   Vec3 ground_normal{0, 0, 1};
-  // For grains that fly, see KineticRecord:
+  // For dispersed grains, see KineticRecord:
   double tension = 0;  ///< artificial pressure [Pa]
-  double growth = 1, weight = 1, theta = 0, conductivity = 1e-30;
+  double dilation_ratio = 1, weight = 1, theta = 0, conductivity = 1e-30;
   Eigen::Matrix3d kinetic_stress = Eigen::Matrix3d::Zero();  ///< [Pa]
 };
 
@@ -32,11 +33,12 @@ struct SlowRates {
   Vec3 acceleration{0, 0, 0};
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< corrected dv_a/dx_b
   double diffusion = 0;
-  double wall_share = 0;  ///< of the mirror image
+  double mirror_weight = 0;  ///< of the mirror contribution
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d felt = Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
-  double heat = 0;  ///< conducted, per volume that the grain takes up [W/m^3]
-  double fill = 0;  ///< a third of the moment's trace
+  Eigen::Matrix3d pair_gradient =
+      Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force
+  double conducted = 0;  ///< conducted granular energy, per volume that the grain takes up [W/m^3]
+  double support_completeness = 0;  ///< a third of the moment's trace
   int neighbors = 0;
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I
 };

@@ -13,12 +13,12 @@ namespace {
 constexpr std::array<std::array<int, 2>, 6> entries{
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {2, 0}}};
 
-PackedRecord record_of(const SlowParticle& p, PackedRecord r) {
+NeighborRecord record_of(const SlowParticle& p, NeighborRecord r) {
   r.volume = static_cast<float>(p.volume);
   r.vx = static_cast<float>(p.velocity.x());
   r.vy = static_cast<float>(p.velocity.y());
   r.vz = static_cast<float>(p.velocity.z());
-  r.compression = static_cast<float>(p.compression);
+  r.density_change = static_cast<float>(p.density_change);
   float* stress[6] = {&r.sxx, &r.syy, &r.szz, &r.sxy, &r.syz, &r.szx};
   for (int k = 0; k < 6; ++k)
     *stress[k] = static_cast<float>(p.stress(entries[k][0], entries[k][1]));
@@ -44,9 +44,10 @@ struct Rooms {
                        &o.lyy, &o.lyz, &o.lzx, &o.lzy, &o.lzz, &o.diffusion};
     for (int k = 0; k < 13; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) o.smooth[k] = results[13 + k].data();
-    o.wall_share = results[19].data();
-    o.fill = results[20].data(), o.neighbors = results[21].data(), o.heat = results[22].data();
-    for (int k = 0; k < 6; ++k) o.felt[k] = results[23 + k].data();
+    o.mirror_weight = results[19].data();
+    o.support_completeness = results[20].data(), o.neighbors = results[21].data(),
+    o.conducted = results[22].data();
+    for (int k = 0; k < 6; ++k) o.pair_gradient[k] = results[23 + k].data();
     return o;
   }
   BoundaryView boundary() const {
@@ -61,14 +62,14 @@ struct Rooms {
       for (int m = 0; m < 3; ++m) r.gradient(k, m) = results[3 + 3 * k + m][i];
     }
     r.diffusion = results[12][i];
-    r.wall_share = results[19][i];
-    r.fill = results[20][i], r.heat = results[22][i];
+    r.mirror_weight = results[19][i];
+    r.support_completeness = results[20][i], r.conducted = results[22][i];
     r.neighbors = static_cast<int>(results[21][i]);
     for (int k = 0; k < 6; ++k) {
       r.smoothing(entries[k][0], entries[k][1]) = results[13 + k][i];
       r.smoothing(entries[k][1], entries[k][0]) = results[13 + k][i];
-      r.felt(entries[k][0], entries[k][1]) = r.felt(entries[k][1], entries[k][0]) =
-          results[23 + k][i];
+      r.pair_gradient(entries[k][0], entries[k][1]) =
+          r.pair_gradient(entries[k][1], entries[k][0]) = results[23 + k][i];
     }
     return r;
   }
@@ -91,7 +92,7 @@ struct Prepared {
   NeighborLists lists;
   std::optional<Rooms> rooms;
   std::vector<KineticRecord> kinetic;
-  std::vector<std::uint8_t> calm;
+  std::vector<std::uint8_t> dense_group;
 
   Prepared(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
            InstructionSet isa, const Domain& domain)
@@ -103,15 +104,15 @@ struct Prepared {
       set.z[i] = particles[i].position.z();
     }
     lists.rebuild(set, domain, 1);
-    lists.pack_positions(set, 0, set.size());
+    lists.gather_positions(set, 0, set.size());
     rooms.emplace(lists.padded_size());
     kinetic.resize(lists.n_records_rounded());
-    calm.assign(kinetic.size() / group_size, 1);
+    dense_group.assign(kinetic.size() / group_size, 1);
     for (std::size_t i = 0; i < set.size(); ++i) take(particles[set.id[i]], i);
     lists.copy_images();
     lists.for_each_image([&](std::size_t image, std::size_t source) {
       kinetic[image] = kinetic[source];
-      if (!calm[source / group_size]) calm[image / group_size] = 0;
+      if (!dense_group[source / group_size]) dense_group[image / group_size] = 0;
     });
   }
 
@@ -134,7 +135,7 @@ struct Prepared {
       rooms->wall[6 + k][i] = static_cast<float>(p.wall_gradient(entries[k][0], entries[k][1]));
     }
     KineticRecord& k = kinetic[i];
-    k.growth = static_cast<float>(p.growth);
+    k.dilation_ratio = static_cast<float>(p.dilation_ratio);
     k.weight = static_cast<float>(p.weight);
     k.theta = static_cast<float>(p.theta);
     k.resistance = static_cast<float>(1 / p.conductivity);
@@ -142,7 +143,7 @@ struct Prepared {
     float* stress[6] = {&k.xx, &k.yy, &k.zz, &k.xy, &k.yz, &k.zx};
     for (int n = 0; n < 6; ++n)
       *stress[n] = static_cast<float>(p.kinetic_stress(entries[n][0], entries[n][1]));
-    if (p.growth != 1 || p.theta != 0) calm[i / group_size] = 0;
+    if (p.dilation_ratio != 1 || p.theta != 0) dense_group[i / group_size] = 0;
   }
 };
 
@@ -157,9 +158,9 @@ SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConst
 }
 
 SweepRun kinetic_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
-                       InstructionSet isa, const Domain& domain, FlyingClock* clock) {
+                       InstructionSet isa, const Domain& domain, DispersedClock* clock) {
   Prepared p(particles, constants, isa, domain);
-  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.calm.data(), clock}, constants,
+  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.dense_group.data(), clock}, constants,
                       p.rooms->boundary(), p.rooms->output(), 0, p.lists.n_groups());
   return p.results();
 }
@@ -186,7 +187,7 @@ void roughen(std::vector<SlowParticle>& particles, double dx, unsigned seed) {
   std::uniform_real_distribution<double> u(-1, 1);
   for (SlowParticle& p : particles) {
     p.velocity = 5 * Vec3(u(random), u(random), u(random));
-    p.compression = 0.01 * u(random);
+    p.density_change = 0.01 * u(random);
     p.volume = dx * dx * dx * (1 + 0.1 * u(random));
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b <= a; ++b) p.stress(a, b) = p.stress(b, a) = 3e4 * u(random);

@@ -25,15 +25,15 @@ SweepConstants usual_constants(double spacing);
 SweepRun fast_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
                     const Domain& = {});
 
-/// The same through the sweep of grains that may fly.
+/// The same through the sweep of grains that may disperse.
 SweepRun kinetic_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
-                       const Domain& = {}, FlyingClock* = nullptr);
+                       const Domain& = {}, DispersedClock* = nullptr);
 
 /// A jittered cubic lattice of n[0] x n[1] x n[2] particles at spacing dx around `center`.
 std::vector<SlowParticle> lattice(std::array<int, 3> n, double dx, double jitter,
                                   const Vec3& center = {0, 0, 0}, unsigned seed = 1);
 
-/// Random velocity, stress, compression and volume for every particle.
+/// Random velocity, stress, density change and volume for every particle.
 void roughen(std::vector<SlowParticle>&, double dx, unsigned seed = 2);
 
 /// sqrt(sum |a - b|^2 / sum |b|^2) of one part of the rates.

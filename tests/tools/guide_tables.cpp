@@ -28,7 +28,7 @@ std::string unit_text(const std::string& units) {
   return units.empty() || units == "1" ? "" : " [" + units + "]";
 }
 
-/// Coordinates are limited too, but by what no map reaches: nobody needs to read that.
+/// Coordinates are limited too, but by what no map reaches: that need not be read.
 bool is_limit(double bound, const KeyInfo& key) {
   return std::isfinite(bound) && !(key.units == "m" && std::abs(bound) >= 1e8);
 }

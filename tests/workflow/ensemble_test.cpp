@@ -38,25 +38,25 @@ TEST_F(EnsembleWorkflow, WorkersLeaveNoTraceInTheMaps) {
 TEST_F(EnsembleWorkflow, SharesTheCoresOfTheMachine) {
   workflow::EnsembleRequest many = request("out");
   many.workers = 4096;
-  Recorder nobody;
-  const workflow::EnsembleJob job = workflow::prepare_ensemble(many, nobody);
+  Recorder silent;
+  const workflow::EnsembleJob job = workflow::prepare_ensemble(many, silent);
   EXPECT_EQ(job.workers, n_tiny);  // never more than there are members
   EXPECT_GE(job.threads, 1);
   EXPECT_LE(job.threads, std::max(1, workflow::available_cores() / job.workers));
 }
 
 TEST_F(EnsembleWorkflow, AMemberAloneIsTheStoredOne) {
-  Recorder nobody;
-  const workflow::EnsembleJob job = workflow::prepare_ensemble(request("out"), nobody);
-  workflow::run_ensemble(job, nobody, nobody.cancel);
+  Recorder silent;
+  const workflow::EnsembleJob job = workflow::prepare_ensemble(request("out"), silent);
+  workflow::run_ensemble(job, silent, silent.cancel);
   const MemberStore store(job.folder.members());
   ASSERT_EQ(store.members().size(), static_cast<std::size_t>(n_tiny));
-  const MemberResult alone = workflow::run_member(job, 4, nobody.cancel);
+  const MemberResult alone = workflow::run_member(job, 4, silent.cancel);
   EXPECT_EQ(alone.state_hash, store.members()[4].state_hash);
   EXPECT_NE(alone.state_hash, store.members()[3].state_hash);
 }
 
-TEST_F(EnsembleWorkflow, AFailedMemberIsStoredWithItsReasonAndStopsNobody) {
+TEST_F(EnsembleWorkflow, AFailedMemberIsStoredWithItsReasonAndStopsNoOther) {
   // Row 1 is thinner than a fifth of a particle: none can stand for it.
   write("rows.csv", "release.thickness_m,basal.friction_coefficient\n2,0.4\n0.1,0.4\n2,0.5\n");
   std::string text = replaced(tiny_scene(), "thickness_m: 3", "thickness_m: {uniform: [0.1, 4]}");
@@ -87,8 +87,8 @@ TEST_F(EnsembleWorkflow, AFailedMemberIsStoredWithItsReasonAndStopsNobody) {
 TEST_F(EnsembleWorkflow, AShardOutsideItsNumberIsRefusedBeforeAnythingIsWritten) {
   workflow::EnsembleRequest fourth = request("out");
   fourth.shard = {4, 3};
-  Recorder nobody;
-  EXPECT_THROW(workflow::prepare_ensemble(fourth, nobody), SetupError);
+  Recorder silent;
+  EXPECT_THROW(workflow::prepare_ensemble(fourth, silent), SetupError);
   EXPECT_FALSE(exists("out"));
 }
 

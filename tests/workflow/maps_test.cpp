@@ -18,16 +18,16 @@ using ::testing::HasSubstr;
 class MapsWorkflow : public Workflow {};
 
 TEST_F(MapsWorkflow, AreMadeAgainFromTheFolderAlone) {
-  Recorder nobody;
-  const std::string hash = whole(request("out"), nobody).hazard_hash;
+  Recorder silent;
+  const std::string hash = whole(request("out"), silent).hazard_hash;
   std::filesystem::remove(path("scene.yaml"));
   for (const char* file : {"out/hazard.nc", "out/members.csv", "out/report.html"})
     ASSERT_TRUE(std::filesystem::remove(path(file))) << file;
 
-  workflow::FinishedFolder found = workflow::open_finished(path("out"), nobody);
+  workflow::FinishedFolder found = workflow::open_finished(path("out"), silent);
   const DesignTable design = workflow::saved_design(found.folder);
   const workflow::MapsMade made = workflow::make_maps(found.folder, found.manifest, found.scenario,
-                                                      design, found.elevation.get(), nobody);
+                                                      design, found.elevation.get(), silent);
   EXPECT_EQ(made.hazard_hash, hash);
   EXPECT_EQ(made.folder.root, path("out"));
   for (const char* file : {"out/hazard.nc", "out/members.csv", "out/report.html"})
@@ -55,13 +55,13 @@ TEST_F(MapsWorkflow, NeedAMember) {
 }
 
 TEST_F(MapsWorkflow, ThePageIsWrittenAgain) {
-  Recorder nobody;
-  EXPECT_EQ(run(request("out"), nobody).finished, n_tiny);
-  EXPECT_THROW(workflow::rewrite_page(path("out"), nobody), SetupError);  // no maps yet
-  whole(request("out"), nobody);
+  Recorder silent;
+  EXPECT_EQ(run(request("out"), silent).finished, n_tiny);
+  EXPECT_THROW(workflow::rewrite_page(path("out"), silent), SetupError);  // no maps yet
+  whole(request("out"), silent);
   const std::string page = read("out/report.html");
   std::filesystem::remove(path("out/report.html"));
-  EXPECT_EQ(workflow::rewrite_page(path("out"), nobody), path("out/report.html"));
+  EXPECT_EQ(workflow::rewrite_page(path("out"), silent), path("out/report.html"));
   EXPECT_EQ(read("out/report.html"), page);
 }
 

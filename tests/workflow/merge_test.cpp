@@ -17,15 +17,15 @@ class MergeWorkflow : public Workflow {
   void run_shard(int k, int n, const std::string& results = "out") const {
     workflow::EnsembleRequest part = request(results);
     part.shard = {k, n};
-    Recorder nobody;
-    const workflow::MembersRun done = run(part, nobody);
+    Recorder silent;
+    const workflow::MembersRun done = run(part, silent);
     EXPECT_EQ(done.finished, done.total);
   }
   /// What the merge is refused with.
   std::string refusal(const std::string& results) const {
-    Recorder nobody;
+    Recorder silent;
     try {
-      workflow::merge_members({path(results)}, nobody);
+      workflow::merge_members({path(results)}, silent);
     } catch (const SetupError& refused) {
       return refused.what();
     }
@@ -65,8 +65,8 @@ TEST_F(MergeWorkflow, ADamagedMemberCountsAsMissing) {
 TEST_F(MergeWorkflow, AFolderWithoutAnEnsembleIsRefused) {
   std::filesystem::create_directory(path("empty"));
   EXPECT_THAT(refusal("empty"), HasSubstr("holds no results"));
-  Recorder nobody;
-  workflow::prepare_run({scene(), path("single"), 1, {}, "test"}, nobody);
+  Recorder silent;
+  workflow::prepare_run({scene(), path("single"), 1, {}, "test"}, silent);
   EXPECT_THAT(refusal("single"), HasSubstr("nothing to merge"));
 }
 

@@ -79,12 +79,12 @@ TEST_F(ResumeWorkflow, AListenerThatThrowsStopsTheRunAndLosesNoMember) {
   struct Thrower : Recorder {
     void member_stored(const MemberResult& result) override {
       Recorder::member_stored(result);
-      if (members.size() == 2) throw std::runtime_error("nobody listens any more");
+      if (members.size() == 2) throw std::runtime_error("the observer is gone");
     }
   };
   Thrower first;
   const workflow::MembersRun stopped = run(request("out"), first);
-  EXPECT_THAT(stopped.store_error, HasSubstr("nobody listens"));
+  EXPECT_THAT(stopped.store_error, HasSubstr("the observer is gone"));
   EXPECT_FALSE(stopped.interrupted);
   EXPECT_EQ(n_members("out"), 2u);
   Recorder second;

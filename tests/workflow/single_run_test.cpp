@@ -43,21 +43,21 @@ TEST_F(RunWorkflow, ACancelledOneSaysSo) {
 }
 
 TEST_F(RunWorkflow, FramesAreThereOnlyWhereWanted) {
-  Recorder nobody;
+  Recorder silent;
   workflow::RunRequest with_frames = run_request("out");
   with_frames.particles_every_s = 1;
-  workflow::SingleRun first = workflow::prepare_run(with_frames, nobody);
-  workflow::compute_run(first, nobody, nobody.cancel);
+  workflow::SingleRun first = workflow::prepare_run(with_frames, silent);
+  workflow::compute_run(first, silent, silent.cancel);
   EXPECT_TRUE(exists("out/particles"));
-  workflow::SingleRun second = workflow::prepare_run(run_request("out"), nobody);
-  workflow::compute_run(second, nobody, nobody.cancel);
+  workflow::SingleRun second = workflow::prepare_run(run_request("out"), silent);
+  workflow::compute_run(second, silent, silent.cancel);
   EXPECT_FALSE(exists("out/particles")) << "frames of an earlier run";
 }
 
 TEST_F(RunWorkflow, AnEnsemblesFolderIsRefused) {
-  Recorder nobody;
-  workflow::prepare_ensemble(request("out"), nobody);
-  EXPECT_THROW(workflow::prepare_run(run_request("out"), nobody), SetupError);
+  Recorder silent;
+  workflow::prepare_ensemble(request("out"), silent);
+  EXPECT_THROW(workflow::prepare_run(run_request("out"), silent), SetupError);
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class Workflow : public ::testing::Test {
   static workflow::MembersRun run(const workflow::EnsembleRequest&, Recorder&);
   /// Prepares, runs and makes the maps.
   static workflow::MapsMade whole(const workflow::EnsembleRequest&, Recorder&);
-  /// The hash of the maps of an ensemble that nobody disturbed.
+  /// The hash of the maps of an ensemble that ran undisturbed.
   std::string undisturbed() const;
 
  private:

@@ -6,7 +6,6 @@
 #include "engine/laws/contact_impulse.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -38,7 +37,7 @@ double plane_integral(double d, double h) {
   return y > 0 ? 10.5 / h * y5 * (1 + y * (-1.5 + y * (4.0 / 7.0))) : 0;
 }
 
-/// The mirrored half's share of the pressure force: a = 2 p_n W_plane(d) / rho along n. With it
+/// The mirror contribution to the pressure force: a = 2 p_n W_plane(d) / rho along n. With it
 /// the bottom layers carry the pressure of the column above, and the spring only guards the gap.
 class WallPressure {
  public:
@@ -48,17 +47,17 @@ class WallPressure {
     for (int k = 0; k < 6; ++k) stress_[k] = stress->component[k].data();
     if (const Field* kinetic = p.find(fields::kinetic_stress))
       for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
-    compression_ = p.scalar(fields::compression).data();
+    density_change_ = p.scalar(fields::density_change).data();
     density_ = c.reference_density;
-    share_ = p.boundary.share.data();
+    mirror_weight_ = p.boundary.mirror_weight.data();
   }
   /// \param plane  plane_integral at the particle's distance [1/m]
   double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
-    if (!compression_) return 0;
+    if (!density_change_) return 0;
     double snn = normal(stress_, i, nx, ny, nz);
     if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
     if (snn >= 0) return 0;
-    return -2 * snn * plane * share_[i] / (density_ * (1 + compression_[i]));
+    return -2 * snn * plane * mirror_weight_[i] / (density_ * (1 + density_change_[i]));
   }
 
  private:
@@ -68,18 +67,18 @@ class WallPressure {
   }
 
   double density_ = 1;
-  const float* share_ = nullptr;
+  const float* mirror_weight_ = nullptr;
   const double* stress_[6] = {};
-  const double* kinetic_[6] = {};  ///< of grains that fly, see grain_states.cpp
-  const double* compression_ = nullptr;
+  const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
+  const double* density_change_ = nullptr;
 };
 
-/// Velocities at the start of the step, as the pack pass left them.
+/// Velocities at the start of the step, as the gather pass left them.
 class StartVelocity {
  public:
   explicit StartVelocity(const ParticleSet& p)
       : set_(p), before_(set_.find(fields::velocity_before)) {}
-  std::array<double, 3> operator()(std::size_t i) const {
+  Vec3 operator()(std::size_t i) const {
     if (!before_) return {set_.vx[i], set_.vy[i], set_.vz[i]};
     return {before_->component[0][i], before_->component[1][i], before_->component[2][i]};
   }
@@ -94,7 +93,7 @@ class BoundaryPass final : public Pass {
  public:
   BoundaryPass(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {}
   std::string_view name() const override { return "ground and wall support"; }
-  std::string_view effect() const override { return EffectName::base; }
+  std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::boundary; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
@@ -161,10 +160,10 @@ class BoundaryPass final : public Pass {
     b.nx[i] = static_cast<float>(gap.normal.x());
     b.ny[i] = static_cast<float>(gap.normal.y());
     b.nz[i] = static_cast<float>(gap.normal.z());
-    const double reach = 2 * settings_.smoothing_length;
-    if (gap.distance > reach)  // how long it need not be looked at again
-      b.distance[i] = static_cast<float>(std::fmax(reach, s.terrain.clearance(at)));
-    if (gap.distance < -2 * settings_.spacing) {  // lost underground: booked, never repaired
+    const double support_radius = 2 * settings_.smoothing_length;
+    if (gap.distance > support_radius)  // how long it need not be looked at again
+      b.distance[i] = static_cast<float>(std::fmax(support_radius, s.terrain.clearance(at)));
+    if (gap.distance < -2 * settings_.spacing) {  // lost underground: accounted for, never repaired
       p.fate[i] = Fate::underground;
       out.leaked += p.mass[i];
     }
@@ -176,7 +175,7 @@ class BoundaryPass final : public Pass {
                  std::size_t end) const {
     BoundarySupport& b = p.boundary;
     const Field* before = p.find(fields::velocity_before);
-    if (!before) return;  // nobody sums gradients
+    if (!before) return;  // no effect sums gradients
     const double ahead = s.extrapolation(dt);
     for (int c = 0; c < 6; ++c) {
       std::fill(b.moment[c].begin() + begin, b.moment[c].begin() + end, 0.0f);
@@ -208,7 +207,7 @@ class BoundaryPass final : public Pass {
   std::size_t sorts_ = 0, n_ = 0, ground_changes_ = 0;  // of the step before
 };
 
-void book(MovingSet& p, const ContactSums& sums) {
+void account(MovingSet& p, const ContactSums& sums) {
   p.ledger.stress_work += sums.pressure_work;
   p.ledger.contact_work += sums.contact_work;
   p.ledger.friction += sums.friction;
@@ -217,19 +216,19 @@ void book(MovingSet& p, const ContactSums& sums) {
 class GroundContact final : public Pass {
  public:
   GroundContact(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {
-    for (const GroundFriction& zone : c.base) {
+    for (const GroundFriction& zone : c.bed) {
       ContactLaw& law = laws_.emplace_back();
       law.stiffness = c.stiffness;
       law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
-      law.reach = 0.5 * c.spacing;
+      law.contact_distance = 0.5 * c.spacing;
       law.friction = zone.friction_coefficient * (1 - zone.pore_pressure_ratio);
       // A particle in the first layer stands on an area of V/dx.
       law.cohesion_rate = zone.cohesion_pa / (c.reference_density * c.spacing);
-      law.cohesion_reach = zone.cohesion_pa > 0 ? c.spacing : -1;
+      law.cohesion_distance = zone.cohesion_pa > 0 ? c.spacing : -1;
     }
   }
   std::string_view name() const override { return "terrain contact"; }
-  std::string_view effect() const override { return EffectName::base; }
+  std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::contact; }
 
   void limits(const State&, std::vector<StepLimit>& out) const override {
@@ -241,13 +240,13 @@ class GroundContact final : public Pass {
     const BoundarySupport& b = p.boundary;
     const WallPressure pressure(p, settings_);
     const StartVelocity start(p);
-    const double reach = 2 * settings_.smoothing_length;
+    const double support_radius = 2 * settings_.smoothing_length;
     const bool zoned = settings_.zones.any();
     const ContactSums sums = ordered_reduce(
         p.size(), s.threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (p.fate[i] != Fate::stays || b.distance[i] >= reach) continue;
+            if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
             const double plane = plane_integral(b.distance[i], settings_.smoothing_length);
             const double support = pressure.acceleration(i, plane, b.nx[i], b.ny[i], b.nz[i]);
             const ContactLaw& law = laws_[zoned ? zone_of(s.domain, p, i) : 0];
@@ -257,7 +256,7 @@ class GroundContact final : public Pass {
           }
         },
         combine);
-    book(p, sums);
+    account(p, sums);
     p.ledger.spring = sums.spring;
   }
 
@@ -287,9 +286,9 @@ class WallContact final : public Pass {
       ContactLaw law;
       law.stiffness = settings_.stiffness;
       law.damping = 2 * damping_ratio(settings_.restitution) * std::sqrt(settings_.stiffness);
-      law.reach = 0.5 * settings_.spacing;
+      law.contact_distance = 0.5 * settings_.spacing;
       law.friction = wall.friction_coefficient;
-      law.cohesion_reach = -1;
+      law.cohesion_distance = -1;
       press(s.sets[set_], wall, law, dt, s.threads);
     }
   }
@@ -298,14 +297,14 @@ class WallContact final : public Pass {
   void press(MovingSet& p, const Wall& wall, const ContactLaw& law, double dt, int threads) const {
     const WallPressure pressure(p, settings_);
     const StartVelocity start(p);
-    const double reach = 2 * settings_.smoothing_length;
+    const double support_radius = 2 * settings_.smoothing_length;
     const Vec3 n = wall.normal;
     const ContactSums sums = ordered_reduce(
         p.size(), threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
             const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
-            if (d >= reach) continue;
+            if (d >= support_radius) continue;
             const double support = pressure.acceleration(
                 i, plane_integral(d, settings_.smoothing_length), n.x(), n.y(), n.z());
             out.add(apply_contact(law, d, n.x(), n.y(), n.z(), support, dt, start(i).data(),
@@ -314,7 +313,7 @@ class WallContact final : public Pass {
           }
         },
         combine);
-    book(p, sums);
+    account(p, sums);
     p.ledger.spring += sums.spring;
   }
 

@@ -16,12 +16,12 @@ struct GroundFriction {
 };
 
 struct ContactSettings {
-  double spacing = 1;                   ///< dx [m]
-  double smoothing_length = 1.3;        ///< h [m]; the pressure field reaches 2h
-  double reference_density = 1500;      ///< rho_ref [kg/m^3]
-  double stiffness = 1;                 ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
-  double restitution = 0.2;             ///< e_b [-]
-  std::vector<GroundFriction> base{1};  ///< by zone, [0] where there is none
+  double spacing = 1;                  ///< initial particle spacing dx [m]
+  double smoothing_length = 1.3;       ///< h [m]; its support radius is 2h
+  double reference_density = 1500;     ///< rho_ref [kg/m^3]
+  double stiffness = 1;                ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
+  double restitution = 0.2;            ///< e_b [-]
+  std::vector<GroundFriction> bed{1};  ///< by zone, [0] where there is none
   ZoneMap zones;
 };
 

@@ -12,7 +12,9 @@ namespace sturz {
 namespace {
 
 /// Thickness that a column without neighbours gives to itself: the floor at release.
-double lone_thickness(double volume, double reach) { return 2.2281692 * volume / (reach * reach); }
+double single_thickness(double volume, double support_radius) {
+  return 2.2281692 * volume / (support_radius * support_radius);
+}
 
 /// Rates that set the length of the first step [1/s].
 struct FirstRates {
@@ -30,12 +32,12 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   p.any_leaving |= !known;
   const Vec3 n = ground[i].normal();
   // A map lattice on a slope stands 1/n_z farther apart along it.
-  const double reach =
-      set.reach_per_spacing * set.spacing * std::min(set.most_reach, std::sqrt(1 / n.z()));
-  const double thickness =
-      std::max(vertical_thickness * n.z(), lone_thickness(p.mass[i] / set.density, reach));
+  const double support_radius =
+      set.radius_per_spacing * set.spacing * std::min(set.most_radius, std::sqrt(1 / n.z()));
+  const double thickness = std::max(vertical_thickness * n.z(),
+                                    single_thickness(p.mass[i] / set.density, support_radius));
   const double g_n = s.gravity * n.z();
-  p.scalar(fields::support_radius)[i] = reach;
+  p.scalar(fields::support_radius)[i] = support_radius;
   p.scalar(fields::thickness)[i] = thickness;
   p.scalar(fields::normal_gravity)[i] = g_n;
   const int zone = flow.zone_of(s.domain, p, i);
@@ -45,8 +47,8 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   }
   const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
   first.rate =
-      std::max(first.rate, set.base[zone].rate(v0.norm(), thickness, set.density, s.gravity));
-  first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (reach * reach));
+      std::max(first.rate, set.bed[zone].rate(v0.norm(), thickness, set.density, s.gravity));
+  first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (support_radius * support_radius));
   const Velocity v = Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
   p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
 }
@@ -59,7 +61,7 @@ void start_columns(const State& s, MovingSet& p, ColumnFlow& flow,
   for (std::size_t i = 0; i < p.size(); ++i)
     start_column(s, p, flow, i, vertical_thickness[i], first);
   flow.fastest_wave = std::sqrt(first.wave2);
-  // A small part of the time to cross a cell in free fall, or to be braked by a viscous base; the
+  // A small part of the time to cross a cell in free fall, or to be braked by a viscous bed; the
   // least keeps a film that stands from taking for ever.
   flow.start_dt = std::max(0.05 / first.rate, 1e-5);
 }
@@ -99,10 +101,11 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
                         const DepthAveragedSettings& settings, std::span<const double> thickness) {
   MovingSet& p = state.sets[set];
   expect(thickness.size() == p.size(), "one thickness per column");
-  expect(!settings.base.empty() && settings.base.size() == settings.earth_pressure.size(),
-         "base and earth pressure for every zone");
-  for (const FieldKey* key : {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
-                              &fields::turning, &fields::ground, &fields::velocity_before})
+  expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
+         "bed and earth pressure for every zone");
+  for (const FieldKey* key :
+       {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
+        &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
     p.add(*key);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
   if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))

@@ -10,11 +10,11 @@
 
 namespace sturz {
 
-/// Fields "thickness" (along the ground's normal [m]), "reach" [m], "normal_gravity" [m/s^2],
-/// "turning" (momentum of bends not yet taken by the ground, per mass [m/s]), "ground",
-/// "velocity_before" and, where K varies, "earth_pressure". Adds cells, pack, sweep, base and
-/// motion; the columns are put on the ground and their velocities made tangent. \param thickness of
-/// each column along the vertical at release [m]
+/// Fields "thickness" (along the ground's normal [m]), "support_radius" [m], "normal_gravity"
+/// [m/s^2], "centripetal_momentum" (of curvature met and not yet borne by the ground, per mass
+/// [m/s]), "ground", "velocity_before" and, where K varies, "earth_pressure". Adds cells, gather,
+/// sweep, bed and motion; the columns are put on the ground and their velocities made tangent.
+/// \param thickness of each column along the vertical at release [m]
 void add_depth_averaged(Step&, State&, std::size_t set, const DepthAveragedSettings&,
                         std::span<const double> thickness);
 

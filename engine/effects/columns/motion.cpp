@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gravity, lateral pressure and the base do to a column, and where it goes.
+// What gravity, lateral pressure and the bed do to a column, and its displacement.
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/accounts.hpp"
@@ -10,16 +10,16 @@
 namespace sturz {
 namespace {
 
-/// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the base acts last and can stop it.
-class BasePass final : public Pass {
+/// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the bed acts last and can stop it.
+class BedPass final : public Pass {
  public:
-  explicit BasePass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
-  std::string_view name() const override { return "gravity and base"; }
-  std::string_view effect() const override { return EffectName::base; }
+  explicit BedPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "gravity and bed"; }
+  std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::contact; }
 
   void apply(State& s, double dt) override {
-    const double kick = kick_length(s, dt);
+    const double kick = kick_interval(s, dt);
     MovingSet& p = s.sets[flow_->set];
     const GroundColumns ground(p);
     const auto& g_n = p.scalar(fields::normal_gravity);
@@ -28,7 +28,7 @@ class BasePass final : public Pass {
         p.size(), s.threads, Works{},
         [&](std::size_t begin, std::size_t end, Works& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (s.leaves(p, i)) continue;  // the books take it as it was at the start of the step
+            if (s.leaves(p, i)) continue;  // the ledger takes it as it was at the start of the step
             const Works w = push(s, p, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
             out.friction += p.mass[i] * w.friction;
             out.contact += p.mass[i] * w.contact;
@@ -44,7 +44,7 @@ class BasePass final : public Pass {
 
  private:
   struct Works {
-    double friction = 0, contact = 0;  // taken by base and walls; done by walls [J/kg], [J]
+    double friction = 0, contact = 0;  // taken by bed and walls; done by walls [J/kg], [J]
   };
 
   /// \return works with the mean velocity of the step
@@ -54,13 +54,13 @@ class BasePass final : public Pass {
     Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
-    const BasalResistance& base = set.base[flow_->zone_of(s.domain, p, i)];
-    const double plastic = base.plastic(normal_gravity, thickness, set.density);
+    const BasalResistance& bed = set.bed[flow_->zone_of(s.domain, p, i)];
+    const double plastic = bed.plastic(normal_gravity, thickness, set.density);
     Vec3 after = braked(before, pull, plastic, 0, kick);
-    if (base.has_rate()) {
+    if (bed.has_rate()) {
       // The rate at the mean speed of the step, found from the rate at its start: a steady flow
       // keeps its exact speed at any length of step.
-      auto rate = [&](double v) { return base.rate(v, thickness, set.density, s.gravity); };
+      auto rate = [&](double v) { return bed.rate(v, thickness, set.density, s.gravity); };
       const double v0 = before.norm();
       const double v1 = braked(before, pull, plastic, rate(v0), kick).norm();
       after = braked(before, pull, plastic, rate(0.5 * (v0 + v1)), kick);
@@ -94,8 +94,8 @@ class BasePass final : public Pass {
 };
 
 struct DriftSums {
-  double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a rim that is a wall
-  double settled = 0;                    // what the kicks had left out of gravity's work
+  double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a domain boundary that is a wall
+  double projected = 0;                  // work of gravity that kicks left out
   double later = 0;                      // sum of m dz of the second half of the step
   bool any_leaving = false;
 };
@@ -112,52 +112,53 @@ class ColumnMotion final : public Pass {
     const double v = s.sets[flow_->set].motion.max_speed, g = s.gravity,
                  cell = s.terrain.grid().cell_m;
     out.push_back({"terrain cell", cell / (v + std::sqrt(v * v + g * cell))});
-    // From rest with short steps that may grow: where the step changes fast, kicks and ways do not
-    // fit together, and energy is lost or found.
+    // From rest with short steps that may grow: where the step changes fast, kicks and
+    // displacements do not fit together, and energy is lost or found.
     if (s.n_steps == 0) out.push_back({"start", flow_->start_dt});
   }
 
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[flow_->set];
     if (p.any_leaving) remove_outside(s, p, keep_);
-    refresh_motion(s, p, kick_length(s, dt));
-    drift(s, p, dt);
+    refresh_motion(s, p, kick_interval(s, dt));
+    advance(s, p, dt);
   }
 
  private:
   /// In separate loops: the arithmetic four columns side by side, the look-ups one by one.
-  void drift(const State& s, MovingSet& p, double dt) {
+  void advance(const State& s, MovingSet& p, double dt) {
     const GroundColumns ground(p);
     p.fate.resize(p.size());
     climb_.resize(p.size());
     rise_.resize(p.size());
-    const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
+    const bool walled = s.terrain.nodata_rule() == NodataRule::wall;
     const DriftSums sums = ordered_reduce(
         p.size(), s.threads, DriftSums{},
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
           turn_to_mid_step(p, ground, dt, begin, end);
-          if (rim) hold_at_rim(s, p, ground, dt, begin, end, out);
-          go(s, p, ground, dt, begin, end, out);
-          settle(p, ground, s.gravity, dt, begin, end, out);
+          if (walled) hold_at_domain_boundary(s, p, ground, dt, begin, end, out);
+          drift(s, p, ground, dt, begin, end, out);
+          project(p, ground, s.gravity, dt, begin, end, out);
         },
         [](DriftSums& total, const DriftSums& block) {
           total.risen += block.risen;
           total.stopped_energy += block.stopped_energy;
-          total.settled += block.settled;
+          total.projected += block.projected;
           total.later += block.later;
           total.any_leaving |= block.any_leaving;
         });
     p.any_leaving = sums.any_leaving;
-    // The next kick counts the second half of the way: until then the books leave it out too.
+    // The next kick counts the second half of the displacement: until then the ledger leaves it out
+    // too.
     p.ledger.potential += s.gravity * (later_rise_ + sums.risen - sums.later);
     later_rise_ = sums.later;
     p.ledger.lost_energy += sums.stopped_energy;
-    p.ledger.gravity_work -= sums.settled;
+    p.ledger.gravity_work -= sums.projected;
     // Both were taken after the step's works were summed up.
-    p.ledger.kinetic -= sums.stopped_energy + sums.settled;
+    p.ledger.kinetic -= sums.stopped_energy + sums.projected;
   }
 
-  /// The slopes at the middle of the step make the way second order.
+  /// The slopes at the middle of the step make the displacement second order.
   void turn_to_mid_step(ParticleSet& p, const GroundColumns& ground, double dt, std::size_t begin,
                         std::size_t end) {
     const double *east = ground.component[0], *north = ground.component[1];
@@ -176,11 +177,11 @@ class ColumnMotion final : public Pass {
   }
 
   /// Takes the velocity that would lead off the known ground.
-  void hold_at_rim(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
-                   std::size_t begin, std::size_t end, DriftSums& out) const {
+  void hold_at_domain_boundary(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
+                               std::size_t begin, std::size_t end, DriftSums& out) const {
     for (std::size_t i = begin; i < end; ++i) {
       const Velocity v{p.vx[i], p.vy[i], p.vz[i]};
-      stop_at_rim(s, p, i, dt);
+      stop_at_domain_boundary(s, p, i, dt);
       if (p.vx[i] == v.x && p.vy[i] == v.y) continue;
       const ColumnGround mid = ground[i].ahead(0.5 * dt * v.x, 0.5 * dt * v.y);
       p.vz[i] = mid.east * p.vx[i] + mid.north * p.vy[i];
@@ -189,8 +190,8 @@ class ColumnMotion final : public Pass {
     }
   }
 
-  void go(const State& s, MovingSet& p, const GroundColumns& ground, double dt, std::size_t begin,
-          std::size_t end, DriftSums& out) {
+  void drift(const State& s, MovingSet& p, const GroundColumns& ground, double dt,
+             std::size_t begin, std::size_t end, DriftSums& out) {
     for (std::size_t i = begin; i < end; ++i) {
       const double z = p.z[i];
       p.x[i] += dt * p.vx[i];
@@ -205,25 +206,25 @@ class ColumnMotion final : public Pass {
   /// Turns to the slopes at the end of the step. Kicks count gravity's work by the slopes at both
   /// ends of a step; over a kink or a cliff the ground fell or rose by something else. The speed
   /// pays the difference, so a column never has more energy than its fall gave it.
-  void settle(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
-              std::size_t begin, std::size_t end, DriftSums& out) const {
+  void project(ParticleSet& p, const GroundColumns& ground, double gravity, double dt,
+               std::size_t begin, std::size_t end, DriftSums& out) const {
     const double *east = ground.component[0], *north = ground.component[1];
     const double *climb = climb_.data(), *rise = rise_.data(), *mass = p.mass.data();
     double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data();
-    double settled = 0, later = 0, risen = 0;
+    double projected = 0, later = 0, risen = 0;
     const double half = 0.5 * dt;
-#pragma omp simd reduction(+ : settled, later, risen)
+#pragma omp simd reduction(+ : projected, later, risen)
     for (std::size_t i = begin; i < end; ++i) {
       const Velocity v = Velocity{vx[i], vy[i], vz[i]}.turned(east[i], north[i]);
       const double v2 = v.norm2(), missed = gravity * (rise[i] - half * (climb[i] + v.z));
       const double paid = v2 - 2 * missed, left = v2 > 0 && paid > 0 ? paid : 0;
       const double share = v2 > 0 ? left / v2 : 0, factor = std::sqrt(share);
       vx[i] = v.x * factor, vy[i] = v.y * factor, vz[i] = v.z * factor;
-      settled += 0.5 * mass[i] * (v2 - left);
+      projected += 0.5 * mass[i] * (v2 - left);
       later += mass[i] * half * vz[i];
       risen += mass[i] * rise[i];
     }
-    out.settled += settled;
+    out.projected += projected;
     out.later += later;
     out.risen += risen;
   }
@@ -237,7 +238,7 @@ class ColumnMotion final : public Pass {
 }  // namespace
 
 void add_column_motion(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
-  step.add(std::make_unique<BasePass>(flow));
+  step.add(std::make_unique<BedPass>(flow));
   step.add(std::make_unique<ColumnMotion>(flow));
 }
 

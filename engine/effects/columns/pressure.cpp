@@ -35,29 +35,29 @@ class CellPass final : public Pass {
   std::shared_ptr<ColumnFlow> flow_;
 };
 
-/// Fills the records and finds how hard the ground presses.
+/// Gathers the neighbour records and finds how hard the ground presses.
 ///
-/// The reaction of the ground is g cos + v.kappa.v, spread along the way over the column's own
+/// The reaction of the ground is g cos + v.kappa.v, spread along the path over the column's own
 /// thickness or the smoothing length: a flow thicker than a corner's radius goes round it, and
 /// still takes the whole momentum of the turn, q' = v.kappa.v - q |v|/l.
-class PackPass final : public Pass {
+class GatherPass final : public Pass {
  public:
-  explicit PackPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
-  std::string_view name() const override { return "column pack"; }
+  explicit GatherPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
+  std::string_view name() const override { return "column gather"; }
   std::string_view effect() const override { return EffectName::column_pressure; }
-  Stage stage() const override { return Stage::pack; }
+  Stage stage() const override { return Stage::gather; }
 
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[flow_->set];
     const GroundColumns ground(p);
-    const double kick = kick_length(s, dt);
-    p.ledger.take_off += ordered_reduce(
+    const double kick = kick_interval(s, dt);
+    p.ledger.detachment += ordered_reduce(
         p.size(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& off) {
           press(p, ground, s.gravity, kick, begin, end, off);
         },
         [](double& total, double block) { total += block; });
-    fill_records(p, s.threads);
+    gather_records(p, s.threads);
   }
 
  private:
@@ -72,8 +72,8 @@ class PackPass final : public Pass {
     auto& before = p.components(fields::velocity_before);
     double *bx = before[0].data(), *by = before[1].data(), *bz = before[2].data();
     double* normal_gravity = p.scalar(fields::normal_gravity).data();
-    double* turning = p.scalar(fields::turning).data();
-    const double* reach = p.scalar(fields::support_radius).data();
+    double* centripetal = p.scalar(fields::centripetal_momentum).data();
+    const double* support_radius = p.scalar(fields::support_radius).data();
     const double* thickness = p.scalar(fields::thickness).data();
     double airborne = 0;
 #pragma omp simd reduction(+ : airborne)
@@ -81,11 +81,11 @@ class PackPass final : public Pass {
       const double x = vx[i], y = vy[i], z = vz[i];
       bx[i] = x, by[i] = y, bz[i] = z;
       const double upright = 1 / std::sqrt(1 + east[i] * east[i] + north[i] * north[i]);
-      const double half_reach = 0.5 * reach[i], h = thickness[i];
-      const double per_s = std::sqrt(x * x + y * y + z * z) / (h > half_reach ? h : half_reach);
-      const double bend = ee[i] * x * x + 2 * en[i] * x * y + nn[i] * y * y;
-      const double turned = (turning[i] + kick * upright * bend) / (1 + kick * per_s);
-      turning[i] = turned;
+      const double half_radius = 0.5 * support_radius[i], h = thickness[i];
+      const double per_s = std::sqrt(x * x + y * y + z * z) / (h > half_radius ? h : half_radius);
+      const double curvature = ee[i] * x * x + 2 * en[i] * x * y + nn[i] * y * y;
+      const double turned = (centripetal[i] + kick * upright * curvature) / (1 + kick * per_s);
+      centripetal[i] = turned;
       const double reaction = upright * gravity + per_s * turned;
       normal_gravity[i] = reaction > 0 ? reaction : 0;
       airborne += reaction < 0 ? mass[i] * kick : 0;
@@ -93,8 +93,8 @@ class PackPass final : public Pass {
     off += airborne;
   }
 
-  void fill_records(const MovingSet& p, int threads) {
-    const auto& reach = p.scalar(fields::support_radius);
+  void gather_records(const MovingSet& p, int threads) {
+    const auto& support_radius = p.scalar(fields::support_radius);
     const auto& thickness = p.scalar(fields::thickness);
     const auto& g_n = p.scalar(fields::normal_gravity);
     const Field* k_field = p.find(fields::earth_pressure);
@@ -111,7 +111,7 @@ class PackPass final : public Pass {
                         r.vx = static_cast<float>(p.vx[i]);
                         r.vy = static_cast<float>(p.vy[i]);
                         r.vz = static_cast<float>(p.vz[i]);
-                        r.inverse_reach = static_cast<float>(1 / reach[i]);
+                        r.inverse_radius = static_cast<float>(1 / support_radius[i]);
                         r.thickness = static_cast<float>(thickness[i]);
                         r.lateral = static_cast<float>(lateral);
                         r.wave_speed = static_cast<float>(std::sqrt(lateral * thickness[i]));
@@ -152,22 +152,22 @@ class SweepPass final : public Pass {
                     [&](std::size_t begin, std::size_t end) {
                       loops.columns(view, constants, out, begin, end);
                     });
-    take_in(s, p, out, dt);
+    accumulate(s, p, out, dt);
     if (!s.domain.walls.empty()) mirror_at_walls(s, p);
   }
   std::size_t bytes() const override { return 7 * sizeof(float) * flow_->cells.size(); }
 
  private:
-  /// Sums back to the columns: accelerations, thickness, reach, earth pressure, limits.
-  void take_in(const State& s, MovingSet& p, const ColumnSweepOutput& out, double dt) {
+  /// Sums back to the columns: accelerations, thickness, support radius, earth pressure, limits.
+  void accumulate(const State& s, MovingSet& p, const ColumnSweepOutput& out, double dt) {
     const ColumnCells& cells = flow_->cells;
     const DepthAveragedSettings& set = flow_->settings;
     auto& thickness = p.scalar(fields::thickness);
-    auto& reach = p.scalar(fields::support_radius);
+    auto& support_radius = p.scalar(fields::support_radius);
     const auto& g_n = p.scalar(fields::normal_gravity);
     Field* k_field = p.find(fields::earth_pressure);
     double* k = k_field ? k_field->component[0].data() : nullptr;
-    const double first = set.reach_per_spacing * set.spacing;
+    const double first = set.radius_per_spacing * set.spacing;
     const bool walls = !s.domain.walls.empty();
     const Fastest fastest = ordered_reduce(
         cells.size(), s.threads, Fastest{},
@@ -176,18 +176,19 @@ class SweepPass final : public Pass {
             if (cells.is_image(c)) continue;
             const std::size_t i = cells.source(c);
             p.ax[i] = out.ax[c], p.ay[i] = out.ay[c], p.az[i] = out.az[c];
-            const double whole = walls ? flow_->walls.thickness_factor(
-                                             s.domain, s.time, {p.x[i], p.y[i], p.z[i]}, reach[i])
-                                       : 1;
+            const double whole =
+                walls ? flow_->walls.thickness_factor(s.domain, s.time, {p.x[i], p.y[i], p.z[i]},
+                                                      support_radius[i])
+                      : 1;
             thickness[i] = whole * out.thickness[c];
             if (k)
               k[i] = strained(s.domain, p, i, k[i], out.divergence[c] / thickness[i] * dt,
                               thickness[i]);
-            const double per_h = 2 / reach[i];
+            const double per_h = 2 / support_radius[i];
             const double wave2 = (k ? k[i] : 1.0) * g_n[i] * thickness[i] * per_h * per_h;
             most.wave = std::max(most.wave, wave2);
             most.approach2 = std::max(most.approach2, out.approach[c] * per_h * per_h);
-            reach[i] = adapted(reach[i], whole * out.density[c], first);
+            support_radius[i] = adapted(support_radius[i], whole * out.density[c], first);
           }
         },
         [](Fastest& total, const Fastest& block) {
@@ -211,11 +212,11 @@ class SweepPass final : public Pass {
   }
 
   /// Follows the mean distance of columns, by at most a tenth a step.
-  double adapted(double reach, double density, double first) const {
+  double adapted(double support_radius, double density, double first) const {
     const DepthAveragedSettings& set = flow_->settings;
-    const double wanted = set.reach_per_spacing / std::sqrt(density);
-    const double next = std::clamp(wanted, 0.9 * reach, 1.1 * reach);
-    return std::clamp(next, set.least_reach * first, set.most_reach * first);
+    const double wanted = set.radius_per_spacing / std::sqrt(density);
+    const double next = std::clamp(wanted, 0.9 * support_radius, 1.1 * support_radius);
+    return std::clamp(next, set.least_radius * first, set.most_radius * first);
   }
 
   double strained(const Domain& domain, const ParticleSet& p, std::size_t i, double k,
@@ -233,7 +234,7 @@ class SweepPass final : public Pass {
 
 void add_column_pressure(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
   step.add(std::make_unique<CellPass>(flow));
-  step.add(std::make_unique<PackPass>(flow));
+  step.add(std::make_unique<GatherPass>(flow));
   step.add(std::make_unique<SweepPass>(flow));
 }
 

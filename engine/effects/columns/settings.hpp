@@ -17,12 +17,13 @@ struct DepthAveragedSettings {
   double viscosity = 0.5;  ///< Monaghan's alpha between approaching columns
   double courant = 0.25;   ///< of the wave limit and the approach limit
   /// Support radius over the mean distance of columns: about 50 neighbours.
-  double reach_per_spacing = 4;
-  double least_reach = 0.5, most_reach = 2;  ///< bounds of the adaptive reach over its first value
+  double radius_per_spacing = 4;
+  double least_radius = 0.5,
+         most_radius = 2;  ///< bounds of the adaptive support radius over its first value
   /// K's change per strain [M]: active to passive within about a hundredth of strain (Hungr 1995).
   double earth_pressure_stiffness = 200;
-  std::vector<BasalResistance> base{1};          ///< by zone, [0] where there is none
-  std::vector<EarthPressure> earth_pressure{1};  ///< by zone, as `base`
+  std::vector<BasalResistance> bed{1};           ///< by zone, [0] where there is none
+  std::vector<EarthPressure> earth_pressure{1};  ///< by zone, as `bed`
   ZoneMap zones;
   InstructionSet instruction_set = InstructionSet::plain;
 };

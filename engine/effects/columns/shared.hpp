@@ -43,13 +43,13 @@ struct ColumnFlow {
 
 /// The ground under a column, as its field "ground" keeps it.
 struct ColumnGround {
-  double east, north, bend_ee, bend_en, bend_nn;
+  double east, north, curvature_ee, curvature_en, curvature_nn;
 
   Vec3 normal() const { return upward_normal(east, north); }
-  /// The slopes a horizontal way (x, y) farther on.
+  /// The slopes a horizontal displacement (x, y) farther on.
   ColumnGround ahead(double x, double y) const {
-    return {east + bend_ee * x + bend_en * y, north + bend_en * x + bend_nn * y, bend_ee, bend_en,
-            bend_nn};
+    return {east + curvature_ee * x + curvature_en * y, north + curvature_en * x + curvature_nn * y,
+            curvature_ee, curvature_en, curvature_nn};
   }
 };
 
@@ -66,7 +66,8 @@ struct GroundColumns {
   }
   void set(std::size_t i, const CurvedSurface& g) const {
     component[0][i] = g.east, component[1][i] = g.north;
-    component[2][i] = g.bend_ee, component[3][i] = g.bend_en, component[4][i] = g.bend_nn;
+    component[2][i] = g.curvature_ee, component[3][i] = g.curvature_en,
+    component[4][i] = g.curvature_nn;
   }
 };
 
@@ -90,12 +91,12 @@ struct Velocity {
 bool look_up_ground(const State&, ParticleSet&, const GroundColumns&, std::size_t i);
 
 /// A kick at t_n leads from the middle of the last step to the middle of this one.
-inline double kick_length(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }
+inline double kick_interval(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }
 
 /// Puts columns from `first` on that entered during the run on the ground, without neighbours yet.
 void enter_columns(const State&, ColumnFlow&, MovingSet&, std::size_t first);
 
-void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, pack, sweep
-void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< base, drift
+void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
+void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< bed, drift
 
 }  // namespace sturz

@@ -27,14 +27,14 @@ struct ColumnScale {
 /// A group's values turned from records into rows; lanes beyond its end repeat the last column.
 struct ColumnRows {
   alignas(64) std::int32_t x[group_size], y[group_size], z[group_size];
-  alignas(64) float vx[group_size], vy[group_size], vz[group_size], inverse_reach[group_size];
+  alignas(64) float vx[group_size], vy[group_size], vz[group_size], inverse_radius[group_size];
   alignas(64) float thickness[group_size], lateral[group_size], wave_speed[group_size];
 
   ColumnRows(const ColumnRecord* first, int n) {
     for (int k = 0; k < group_size; ++k) {
       const ColumnRecord& c = first[k < n ? k : n - 1];
       x[k] = c.x, y[k] = c.y, z[k] = c.z, vx[k] = c.vx, vy[k] = c.vy, vz[k] = c.vz;
-      inverse_reach[k] = c.inverse_reach, thickness[k] = c.thickness;
+      inverse_radius[k] = c.inverse_radius, thickness[k] = c.thickness;
       lateral[k] = c.lateral, wave_speed[k] = c.wave_speed;
     }
   }
@@ -43,7 +43,7 @@ struct ColumnRows {
 /// The lanes' own values.
 struct ColumnSelf {
   IntLanes x, y, z;
-  Lanes vx, vy, vz, inverse_reach, thickness, lateral, wave_speed;
+  Lanes vx, vy, vz, inverse_radius, thickness, lateral, wave_speed;
   ColumnSelf(const ColumnRows& r, int lane)
       : x(IntLanes::load(r.x + lane)),
         y(IntLanes::load(r.y + lane)),
@@ -51,7 +51,7 @@ struct ColumnSelf {
         vx(Lanes::load(r.vx + lane)),
         vy(Lanes::load(r.vy + lane)),
         vz(Lanes::load(r.vz + lane)),
-        inverse_reach(Lanes::load(r.inverse_reach + lane)),
+        inverse_radius(Lanes::load(r.inverse_radius + lane)),
         thickness(Lanes::load(r.thickness + lane)),
         lateral(Lanes::load(r.lateral + lane)),
         wave_speed(Lanes::load(r.wave_speed + lane)) {}
@@ -70,7 +70,7 @@ struct ColumnSums {
     const Lanes rx = unit * difference(i.x, j.x), ry = unit * difference(i.y, j.y);
     const Lanes rz = unit * difference(i.z, j.z);
     const Lanes r2 = fma(rx, rx, fma(ry, ry, rz * rz));
-    const Lanes iq = max(i.inverse_reach, Lanes::all(j.inverse_reach));
+    const Lanes iq = max(i.inverse_radius, Lanes::all(j.inverse_radius));
     if (!any_less(r2 * iq * iq, one)) return;
     const Lanes q = sqrt(r2) * iq;
     const Lanes t = max(zero, one - q), t3 = t * t * t, iq2 = iq * iq;

@@ -7,7 +7,7 @@
 namespace sturz::STURZ_ISA {
 
 /// Writes the valid lanes of one result.
-inline void keep(Lanes value, float* out, int n) {
+inline void store_lanes(Lanes value, float* out, int n) {
   alignas(64) float lanes[Lanes::width];
   value.store(lanes);
   for (int k = 0; k < n && k < Lanes::width; ++k) out[k] = lanes[k];
@@ -31,13 +31,13 @@ inline void column_sweep(const ColumnView& view, const ColumnConstants& constant
           sums.add(self, *j, scale);
       }
       const std::size_t at = group.begin + lane;
-      keep(sums.thickness, out.thickness + at, n - lane);
-      keep(sums.density, out.density + at, n - lane);
-      keep(sums.ax, out.ax + at, n - lane);
-      keep(sums.ay, out.ay + at, n - lane);
-      keep(sums.az, out.az + at, n - lane);
-      keep(sums.divergence, out.divergence + at, n - lane);
-      keep(sums.approach, out.approach + at, n - lane);
+      store_lanes(sums.thickness, out.thickness + at, n - lane);
+      store_lanes(sums.density, out.density + at, n - lane);
+      store_lanes(sums.ax, out.ax + at, n - lane);
+      store_lanes(sums.ay, out.ay + at, n - lane);
+      store_lanes(sums.az, out.az + at, n - lane);
+      store_lanes(sums.divergence, out.divergence + at, n - lane);
+      store_lanes(sums.approach, out.approach + at, n - lane);
     }
   }
 }

@@ -9,8 +9,8 @@
 namespace sturz {
 namespace {
 
-double distance(const Wall& wall, const Vec3& place) {
-  return (place - wall.point).dot(wall.normal);
+double distance(const Wall& wall, const Vec3& position) {
+  return (position - wall.point).dot(wall.normal);
 }
 
 /// The wall's normal as far as the ground lets a column move along it; not unit.
@@ -40,24 +40,25 @@ double HalfSupport::between(const std::array<double, n + 1>& table, double d) {
   return table[k] + (at - k) * (table[k + 1] - table[k]);
 }
 
-double ColumnWalls::thickness_factor(const Domain& domain, double time, const Vec3& place,
-                                     double reach) const {
-  return 1 / share_in_front(domain, time, place, reach, nullptr);
+double ColumnWalls::thickness_factor(const Domain& domain, double time, const Vec3& position,
+                                     double support_radius) const {
+  return 1 / share_in_front(domain, time, position, support_radius, nullptr);
 }
 
-double ColumnWalls::share_in_front(const Domain& domain, double time, const Vec3& place,
-                                   double reach, const Wall* but) const {
+double ColumnWalls::share_in_front(const Domain& domain, double time, const Vec3& position,
+                                   double support_radius, const Wall* but) const {
   double share = 1;
   for (const Wall& wall : domain.walls)
     if (&wall != but && time < wall.remove_at_s)
-      share *= 1 - support_.beyond(distance(wall, place) / reach);
+      share *= 1 - support_.beyond(distance(wall, position) / support_radius);
   return share;
 }
 
 Vec3 ColumnWalls::pressure(const Domain& domain, double time, const Wall& wall,
                            const ColumnAtWall& c) const {
-  const double line = support_.line(distance(wall, c.place) / c.reach) / c.reach *
-                      share_in_front(domain, time, c.place, c.reach, &wall);
+  const double line = support_.line(distance(wall, c.position) / c.support_radius) /
+                      c.support_radius *
+                      share_in_front(domain, time, c.position, c.support_radius, &wall);
   return c.lateral * c.thickness * line * wall.normal;
 }
 
@@ -65,14 +66,14 @@ ColumnWalls::Impulse ColumnWalls::impulse(const Wall& wall, const ColumnAtWall& 
                                           const Vec3& velocity, double pressed,
                                           double drift) const {
   Impulse out;
-  const Vec3 way = along_ground(wall, c.ground_normal);
-  const double free = way.squaredNorm();
-  const double d = distance(wall, c.place), speed = velocity.dot(wall.normal);
+  const Vec3 direction = along_ground(wall, c.ground_normal);
+  const double free = direction.squaredNorm();
+  const double d = distance(wall, c.position), speed = velocity.dot(wall.normal);
   const double stop = std::max(0.0, -d / drift - speed);
   if (free < 1e-12 || (stop == 0 && pressed == 0)) return out;
-  out.normal = stop / free * way;
+  out.normal = stop / free * direction;
   const Vec3 after = velocity + out.normal;
-  const Vec3 sliding = after - after.dot(way) / free * way;
+  const Vec3 sliding = after - after.dot(direction) / free * direction;
   const double slip = sliding.norm();
   const double most = wall.friction_coefficient * (stop / std::sqrt(free) + pressed);
   if (slip > 0) out.friction = -std::min(1.0, most / slip) * sliding;

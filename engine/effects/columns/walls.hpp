@@ -13,11 +13,12 @@
 
 namespace sturz {
 
-/// Integrals of the smoothing function with reach 1 over a line and over what lies beyond it.
+/// Integrals of the smoothing function with support radius 1 over a line and over what lies beyond
+/// it.
 class HalfSupport {
  public:
   HalfSupport();
-  /// Integral of W along a line at distance d of the centre, times R [-]; d in reaches, >= 0.
+  /// Integral of W along a line at distance d of the centre, times R [-]; d in support radii, >= 0.
   double line(double d) const { return between(line_, d); }
   /// Share of W beyond that line [-].
   double beyond(double d) const { return between(beyond_, d); }
@@ -30,14 +31,15 @@ class HalfSupport {
 
 /// A column as a wall meets it.
 struct ColumnAtWall {
-  Vec3 place, ground_normal;
-  double reach = 1, thickness = 1, lateral = 0;  ///< [m], [m], K g_n [m/s^2]
+  Vec3 position, ground_normal;
+  double support_radius = 1, thickness = 1, lateral = 0;  ///< [m], [m], K g_n [m/s^2]
 };
 
 class ColumnWalls {
  public:
-  /// Factor on the summed thickness of a column at `place`.
-  double thickness_factor(const Domain&, double time, const Vec3& place, double reach) const;
+  /// Factor on the summed thickness of a column at `position`.
+  double thickness_factor(const Domain&, double time, const Vec3& position,
+                          double support_radius) const;
   /// Acceleration by what one wall mirrors, in a corner only the part in front of the others
   /// [m/s^2].
   Vec3 pressure(const Domain&, double time, const Wall&, const ColumnAtWall&) const;
@@ -51,7 +53,7 @@ class ColumnWalls {
 
  private:
   /// Share of a column's support before all walls that stand, but one.
-  double share_in_front(const Domain&, double time, const Vec3& place, double reach,
+  double share_in_front(const Domain&, double time, const Vec3& position, double support_radius,
                         const Wall* but) const;
 
   HalfSupport support_;

@@ -43,7 +43,7 @@ class NeighborPass final : public Pass {
         s.previous_dt * std::sqrt(range[0] * range[0] + range[1] * range[1] + range[2] * range[2]));
     if (p.order_changed) lists.invalidate();
     p.order_changed = false;
-    parcels_ns_ = all_ns_ = 0;
+    isolated_ns_ = all_ns_ = 0;
     if (!lists.needs_rebuild()) return;
     const std::int64_t start = now_ns();
     wrap_particles(s.domain, p);
@@ -56,7 +56,7 @@ class NeighborPass final : public Pass {
     // Asked when the pass is added, before isolated particles are.
     const auto& states = shared_->settings.states;
     if (!states || !states->ultradilute) return {};
-    return {EffectName::isolated, "who leaves and comes back", ratio(parcels_ns_, all_ns_)};
+    return {EffectName::isolated, "leaving and rejoining", ratio(isolated_ns_, all_ns_)};
   }
   std::size_t bytes() const override { return shared_->lists.bytes(); }
 
@@ -76,30 +76,30 @@ class NeighborPass final : public Pass {
   void timed(Work&& work) {
     const std::int64_t start = now_ns();
     work();
-    parcels_ns_ += now_ns() - start;
+    isolated_ns_ += now_ns() - start;
   }
 
   void make_room(MovingSet& p, std::size_t padded) const {
     for (auto& r : shared_->results) r.resize(padded);
     for (auto& r : shared_->smooth) r.resize(padded);
     if (shared_->settings.states)
-      for (auto& r : shared_->parted) r.resize(padded);
+      for (auto& r : shared_->dispersed) r.resize(padded);
     const std::size_t all = std::max(padded, p.size());
-    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.share}) a->resize(all);
+    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.mirror_weight}) a->resize(all);
   }
 
   std::shared_ptr<GrainStress> shared_;
-  std::int64_t parcels_ns_ = 0, all_ns_ = 0;  // of this step
+  std::int64_t isolated_ns_ = 0, all_ns_ = 0;  // of this step
 };
 
-/// Fills the records of the pair sweep. Velocities go in extrapolated by half a step to v_{n+1/2}:
-/// stress rates taken from v_{n-1/2} would feed energy into sound waves (forward Euler).
-class PackPass final : public Pass {
+/// Gathers the neighbour records of the pair sweep. Velocities go in extrapolated by half a step to
+/// v_{n+1/2}: stress rates taken from v_{n-1/2} would feed energy into sound waves (forward Euler).
+class GatherPass final : public Pass {
  public:
-  explicit PackPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
-  std::string_view name() const override { return "pack"; }
+  explicit GatherPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "gather"; }
   std::string_view effect() const override { return EffectName::grain_stress; }
-  Stage stage() const override { return Stage::pack; }
+  Stage stage() const override { return Stage::gather; }
 
   void apply(State& s, double dt) override {
     NeighborLists& lists = shared_->lists;
@@ -108,37 +108,37 @@ class PackPass final : public Pass {
     const double reference = shared_->settings.reference_density;
     const bool cohesive = shared_->settings.law.cohesion > 0;
     auto& before = p.components(fields::velocity_before);
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
     const auto& viscous = p.scalar(fields::viscous_ratio);
-    parallel_ranges(p.n_listed, reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      lists.pack_positions(p, begin, end);
-                      PackedRecord* records = lists.records();
-                      for (std::size_t i = begin; i < end; ++i) {
-                        PackedRecord& r = records[i];
-                        const double e = std::max(compression[i], GrainStressSettings::separation);
-                        r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
-                        r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
-                        r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
-                        r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
-                        r.compression = static_cast<float>(e);
-                        const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
-                        const ViscousShare v = viscous_share(viscous[i]);
-                        const double share = 1 - v.carried, mean = -v.carried * pressure;
-                        r.viscosity = static_cast<float>(v.acting);
-                        r.sxx = static_cast<float>(share * stress[0][i] + mean);
-                        r.syy = static_cast<float>(share * stress[1][i] + mean);
-                        r.szz = static_cast<float>(share * stress[2][i] + mean);
-                        r.sxy = static_cast<float>(share * stress[3][i]);
-                        r.syz = static_cast<float>(share * stress[4][i]);
-                        r.szx = static_cast<float>(share * stress[5][i]);
-                        if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
-                        before[0][i] = p.vx[i];
-                        before[1][i] = p.vy[i];
-                        before[2][i] = p.vz[i];
-                      }
-                    });
+    parallel_ranges(
+        p.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+          lists.gather_positions(p, begin, end);
+          NeighborRecord* records = lists.records();
+          for (std::size_t i = begin; i < end; ++i) {
+            NeighborRecord& r = records[i];
+            const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
+            r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
+            r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
+            r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
+            r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
+            r.density_change = static_cast<float>(e);
+            const double pressure = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
+            const ViscousShare v = viscous_share(viscous[i]);
+            const double share = 1 - v.carried, mean = -v.carried * pressure;
+            r.viscosity = static_cast<float>(v.acting);
+            r.sxx = static_cast<float>(share * stress[0][i] + mean);
+            r.syy = static_cast<float>(share * stress[1][i] + mean);
+            r.szz = static_cast<float>(share * stress[2][i] + mean);
+            r.sxy = static_cast<float>(share * stress[3][i]);
+            r.syz = static_cast<float>(share * stress[4][i]);
+            r.szx = static_cast<float>(share * stress[5][i]);
+            if (cohesive) r.tension = artificial_pressure(stress, i, pressure);
+            before[0][i] = p.vx[i];
+            before[1][i] = p.vy[i];
+            before[2][i] = p.vz[i];
+          }
+        });
     lists.copy_images();
     for (std::size_t i = p.n_listed; i < p.size(); ++i)
       before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
@@ -185,14 +185,14 @@ class SweepPass final : public Pass {
                                    g.spacing,
                                    shared_->smoothing_now,
                                    g.ratio_floor()};
-    const PackedView view = shared_->lists.view();
+    const NeighborView view = shared_->lists.view();
     SweepOutput out = shared_->output();
     out.ax = p.ax.data(), out.ay = p.ay.data(), out.az = p.az.data();
-    out.wall_share = p.boundary.share.data();
+    out.mirror_weight = p.boundary.mirror_weight.data();
     const BoundaryView wall = boundary_view(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
     constexpr std::size_t groups_per_range = 16;
-    flying_ns_ = all_ns_ = 0;
+    dispersed_ns_ = all_ns_ = 0;
     parallel_ranges(shared_->lists.n_groups(), groups_per_range, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       if (g.states)
@@ -204,23 +204,23 @@ class SweepPass final : public Pass {
   }
   EffectPart part() const override {
     if (!shared_->settings.states) return {};
-    return {flying_effect(shared_->settings), "groups that fly", ratio(flying_ns_, all_ns_)};
+    return {dispersed_effect(shared_->settings), "dispersed groups", ratio(dispersed_ns_, all_ns_)};
   }
   std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
 
  private:
-  /// The sweep of a mass whose grains may part, and which part of its time those take that do: two
-  /// looks at the clock for 16 groups, and one where the kind of group changes.
-  void timed_kinetic(const PackedView& view, const SweepConstants& constants,
+  /// The sweep of a mass whose grains may disperse, and which part of its time dispersed groups
+  /// take: two looks at the clock for 16 groups, and one where the kind of group changes.
+  void timed_kinetic(const NeighborView& view, const SweepConstants& constants,
                      const BoundaryView& wall, const SweepOutput& out, std::size_t begin,
                      std::size_t end) {
-    FlyingClock clock{&now_ns};
+    DispersedClock clock{&now_ns};
     const std::int64_t start = now_ns();
     sweeps(shared_->settings.instruction_set)
-        .kinetic(view, {shared_->kinetic.data(), shared_->calm.data(), &clock}, constants, wall,
-                 out, begin, end);
+        .kinetic(view, {shared_->kinetic.data(), shared_->dense_group.data(), &clock}, constants,
+                 wall, out, begin, end);
     all_ns_.fetch_add(now_ns() - start, std::memory_order_relaxed);
-    flying_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
+    dispersed_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
   }
 
   static BoundaryView boundary_view(const Domain& domain, const MovingSet& p) {
@@ -234,7 +234,7 @@ class SweepPass final : public Pass {
   }
 
   std::shared_ptr<GrainStress> shared_;
-  std::atomic<std::int64_t> flying_ns_ = 0, all_ns_ = 0;  // of this step, all threads
+  std::atomic<std::int64_t> dispersed_ns_ = 0, all_ns_ = 0;  // of this step, all threads
 };
 
 class StressPass final : public Pass {
@@ -249,19 +249,19 @@ class StressPass final : public Pass {
     StressColumns columns;
     columns.mass = p.mass.data();
     columns.vx = p.vx.data(), columns.vy = p.vy.data(), columns.vz = p.vz.data();
-    columns.compression = p.scalar(fields::compression).data();
+    columns.density_change = p.scalar(fields::density_change).data();
     for (int k = 0; k < 6; ++k) columns.stress[k] = p.components(fields::stress)[k].data();
     columns.viscous_ratio = p.scalar(fields::viscous_ratio).data();
     const SweepOutput rates = shared_->output();
     const GrainStressSettings& g = shared_->settings;
     columns.distance = p.boundary.distance.data();
     const StressUpdate update(g, dt, shared_->smoothing_now > 0);
-    if (g.states && g.states->switched) columns.state = p.flags(fields::state).data();
+    if (g.states && g.states->paper_switch) columns.state = p.flags(fields::state).data();
     const StressEnergies sums = ordered_reduce(
         p.n_listed, s.threads, StressEnergies{},
         [&](std::size_t begin, std::size_t end, StressEnergies& out) {
           if (g.states)
-            update.apply(parting(g, dt), columns, rates, begin, end, out);
+            update.apply(dilatant(g, dt), columns, rates, begin, end, out);
           else
             update.apply(columns, rates, begin, end, out);
         },
@@ -276,10 +276,10 @@ class StressPass final : public Pass {
   }
 
  private:
-  static PartingPacking parting(const GrainStressSettings& g, double dt) {
+  static DilatantPacking dilatant(const GrainStressSettings& g, double dt) {
     const GrainStatesSettings& s = *g.states;
     const double relaxation = 10 * g.smoothing_length / g.sound_speed;
-    return {g.bulk_modulus(), s.reference_fraction, s.friction, s.switched,
+    return {g.bulk_modulus(), s.reference_fraction, s.friction, s.paper_switch,
             std::exp(-dt / relaxation)};
   }
 
@@ -298,19 +298,19 @@ class StressPass final : public Pass {
 
 void start_geostatic(MovingSet& p, double gravity, const GrainStressSettings& g,
                      std::span<const double> depth) {
-  auto& compression = p.scalar(fields::compression);
+  auto& density_change = p.scalar(fields::density_change);
   auto& stress = p.components(fields::stress);
   const double mu = g.law.static_friction;
   const double k0 = 1 - mu / std::sqrt(1 + mu * mu);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double vertical = g.reference_density * gravity * depth[i];
     const double mean = vertical * (1 + 2 * k0) / 3;
-    compression[i] = g.compression_at(mean);
+    density_change[i] = g.density_change_at(mean);
     // Near the surface the frictional pressure may ask for more than the depth gives.
-    const double excess = g.pressure_at(compression[i]) - mean;
+    const double excess = g.pressure_at(density_change[i]) - mean;
     stress[0][i] = stress[1][i] = -k0 * vertical - excess;
     stress[2][i] = -vertical - excess;
-    p.ledger.elastic += elastic_energy(g, p.mass[i] / g.reference_density, compression[i],
+    p.ledger.elastic += elastic_energy(g, p.mass[i] / g.reference_density, density_change[i],
                                        vertical * (1 - k0) / std::sqrt(3.0));
   }
   p.ledger.elastic_0 = p.ledger.elastic;
@@ -325,7 +325,7 @@ std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::siz
                                               std::span<const double> depth) {
   MovingSet& p = state.sets[set];
   expect(depth.size() == p.size(), "one depth per particle");
-  p.add(fields::compression);
+  p.add(fields::density_change);
   p.add(fields::stress);
   p.add(fields::viscous_ratio);
   Field& before = p.add(fields::velocity_before);
@@ -341,7 +341,7 @@ std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::siz
   p.sound_speed = first.sound_speed;
   if (follows) add_sound_speed(step, shared, settings.sound_speed);
   step.add(std::make_unique<NeighborPass>(shared));
-  step.add(std::make_unique<PackPass>(shared));
+  step.add(std::make_unique<GatherPass>(shared));
   step.add(std::make_unique<SweepPass>(shared));
   step.add(std::make_unique<StressPass>(shared));
   return shared;

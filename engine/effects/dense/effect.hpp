@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Dense grains in full stress: neighbours, one fused pair pass, elastic + mu(I) update.
 ///
-/// Brings the fields `compression`, `stress`, `viscous_ratio` and `velocity_before`, and the passes
-///   neighbors: lists   pack: records   force: pair sweep   stress: density and stress n -> n+1
+/// Brings the fields `density_change`, `stress`, `viscous_ratio` and `velocity_before`, and the
+/// passes
+///   neighbors: lists   gather: records   force: pair sweep   stress: density and stress n -> n+1
 #pragma once
 
 #include "engine/effects/dense/settings.hpp"

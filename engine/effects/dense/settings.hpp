@@ -15,7 +15,7 @@ namespace sturz {
 struct GrainStressSettings {
   MuIRheology law;
   std::optional<GrainStatesSettings> states;  ///< absent: every grain is dense
-  double spacing = 1;                         ///< dx [m]
+  double spacing = 1;                         ///< initial particle spacing dx [m]
   double smoothing_length = 1.3;              ///< h [m]
   double reference_density = 1560;            ///< rho_ref = alpha_init rho_p [kg/m^3]
   double sound_speed = 100;  ///< c0 of compressional waves, sqrt((K + 4G/3)/rho) [m/s]
@@ -30,10 +30,10 @@ struct GrainStressSettings {
   double skin = 0.15;              ///< of the lists, in smoothing lengths
   InstructionSet instruction_set = InstructionSet::plain;  ///< chosen by assemble
 
-  /// Grains whose density fell this far below the reference have parted: they carry no shear, and
-  /// count in their neighbours' sums as if they had parted no further. A volume that grows with
+  /// Grains whose density fell this far below the reference have dilated: they carry no shear, and
+  /// count in their neighbours' sums as if they had dilated no further. A volume that grows with
   /// the dilation would multiply every force on a grain that has left the mass.
-  static constexpr double separation = -0.02;
+  static constexpr double separation_threshold = -0.02;
   /// Smoothing runs in every so many-th step, as many times as strong: the same for a fraction of
   /// the cost.
   static constexpr int smoothing_interval = 16;
@@ -62,13 +62,14 @@ struct GrainStressSettings {
     return 0.1 * viscosity * smoothing_length * sound_speed * reference_density;
   }
 
-  /// Contact pressure at a compression [Pa].
+  /// Contact pressure at a relative density change [Pa].
   double pressure_at(double e) const {
     const double squeezed = bulk_modulus() * std::fmax(0.0, e);
     return states ? squeezed + states->friction.at(states->reference_fraction * (1 + e)) : squeezed;
   }
-  /// Compression >= 0 that carries a pressure; 0 where the frictional pressure alone does.
-  double compression_at(double pressure) const {
+  /// Relative density change >= 0 that carries a pressure; 0 where the frictional pressure alone
+  /// does.
+  double density_change_at(double pressure) const {
     double e = std::fmax(0.0, pressure / bulk_modulus());
     if (!states) return e;
     if (pressure_at(0) >= pressure) return 0;

@@ -11,14 +11,14 @@
 
 namespace sturz {
 
-/// Changes of who belongs to the continuum, made when neighbours are sorted. A scene in which all
-/// grains always do has none.
+/// Changes of which particles belong to the continuum, made when neighbours are sorted. A scene in
+/// which all grains always do has none.
 class ListChanges {
  public:
   virtual ~ListChanges() = default;
   /// Puts the grains of the continuum first in storage and sets MovingSet::n_listed.
   virtual void before_sorting(MovingSet&) = 0;
-  /// With fresh lists. \return whether somebody came back, so that the lists must be made again
+  /// With fresh lists. \return whether a particle rejoined, so that the lists must be made again
   virtual bool after_sorting(const Domain&, MovingSet&, const NeighborLists&) = 0;
 };
 
@@ -29,10 +29,11 @@ struct GrainStress {
   NeighborLists lists;
   std::vector<float> results[10];  // velocity gradient, density diffusion
   std::vector<float> smooth[6];
-  // Only where grains may part:
-  std::vector<float> parted[9];  // fill, neighbours, heat, gradient felt; see SweepOutput
+  // Only where grains may disperse:
+  std::vector<float>
+      dispersed[9];  // support completeness, neighbours, conduction, pair gradient; see SweepOutput
   std::vector<KineticRecord> kinetic;
-  std::vector<std::uint8_t> calm;
+  std::vector<std::uint8_t> dense_group;
   std::unique_ptr<ListChanges> changes;  // isolated particles, where the scene calls for them
   double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
 
@@ -42,27 +43,28 @@ struct GrainStress {
         lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
               sweeps(s.instruction_set).tight_list) {}
 
-  /// Without accelerations and the image's share, which live in the state.
+  /// Without accelerations and mirror weights, which live in the state.
   SweepOutput output() {
     SweepOutput out{};
     float** slots[] = {&out.lxx, &out.lxy, &out.lxz, &out.lyx, &out.lyy,
                        &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
     for (int k = 0; k < 10; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
-    out.fill = parted[0].data(), out.neighbors = parted[1].data(), out.heat = parted[2].data();
-    for (int k = 0; k < 6; ++k) out.felt[k] = parted[3 + k].data();
+    out.support_completeness = dispersed[0].data(), out.neighbors = dispersed[1].data(),
+    out.conducted = dispersed[2].data();
+    for (int k = 0; k < 6; ++k) out.pair_gradient[k] = dispersed[3 + k].data();
     return out;
   }
 };
 
 /// What the passes that only grains in flight call for count to.
-inline std::string_view flying_effect(const GrainStressSettings& g) {
+inline std::string_view dispersed_effect(const GrainStressSettings& g) {
   return g.states->dilute ? EffectName::kinetic_theory : EffectName::states;
 }
 
 /// c0 of a mass that starts with the velocities it has, where it follows the flow [m/s].
 double sound_speed_at_start(const ParticleSet&, const GrainStressSettings&);
-/// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole way down [m/s]
+/// Lets c0 follow the flow, see sound_speed.cpp. \param planned  c0 of the whole descent [m/s]
 void add_sound_speed(Step&, const std::shared_ptr<GrainStress>&, double planned);
 
 }  // namespace sturz

@@ -11,10 +11,10 @@ namespace sturz {
 namespace {
 
 /// Keeps c0 at `factor` times the present largest speed (so the Mach number stays at 1/factor),
-/// never under what the mass needs at rest and never over twice what its way down asks for.
+/// never under what the mass needs at rest and never over twice what its descent asks for.
 ///
 /// A change keeps every pressure and stress as it is: rho_new = rho_ref (1 + p/K_new). Elastic
-/// energy p^2/2K + tau^2/2G goes with 1/c0^2; the difference is booked as numerical.
+/// energy p^2/2K + tau^2/2G goes with 1/c0^2; the difference is accounted as numerical.
 class SoundSpeedPass final : public Pass {
  public:
   SoundSpeedPass(std::shared_ptr<GrainStress> shared, double planned)
@@ -47,12 +47,12 @@ class SoundSpeedPass final : public Pass {
     const double ratio = (g.sound_speed / c0) * (g.sound_speed / c0);  // K_old / K_new
     if (std::abs(ratio - 1) < 1e-3) return;
     g.sound_speed = p.sound_speed = c0;
-    auto& compression = p.scalar(fields::compression);
+    auto& density_change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
-    for (std::size_t i = 0; i < compression.size(); ++i) {
-      double& e = compression[i];
+    for (std::size_t i = 0; i < density_change.size(); ++i) {
+      double& e = density_change[i];
       if (e <= 0) continue;
-      e = g.states ? g.compression_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3)
+      e = g.states ? g.density_change_at(-(stress[0][i] + stress[1][i] + stress[2][i]) / 3)
                    : e * ratio;
     }
     const double gained = (ratio - 1) * p.ledger.elastic;

@@ -10,17 +10,17 @@
 
 namespace sturz {
 
-/// Elastic energy [J] of a reference volume: V_0 (p^2/2K + tau^2/2G), p = K max(0, compression).
-inline double elastic_energy(const GrainStressSettings& g, double volume, double compression,
+/// Elastic energy [J] of a reference volume: V_0 (p^2/2K + tau^2/2G), p = K max(0, density_change).
+inline double elastic_energy(const GrainStressSettings& g, double volume, double density_change,
                              double shear_stress) {
-  const double p = g.bulk_modulus() * std::fmax(0.0, compression);
+  const double p = g.bulk_modulus() * std::fmax(0.0, density_change);
   return volume *
          (p * p / (2 * g.bulk_modulus()) + shear_stress * shear_stress / (2 * g.shear_modulus()));
 }
 
-/// That of particle i, from its fields "compression" and "stress" [J].
+/// That of particle i, from its fields "density_change" and "stress" [J].
 inline double stored_energy(const GrainStressSettings& g, const ParticleSet& set, std::size_t i) {
-  const double e = set.scalar(fields::compression)[i];
+  const double e = set.scalar(fields::density_change)[i];
   const auto& c = set.components(fields::stress);
   const double p = -(c[0][i] + c[1][i] + c[2][i]) / 3;
   const double xx = c[0][i] + p, yy = c[1][i] + p, zz = c[2][i] + p;

@@ -13,7 +13,7 @@
 #pragma once
 
 #include "engine/core/lanes.hpp"
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 
 namespace sturz::STURZ_ISA {
 
@@ -27,7 +27,7 @@ struct DenseScale {
   float diffusion;      ///< 2 delta h c0 C
   float density;        ///< rho_ref
   float smoothing;      ///< 2 zeta h c0 C
-  float inv_reach;      ///< 1/(2h) [1/m]
+  float inv_support;    ///< 1/(2h) [1/m]
   float ratio_floor;    ///< p_c of the smoothed ratio [Pa]
   float laplacian;      ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
   float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
@@ -47,7 +47,7 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
   s.smoothing =
       static_cast<float>(2 * c.stress_smoothing * c.h * c.sound_speed * c.gradient_factor);
   s.ratio_floor = static_cast<float>(c.ratio_floor);
-  s.inv_reach = static_cast<float>(0.5 / c.h);
+  s.inv_support = static_cast<float>(0.5 / c.h);
   s.laplacian = static_cast<float>(c.gradient_factor);
   const double t = 1 - c.spacing / (2 * c.h);
   s.inv_w_spacing = static_cast<float>(1 / (t * t * t * t * (5 - 4 * t)));
@@ -58,7 +58,7 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
 /// The lanes' own values.
 struct DenseSelf {
   IntLanes x, y, z;
-  Lanes vx, vy, vz, compression;
+  Lanes vx, vy, vz, density_change;
 };
 
 /// Sums for the smoothing of the stress ratio S = s/(p + p_c): Sum V_j t^3 sigma_j/(p_j + p_c).
@@ -69,7 +69,7 @@ struct RatioSums {
   Lanes xx, yy, zz, xy, yz, zx, weight;
 
   void clear() { xx = yy = zz = xy = yz = zx = weight = Lanes::all(0); }
-  void add(const PackedRecord& j, const DenseScale& k, Lanes w) {
+  void add(const NeighborRecord& j, const DenseScale& k, Lanes w) {
     // In the order of finish_ratio, or a uniform ratio would not cancel to the last bit.
     const Lanes v = w * Lanes::all(1 / (k.ratio_floor - third * (j.sxx + j.syy + j.szz)));
     xx = fma(v, Lanes::all(j.sxx), xx), yy = fma(v, Lanes::all(j.syy), yy);
@@ -96,7 +96,7 @@ struct DenseSums {
   /// Adds one neighbour to all lanes. A particle outside the support or the lane itself adds zero.
   /// \param viscosity  DenseScale::viscosity in the share that acts between the pair
   /// \return the weight V_j t^3
-  Lanes add(const DenseSelf& i, const PackedRecord& j, const DenseScale& k, Lanes viscosity) {
+  Lanes add(const DenseSelf& i, const NeighborRecord& j, const DenseScale& k, Lanes viscosity) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes r2 = fma(rx, rx, fma(ry, ry, rz * rz));
     const Lanes t = max(Lanes::all(0), fnma(sqrt(r2), Lanes::all(k.to_s), Lanes::all(1)));
@@ -120,7 +120,7 @@ struct DenseSums {
     ay = fma(sxy, dx, fma(Lanes::all(j.syy) + q, dy, fma(syz, dz, ay)));
     az = fma(szx, dx, fma(syz, dy, fma(Lanes::all(j.szz) + q, dz, az)));
 
-    const Lanes e = Lanes::all(j.compression) - i.compression;
+    const Lanes e = Lanes::all(j.density_change) - i.density_change;
     d = fma(w, e, d);
     nx = fma(e, dx, nx), ny = fma(e, dy, ny), nz = fma(e, dz, nz);
     return w;
@@ -142,11 +142,12 @@ struct Correction {
   /// there M is judged, and where it is poor replaced, in units of its mean diagonal. Not so at the
   /// surface of a dense mass, where pair forces lack the same share that M does: a full gradient
   /// there would make the stress dissipate what no force takes.
-  /// \param growth  how far the grain has parted from the others, 1: not at all
-  static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6], Lanes growth) {
+  /// \param dilation_ratio  of the grain, 1: dense
+  static Correction in_a_cloud(const DenseSums& s, Lanes scale, const Lanes wall[6],
+                               Lanes dilation_ratio) {
     const Lanes xx = fma(s.mxx, scale, wall[0]), yy = fma(s.myy, scale, wall[1]);
     const Lanes zz = fma(s.mzz, scale, wall[2]), one = Lanes::all(1);
-    const Lanes least = max(one / (growth * growth), Lanes::all(0.5f));
+    const Lanes least = max(one / (dilation_ratio * dilation_ratio), Lanes::all(0.5f));
     const Lanes diagonal = max(Lanes::all(1.0f / 3) * (xx + yy + zz), least);
     const Lanes u = one / select_less(diagonal, one, diagonal, one);
     Correction c(u * xx, u * yy, u * zz, u * fma(s.mxy, scale, wall[3]),

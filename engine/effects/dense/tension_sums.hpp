@@ -15,7 +15,7 @@ struct TensionSums {
 
   void clear() { bx = by = bz = cx = cy = cz = Lanes::all(0); }
   /// \param w  what DenseSums::add gave back for the pair
-  void add(const DenseSelf& i, const PackedRecord& j, const DenseScale& k, Lanes w) {
+  void add(const DenseSelf& i, const NeighborRecord& j, const DenseScale& k, Lanes w) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes r2 = fma(rx, rx, fma(ry, ry, rz * rz));
     const Lanes t = max(Lanes::all(0), fnma(sqrt(r2), Lanes::all(k.to_s), Lanes::all(1)));

@@ -17,12 +17,12 @@ namespace sturz {
 struct StressColumns {
   const double* mass = nullptr;
   double *vx = nullptr, *vy = nullptr, *vz = nullptr;
-  double* compression = nullptr;
+  double* density_change = nullptr;
   double* stress[6] = {};  ///< of contacts, xx yy zz xy yz zx [Pa], tension positive
   /// What the artificial viscosity would carry, over the friction of yielding grains [-]
   double* viscous_ratio = nullptr;
-  const float* distance = nullptr;      ///< to the ground [m]; where grains may part
-  const std::uint8_t* state = nullptr;  ///< GrainState at n; read by the switched law only
+  const float* distance = nullptr;      ///< to the ground [m]; where grains may disperse
+  const std::uint8_t* state = nullptr;  ///< GrainState at n; read by the paper's switch only
 };
 
 /// Sums over particles [J].
@@ -92,12 +92,12 @@ class StressUpdate {
     const float *r_lzx = r.lzx, *r_lzy = r.lzy, *r_lzz = r.lzz, *r_diffusion = r.diffusion;
     const float *r_xx = r.smooth[0], *r_yy = r.smooth[1], *r_zz = r.smooth[2];
     const float *r_xy = r.smooth[3], *r_yz = r.smooth[4], *r_zx = r.smooth[5];
-    const float *r_fill = r.fill, *c_distance = c.distance;
+    const float *r_completeness = r.support_completeness, *c_distance = c.distance;
     const float touching = touching_;
     const double* mass = c.mass;
     const std::uint8_t* c_state = c.state;
     double* c_ratio = c.viscous_ratio;
-    double *compression = c.compression, *c_vx = c.vx, *c_vy = c.vy, *c_vz = c.vz;
+    double *density_change = c.density_change, *c_vx = c.vx, *c_vy = c.vy, *c_vz = c.vz;
     double *s_xx = c.stress[0], *s_yy = c.stress[1], *s_zz = c.stress[2];
     double *s_xy = c.stress[3], *s_yz = c.stress[4], *s_zx = c.stress[5];
     const MuIRheology law = law_;
@@ -105,7 +105,7 @@ class StressUpdate {
     const double inv_rest_speed2 = inv_rest_speed2_, rest_drag = rest_drag_;
     const double half_inv_bulk = half_inv_bulk_, half_inv_shear = half_inv_shear_;
     const double inv_density = inv_density_, viscous = viscous_;
-    const double held = law.cohesion > 0 ? 0 : -1;  // compression
+    const double held = law.cohesion > 0 ? 0 : -1;  // density_change
 #pragma omp simd reduction(+ : elastic, frictional, power, plastic, diffusion, resting)
     for (std::size_t i = begin; i < end; ++i) {
       const double lxx = r_lxx[i], lxy = r_lxy[i], lxz = r_lxz[i];
@@ -114,14 +114,14 @@ class StressUpdate {
       const double trace = lxx + lyy + lzz;
 
       // Density on the continuity equation, cut at zero pressure in tension.
-      const double e0 = compression[i];
+      const double e0 = density_change[i];
       double diffused = dt * r_diffusion[i], e1;
       double squeezed_by;     // de by the continuity equation alone
       double p0, p1;          // of contacts
       double q0 = 0, q1 = 0;  // the frictional part of it
-      if constexpr (Packing::parts) {
+      if constexpr (Packing::dilates) {
         const double carried = packing.carried(e0, dt * trace);
-        e1 = packing.bounded(carried + diffused, r_fill[i], c_distance[i] < touching);
+        e1 = packing.bounded(carried + diffused, r_completeness[i], c_distance[i] < touching);
         diffused = e1 - carried;
         squeezed_by = carried - e0;
         p0 = -(s_xx[i] + s_yy[i] + s_zz[i]) / 3;
@@ -132,7 +132,7 @@ class StressUpdate {
         e1 = packing.bounded(e0 + squeezed_by + diffused);
         p0 = packing.pressure(e0), p1 = packing.pressure(e1);
       }
-      compression[i] = e1;
+      density_change[i] = e1;
 
       // Drag on loaded grains that hardly move: 0 at rest .. 1 in motion.
       const double vx = c_vx[i], vy = c_vy[i], vz = c_vz[i];
@@ -176,7 +176,7 @@ class StressUpdate {
       const double replaced = carried * dt * work;  // the viscosity takes it instead
       const double squeezed = p1 - q1;
       elastic += volume * (squeezed * squeezed * half_inv_bulk + tau * tau * half_inv_shear);
-      if constexpr (Packing::parts) frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
+      if constexpr (Packing::dilates) frictional += volume * 0.5 * (q0 + q1) * (e1 - e0);
       // As the law stores it: per reference volume.
       power += volume * (dt * work - replaced + mean_p * squeezed_by);
       plastic += volume * (dt * work - replaced - (tau * tau - s.norm2()) * half_inv_shear);

@@ -14,23 +14,23 @@ Vec3 velocity_at(const Vec3& velocity, const Vec3& spin, const Vec3& arm) {
 }
 
 /// The point of contact lies midway in the overlap of two spheres, on the ground's plane else.
-void press(ParcelContact& c, std::vector<ParcelBody>& bodies, double dt) {
+void press(IsolatedContact& c, std::vector<IsolatedBody>& bodies, double dt) {
   measure(c, bodies);
-  // What has parted again starts loading from where it is.
+  // A contact that has opened again starts loading from where it is.
   c.unloaded = std::clamp(c.overlap, 0.0, c.unloaded);
   c.stored = 0;
   if (!(c.loaded() > 0)) {
     c.history.setZero();
     return;
   }
-  const bool pair = c.b != ParcelContact::ground;
-  ParcelBody& a = bodies[c.a];
+  const bool pair = c.b != IsolatedContact::ground;
+  IsolatedBody& a = bodies[c.a];
   const Vec3 arm_a = -(a.radius - (pair ? 0.5 : 1.0) * c.overlap) * c.normal;
   Vec3 now = velocity_at(a.velocity, a.spin, arm_a);
   Vec3 ahead = velocity_at(a.velocity_ahead, a.spin_ahead, arm_a);
   Vec3 arm_b(0, 0, 0);
   if (pair) {
-    const ParcelBody& b = bodies[c.b];
+    const IsolatedBody& b = bodies[c.b];
     arm_b = (b.radius - 0.5 * c.overlap) * c.normal;
     now -= velocity_at(b.velocity, b.spin, arm_b);
     ahead -= velocity_at(b.velocity_ahead, b.spin_ahead, arm_b);
@@ -44,48 +44,49 @@ void press(ParcelContact& c, std::vector<ParcelBody>& bodies, double dt) {
   bodies[c.b].torque -= arm_b.cross(f.force);
 }
 
-void kick(ParcelBody& b, double dt) {
+void kick(IsolatedBody& b, double dt) {
   b.velocity += dt / b.mass * b.force;
   b.spin += dt / b.inertia() * b.torque;
 }
 
 /// Forces where the bodies are; tangential springs stretch by the velocities times dt.
-void press_all(std::vector<ParcelBody>& bodies, std::vector<ParcelContact>& contacts, double dt) {
-  for (ParcelBody& b : bodies) {
+void press_all(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& contacts,
+               double dt) {
+  for (IsolatedBody& b : bodies) {
     b.velocity_ahead = b.velocity + 0.5 * dt / b.mass * b.force;
     b.spin_ahead = b.spin + 0.5 * dt / b.inertia() * b.torque;
     b.force.setZero();
     b.torque.setZero();
   }
-  for (ParcelContact& c : contacts) press(c, bodies, dt);
+  for (IsolatedContact& c : contacts) press(c, bodies, dt);
 }
 
 }  // namespace
 
-void measure(ParcelContact& c, const std::vector<ParcelBody>& bodies) {
-  const ParcelBody& a = bodies[c.a];
-  if (c.b == ParcelContact::ground) {
-    c.overlap = a.radius - c.height - (a.place - a.start).dot(c.normal);
+void measure(IsolatedContact& c, const std::vector<IsolatedBody>& bodies) {
+  const IsolatedBody& a = bodies[c.a];
+  if (c.b == IsolatedContact::ground) {
+    c.overlap = a.radius - c.height - (a.position - a.start).dot(c.normal);
     return;
   }
-  const ParcelBody& b = bodies[c.b];
-  const Vec3 way = a.place - b.place - c.image;
-  const double distance = way.norm();
+  const IsolatedBody& b = bodies[c.b];
+  const Vec3 offset = a.position - b.position - c.image;
+  const double distance = offset.norm();
   c.overlap = a.radius + b.radius - distance;
-  if (distance > 0) c.normal = way / distance;
+  if (distance > 0) c.normal = offset / distance;
 }
 
-void step_bodies(std::vector<ParcelBody>& bodies, std::vector<ParcelContact>& contacts, double dt,
-                 int n) {
+void step_bodies(std::vector<IsolatedBody>& bodies, std::vector<IsolatedContact>& contacts,
+                 double dt, int n) {
   const double h = dt / n;
   press_all(bodies, contacts, 0);
   for (int k = 0; k < n; ++k) {
-    for (ParcelBody& b : bodies) {
+    for (IsolatedBody& b : bodies) {
       kick(b, 0.5 * h);
-      b.place += h * b.velocity;
+      b.position += h * b.velocity;
     }
     press_all(bodies, contacts, h);
-    for (ParcelBody& b : bodies) kick(b, 0.5 * h);
+    for (IsolatedBody& b : bodies) kick(b, 0.5 * h);
   }
 }
 

@@ -11,9 +11,9 @@
 
 namespace sturz {
 
-struct ParcelBody {
+struct IsolatedBody {
   Vec3 start{0, 0, 0};  ///< where the step began [m]
-  Vec3 place{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
+  Vec3 position{0, 0, 0}, velocity{0, 0, 0}, spin{0, 0, 0};
   Vec3 force{0, 0, 0}, torque{0, 0, 0};
   Vec3 velocity_ahead{0, 0, 0}, spin_ahead{0, 0, 0};  ///< predicted for the dampers
   double radius = 0, mass = 0;
@@ -24,11 +24,11 @@ struct ParcelBody {
 };
 
 /// Between two bodies, or of one with the ground's plane.
-struct ParcelContact {
+struct IsolatedContact {
   static constexpr std::uint32_t ground = std::numeric_limits<std::uint32_t>::max();
 
   std::uint32_t a = 0, b = ground;  ///< bodies
-  Vec3 image{0, 0, 0};              ///< to add to b's place [m]
+  Vec3 image{0, 0, 0};              ///< to add to b's position [m]
   Vec3 normal{0, 0, 1};             ///< into a
   double height = 0;                ///< of a's start above the ground's plane [m]
   ContactPair law;
@@ -41,9 +41,9 @@ struct ParcelContact {
 };
 
 /// Overlap and normal of a contact where its bodies are now.
-void measure(ParcelContact&, const std::vector<ParcelBody>&);
+void measure(IsolatedContact&, const std::vector<IsolatedBody>&);
 
 /// n fine steps that add up to dt. Momentum and angular momentum of pairs are kept to rounding.
-void step_bodies(std::vector<ParcelBody>&, std::vector<ParcelContact>&, double dt, int n);
+void step_bodies(std::vector<IsolatedBody>&, std::vector<IsolatedContact>&, double dt, int n);
 
 }  // namespace sturz

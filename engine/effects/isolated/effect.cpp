@@ -16,7 +16,7 @@ namespace {
 
 using fields::Membership;
 
-/// Who leaves the continuum and who comes back, whenever neighbours are sorted.
+/// Which particles leave the continuum and which rejoin it, whenever neighbours are sorted.
 class Flight final : public ListChanges {
  public:
   explicit Flight(const GrainStressSettings& settings) : settings_(settings) {}
@@ -34,10 +34,10 @@ class Flight final : public ListChanges {
 
  private:
   const GrainStressSettings& settings_;  // of the grain stress that owns this
-  ParcelSearch search_;
+  IsolatedSearch search_;
 };
 
-/// Counts for how long every grain has been alone, and sees who has landed.
+/// Counts for how long every grain has been alone, and marks those that have landed.
 class IsolationPass final : public Pass {
  public:
   explicit IsolationPass(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
@@ -50,15 +50,16 @@ class IsolationPass final : public Pass {
     const double reference = shared_->settings.states->reference_fraction;
     const double touching = shared_->settings.touching_distance();
     const SweepOutput out = shared_->output();
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     auto& alone = p.flags(fields::steps_alone);
     parallel_ranges(
         p.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
-            const double fraction = reference * (1 + compression[i]);
+            const double fraction = reference * (1 + density_change[i]);
             const bool few = fraction < detach_fraction || out.neighbors[i] < detach_neighbors;
-            const bool lone = few && p.boundary.distance[i] >= touching;
-            alone[i] = lone ? static_cast<std::uint8_t>(std::min(alone[i] + 1, detach_steps)) : 0;
+            const bool isolated = few && p.boundary.distance[i] >= touching;
+            alone[i] =
+                isolated ? static_cast<std::uint8_t>(std::min(alone[i] + 1, detach_steps)) : 0;
           }
         });
     land(p, s.gravity, touching);
@@ -69,10 +70,10 @@ class IsolationPass final : public Pass {
   void land(MovingSet& p, double gravity, double touching) const {
     const BoundarySupport& b = p.boundary;
     auto& membership = p.flags(fields::membership);
-    const double calm = 0.1 * std::sqrt(gravity * shared_->settings.spacing);
+    const double landing_speed = 0.1 * std::sqrt(gravity * shared_->settings.spacing);
     for (std::size_t i = p.n_listed; i < p.size(); ++i) {
       const double vn = p.vx[i] * b.nx[i] + p.vy[i] * b.ny[i] + p.vz[i] * b.nz[i];
-      if (b.distance[i] < touching && std::abs(vn) < calm)
+      if (b.distance[i] < touching && std::abs(vn) < landing_speed)
         membership[i] = static_cast<std::uint8_t>(Membership::landed);
     }
   }

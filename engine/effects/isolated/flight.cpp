@@ -15,15 +15,15 @@ namespace {
 
 using fields::Membership;
 
-/// A parcel's fields as the continuum would have them.
+/// The fields of an isolated particle, as grains of the continuum have them.
 struct GrainFields {
   explicit GrainFields(ParticleSet& p)
-      : compression(p.scalar(fields::compression)),
+      : density_change(p.scalar(fields::density_change)),
         stress(p.components(fields::stress)),
         state(p.flags(fields::state)),
         alone(p.flags(fields::steps_alone)),
         membership(p.flags(fields::membership)),
-        fill(p.scalar(fields::fill)),
+        support_completeness(p.scalar(fields::support_completeness)),
         theta(p.find(fields::granular_temperature)),
         kinetic(p.find(fields::kinetic_stress)) {}
 
@@ -42,38 +42,40 @@ struct GrainFields {
     theta->component[0][i] = 0;
   }
 
-  std::vector<double>& compression;
+  std::vector<double>& density_change;
   std::vector<std::vector<double>>& stress;
   std::vector<std::uint8_t>&state, &alone, &membership;
-  std::vector<double>& fill;
+  std::vector<double>& support_completeness;
   Field *theta, *kinetic;
 };
 
-/// What a parcel finds around it.
+/// The neighbourhood of an isolated particle.
 struct Surroundings {
   int neighbors = 0;
-  double fill = 0;              ///< of its support, 1 inside a dense mass
-  double weight = 0, warm = 0;  ///< of the grains among them: sum of weights, and times theta
+  double support_completeness = 0;  ///< 1 inside a dense mass
+  double weight = 0, warm = 0;      ///< of the grains among them: sum of weights, and times theta
 
   double theta() const { return weight > 0 ? warm / weight : 0; }
   bool enough(const GrainStressSettings& g) const {
-    return neighbors >= attach_neighbors && fill * g.states->reference_fraction > attach_fraction;
+    return neighbors >= attach_neighbors &&
+           support_completeness * g.states->reference_fraction > attach_fraction;
   }
 };
 
-/// Looks around every parcel, for grains in the lists and for other parcels.
-class Lookout {
+/// Surveys the neighbourhood of every isolated particle: listed grains and other isolated
+/// particles.
+class NeighborhoodSurvey {
  public:
-  Lookout(const Domain& domain, const MovingSet& set, const GrainStressSettings& g)
+  NeighborhoodSurvey(const Domain& domain, const MovingSet& set, const GrainStressSettings& g)
       : domain_(domain),
         set_(set),
         g_(g),
-        reach_(2 * g.smoothing_length),
+        support_radius_(2 * g.smoothing_length),
         factor_(SmoothingKernel{g.smoothing_length}.discrete_gradient_factor()),
         volume_(g.spacing * g.spacing * g.spacing),
         around_(set.size() - set.n_listed) {}
 
-  const Surroundings& of(std::size_t parcel) const { return around_[parcel - set_.n_listed]; }
+  const Surroundings& of(std::size_t particle) const { return around_[particle - set_.n_listed]; }
 
   void grains(const NeighborLists& lists, const Field* theta) {
     const MovingSet& p = set_;
@@ -86,45 +88,47 @@ class Lookout {
         found.warm += w * theta->component[0][j];
       });
   }
-  /// Counts those parcels besides that come too. One that stays in flight is in no list: who came
-  /// for its sake would be alone there, and leave again. \return who comes, by parcel
-  std::vector<char> parcels(ParcelSearch& search) {
+  /// Also counts isolated particles that rejoin at the same time. One that stays in flight is in no
+  /// list: a particle that rejoined because of it would be alone there, and leave again.
+  /// \return whether each isolated particle rejoins
+  std::vector<char> rejoining(IsolatedSearch& search) {
     const MovingSet& p = set_;
-    std::vector<ParcelSphere> spheres;
+    std::vector<IsolatedSphere> spheres;
     for (std::size_t i = p.n_listed; i < p.size(); ++i)
       spheres.push_back({Vec3(p.x[i], p.y[i], p.z[i]), Vec3(0, 0, 0), 0, p.id[i]});
-    const std::vector<NearPair>& pairs = search.find(spheres, reach_, domain_);
-    std::vector<char> comes(spheres.size(), 1);
+    const std::vector<NearPair>& pairs = search.find(spheres, support_radius_, domain_);
+    std::vector<char> rejoins(spheres.size(), 1);
     const std::vector<Surroundings> among_grains = around_;
     for (bool all = false; !all;) {
       around_ = among_grains;
       for (const NearPair& pair : pairs) {
         const double r2 =
-            (spheres[pair.a].place - spheres[pair.b].place - pair.image).squaredNorm();
-        if (r2 >= reach_ * reach_ || !comes[pair.a] || !comes[pair.b]) continue;
+            (spheres[pair.a].position - spheres[pair.b].position - pair.image).squaredNorm();
+        if (r2 >= support_radius_ * support_radius_ || !rejoins[pair.a] || !rejoins[pair.b])
+          continue;
         count(around_[pair.a], r2);
         count(around_[pair.b], r2);
       }
       all = true;
-      for (std::size_t k = 0; k < comes.size(); ++k)
-        if (comes[k] && !around_[k].enough(g_)) comes[k] = 0, all = false;
+      for (std::size_t k = 0; k < rejoins.size(); ++k)
+        if (rejoins[k] && !around_[k].enough(g_)) rejoins[k] = 0, all = false;
     }
-    return comes;
+    return rejoins;
   }
 
  private:
   double count(Surroundings& found, double r2) const {
-    const double t = 1 - std::sqrt(r2) / reach_, w = volume_ * t * t * t;
+    const double t = 1 - std::sqrt(r2) / support_radius_, w = volume_ * t * t * t;
     ++found.neighbors;
-    found.fill += factor_ * w * r2 / 3;
+    found.support_completeness += factor_ * w * r2 / 3;
     return w;
   }
 
   const Domain& domain_;
   const MovingSet& set_;
   const GrainStressSettings& g_;
-  double reach_, factor_, volume_;
-  std::vector<Surroundings> around_;  // by parcel
+  double support_radius_, factor_, volume_;
+  std::vector<Surroundings> around_;  // by isolated particle
 };
 
 }  // namespace
@@ -138,13 +142,13 @@ bool detach_isolated(MovingSet& p, const GrainStressSettings& g) {
     p.ledger.elastic -= stored;
     p.ledger.lost_energy += stored;
     if (f.theta) {
-      const double heat = 1.5 * p.mass[i] * f.theta->component[0][i];
-      p.ledger.granular -= heat;
-      p.ledger.granular_lost += heat;
+      const double granular_energy = 1.5 * p.mass[i] * f.theta->component[0][i];
+      p.ledger.granular -= granular_energy;
+      p.ledger.granular_lost += granular_energy;
     }
     f.clear_stress(i);
-    f.compression[i] =
-        std::fmin(f.compression[i], detach_fraction / g.states->reference_fraction - 1);
+    f.density_change[i] =
+        std::fmin(f.density_change[i], detach_fraction / g.states->reference_fraction - 1);
     f.set(i, GrainState::ultradilute, Membership::in_flight);
     any = true;
   }
@@ -155,7 +159,7 @@ void attach_landed(MovingSet& p) {
   GrainFields f(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!f.is(i, Membership::landed)) continue;
-    f.compression[i] = GrainStressSettings::separation;
+    f.density_change[i] = GrainStressSettings::separation_threshold;
     f.set(i, GrainState::dense, Membership::listed);
   }
 }
@@ -174,25 +178,26 @@ void put_listed_first(MovingSet& p) {
 }
 
 bool attach_near(const Domain& domain, MovingSet& p, const GrainStressSettings& g,
-                 const NeighborLists& lists, ParcelSearch& search) {
+                 const NeighborLists& lists, IsolatedSearch& search) {
   if (p.n_listed == p.size()) return false;
   GrainFields f(p);
-  Lookout lookout(domain, p, g);
-  lookout.grains(lists, f.theta);
-  const std::vector<char> comes = lookout.parcels(search);
+  NeighborhoodSurvey survey(domain, p, g);
+  survey.grains(lists, f.theta);
+  const std::vector<char> rejoins = survey.rejoining(search);
   bool any = false;
   for (std::size_t i = p.n_listed; i < p.size(); ++i) {
-    if (!comes[i - p.n_listed]) continue;
-    const Surroundings& around = lookout.of(i);
+    if (!rejoins[i - p.n_listed]) continue;
+    const Surroundings& around = survey.of(i);
     const double reference = g.states->reference_fraction;
-    f.fill[i] = around.fill;
-    f.compression[i] = std::fmin(around.fill - 1, GrainStressSettings::separation);
-    f.set(i, grain_state(reference * (1 + f.compression[i])), Membership::listed);
+    f.support_completeness[i] = around.support_completeness;
+    f.density_change[i] =
+        std::fmin(around.support_completeness - 1, GrainStressSettings::separation_threshold);
+    f.set(i, grain_state(reference * (1 + f.density_change[i])), Membership::listed);
     if (f.theta) {
       f.theta->component[0][i] = around.theta();
-      const double heat = 1.5 * p.mass[i] * around.theta();
-      p.ledger.granular += heat;
-      p.ledger.granular_lost -= heat;
+      const double granular_energy = 1.5 * p.mass[i] * around.theta();
+      p.ledger.granular += granular_energy;
+      p.ledger.granular_lost -= granular_energy;
     }
     any = true;
   }

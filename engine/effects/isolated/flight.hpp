@@ -9,8 +9,8 @@
 
 namespace sturz {
 
-/// Lets those go that were alone for `detach_steps` steps: their stress is gone, what it stored and
-/// their granular energy are booked. \return whether anybody went
+/// Detaches grains that were alone for `detach_steps` steps: their stress is gone, what it stored
+/// and their granular energy are accounted for. \return whether a particle left
 bool detach_isolated(MovingSet&, const GrainStressSettings&);
 
 /// Takes back what has landed, as dense grains without load.
@@ -19,10 +19,10 @@ void attach_landed(MovingSet&);
 /// Puts the grains of the continuum first in storage and sets MovingSet::n_listed.
 void put_listed_first(MovingSet&);
 
-/// Takes back parcels that have come among at least `attach_neighbors` others, grains or parcels,
-/// that fill more than `attach_fraction`, with the granular temperature of the grains found there.
-/// Lists must be fresh. \return whether anybody came
+/// Takes back isolated particles that have at least `attach_neighbors` neighbours, listed or
+/// isolated, that fill more than `attach_fraction`, with the granular temperature of the grains
+/// found there. Lists must be fresh. \return whether a particle rejoined
 bool attach_near(const Domain&, MovingSet&, const GrainStressSettings&, const NeighborLists&,
-                 ParcelSearch&);
+                 IsolatedSearch&);
 
 }  // namespace sturz

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which lone parcels come near each other: by a grid, made anew once somebody has moved enough.
+/// Which isolated particles come near each other: by a grid, made anew once a particle has moved
+/// enough.
 #pragma once
 
 #include "engine/core/domain.hpp"
@@ -10,26 +11,27 @@
 
 namespace sturz {
 
-/// A lone parcel as a contact sees it.
-struct ParcelSphere {
-  Vec3 place{0, 0, 0};     ///< [m]
+/// An isolated particle as a contact sees it.
+struct IsolatedSphere {
+  Vec3 position{0, 0, 0};  ///< [m]
   Vec3 velocity{0, 0, 0};  ///< [m/s]
   double radius = 0;       ///< [m]
   std::uint32_t id = 0;    ///< of the particle
 };
 
-/// Two spheres by their place in the list; a has the smaller id.
+/// Two spheres by their index in the list; a has the smaller id.
 struct NearPair {
   std::uint32_t a = 0, b = 0;
-  Vec3 image{0, 0, 0};  ///< to add to b's place: periods between them [m]
+  Vec3 image{0, 0, 0};  ///< to add to b's position: periods between them [m]
 };
 
-class ParcelSearch {
+class IsolatedSearch {
  public:
-  /// All pairs whose surfaces are closer than `reach` > 0 [m], in the order of their ids, so that
-  /// whoever sums over them does so in the same order whatever the storage. In periodic
-  /// directions the boxes must be longer than twice (three largest radii plus `reach`).
-  const std::vector<NearPair>& find(const std::vector<ParcelSphere>&, double reach, const Domain&);
+  /// All pairs whose surfaces are closer than `max_gap` > 0 [m], in the order of their ids, so that
+  /// sums over them have the same order whatever the storage. In periodic directions the boxes must
+  /// be longer than twice (three largest radii plus `max_gap`).
+  const std::vector<NearPair>& find(const std::vector<IsolatedSphere>&, double max_gap,
+                                    const Domain&);
 
   std::size_t n_grids() const { return n_grids_; }  ///< made so far
   std::size_t bytes() const;
@@ -39,27 +41,27 @@ class ParcelSearch {
     std::uint64_t cell = 0;
     std::uint32_t sphere = 0;
     bool own = true;  // false: an image beyond the box
-    Vec3 place{0, 0, 0};
+    Vec3 position{0, 0, 0};
   };
 
-  bool still_good(const std::vector<ParcelSphere>&, double reach) const;
-  void search(const std::vector<ParcelSphere>&, double reach, const Domain&);
-  void enter(const std::vector<ParcelSphere>&, const Domain&, double margin);
+  bool still_good(const std::vector<IsolatedSphere>&, double max_gap) const;
+  void search(const std::vector<IsolatedSphere>&, double max_gap, const Domain&);
+  void enter(const std::vector<IsolatedSphere>&, const Domain&, double margin);
   void add_images(const Period&, int axis, double margin);
-  std::uint64_t cell_of(const Vec3& place, int dx, int dy, int dz) const;
+  std::uint64_t cell_of(const Vec3& position, int dx, int dy, int dz) const;
 
   Vec3 origin_{0, 0, 0};
   double cell_ = 1;
   std::vector<Entry> entries_;
-  std::vector<ParcelSphere> searched_;  // as they were
-  double searched_reach_ = 0;
+  std::vector<IsolatedSphere> searched_;  // as they were
+  double searched_gap_ = 0;
   std::size_t n_grids_ = 0;
-  std::vector<NearPair> within_;  // searched_reach_ of each other then
+  std::vector<NearPair> within_;  // searched_gap_ of each other then
   std::vector<NearPair> pairs_;
 };
 
-/// Sets of parcels that are linked by pairs, to step them together or not at all.
-class ParcelGroups {
+/// Sets of particles that are linked by pairs, to step them together or not at all.
+class IsolatedGroups {
  public:
   void start(std::size_t n);
   void join(std::uint32_t a, std::uint32_t b);
@@ -72,8 +74,8 @@ class ParcelGroups {
   std::vector<std::uint8_t> wanted_;
 };
 
-/// Whether two spheres on straight ways touch within dt, or do already.
-/// \param image  to add to b's place [m]
-bool may_touch(const ParcelSphere& a, const ParcelSphere& b, const Vec3& image, double dt);
+/// Whether two spheres on straight paths touch within dt, or do already.
+/// \param image  to add to b's position [m]
+bool may_touch(const IsolatedSphere& a, const IsolatedSphere& b, const Vec3& image, double dt);
 
 }  // namespace sturz

@@ -13,69 +13,70 @@
 namespace sturz {
 namespace {
 
-/// Fills the kinetic records, after the records themselves.
-class KineticPack final : public Pass {
+/// Gathers the kinetic records, after the neighbour records.
+class KineticGather final : public Pass {
  public:
-  explicit KineticPack(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
-  std::string_view name() const override { return "kinetic pack"; }
-  std::string_view effect() const override { return flying_effect(shared_->settings); }
-  Stage stage() const override { return Stage::pack; }
+  explicit KineticGather(std::shared_ptr<GrainStress> shared) : shared_(std::move(shared)) {}
+  std::string_view name() const override { return "kinetic gather"; }
+  std::string_view effect() const override { return dispersed_effect(shared_->settings); }
+  Stage stage() const override { return Stage::gather; }
 
   void apply(State& s, double) override {
     const MovingSet& p = s.sets[shared_->set];
     GrainStress& g = *shared_;
     const std::size_t groups = g.lists.n_records_rounded() / group_size;
     g.kinetic.resize(groups * group_size);
-    g.calm.assign(groups, 1);
+    g.dense_group.assign(groups, 1);
     parallel_ranges(p.n_listed, reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) { fill(p, begin, end); });
+                    [&](std::size_t begin, std::size_t end) { gather(p, begin, end); });
     std::fill(g.kinetic.begin() + static_cast<std::ptrdiff_t>(p.n_listed),
               g.kinetic.begin() + static_cast<std::ptrdiff_t>(g.lists.padded_size()),
               KineticRecord{});
     g.lists.for_each_image([&](std::size_t image, std::size_t source) {
       g.kinetic[image] = g.kinetic[source];
-      if (!g.calm[source / group_size]) g.calm[image / group_size] = 0;
+      if (!g.dense_group[source / group_size]) g.dense_group[image / group_size] = 0;
     });
   }
   std::size_t bytes() const override {
-    return shared_->kinetic.capacity() * sizeof(KineticRecord) + shared_->calm.capacity();
+    return shared_->kinetic.capacity() * sizeof(KineticRecord) + shared_->dense_group.capacity();
   }
 
  private:
-  void fill(const MovingSet& p, std::size_t begin, std::size_t end) const {
+  void gather(const MovingSet& p, std::size_t begin, std::size_t end) const {
     GrainStress& g = *shared_;
     const GrainStatesSettings& states = *g.settings.states;
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     const Field* theta = p.find(fields::granular_temperature);
     const Field* stress = p.find(fields::kinetic_stress);
-    const auto& fill = p.scalar(fields::fill);
-    const PackedRecord* records = g.lists.records();
+    const auto& support_completeness = p.scalar(fields::support_completeness);
+    const NeighborRecord* records = g.lists.records();
     for (std::size_t i = begin; i < end; ++i) {
       KineticRecord& k = g.kinetic[i];
-      const double e = compression[i], hot = theta ? theta->component[0][i] : 0;
+      const double e = density_change[i], temperature = theta ? theta->component[0][i] : 0;
       k = {};
       k.viscosity = records[i].viscosity;
-      if (e >= GrainStressSettings::separation && hot == 0) continue;
-      g.calm[i / group_size] = 0;
+      if (e >= GrainStressSettings::separation_threshold && temperature == 0) continue;
+      g.dense_group[i / group_size] = 0;
       const double fraction = states.reference_fraction * (1 + e);
-      const double growth = (1 + std::max(e, GrainStressSettings::separation)) / (1 + e);
-      k.growth = static_cast<float>(growth);
-      k.weight = static_cast<float>(pair_weight(growth, fill[i]));
+      const double dilation_ratio =
+          (1 + std::max(e, GrainStressSettings::separation_threshold)) / (1 + e);
+      k.dilation_ratio = static_cast<float>(dilation_ratio);
+      k.weight = static_cast<float>(pair_weight(dilation_ratio, support_completeness[i]));
       double wave = 0;
-      if (hot > 0) {
+      if (temperature > 0) {
         const KineticTheory& law = *states.dilute;
         const auto c = kinetic_coefficients(law, fraction, g.settings.smoothing_length);
-        wave = std::sqrt(hot * kinetic_wave2(law, c, fraction));
-        k.theta = static_cast<float>(hot);
-        k.resistance = static_cast<float>(1 / (c.conductivity * std::sqrt(hot) + 1e-30));
+        wave = std::sqrt(temperature * kinetic_wave2(law, c, fraction));
+        k.theta = static_cast<float>(temperature);
+        k.resistance = static_cast<float>(1 / (c.conductivity * std::sqrt(temperature) + 1e-30));
         float* columns[] = {&k.xx, &k.yy, &k.zz, &k.xy, &k.yz, &k.zx};
         for (int n = 0; n < 6; ++n) *columns[n] = static_cast<float>(stress->component[n][i]);
       }
       // Artificial viscosity belongs to sound: that of contacts, or of the collisions in their
       // place.
-      const double apart = kinetic_share(fraction, states.switched);
+      const double apart = kinetic_share(fraction, states.paper_switch);
       k.viscosity *= static_cast<float>(
-          1 - apart + apart * std::min(1.0, wave / g.settings.sound_speed) / growth);
+          1 - apart + apart * std::min(1.0, wave / g.settings.sound_speed) / dilation_ratio);
     }
   }
 
@@ -102,7 +103,7 @@ class KineticPass final : public Pass {
     MovingSet& p = s.sets[shared_->set];
     KineticColumns columns;
     columns.mass = p.mass.data();
-    columns.compression = p.scalar(fields::compression).data();
+    columns.density_change = p.scalar(fields::density_change).data();
     columns.theta = p.scalar(fields::granular_temperature).data();
     for (int k = 0; k < 6; ++k) columns.stress[k] = p.components(fields::kinetic_stress)[k].data();
     const SweepOutput rates = shared_->output();
@@ -127,9 +128,9 @@ class KineticPass final : public Pass {
   static void release(const State& s, MovingSet& p, const double* theta) {
     for (std::size_t i = 0; i < p.n_listed; ++i) {
       if (!s.leaves(p, i)) continue;
-      const double heat = 1.5 * p.mass[i] * theta[i];
-      p.ledger.granular -= heat;
-      p.ledger.granular_lost += heat;
+      const double granular_energy = 1.5 * p.mass[i] * theta[i];
+      p.ledger.granular -= granular_energy;
+      p.ledger.granular_lost += granular_energy;
     }
   }
 
@@ -148,15 +149,15 @@ class StatePass final : public Pass {
   void apply(State& s, double) override {
     MovingSet& p = s.sets[shared_->set];
     const double reference = shared_->settings.states->reference_fraction;
-    const auto& compression = p.scalar(fields::compression);
+    const auto& density_change = p.scalar(fields::density_change);
     auto& state = p.flags(fields::state);
-    auto& fill = p.scalar(fields::fill);
+    auto& support_completeness = p.scalar(fields::support_completeness);
     const SweepOutput out = shared_->output();
     parallel_ranges(p.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       for (std::size_t i = begin; i < end; ++i) {
-                        state[i] = named(reference * (1 + compression[i]), state[i]);
-                        fill[i] = out.fill[i];
+                        state[i] = named(reference * (1 + density_change[i]), state[i]);
+                        support_completeness[i] = out.support_completeness[i];
                       }
                     });
   }
@@ -183,8 +184,8 @@ void add_kinetic_theory(Step& step, State& state, const std::shared_ptr<GrainStr
 void add_grain_states(Step& step, State& state, const std::shared_ptr<GrainStress>& shared) {
   MovingSet& p = state.sets[shared->set];
   p.add(fields::state);
-  p.add(fields::fill);
-  step.add(std::make_unique<KineticPack>(shared));
+  p.add(fields::support_completeness);
+  step.add(std::make_unique<KineticGather>(shared));
   step.add(std::make_unique<StatePass>(shared));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Grains that part and meet again: states of the grains, and kinetic theory of those that collide.
+/// Grains that separate and meet again: states of the grains, and kinetic theory of those that
+/// collide.
 #pragma once
 
 #include "engine/effects/step.hpp"
@@ -14,7 +15,7 @@ struct GrainStress;
 /// `granular_temperature` and `kinetic_stress`. Before add_grain_states.
 void add_kinetic_theory(Step&, State&, const std::shared_ptr<GrainStress>&);
 
-/// Adds kinetic records and the names of the states: the fields `state` and `fill`.
+/// Adds kinetic records and the names of the states: the fields `state` and `support_completeness`.
 void add_grain_states(Step&, State&, const std::shared_ptr<GrainStress>&);
 
 }  // namespace sturz

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a grain that flies among others gathers in the dense loop besides DenseSums.
+/// What a dispersed grain gathers in the dense loop besides DenseSums.
 ///
 /// With w = V_j t^3 (V of the record), W = weight_j w and D = W r_ij:
 ///   kinetic momentum  K += sigma_k,j D, G += D     a += -(weight_i/rho)(K + sigma_k,i G)      B.4
-///   gradient felt     E += (v_i - v_j) (x) D, symmetric part: what that force's work goes with
+///   pair gradient     E += (v_i - v_j) (x) D, symmetric part: what that force's work goes with
 ///   conduction        H += W 4/(1/k_i + 1/k_j) (theta_j - theta_i)                            B.6
 ///   neighbours        N += 1 inside the support
-/// Every sum takes the product of both weights, so that momentum, energy and heat of a pair cancel.
-/// Heating by the corrected gradient instead would make energy: where neighbours are few it is up
-/// to twice what the force feels. Contact stresses stay with the record's volumes: see
-/// KineticRecord.
+/// Every sum takes the product of both weights, so that momentum, energy and granular energy of a
+/// pair cancel. Production by the corrected gradient instead would make energy: where neighbours
+/// are few it is up to twice the gradient that the force works on. Contact stresses stay with the
+/// record's volumes: see KineticRecord.
 #pragma once
 
 #include "engine/effects/dense/tension_sums.hpp"
@@ -22,17 +22,17 @@ struct KineticSelf {
 };
 
 struct KineticSums {
-  Lanes kx, ky, kz, gx, gy, gz, heat, count;
+  Lanes kx, ky, kz, gx, gy, gz, conducted, count;
   Lanes exx, eyy, ezz, exy, eyz, ezx;
 
   void clear() {
     const Lanes o = Lanes::all(0);
-    kx = ky = kz = gx = gy = gz = heat = o;
+    kx = ky = kz = gx = gy = gz = conducted = o;
     exx = eyy = ezz = exy = eyz = ezx = o;
     count = Lanes::all(-1);  // the lane itself
   }
   /// \param w  what DenseSums::add gave back for the pair
-  void add(const DenseSelf& i, const KineticSelf& self, const PackedRecord& j,
+  void add(const DenseSelf& i, const KineticSelf& self, const NeighborRecord& j,
            const KineticRecord& k, Lanes w) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes zero = Lanes::all(0), one = Lanes::all(1);
@@ -51,7 +51,7 @@ struct KineticSums {
     eyz = fma(uy, dz, fma(uz, dy, eyz));
     ezx = fma(uz, dx, fma(ux, dz, ezx));
     const Lanes conduction = Lanes::all(4) / (self.resistance + Lanes::all(k.resistance));
-    heat = fma(v * conduction, Lanes::all(k.theta) - self.theta, heat);
+    conducted = fma(v * conduction, Lanes::all(k.theta) - self.theta, conducted);
   }
 };
 

@@ -14,9 +14,9 @@ namespace sturz {
 /// Raw pointers to the columns that the update reads and writes.
 struct KineticColumns {
   const double* mass = nullptr;
-  const double* compression = nullptr;  ///< at n+1
-  double* theta = nullptr;              ///< [m^2/s^2]
-  double* stress[6] = {};               ///< kinetic, xx yy zz xy yz zx, tension positive [Pa]
+  const double* density_change = nullptr;  ///< at n+1
+  double* theta = nullptr;                 ///< [m^2/s^2]
+  double* stress[6] = {};                  ///< kinetic, xx yy zz xy yz zx, tension positive [Pa]
 };
 
 /// Sums and extremes over particles.
@@ -41,25 +41,25 @@ struct KineticTotals {
 };
 
 /// Share of the kinetic stresses. The last twentieth of w_k is left out, so that grains that are
-/// all but dense (alpha > 0.587) fly in no sum.
-inline double kinetic_share(double fraction, bool switched) {
-  if (switched) return fraction < transition_fraction ? 1 : 0;
+/// all but dense (alpha > 0.587) count as dense in every sum.
+inline double kinetic_share(double fraction, bool paper_switch) {
+  if (paper_switch) return fraction < transition_fraction ? 1 : 0;
   constexpr double trace = 0.05;
   return std::fmax(0.0, (kinetic_weight(fraction) - trace) / (1 - trace));
 }
 
 /// KineticRecord::weight: sums are completed to the whole, but not from less than 0.4 of it. One
-/// neighbour fills at most 1/23 of a support, so grains that have parted further than `most` have
+/// neighbour fills at most 1/23 of a support, so grains that have dilated further than `most` have
 /// no sum to complete. Without this bound the first neighbour of such a grain would count hundreds
-/// of times over: the fill is that of the step before, and was empty. \param growth  volume over
-/// that of the record; \param fill  of the support
-inline double pair_weight(double growth, double fill) {
+/// of times over: the support completeness is that of the step before, and was zero. \param
+/// dilation_ratio  volume over that of the record; \param completeness  of the support
+inline double pair_weight(double dilation_ratio, double completeness) {
   constexpr double most = 30;
-  const double told = std::fmin(growth, most);
-  return told / std::sqrt(std::fmax(fill * told, 0.4));
+  const double told = std::fmin(dilation_ratio, most);
+  return told / std::sqrt(std::fmax(completeness * told, 0.4));
 }
 
-/// Speed of sound in colliding grains: c^2 = dp/drho at theta, and what compression heats
+/// Speed of sound in colliding grains: c^2 = dp/drho at theta, and what compaction adds to it
 /// (2/3 p^2/(rho^2 theta)), over theta.
 inline double kinetic_wave2(const KineticTheory& law, const KineticCoefficients& k,
                             double fraction) {
@@ -73,15 +73,15 @@ inline double kinetic_wave2(const KineticTheory& law, const KineticCoefficients&
 
 class KineticUpdate {
  public:
-  /// \param hottest  bound on theta: a third of the square of the largest speed [m^2/s^2]
-  KineticUpdate(const GrainStressSettings& g, double dt, double hottest)
-      : settings_(g), law_(*g.states->dilute), dt_(dt), hottest_(hottest) {}
+  /// \param largest_theta  bound on theta: a third of the square of the largest speed [m^2/s^2]
+  KineticUpdate(const GrainStressSettings& g, double dt, double largest_theta)
+      : settings_(g), law_(*g.states->dilute), dt_(dt), largest_theta_(largest_theta) {}
 
   void apply(const KineticColumns& c, const SweepOutput& r, std::size_t begin, std::size_t end,
              KineticTotals& out) const {
     for (std::size_t i = begin; i < end; ++i) {
-      const double fraction = settings_.states->reference_fraction * (1 + c.compression[i]);
-      const double share = kinetic_share(fraction, settings_.states->switched);
+      const double fraction = settings_.states->reference_fraction * (1 + c.density_change[i]);
+      const double share = kinetic_share(fraction, settings_.states->paper_switch);
       if (share > 0 || c.theta[i] > 0)
         advance(c, r, i, fraction, share, out);
       else
@@ -106,22 +106,24 @@ class KineticUpdate {
     // Expanding grains may push less, but do not pull: the bulk viscosity stops at the pressure.
     if (trace > 0) k.bulk_viscosity = std::min(k.bulk_viscosity, k.pressure * s0 / trace);
 
-    // Heated by what the pair forces take from the motion, no more: see SweepOutput::felt.
-    const Symmetric felt{r.felt[0][i], r.felt[1][i], r.felt[2][i],
-                         r.felt[3][i], r.felt[4][i], r.felt[5][i]};
-    const double opened = felt.trace();
-    double a = share * (2 * k.shear_viscosity * d.dot(felt) + k.bulk_viscosity * trace * opened) /
+    // Gains what the pair forces take from the motion, no more: see SweepOutput::pair_gradient.
+    const Symmetric pair_gradient{r.pair_gradient[0][i], r.pair_gradient[1][i],
+                                  r.pair_gradient[2][i], r.pair_gradient[3][i],
+                                  r.pair_gradient[4][i], r.pair_gradient[5][i]};
+    const double opened = pair_gradient.trace();
+    double a = share *
+               (2 * k.shear_viscosity * d.dot(pair_gradient) + k.bulk_viscosity * trace * opened) /
                (3 * density);
     double b = share * k.pressure * opened / (3 * density);
-    if (a < 0) {  // uneven surroundings: it cools, as fast as it has heat for
+    if (a < 0) {  // uneven surroundings: it cools, as fast as its granular energy allows
       b -= a / std::fmax(s0, 1e-12);
       a = 0;
     }
     const double s1 = riccati_step(s0, a, b, k.dissipation / (3 * density), dt_);
-    const double conducted = dt_ * r.heat[i] / density;  // J/kg
-    double theta1 = std::clamp(s1 * s1 + conducted / 1.5, 0.0, hottest_);
+    const double conducted = dt_ * r.conducted[i] / density;  // J/kg
+    double theta1 = std::clamp(s1 * s1 + conducted / 1.5, 0.0, largest_theta_);
     // In a mass that has become dense the last trace fades as 1/t^2 only.
-    if (share == 0 && theta1 < 1e-5 * hottest_) theta1 = 0;
+    if (share == 0 && theta1 < 1e-5 * largest_theta_) theta1 = 0;
     c.theta[i] = theta1;
 
     const double root = std::sqrt(theta1);
@@ -134,7 +136,8 @@ class KineticUpdate {
     c.stress[3][i] = after.xy, c.stress[4][i] = after.yz, c.stress[5][i] = after.zx;
 
     const double mass = c.mass[i];
-    const double work = mass / density * dt_ * 0.5 * (before.dot(felt) + after.dot(felt));
+    const double work =
+        mass / density * dt_ * 0.5 * (before.dot(pair_gradient) + after.dot(pair_gradient));
     out.power += work;
     out.granular += 1.5 * mass * theta1;
     out.conducted += mass * conducted;
@@ -149,7 +152,7 @@ class KineticUpdate {
 
   const GrainStressSettings& settings_;
   const KineticTheory& law_;
-  double dt_, hottest_;
+  double dt_, largest_theta_;
 };
 
 }  // namespace sturz

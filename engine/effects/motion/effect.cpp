@@ -13,7 +13,7 @@ namespace {
 
 struct DriftSums {
   double risen = 0;           // sum of m dz
-  double stopped_energy = 0;  // taken by a rim that is a wall
+  double stopped_energy = 0;  // taken by a domain boundary that is a wall
 };
 
 class Motion final : public Pass {
@@ -40,12 +40,12 @@ class Motion final : public Pass {
 
  private:
   static void drift(const State& s, MovingSet& p, double dt) {
-    const bool rim = s.terrain.nodata_rule() == NodataRule::wall;
+    const bool walled = s.terrain.nodata_rule() == NodataRule::wall;
     const DriftSums sums = ordered_reduce(
         p.size(), s.threads, DriftSums{},
         [&](std::size_t begin, std::size_t end, DriftSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
-            if (rim) out.stopped_energy += p.mass[i] * stop_at_rim(s, p, i, dt);
+            if (walled) out.stopped_energy += p.mass[i] * stop_at_domain_boundary(s, p, i, dt);
             p.x[i] += dt * p.vx[i];
             p.y[i] += dt * p.vy[i];
             p.z[i] += dt * p.vz[i];

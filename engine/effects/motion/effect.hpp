@@ -8,7 +8,7 @@
 namespace sturz {
 
 struct MotionSettings {
-  double spacing = 1;             ///< dx [m]
+  double spacing = 1;             ///< initial particle spacing dx [m]
   double smoothing_length = 1.3;  ///< h [m]
 };
 

@@ -8,7 +8,7 @@
 namespace sturz {
 namespace {
 
-/// At the start of the step, as the pack pass left it.
+/// At the start of the step, as the gather pass left it.
 Vec3 start_velocity(const ParticleSet& p, std::size_t i) {
   const Field* before = p.find(fields::velocity_before);
   if (!before) return {p.vx[i], p.vy[i], p.vz[i]};
@@ -41,7 +41,7 @@ void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& kee
   p.order_changed = true;
 }
 
-double stop_at_rim(const State& s, MovingSet& p, std::size_t i, double dt) {
+double stop_at_domain_boundary(const State& s, MovingSet& p, std::size_t i, double dt) {
   const double vx = p.vx[i], vy = p.vy[i];
   auto known = [&](double ux, double uy) {
     double x = p.x[i] + dt * ux, y = p.y[i] + dt * uy, z = p.z[i];

@@ -10,16 +10,16 @@ namespace sturz::STURZ_ISA {
 struct GroupRows {
   alignas(64) std::int32_t x[group_size], y[group_size], z[group_size];
   alignas(64) float volume[group_size], vx[group_size], vy[group_size], vz[group_size];
-  alignas(64) float compression[group_size];
+  alignas(64) float density_change[group_size];
   alignas(64) float sxx[group_size], syy[group_size], szz[group_size];
   alignas(64) float sxy[group_size], syz[group_size], szx[group_size];
   alignas(64) float viscosity[group_size], tension[group_size];
 
-  explicit GroupRows(const PackedRecord* first) {
+  explicit GroupRows(const NeighborRecord* first) {
     for (int k = 0; k < group_size; ++k) {
-      const PackedRecord& p = first[k];
+      const NeighborRecord& p = first[k];
       x[k] = p.x, y[k] = p.y, z[k] = p.z, volume[k] = p.volume;
-      vx[k] = p.vx, vy[k] = p.vy, vz[k] = p.vz, compression[k] = p.compression;
+      vx[k] = p.vx, vy[k] = p.vy, vz[k] = p.vz, density_change[k] = p.density_change;
       sxx[k] = p.sxx, syy[k] = p.syy, szz[k] = p.szz;
       sxy[k] = p.sxy, syz[k] = p.syz, szx[k] = p.szx;
       viscosity[k] = p.viscosity, tension[k] = p.tension;
@@ -28,7 +28,7 @@ struct GroupRows {
 };
 
 /// M : nn / 0.25, between 0 and 1, with nn from the walls' own moment.
-inline Lanes wall_share(const DenseSums& s, const Lanes w[6], Lanes scale) {
+inline Lanes mirror_weight(const DenseSums& s, const Lanes w[6], Lanes scale) {
   const Lanes trace = w[0] + w[1] + w[2];
   const Lanes along = fma(s.mxx, w[0], fma(s.myy, w[1], s.mzz * w[2])) +
                       Lanes::all(2) * fma(s.mxy, w[3], fma(s.myz, w[4], s.mzx * w[5]));
@@ -40,14 +40,14 @@ inline Lanes wall_share(const DenseSums& s, const Lanes w[6], Lanes scale) {
 /// What ground and walls add to the moment matrix and, before correction, to the velocity gradient:
 /// 2 W_plane(d) d n n and 2 W_plane(d) v_n n n (SmoothingKernel::plane_integral), xx yy zz xy yz
 /// zx.
-struct Image {
+struct MirrorContribution {
   Lanes moment[6], gradient[6];
 
-  Image(const BoundaryView& wall, const GroupRows& rows, int lane, const DenseScale& k,
-        std::size_t at) {
+  MirrorContribution(const BoundaryView& wall, const GroupRows& rows, int lane, const DenseScale& k,
+                     std::size_t at) {
     const Lanes zero = Lanes::all(0);
     const Lanes d = max(Lanes::load(wall.distance + at), zero);
-    const Lanes y = max(fnma(d, Lanes::all(k.inv_reach), Lanes::all(1)), zero), y2 = y * y;
+    const Lanes y = max(fnma(d, Lanes::all(k.inv_support), Lanes::all(1)), zero), y2 = y * y;
     const Lanes tail = fma(y, fma(y, Lanes::all(4.0f / 7), Lanes::all(-1.5f)), Lanes::all(1));
     const Lanes plane = Lanes::all(k.plane) * y2 * y2 * y * tail;
     const Lanes nx = Lanes::load(wall.nx + at), ny = Lanes::load(wall.ny + at);
@@ -68,36 +68,36 @@ struct Image {
 };
 
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
-/// \param growth  true volume over that of the records, 1 in a dense mass: sums over neighbours
-/// that
-///                parted alike are too small by it
-/// \tparam flying  whether the group may be a cloud
+/// \param dilation_ratio  true volume over that of the records, 1 in a dense mass: sums over
+///                neighbours that dilated alike are too small by it
+/// \tparam dispersed  whether the group may be a cloud
 /// \return trace of the moment that ground and walls add
-template <bool flying>
+template <bool dispersed>
 inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, const DenseScale& k,
                           const BoundaryView& wall, const SweepOutput& out, std::size_t at,
-                          Lanes growth) {
+                          Lanes dilation_ratio) {
   const Lanes sxx = Lanes::load(rows.sxx + lane), syy = Lanes::load(rows.syy + lane);
   const Lanes szz = Lanes::load(rows.szz + lane), sxy = Lanes::load(rows.sxy + lane);
   const Lanes syz = Lanes::load(rows.syz + lane), szx = Lanes::load(rows.szx + lane);
   const Lanes one = Lanes::all(1);
-  const Lanes density = Lanes::all(k.density) * (one + Lanes::load(rows.compression + lane));
+  const Lanes density = Lanes::all(k.density) * (one + Lanes::load(rows.density_change + lane));
   const Lanes factor = Lanes::all(-k.gradient) / density;
   (factor * fma(sxx, s.gx, fma(sxy, s.gy, fma(szx, s.gz, s.ax)))).store(out.ax + at);
   (factor * fma(sxy, s.gx, fma(syy, s.gy, fma(syz, s.gz, s.ay)))).store(out.ay + at);
   (factor * fma(szx, s.gx, fma(syz, s.gy, fma(szz, s.gz, s.az)))).store(out.az + at);
 
-  Image image(wall, rows, lane, k, at);
-  Lanes(&w)[6] = image.moment;
-  const Lanes moment = Lanes::all(k.moment) * growth;
-  const Lanes share = wall_share(s, w, moment);
-  share.store(out.wall_share + at);
+  const MirrorContribution mirror(wall, rows, lane, k, at);
+  Lanes w[6];
+  for (int c = 0; c < 6; ++c) w[c] = mirror.moment[c];
+  const Lanes moment = Lanes::all(k.moment) * dilation_ratio;
+  const Lanes share = mirror_weight(s, w, moment);
+  share.store(out.mirror_weight + at);
   for (Lanes& c : w) c = share * c;
-  const Lanes imaged = w[0] + w[1] + w[2];
+  const Lanes mirror_trace = w[0] + w[1] + w[2];
   const Correction b =
-      flying ? Correction::in_a_cloud(s, moment, w, growth) : Correction(s, moment, w);
-  for (int c = 0; c < 6; ++c) w[c] = share * image.gradient[c];
-  const Lanes scale = Lanes::all(k.gradient) * growth;
+      dispersed ? Correction::in_a_cloud(s, moment, w, dilation_ratio) : Correction(s, moment, w);
+  for (int c = 0; c < 6; ++c) w[c] = share * mirror.gradient[c];
+  const Lanes scale = Lanes::all(k.gradient) * dilation_ratio;
   auto row = [&](Lanes x, Lanes y, Lanes z, float* ox, float* oy, float* oz) {
     fma(x, b.xx, fma(y, b.xy, z * b.zx)).store(ox + at);
     fma(x, b.xy, fma(y, b.yy, z * b.yz)).store(oy + at);
@@ -110,7 +110,7 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
   row(fma(scale, s.lzx, w[5]), fma(scale, s.lzy, w[4]), fma(scale, s.lzz, w[2]), out.lzx, out.lzy,
       out.lzz);
 
-  // Density has no mirror image (it goes on rising towards the bed): its gradient is taken from
+  // Density is not mirrored (it goes on rising towards the bed): its gradient is taken from
   // the neighbours alone.
   for (Lanes& c : w) c = Lanes::all(0);
   const Correction own(s, Lanes::all(k.moment), w);
@@ -119,20 +119,20 @@ inline Lanes finish_dense(const DenseSums& s, const GroupRows& rows, int lane, c
   const Lanes bz = fma(own.zx, s.nx, fma(own.yz, s.ny, own.zz * s.nz));
   const Lanes linear = Lanes::all(k.moment) * fma(bx, s.gx, fma(by, s.gy, bz * s.gz));
   (Lanes::all(k.diffusion) * (s.d - linear)).store(out.diffusion + at);
-  return imaged;
+  return mirror_trace;
 }
 
 /// A third of the moment's trace: 1 inside a dense mass, about a half at its surface.
-inline Lanes fill_of(const DenseSums& s, const DenseScale& k, Lanes imaged) {
+inline Lanes support_completeness(const DenseSums& s, const DenseScale& k, Lanes mirror_trace) {
   const Lanes trace = Lanes::all(k.moment) * (s.mxx + s.myy + s.mzz);
-  return Lanes::all(1.0f / 3) * (trace + imaged);
+  return Lanes::all(1.0f / 3) * (trace + mirror_trace);
 }
 
 /// What the artificial stress adds to the acceleration.
 inline void finish_tension(const TensionSums& s, const GroupRows& rows, int lane,
                            const DenseScale& k, const SweepOutput& out, std::size_t at) {
   const Lanes density =
-      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
+      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.density_change + lane));
   const Lanes factor = Lanes::all(k.gradient) / density, own = Lanes::load(rows.tension + lane);
   auto push = [&](float* a, Lanes force) { fma(factor, force, Lanes::load(a)).store(a); };
   push(out.ax + at, fma(own, s.cx, s.bx));
@@ -142,7 +142,7 @@ inline void finish_tension(const TensionSums& s, const GroupRows& rows, int lane
 
 /// A group's kinetic records in rows.
 struct KineticRows {
-  alignas(64) float growth[group_size], weight[group_size], theta[group_size];
+  alignas(64) float dilation_ratio[group_size], weight[group_size], theta[group_size];
   alignas(64) float resistance[group_size], viscosity[group_size];
   alignas(64) float xx[group_size], yy[group_size], zz[group_size];
   alignas(64) float xy[group_size], yz[group_size], zx[group_size];
@@ -150,7 +150,7 @@ struct KineticRows {
   explicit KineticRows(const KineticRecord* first) {
     for (int n = 0; n < group_size; ++n) {
       const KineticRecord& k = first[n];
-      growth[n] = k.growth, weight[n] = k.weight, theta[n] = k.theta;
+      dilation_ratio[n] = k.dilation_ratio, weight[n] = k.weight, theta[n] = k.theta;
       resistance[n] = k.resistance, viscosity[n] = k.viscosity;
       xx[n] = k.xx, yy[n] = k.yy, zz[n] = k.zz;
       xy[n] = k.xy, yz[n] = k.yz, zx[n] = k.zx;
@@ -158,13 +158,15 @@ struct KineticRows {
   }
 };
 
-/// What kinetic stresses add to the acceleration, heat, and how full the support is.
+/// What kinetic stresses add to the acceleration, conducted granular energy, and how complete the
+/// support is.
 inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const GroupRows& rows,
-                           const KineticRows& own, int lane, const DenseScale& k, Lanes imaged,
-                           const SweepOutput& out, std::size_t at) {
-  const Lanes growth = Lanes::load(own.growth + lane), weight = Lanes::load(own.weight + lane);
+                           const KineticRows& own, int lane, const DenseScale& k,
+                           Lanes mirror_trace, const SweepOutput& out, std::size_t at) {
+  const Lanes dilation_ratio = Lanes::load(own.dilation_ratio + lane),
+              weight = Lanes::load(own.weight + lane);
   const Lanes density =
-      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.compression + lane));
+      Lanes::all(k.density) * (Lanes::all(1) + Lanes::load(rows.density_change + lane));
   const Lanes factor = Lanes::all(-k.gradient) * weight / density;
   const Lanes xx = Lanes::load(own.xx + lane), yy = Lanes::load(own.yy + lane);
   const Lanes zz = Lanes::load(own.zz + lane), xy = Lanes::load(own.xy + lane);
@@ -173,14 +175,18 @@ inline void finish_kinetic(const KineticSums& s, const DenseSums& dense, const G
   push(out.ax + at, fma(xx, s.gx, fma(xy, s.gy, fma(zx, s.gz, s.kx))));
   push(out.ay + at, fma(xy, s.gx, fma(yy, s.gy, fma(yz, s.gz, s.ky))));
   push(out.az + at, fma(zx, s.gx, fma(yz, s.gy, fma(zz, s.gz, s.kz))));
-  // Per volume that the grain takes up: the record's times `growth`.
-  const Lanes share = weight / growth, half = Lanes::all(0.5f);
-  (Lanes::all(k.laplacian) * share * s.heat).store(out.heat + at);
-  const Lanes felt = Lanes::all(k.gradient) * share;
-  (felt * s.exx).store(out.felt[0] + at), (felt * s.eyy).store(out.felt[1] + at);
-  (felt * s.ezz).store(out.felt[2] + at), (half * felt * s.exy).store(out.felt[3] + at);
-  (half * felt * s.eyz).store(out.felt[4] + at), (half * felt * s.ezx).store(out.felt[5] + at);
-  fill_of(dense, k, imaged / growth).store(out.fill + at);
+  // Per volume that the grain takes up: the record's times `dilation_ratio`.
+  const Lanes share = weight / dilation_ratio, half = Lanes::all(0.5f);
+  (Lanes::all(k.laplacian) * share * s.conducted).store(out.conducted + at);
+  const Lanes pair_gradient = Lanes::all(k.gradient) * share;
+  (pair_gradient * s.exx).store(out.pair_gradient[0] + at),
+      (pair_gradient * s.eyy).store(out.pair_gradient[1] + at);
+  (pair_gradient * s.ezz).store(out.pair_gradient[2] + at),
+      (half * pair_gradient * s.exy).store(out.pair_gradient[3] + at);
+  (half * pair_gradient * s.eyz).store(out.pair_gradient[4] + at),
+      (half * pair_gradient * s.ezx).store(out.pair_gradient[5] + at);
+  support_completeness(dense, k, mirror_trace / dilation_ratio)
+      .store(out.support_completeness + at);
   s.count.store(out.neighbors + at);
 }
 
@@ -205,16 +211,19 @@ inline void finish_ratio(const RatioSums& r, const GroupRows& rows, int lane, co
 
 /// The lanes' own values of a group.
 inline DenseSelf self_of(const GroupRows& rows, int lane) {
-  return {IntLanes::load(rows.x + lane),       IntLanes::load(rows.y + lane),
-          IntLanes::load(rows.z + lane),       Lanes::load(rows.vx + lane),
-          Lanes::load(rows.vy + lane),         Lanes::load(rows.vz + lane),
-          Lanes::load(rows.compression + lane)};
+  return {IntLanes::load(rows.x + lane),
+          IntLanes::load(rows.y + lane),
+          IntLanes::load(rows.z + lane),
+          Lanes::load(rows.vx + lane),
+          Lanes::load(rows.vy + lane),
+          Lanes::load(rows.vz + lane),
+          Lanes::load(rows.density_change + lane)};
 }
 
-/// \tparam fill  whether SweepOutput::fill is wanted
+/// \tparam completeness  whether SweepOutput::support_completeness is wanted
 /// \tparam tension  whether artificial stress acts
-template <bool smooth, bool fill, bool tension>
-inline void dense_group(const PackedView& view, const DenseScale& scale, const BoundaryView& wall,
+template <bool smooth, bool completeness, bool tension>
+inline void dense_group(const NeighborView& view, const DenseScale& scale, const BoundaryView& wall,
                         const SweepOutput& out, std::size_t group) {
   const std::size_t first = group * group_size;
   const GroupRows rows(view.records + first);
@@ -236,23 +245,27 @@ inline void dense_group(const PackedView& view, const DenseScale& scale, const B
       if constexpr (smooth) ratio.add(view.records[*j], scale, w);
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
-    const Lanes imaged =
+    const Lanes mirror_trace =
         finish_dense<false>(sums, rows, lane, scale, wall, out, first + lane, Lanes::all(1));
-    if constexpr (fill) fill_of(sums, scale, imaged).store(out.fill + first + lane);
+    if constexpr (completeness)
+      support_completeness(sums, scale, mirror_trace)
+          .store(out.support_completeness + first + lane);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, first + lane);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, first + lane);
   }
 }
 
 /// The loop with the terms of this step.
-template <bool fill>
+template <bool completeness>
 inline auto pick_dense(const SweepConstants& c) {
   if (c.stress_smoothing > 0)
-    return c.tension ? &dense_group<true, fill, true> : &dense_group<true, fill, false>;
-  return c.tension ? &dense_group<false, fill, true> : &dense_group<false, fill, false>;
+    return c.tension ? &dense_group<true, completeness, true>
+                     : &dense_group<true, completeness, false>;
+  return c.tension ? &dense_group<false, completeness, true>
+                   : &dense_group<false, completeness, false>;
 }
 
-inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
+inline void dense_sweep(const NeighborView& view, const SweepConstants& constants,
                         const BoundaryView& wall, const SweepOutput& out, std::size_t first_group,
                         std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
@@ -260,14 +273,14 @@ inline void dense_sweep(const PackedView& view, const SweepConstants& constants,
   for (std::size_t g = first_group; g < last_group; ++g) group(view, scale, wall, out, g);
 }
 
-/// A group in which some grain flies, or meets one that does.
+/// A group in which some grain is dispersed, or a neighbour is.
 template <bool smooth, bool tension>
-inline void kinetic_group(const PackedView& view, const KineticView& flying,
+inline void kinetic_group(const NeighborView& view, const KineticView& dispersed,
                           const DenseScale& scale, const BoundaryView& wall, const SweepOutput& out,
                           std::size_t group) {
   const std::size_t first = group * group_size;
   const GroupRows rows(view.records + first);
-  const KineticRows own(flying.records + first);
+  const KineticRows own(dispersed.records + first);
   const std::uint32_t* begin = view.list(group);
   const std::uint32_t* end = begin + view.list_size(group);
   for (int lane = 0; lane < group_size; lane += Lanes::width) {
@@ -284,7 +297,7 @@ inline void kinetic_group(const PackedView& view, const KineticView& flying,
     if constexpr (tension) pull.clear();
     const Lanes half = Lanes::all(0.5f * scale.viscosity), mine = half * kinetic.viscosity;
     for (const std::uint32_t* j = begin; j != end; ++j) {
-      const KineticRecord& k = flying.records[*j];
+      const KineticRecord& k = dispersed.records[*j];
       const Lanes viscosity = fma(half, Lanes::all(k.viscosity), mine);
       const Lanes w = sums.add(self, view.records[*j], scale, viscosity);
       more.add(self, kinetic, view.records[*j], k, w);
@@ -292,9 +305,9 @@ inline void kinetic_group(const PackedView& view, const KineticView& flying,
       if constexpr (tension) pull.add(self, view.records[*j], scale, w);
     }
     const std::size_t at = first + lane;
-    const Lanes imaged =
-        finish_dense<true>(sums, rows, lane, scale, wall, out, at, Lanes::load(own.growth + lane));
-    finish_kinetic(more, sums, rows, own, lane, scale, imaged, out, at);
+    const Lanes mirror_trace = finish_dense<true>(sums, rows, lane, scale, wall, out, at,
+                                                  Lanes::load(own.dilation_ratio + lane));
+    finish_kinetic(more, sums, rows, own, lane, scale, mirror_trace, out, at);
     if constexpr (tension) finish_tension(pull, rows, lane, scale, out, at);
     if constexpr (smooth) finish_ratio(ratio, rows, lane, scale, out, at);
   }
@@ -306,71 +319,72 @@ inline auto pick_kinetic(const SweepConstants& c) {
   return c.tension ? &kinetic_group<false, true> : &kinetic_group<false, false>;
 }
 
-/// Whether nobody in the group or near it flies.
-inline bool calm_around(const PackedView& view, const KineticView& flying, std::size_t group) {
+/// Whether no grain in the group or near it is dispersed.
+inline bool dense_around(const NeighborView& view, const KineticView& dispersed,
+                         std::size_t group) {
   const std::uint32_t* list = view.list(group);
   const std::size_t n = view.list_size(group);
-  unsigned calm = flying.calm[group];
-  for (std::size_t k = 0; k < n; ++k) calm &= flying.calm[list[k] / group_size];
-  return calm != 0;
+  unsigned dense_group = dispersed.dense_group[group];
+  for (std::size_t k = 0; k < n; ++k) dense_group &= dispersed.dense_group[list[k] / group_size];
+  return dense_group != 0;
 }
 
-/// What a calm group has in the outputs that only the kinetic sums fill. Its neighbours are not
-/// counted: a grain that has lost them shows by `fill` first.
-inline void leave_calm(const SweepOutput& out, std::size_t group) {
+/// What a dense group has in the outputs that only the kinetic sums write. Its neighbours are not
+/// counted: a grain that has lost them shows by its support completeness first.
+inline void write_dense_group(const SweepOutput& out, std::size_t group) {
   for (std::size_t i = group * group_size; i < (group + 1) * group_size; ++i) {
     out.neighbors[i] = SweepOutput::uncounted;
-    out.heat[i] = 0;
-    for (float* column : out.felt) column[i] = 0;
+    out.conducted[i] = 0;
+    for (float* column : out.pair_gradient) column[i] = 0;
   }
 }
 
-inline void kinetic_sweep(const PackedView& view, const KineticView& flying,
+inline void kinetic_sweep(const NeighborView& view, const KineticView& dispersed,
                           const SweepConstants& constants, const BoundaryView& wall,
                           const SweepOutput& out, std::size_t first_group, std::size_t last_group) {
   const DenseScale scale = dense_scale(constants, view.unit_m);
-  const auto calm = pick_dense<true>(constants);
-  const auto stirred = pick_kinetic(constants);
-  bool stirring = false;
+  const auto dense = pick_dense<true>(constants);
+  const auto kinetic = pick_kinetic(constants);
+  bool in_dispersed = false;
   std::int64_t since = 0;
-  const auto turn = [&](bool to_stirring) {  // the clock is read where the kind of group changes
-    if (!flying.clock || stirring == to_stirring) return;
-    const std::int64_t now = flying.clock->now_ns();
-    if (stirring) flying.clock->spent_ns += now - since;
+  const auto turn = [&](bool to_dispersed) {  // the clock is read where the kind of group changes
+    if (!dispersed.clock || in_dispersed == to_dispersed) return;
+    const std::int64_t now = dispersed.clock->now_ns();
+    if (in_dispersed) dispersed.clock->spent_ns += now - since;
     since = now;
-    stirring = to_stirring;
+    in_dispersed = to_dispersed;
   };
   for (std::size_t g = first_group; g < last_group; ++g) {
-    const bool quiet = calm_around(view, flying, g);
-    turn(!quiet);
-    if (quiet) {
-      calm(view, scale, wall, out, g);
-      leave_calm(out, g);
+    const bool is_dense = dense_around(view, dispersed, g);
+    turn(!is_dense);
+    if (is_dense) {
+      dense(view, scale, wall, out, g);
+      write_dense_group(out, g);
     } else {
-      stirred(view, flying, scale, wall, out, g);
+      kinetic(view, dispersed, scale, wall, out, g);
     }
   }
   turn(false);
 }
 
-inline std::size_t tight_list(const PackedRecord* records, std::size_t first, int n_in_group,
+inline std::size_t tight_list(const NeighborRecord* records, std::size_t first, int n_in_group,
                               const std::uint32_t* candidates, std::size_t n_candidates,
-                              float reach_units, std::uint32_t* out) {
+                              float radius_units, std::uint32_t* out) {
   alignas(64) std::int32_t x[group_size], y[group_size], z[group_size];
   for (int k = 0; k < group_size; ++k) {
-    const PackedRecord& p = records[first + (k < n_in_group ? k : 0)];
+    const NeighborRecord& p = records[first + (k < n_in_group ? k : 0)];
     x[k] = p.x, y[k] = p.y, z[k] = p.z;
   }
-  const Lanes reach2 = Lanes::all(reach_units * reach_units);
+  const Lanes radius2 = Lanes::all(radius_units * radius_units);
   std::size_t n = 0;
   for (std::size_t c = 0; c < n_candidates; ++c) {
-    const PackedRecord& j = records[candidates[c]];
+    const NeighborRecord& j = records[candidates[c]];
     bool near = false;
     for (int lane = 0; lane < group_size && !near; lane += Lanes::width) {
       const Lanes rx = difference(IntLanes::load(x + lane), j.x);
       const Lanes ry = difference(IntLanes::load(y + lane), j.y);
       const Lanes rz = difference(IntLanes::load(z + lane), j.z);
-      near = any_less(fma(rx, rx, fma(ry, ry, rz * rz)), reach2);
+      near = any_less(fma(rx, rx, fma(ry, ry, rz * rz)), radius2);
     }
     out[n] = candidates[c];
     n += near;

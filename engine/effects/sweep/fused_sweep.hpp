@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/neighbors/column_records.hpp"
-#include "engine/neighbors/packed.hpp"
+#include "engine/neighbors/neighbor_records.hpp"
 
 #include <cstddef>
 #include <string_view>
@@ -21,17 +21,19 @@ InstructionSet best_instruction_set();
 struct Sweeps {
   /// One fused pass over groups [first, last): dense stress force, velocity gradient, density
   /// diffusion (terms/dense_sums.hpp).
-  void (*dense)(const PackedView&, const SweepConstants&, const BoundaryView&, const SweepOutput&,
+  void (*dense)(const NeighborView&, const SweepConstants&, const BoundaryView&, const SweepOutput&,
                 std::size_t first_group, std::size_t last_group);
-  /// The same where grains may part: kinetic stresses, conduction of granular temperature, how full
-  /// each support is (terms/kinetic_sums.hpp). Groups that nobody flies in or near take `dense`.
-  void (*kinetic)(const PackedView&, const KineticView&, const SweepConstants&, const BoundaryView&,
-                  const SweepOutput&, std::size_t first_group, std::size_t last_group);
-  /// Appends to `out` those of `candidates` that lie within `reach_units` of any particle of the
+  /// The same where grains may disperse: kinetic stresses, conduction of granular temperature, how
+  /// full each support is (terms/kinetic_sums.hpp). Groups without dispersed grains in or near them
+  /// take `dense`.
+  void (*kinetic)(const NeighborView&, const KineticView&, const SweepConstants&,
+                  const BoundaryView&, const SweepOutput&, std::size_t first_group,
+                  std::size_t last_group);
+  /// Appends to `out` those of `candidates` that lie within `radius_units` of any particle of the
   /// group that starts at record `first`, in the given order. Returns how many.
-  std::size_t (*tight_list)(const PackedRecord* records, std::size_t first, int n_in_group,
+  std::size_t (*tight_list)(const NeighborRecord* records, std::size_t first, int n_in_group,
                             const std::uint32_t* candidates, std::size_t n_candidates,
-                            float reach_units, std::uint32_t* out);
+                            float radius_units, std::uint32_t* out);
   /// One pass over groups [first, last) of depth-averaged columns (terms/column_sums.hpp).
   void (*columns)(const ColumnView&, const ColumnConstants&, const ColumnSweepOutput&,
                   std::size_t first_group, std::size_t last_group);

@@ -71,7 +71,7 @@ std::string usage(const std::string& program, const CommandEntry& command) {
 constexpr const char* files = R"(.SH FILES
 .TP
 .I scenario.yaml
-One scene: ground, source, material, base, numerics, ensemble, thresholds. The user guide lists all
+One scene: ground, source, material, bed, numerics, ensemble, thresholds. The user guide lists all
 keys; \fBsturz schema\fR prints them for editors.
 .TP
 .I out/NAME

@@ -15,7 +15,7 @@ namespace sturz::workflow {
 namespace fs = std::filesystem;
 namespace {
 
-/// Members without a scenario.yaml beside them: nobody can say whose they are.
+/// Members without a scenario.yaml beside them: their scene is not known.
 void require_no_orphans(const OutputFolder& folder) {
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(folder.members(), failed))

@@ -17,7 +17,7 @@
 namespace sturz::workflow {
 namespace {
 
-/// "grain stress 1.25 s; base 0.31 s", for a text attribute.
+/// "grain stress 1.25 s; bed 0.31 s", for a text attribute.
 std::string as_text(const NamedSeconds& times) {
   std::string text;
   for (const auto& [name, seconds] : times)

@@ -61,7 +61,7 @@ export function wilson(p, n, z) {
 
 const grouped = new Intl.NumberFormat('en', {maximumSignificantDigits: 3, useGrouping: 'always'});
 
-/** Three significant digits, thousands parted by narrow spaces. */
+/** Three significant digits, thousands separated by narrow spaces. */
 export function numberText(value) {
   if (!Number.isFinite(value)) return '–';
   const whole = Math.abs(value) >= 1000 ? Math.round(value).toString() : null;

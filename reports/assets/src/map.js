@@ -33,16 +33,16 @@ function contourInterval(low, high, wished) {
   return [1, 2, 5, 10].map((s) => s * power).find((s) => s >= rough);
 }
 
-/** Rings of a contour without the parts that only follow the raster's rim. */
+/** Rings of a contour without the parts that only follow the raster's edge. */
 function openLines(rings, grid) {
-  const onRim = (a, b) => (a[0] === b[0] && (a[0] <= 0.5 || a[0] >= grid.cols - 0.5)) ||
+  const onEdge = (a, b) => (a[0] === b[0] && (a[0] <= 0.5 || a[0] >= grid.cols - 0.5)) ||
       (a[1] === b[1] && (a[1] <= 0.5 || a[1] >= grid.rows - 0.5));
   const toMap = ([x, y]) => [grid.west + x * grid.cell, grid.north - y * grid.cell];
   const lines = [];
   for (const ring of rings) {
     let line = [];
     for (let i = 0; i < ring.length; i++) {
-      if (i > 0 && onRim(ring[i - 1], ring[i])) {
+      if (i > 0 && onEdge(ring[i - 1], ring[i])) {
         if (line.length > 1) lines.push(line);
         line = [];
       }

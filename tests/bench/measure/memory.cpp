@@ -10,7 +10,7 @@ std::size_t bytes(const std::vector<T>& v) {
 }
 
 std::size_t state_bytes(const State& s) {
-  std::size_t sum = bytes(s.grains().fate) + bytes(s.grains().boundary.share);
+  std::size_t sum = bytes(s.grains().fate) + bytes(s.grains().boundary.mirror_weight);
   sum += bytes(s.grains().wrapped_x) + bytes(s.grains().wrapped_y);
   const BoundarySupport& b = s.grains().boundary;
   for (const auto* v :

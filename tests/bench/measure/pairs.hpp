@@ -14,7 +14,7 @@ struct Pairs {
   Summary ratio() const { return summarize(ratios(a, b)); }
 };
 
-/// Takes `n` pairs after one that is thrown away; who begins alternates.
+/// Takes `n` pairs after one that is discarded; the first of the two alternates.
 /// \param a,b  functions that do a slice of work and return its seconds
 template <class A, class B>
 Pairs alternate(int n, A&& a, B&& b) {

@@ -25,13 +25,13 @@ ByHand by_hand(const ScenePlan& plan) {
   State& s = made.state;
   if (plan.formulation.depth_averaged) {
     DepthAveragedSettings settings = plan.columns;
-    settings.base.resize(1);
+    settings.bed.resize(1);
     settings.earth_pressure.assign(1, EarthPressure{});
     settings.zones = {};
     add_depth_averaged(made.step, s, 0, settings, plan.release.thickness);
   } else {
     ContactSettings contact = plan.contact;
-    contact.base.resize(1);
+    contact.bed.resize(1);
     contact.zones = {};
     add_grain_stress(made.step, s, 0, plan.stress, plan.release.depth);
     add_gravity(made.step, s, 0);

@@ -13,12 +13,12 @@ ReferenceNeighbors::Place ReferenceNeighbors::place_of(float x, float y, float z
           static_cast<int>((z - low_[2]) / edge_)};
 }
 
-/// Cells of half a reach, numbered so that those above each other follow each other; two empty
-/// ones all around, so that nobody has to ask where the table ends.
+/// Cells of half a search radius, numbered so that those above each other follow each other; two
+/// empty ones all around, so that no bound of the table need be checked.
 const std::vector<int>& ReferenceNeighbors::sort(const std::vector<float>& x,
                                                  const std::vector<float>& y,
                                                  const std::vector<float>& z) {
-  edge_ = 0.5f * reach_;
+  edge_ = 0.5f * search_radius_;
   int* const counts[3] = {&n_cols_, &n_rows_, &n_levels_};
   const std::vector<float>* const axes[3] = {&x, &y, &z};
   for (int k = 0; k < 3; ++k) {
@@ -42,7 +42,7 @@ const std::vector<int>& ReferenceNeighbors::sort(const std::vector<float>& x,
 
 void ReferenceNeighbors::list(const std::vector<float>& x, const std::vector<float>& y,
                               const std::vector<float>& z) {
-  const float reach2 = reach_ * reach_;
+  const float radius2 = search_radius_ * search_radius_;
   begin_.assign(x.size() + 1, 0);
   std::size_t found = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -57,7 +57,7 @@ void ReferenceNeighbors::list(const std::vector<float>& x, const std::vector<flo
         for (int j = first; j < last; ++j) {
           const float rx = x[i] - x[j], ry = y[i] - y[j], rz = z[i] - z[j];
           out[found] = record_floats * j;
-          found += (rx * rx + ry * ry + rz * rz < reach2) & (static_cast<std::size_t>(j) != i);
+          found += (rx * rx + ry * ry + rz * rz < radius2) & (static_cast<std::size_t>(j) != i);
         }
       }
     begin_[i + 1] = static_cast<int>(found);

@@ -9,7 +9,7 @@ namespace sturz::bench {
 
 class ReferenceNeighbors {
  public:
-  explicit ReferenceNeighbors(float reach) : reach_(reach) {}
+  explicit ReferenceNeighbors(float search_radius) : search_radius_(search_radius) {}
 
   /// Order of the particles by cell: new particle k is old particle order[k].
   const std::vector<int>& sort(const std::vector<float>& x, const std::vector<float>& y,
@@ -29,7 +29,7 @@ class ReferenceNeighbors {
     return (static_cast<std::size_t>(row) * n_cols_ + col) * n_levels_ + level;
   }
 
-  float reach_, edge_ = 1, low_[3] = {0, 0, 0};
+  float search_radius_, edge_ = 1, low_[3] = {0, 0, 0};
   int n_cols_ = 1, n_rows_ = 1, n_levels_ = 1;
   std::vector<int> cell_begin_, order_, begin_, offsets_;
 };

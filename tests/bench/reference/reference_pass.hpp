@@ -4,9 +4,10 @@
 /// Included by files that are compiled for this very processor, so it holds plain data only.
 ///
 /// Left out against the engine: the gradient's correction (moment matrix), density diffusion,
-/// stress smoothing, the mirror image at the ground, drag at rest, parted grains, cohesion, walls,
-/// periods, zones, losses over the rim, the energy ledger, double precision of the state, sums
-/// whose bits do not depend on threads, limits of the time step, peak maps and the stop rule.
+/// stress smoothing, the mirror image at the ground, drag at rest, dilated grains, cohesion, walls,
+/// periods, zones, losses over the domain boundary, the energy ledger, double precision of the
+/// state, sums whose bits do not depend on threads, limits of the time step, peak maps and the stop
+/// rule.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,8 @@ struct ReferenceNumbers {
   float static_friction, dynamic_friction;
   float slowness;  ///< G I_0 / (d_p sqrt(rho_p)) [Pa^(1/2)/s]
   float gravity;
-  float spring, damping, reach, basal_friction;  ///< of the ground [1/s^2], [1/s], [m], [-]
+  float spring, damping, contact_distance,
+      basal_friction;  ///< of the ground [1/s^2], [1/s], [m], [-]
 };
 
 /// Nodes of the ground; node (0, 0) in the south-west.
@@ -36,7 +38,7 @@ struct ReferenceGround {
 /// Columns of the particles, all [n].
 struct ReferenceColumns {
   std::size_t n;
-  float *x, *y, *z, *vx, *vy, *vz, *mass, *compression, *ax, *ay, *az;
+  float *x, *y, *z, *vx, *vy, *vz, *mass, *density_change, *ax, *ay, *az;
   float *stress[6], *gradient[9];  ///< xx yy zz xy yz zx; dv_a/dx_b row by row
 };
 
@@ -51,7 +53,7 @@ struct ReferenceList {
 struct ReferencePass {
   const char* name;
   /// Writes the records.
-  void (*pack_records)(const ReferenceColumns&, const ReferenceNumbers&, float* records);
+  void (*gather_records)(const ReferenceColumns&, const ReferenceNumbers&, float* records);
   /// One pass over the lists: velocity gradient, stress force, artificial viscosity.
   void (*sum_pairs)(const ReferenceColumns&, const ReferenceNumbers&, const ReferenceList&);
   /// Continuity, then elastic + mu(I) with the stress turned along (Jaumann), then the kick.
@@ -65,7 +67,7 @@ struct ReferencePass {
 
 /// Both for this very processor: vectors as wide as it has, filled by its gather instructions; and
 /// vectors of 32 bytes filled float by float. Which is faster differs by a factor of two either
-/// way, so whoever uses them tries both.
+/// way, so their user tries both.
 extern const ReferencePass reference_gathers, reference_single_loads;
 
 }  // namespace sturz::bench

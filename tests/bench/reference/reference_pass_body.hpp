@@ -8,11 +8,11 @@
 
 namespace sturz::bench::STURZ_REFERENCE {
 
-inline void pack_records(const ReferenceColumns& p, const ReferenceNumbers& k, float* records) {
+inline void gather_records(const ReferenceColumns& p, const ReferenceNumbers& k, float* records) {
   for (std::size_t i = 0; i < p.n; ++i) {
     float* r = records + record_floats * i;
     r[0] = p.x[i], r[1] = p.y[i], r[2] = p.z[i];
-    r[3] = p.mass[i] / (k.density * (1 + p.compression[i]));
+    r[3] = p.mass[i] / (k.density * (1 + p.density_change[i]));
     r[4] = p.vx[i], r[5] = p.vy[i], r[6] = p.vz[i];
     for (int c = 0; c < 6; ++c) r[8 + c] = p.stress[c][i];
   }
@@ -51,7 +51,7 @@ inline void sum_pairs(const ReferenceColumns& p, const ReferenceNumbers& k,
       ay += sxy[j] * dx + (syy[j] + q) * dy + syz[j] * dz;
       az += szx[j] * dx + syz[j] * dy + (szz[j] + q) * dz;
     }
-    const float factor = -k.gradient_factor / (k.density * (1 + p.compression[i]));
+    const float factor = -k.gradient_factor / (k.density * (1 + p.density_change[i]));
     const float *xx = sxx + self, *yy = syy + self, *zz = szz + self;
     const float *xy = sxy + self, *yz = syz + self, *zx = szx + self;
     p.ax[i] = factor * (ax + *xx * gx + *xy * gy + *zx * gz);
@@ -68,14 +68,14 @@ inline void update_particles(const ReferenceColumns& p, const ReferenceNumbers& 
   const float *lxx = p.gradient[0], *lxy = p.gradient[1], *lxz = p.gradient[2];
   const float *lyx = p.gradient[3], *lyy = p.gradient[4], *lyz = p.gradient[5];
   const float *lzx = p.gradient[6], *lzy = p.gradient[7], *lzz = p.gradient[8];
-  float* compression = p.compression;
+  float* density_change = p.density_change;
   const float two_g = 2 * k.shear * dt;
 #pragma omp simd
   for (std::size_t i = 0; i < p.n; ++i) {
-    const float trace = lxx[i] + lyy[i] + lzz[i], e0 = compression[i];
+    const float trace = lxx[i] + lyy[i] + lzz[i], e0 = density_change[i];
     const float e1 = e0 - dt * (1 + e0) * trace;
     const float p0 = e0 > 0 ? k.bulk * e0 : 0, p1 = e1 > 0 ? k.bulk * e1 : 0;
-    compression[i] = e1;
+    density_change[i] = e1;
     const float a = x_x[i] + p0, b = y_y[i] + p0, c = z_z[i] + p0;
     const float d = x_y[i], e = y_z[i], f = z_x[i];
     // Spin times dt; s += w s - s w.
@@ -119,11 +119,11 @@ inline void meet_ground(const ReferenceColumns& p, const ReferenceNumbers& k,
     const float z_s = south[0] + a * (south[1] - south[0]);
     const float z_n = north[0] + a * (north[1] - north[0]);
     const float height = p.z[i] - (z_s + b * (z_n - z_s));
-    if (height > 2 * k.reach) continue;
+    if (height > 2 * k.contact_distance) continue;
     const float east = ((1 - b) * (south[1] - south[0]) + b * (north[1] - north[0])) / g.cell;
     const float up = (z_n - z_s) / g.cell;
     const float nz = 1 / sqrtf(1 + east * east + up * up), nx = -east * nz, ny = -up * nz;
-    const float overlap = k.reach - height * nz;
+    const float overlap = k.contact_distance - height * nz;
     if (overlap <= 0) continue;
     const float vn = p.vx[i] * nx + p.vy[i] * ny + p.vz[i] * nz;
     const float push = k.spring * overlap - k.damping * vn;

@@ -5,7 +5,7 @@
 namespace sturz::bench {
 
 const ReferencePass reference_gathers{"gathers",
-                                      &STURZ_REFERENCE::pack_records,
+                                      &STURZ_REFERENCE::gather_records,
                                       &STURZ_REFERENCE::sum_pairs,
                                       &STURZ_REFERENCE::update_particles,
                                       &STURZ_REFERENCE::meet_ground,

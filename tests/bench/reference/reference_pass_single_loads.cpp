@@ -5,7 +5,7 @@
 namespace sturz::bench {
 
 const ReferencePass reference_single_loads{"single loads",
-                                           &STURZ_REFERENCE::pack_records,
+                                           &STURZ_REFERENCE::gather_records,
                                            &STURZ_REFERENCE::sum_pairs,
                                            &STURZ_REFERENCE::update_particles,
                                            &STURZ_REFERENCE::meet_ground,

@@ -29,8 +29,8 @@ ReferenceNumbers numbers_of(const ScenePlan& plan, double gravity) {
   k.gravity = f(gravity);
   k.spring = f(c.stiffness);
   k.damping = f(2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness));
-  k.reach = f(0.5 * c.spacing);
-  k.basal_friction = f(c.base[0].friction_coefficient * (1 - c.base[0].pore_pressure_ratio));
+  k.contact_distance = f(0.5 * c.spacing);
+  k.basal_friction = f(c.bed[0].friction_coefficient * (1 - c.bed[0].pore_pressure_ratio));
   return k;
 }
 
@@ -55,7 +55,7 @@ ReferenceSlide::ReferenceSlide(const SimulationParts& parts, const ScenePlan& pl
   x_ = shifted(p.x, x0), y_ = shifted(p.y, y0), z_ = shifted(p.z, z0);
   vx_ = as_floats(p.vx), vy_ = as_floats(p.vy), vz_ = as_floats(p.vz);
   mass_ = as_floats(p.mass);
-  compression_ = as_floats(p.scalar(fields::compression));
+  density_change_ = as_floats(p.scalar(fields::density_change));
   for (int c = 0; c < 6; ++c) stress_[c] = as_floats(p.components(fields::stress)[c]);
   for (auto* v : {&ax_, &ay_, &az_}) v->assign(p.size(), 0);
   for (auto& v : gradient_) v.assign(p.size(), 0);
@@ -75,16 +75,27 @@ ReferenceSlide::ReferenceSlide(const SimulationParts& parts, const ScenePlan& pl
 }
 
 ReferenceColumns ReferenceSlide::columns() {
-  ReferenceColumns c{
-      size(),       x_.data(),           y_.data(),  z_.data(),  vx_.data(), vy_.data(), vz_.data(),
-      mass_.data(), compression_.data(), ax_.data(), ay_.data(), az_.data(), {},         {}};
+  ReferenceColumns c{size(),
+                     x_.data(),
+                     y_.data(),
+                     z_.data(),
+                     vx_.data(),
+                     vy_.data(),
+                     vz_.data(),
+                     mass_.data(),
+                     density_change_.data(),
+                     ax_.data(),
+                     ay_.data(),
+                     az_.data(),
+                     {},
+                     {}};
   for (int k = 0; k < 6; ++k) c.stress[k] = stress_[k].data();
   for (int k = 0; k < 9; ++k) c.gradient[k] = gradient_[k].data();
   return c;
 }
 
 std::vector<std::vector<float>*> ReferenceSlide::carried() {
-  std::vector<std::vector<float>*> all{&x_, &y_, &z_, &vx_, &vy_, &vz_, &mass_, &compression_};
+  std::vector<std::vector<float>*> all{&x_, &y_, &z_, &vx_, &vy_, &vz_, &mass_, &density_change_};
   for (auto& s : stress_) all.push_back(&s);
   return all;
 }
@@ -104,7 +115,7 @@ void ReferenceSlide::rebuild() {
 /// Times both on the first lists; the sums are only written, so nothing moves.
 void ReferenceSlide::choose_pass() {
   const ReferenceColumns c = columns();
-  pass_->pack_records(c, numbers_, records_.data());
+  pass_->gather_records(c, numbers_, records_.data());
   double least = 1e300;
   for (int round = 0; round < 3; ++round)
     for (const ReferencePass* pass : {&reference_gathers, &reference_single_loads}) {
@@ -117,7 +128,7 @@ void ReferenceSlide::step(double step_s) {
   const auto dt = static_cast<float>(step_s);
   if (moved_ >= skin_) rebuild();
   const ReferenceColumns c = columns();
-  pass_->pack_records(c, numbers_, records_.data());
+  pass_->gather_records(c, numbers_, records_.data());
   pass_->sum_pairs(c, numbers_, list());
   pass_->update_particles(c, numbers_, dt);
   pass_->meet_ground(c, numbers_, ground_, dt);

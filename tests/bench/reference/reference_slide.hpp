@@ -46,7 +46,7 @@ class ReferenceSlide {
   ReferenceNeighbors neighbors_;
   float skin_, moved_;
   std::size_t n_rebuilds_ = 0;
-  std::vector<float> x_, y_, z_, vx_, vy_, vz_, mass_, compression_, ax_, ay_, az_;
+  std::vector<float> x_, y_, z_, vx_, vy_, vz_, mass_, density_change_, ax_, ay_, az_;
   std::vector<float> stress_[6], gradient_[9], records_, scratch_;
 };
 

@@ -23,24 +23,24 @@ SweepAlone::SweepAlone(const SimulationParts& parts, const ScenePlan& plan, Inst
                 g.density_diffusion,
                 0};
   lists_.rebuild(set_, parts.state.domain, 1);
-  fill_records(g);
+  gather_records(g);
   for (auto& r : results_) r.assign(lists_.padded_size(), 0);
   zeros_.assign(lists_.padded_size(), 0);
   far_.assign(lists_.padded_size(), 1e9f);
   n_pairs_ = count_pairs();
 }
 
-void SweepAlone::fill_records(const GrainStressSettings& g) {
-  lists_.pack_positions(set_, 0, set_.size());
-  const auto& compression = set_.scalar(fields::compression);
+void SweepAlone::gather_records(const GrainStressSettings& g) {
+  lists_.gather_positions(set_, 0, set_.size());
+  const auto& density_change = set_.scalar(fields::density_change);
   const auto& stress = set_.components(fields::stress);
   auto f = [](double v) { return static_cast<float>(v); };
   for (std::size_t i = 0; i < set_.size(); ++i) {
-    PackedRecord& r = lists_.records()[i];
-    const double e = std::max(compression[i], GrainStressSettings::separation);
+    NeighborRecord& r = lists_.records()[i];
+    const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
     r.volume = f(set_.mass[i] / (g.reference_density * (1 + e)));
     r.vx = f(set_.vx[i]), r.vy = f(set_.vy[i]), r.vz = f(set_.vz[i]);
-    r.compression = f(e);
+    r.density_change = f(e);
     r.sxx = f(stress[0][i]), r.syy = f(stress[1][i]), r.szz = f(stress[2][i]);
     r.sxy = f(stress[3][i]), r.syz = f(stress[4][i]), r.szx = f(stress[5][i]);
   }
@@ -48,15 +48,15 @@ void SweepAlone::fill_records(const GrainStressSettings& g) {
 }
 
 std::size_t SweepAlone::count_pairs() const {
-  const PackedView view = lists_.view();
+  const NeighborView view = lists_.view();
   const double support = 2 * constants_.h / view.unit_m;
   std::size_t n = 0;
   for (std::size_t i = 0; i < view.n_particles; ++i) {
-    const PackedRecord& a = view.records[i];
+    const NeighborRecord& a = view.records[i];
     const std::size_t group = i / group_size;
     const std::uint32_t* list = view.list(group);
     for (std::size_t k = 0; k < view.list_size(group); ++k) {
-      const PackedRecord& b = view.records[list[k]];
+      const NeighborRecord& b = view.records[list[k]];
       const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
       n += list[k] != i && x * x + y * y + z * z < support * support;
     }
@@ -70,14 +70,14 @@ SweepOutput SweepAlone::output() {
                      &o.lyy, &o.lyz, &o.lzx, &o.lzy, &o.lzz, &o.diffusion};
   for (int k = 0; k < 13; ++k) *slots[k] = results_[k].data();
   for (int k = 0; k < 6; ++k) o.smooth[k] = results_[13 + k].data();
-  o.wall_share = results_[19].data();
+  o.mirror_weight = results_[19].data();
   return o;
 }
 
 double SweepAlone::run() {
   const float* zero = zeros_.data();
   const BoundaryView wall{far_.data(), zero, zero, zero, {}, {}};
-  const PackedView view = lists_.view();
+  const NeighborView view = lists_.view();
   const SweepOutput out = output();
   return timed(thread_seconds, [&] {
     sweeps(set_of_instructions_).dense(view, constants_, wall, out, 0, lists_.n_groups());

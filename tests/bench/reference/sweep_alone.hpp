@@ -34,7 +34,7 @@ class SweepAlone {
   std::size_t n_pairs() const { return n_pairs_; }
 
  private:
-  void fill_records(const GrainStressSettings&);
+  void gather_records(const GrainStressSettings&);
   std::size_t count_pairs() const;
   SweepOutput output();
 

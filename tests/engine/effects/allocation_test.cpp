@@ -89,7 +89,7 @@ Scenario as_columns(Scenario s) {
 }
 
 TEST(Allocation, AStepOfColumnsNeedsNoNewMemory) {
-  // Reaches settle and columns come to the period's edges within the first steps.
+  // Support radii settle and columns come to the period's edges within the first steps.
   const int settled = 60;
   Scenario sheet = as_columns(thin_sheet(1));  // periodic
   EXPECT_EQ(allocations(sheet, settled, 100, false), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Particles that come and go during a run: identity is an id, and the books follow it.
+// Particles that come and go during a run: identity is an id, and the ledger follows it.
 #include "engine/effects/arrivals.hpp"
 
 #include "engine/effects/fields.hpp"
@@ -51,7 +51,7 @@ struct Fed {
   std::map<std::uint32_t, double> last_x;  // by id, of the frames
   double jumped = 0;                       // farthest that an id moved between frames [m]
   int taken = 0;
-  Ledger book;
+  Ledger ledger;
 };
 
 Fed run_fed(int threads, bool takes, double end_time = 2.5) {
@@ -75,18 +75,19 @@ Fed run_fed(int threads, bool takes, double end_time = 2.5) {
   out.result = simulation.run(control);
   out.ids = simulation.parts().state.grains().id;
   out.taken = fed.taken;
-  out.book = simulation.parts().state.ledger();
+  out.ledger = simulation.parts().state.ledger();
   return out;
 }
 
-TEST(Arrivals, BringMassAndEnergyIntoTheBooks) {
+TEST(Arrivals, BringMassAndEnergyIntoTheLedger) {
   const Fed f = run_fed(1, false);
   EXPECT_TRUE(is_valid(f.result.outcome)) << f.result.reason;
   EXPECT_EQ(f.result.scalars.n_particles, 18 + 50);
-  EXPECT_NEAR(f.book.added_mass, 50 * 1560.0, 1e-9);
-  EXPECT_NEAR(f.book.added_energy, 50 * 0.5 * 1560 * 1.5 * 1.5, 1e-6);
+  EXPECT_NEAR(f.ledger.added_mass, 50 * 1560.0, 1e-9);
+  EXPECT_NEAR(f.ledger.added_energy, 50 * 0.5 * 1560 * 1.5 * 1.5, 1e-6);
   EXPECT_LT(std::abs(f.result.scalars.mass_error), 1e-13);
-  EXPECT_LT(std::abs(f.book.residual()), 0.02 * (f.book.released_energy() + f.book.added_energy));
+  EXPECT_LT(std::abs(f.ledger.residual()),
+            0.02 * (f.ledger.released_energy() + f.ledger.added_energy));
 }
 
 TEST(Arrivals, AreFollowedByIdInTravelAndFrames) {
@@ -100,7 +101,7 @@ TEST(Arrivals, AreFollowedByIdInTravelAndFrames) {
   EXPECT_LT(f.result.scalars.front_travel_m, 6);
   EXPECT_GT(f.result.scalars.front_travel_m, 1);
   EXPECT_LT(std::abs(f.result.scalars.mass_error), 1e-13);
-  EXPECT_NEAR(f.book.lost_mass, f.taken * 1560.0, 1e-9);
+  EXPECT_NEAR(f.ledger.lost_mass, f.taken * 1560.0, 1e-9);
 }
 
 TEST(Arrivals, GiveTheSameBitsOnTwoThreads) {
@@ -109,10 +110,10 @@ TEST(Arrivals, GiveTheSameBitsOnTwoThreads) {
 
 /// Columns get ground, support and thickness of their own when they enter.
 TEST(Arrivals, ColumnsEnterOnTheGround) {
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) places.emplace_back(i + 0.5, j + 0.5, 0);
-  HandMade made = columns_on(even_ground(60, 0.3), places, 1.0, {0, 0, 0});
+    for (int j = 0; j < 6; ++j) positions.emplace_back(i + 0.5, j + 0.5, 0);
+  HandMade made = columns_on(even_ground(60, 0.3), positions, 1.0, {0, 0, 0});
   MovingSet& p = made.state.grains();
   for (int step = 0; step < 20; ++step) made.advance();
   for (int k = 0; k < 12; ++k)

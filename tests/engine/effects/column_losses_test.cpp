@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Columns that leave the ground, rims and walls that hold them: booked once, and nobody else's
-/// books change.
+/// Columns that leave the ground, domain boundaries and walls that hold them: accounted once, and
+/// no other account changes.
 #include "engine/effects/fields.hpp"
 #include "tests/support/hand_made.hpp"
 
@@ -20,10 +20,10 @@ using test::HandMade;
 
 double total(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
-/// d(kinetic) that the booked works do not explain, see Ledger [J].
-double unexplained(const Ledger& book) {
-  return book.kinetic - book.kinetic_0 - book.gravity_work - book.stress_work - book.contact_work +
-         book.friction + book.rest_damping + book.lost_energy;
+/// d(kinetic) that the accounted works do not explain, see Ledger [J].
+double unexplained(const Ledger& ledger) {
+  return ledger.kinetic - ledger.kinetic_0 - ledger.gravity_work - ledger.stress_work -
+         ledger.contact_work + ledger.friction + ledger.rest_damping + ledger.lost_energy;
 }
 
 /// Thirty columns that slide east over ground of 16 x 16 m around the origin.
@@ -37,22 +37,22 @@ struct Worst {
 };
 
 Worst worst_over(HandMade& made, int steps) {
-  const Ledger& book = made.state.grains().ledger;
+  const Ledger& ledger = made.state.grains().ledger;
   Worst w;
   for (int n = 0; n < steps && made.state.grains().size() > 0; ++n) {
     made.advance();
-    w.unexplained = std::max(w.unexplained, std::abs(unexplained(book)) / book.kinetic_0);
-    w.residual = std::max(w.residual, std::abs(book.residual()) / book.kinetic_0);
+    w.unexplained = std::max(w.unexplained, std::abs(unexplained(ledger)) / ledger.kinetic_0);
+    w.residual = std::max(w.residual, std::abs(ledger.residual()) / ledger.kinetic_0);
   }
   return w;
 }
 
-TEST(ColumnLosses, MassThatLeavesIsBookedExactly) {
+TEST(ColumnLosses, MassThatLeavesIsAccountedForExactly) {
   HandMade made = slide(0, NodataRule::outflow);
   for (int n = 0; n < 100 && made.state.grains().size() > 0; ++n) {
     made.advance();
-    const Ledger& book = made.state.grains().ledger;
-    ASSERT_NEAR(total(made.state.grains().mass) + book.lost_mass, book.released_mass, 1e-9);
+    const Ledger& ledger = made.state.grains().ledger;
+    ASSERT_NEAR(total(made.state.grains().mass) + ledger.lost_mass, ledger.released_mass, 1e-9);
   }
   EXPECT_GT(made.state.grains().ledger.lost_mass, 0);
   EXPECT_EQ(made.state.grains().ledger.leaked_mass, 0);
@@ -73,21 +73,21 @@ TEST(ColumnLosses, EverythingThatBelongsToAColumnLeavesWithIt) {
 }
 
 TEST(ColumnLosses, KineticEnergyLeavesAsItWas) {
-  // Two columns out of each other's reach; the eastern one leaves.
+  // Two columns outside of each other's support; the eastern one leaves.
   HandMade made = columns_on(even_ground(16), {{6, 0, 0}, {-6, 0, 0}}, 0.7, {9, 0, 0});
   const ParticleSet& p = made.state.grains();
-  const Ledger& book = made.state.grains().ledger;
+  const Ledger& ledger = made.state.grains().ledger;
   double kinetic = 0;
-  for (int n = 0; n < 100 && book.lost_mass == 0; ++n) {
+  for (int n = 0; n < 100 && ledger.lost_mass == 0; ++n) {
     kinetic = 0.5 * p.mass[0] * Vec3(p.vx[0], p.vy[0], p.vz[0]).squaredNorm();
     made.advance();
   }
   ASSERT_EQ(p.id, (std::vector<std::uint32_t>{1}));
-  EXPECT_NEAR(book.lost_mass, p.mass[0], 1e-9);
-  EXPECT_NEAR(book.lost_energy, kinetic, 1e-12 * kinetic);
+  EXPECT_NEAR(ledger.lost_mass, p.mass[0], 1e-9);
+  EXPECT_NEAR(ledger.lost_energy, kinetic, 1e-12 * kinetic);
 }
 
-TEST(ColumnLosses, KineticEnergyChangesOnlyByBookedWorks) {
+TEST(ColumnLosses, KineticEnergyChangesOnlyByAccountedWorks) {
   for (const double slope : {0.0, 0.3}) {
     HandMade made = slide(slope, NodataRule::outflow);
     const Worst worst = worst_over(made, 200);
@@ -96,7 +96,7 @@ TEST(ColumnLosses, KineticEnergyChangesOnlyByBookedWorks) {
   }
 }
 
-TEST(ColumnLosses, TheBooksCloseWhileAndAfterMassLeaves) {
+TEST(ColumnLosses, TheLedgerClosesWhileAndAfterMassLeaves) {
   HandMade level = slide(0, NodataRule::outflow);
   EXPECT_LT(worst_over(level, 200).residual, 1e-12);
   // On a slope the way down and gravity's work on it stand half a step apart.
@@ -104,7 +104,7 @@ TEST(ColumnLosses, TheBooksCloseWhileAndAfterMassLeaves) {
   EXPECT_LT(worst_over(inclined, 200).residual, 1e-4);
 }
 
-TEST(ColumnLosses, AWallRimHoldsTheColumns) {
+TEST(ColumnLosses, AWalledBoundaryHoldsTheColumns) {
   HandMade made = slide(0, NodataRule::wall, {9, 4, 0});
   const Worst worst = worst_over(made, 100);
   const ParticleSet& p = made.state.grains();
@@ -117,12 +117,12 @@ TEST(ColumnLosses, AWallRimHoldsTheColumns) {
   EXPECT_LT(worst.residual, 1e-12);
 }
 
-TEST(ColumnLosses, AWallRimHoldsColumnsOnASlope) {
+TEST(ColumnLosses, AWalledBoundaryHoldsColumnsOnASlope) {
   HandMade made = slide(0.3, NodataRule::wall, {9, 4, 0});
   const Worst worst = worst_over(made, 100);
   EXPECT_EQ(made.state.grains().size(), 30u);
   EXPECT_LT(worst.unexplained, 1e-12);
-  EXPECT_LT(worst.residual, 5e-3);  // as the grains' rim; measured
+  EXPECT_LT(worst.residual, 5e-3);  // as the grains' domain boundary; measured
 }
 
 /// A gate across the way, two metres east of the columns.
@@ -133,10 +133,10 @@ Domain gate(double remove_at_s) {
 }
 
 TEST(ColumnLosses, AWallHoldsColumnsUntilItIsRemoved) {
-  const auto places = block({3, 3, 1}, {-2, -1.5, 0});
-  HandMade shut = columns_on(even_ground(30), places, 0.7, {6, 0, 0}, gate(1e9));
-  HandMade open = columns_on(even_ground(30), places, 0.7, {6, 0, 0}, gate(0.2));
-  HandMade free = columns_on(even_ground(30), places, 0.7, {6, 0, 0});
+  const auto positions = block({3, 3, 1}, {-2, -1.5, 0});
+  HandMade shut = columns_on(even_ground(30), positions, 0.7, {6, 0, 0}, gate(1e9));
+  HandMade open = columns_on(even_ground(30), positions, 0.7, {6, 0, 0}, gate(0.2));
+  HandMade free = columns_on(even_ground(30), positions, 0.7, {6, 0, 0});
   auto farthest = [](HandMade& made) {
     for (int n = 0; n < 80; ++n) {
       made.advance();

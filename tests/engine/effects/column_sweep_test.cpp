@@ -37,7 +37,7 @@ std::vector<SlowColumn> rough_flow(int n, double width, double height, unsigned 
     c.position = {x, y, 3 * std::sin(x / 9) - 0.4 * y};
     c.velocity = {12 + 4 * u(random), 5 * u(random), 3 * u(random)};
     c.volume = 4 + u(random);
-    c.reach = 5 + 2 * u(random);
+    c.support_radius = 5 + 2 * u(random);
     c.thickness = 2 + 1.8 * u(random);
     c.lateral = (1.6 + 1.3 * u(random)) * 8;  // K from 0.3 to 2.9
   }
@@ -138,13 +138,14 @@ TEST(ColumnSweep, ALoneColumnMeetsOnlyItself) {
   auto flow = rough_flow(40, 20, 20);
   flow.push_back(flow[0]);
   flow.back().position += Vec3(900, -700, 50);
-  const ColumnRates lone = test::fast_columns(flow, constants, best_instruction_set()).rates.back();
-  const double own = 7 / (std::numbers::pi * flow[0].reach * flow[0].reach);
-  EXPECT_NEAR(lone.density, own, 1e-6 * own);
-  EXPECT_NEAR(lone.thickness, flow[0].volume * own, 1e-6 * flow[0].volume * own);
-  EXPECT_EQ(lone.acceleration, Vec3(0, 0, 0));
-  EXPECT_EQ(lone.divergence, 0);
-  EXPECT_EQ(lone.approach, 0);
+  const ColumnRates single =
+      test::fast_columns(flow, constants, best_instruction_set()).rates.back();
+  const double own = 7 / (std::numbers::pi * flow[0].support_radius * flow[0].support_radius);
+  EXPECT_NEAR(single.density, own, 1e-6 * own);
+  EXPECT_NEAR(single.thickness, flow[0].volume * own, 1e-6 * flow[0].volume * own);
+  EXPECT_EQ(single.acceleration, Vec3(0, 0, 0));
+  EXPECT_EQ(single.divergence, 0);
+  EXPECT_EQ(single.approach, 0);
 }
 
 TEST(ColumnSweep, PairForcesCancel) {
@@ -163,7 +164,7 @@ TEST(ColumnSweep, PairForcesCancel) {
   }
 }
 
-/// n x n columns of 1 m^3 on a lattice of 1 m, so 1 m thick; reach 4 m.
+/// n x n columns of 1 m^3 on a lattice of 1 m, so 1 m thick; support radius 4 m.
 std::vector<SlowColumn> lattice(int n) {
   std::vector<SlowColumn> out(static_cast<std::size_t>(n) * n);
   for (int i = 0; i < n; ++i)

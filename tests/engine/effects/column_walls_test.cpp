@@ -56,7 +56,7 @@ TEST(HalfSupport, BeyondIsTheIntegralOfLine) {
   }
 }
 
-TEST(HalfSupport, IsNothingFromTheReachOnAndNoMoreBehindTheLine) {
+TEST(HalfSupport, IsNothingFromTheSupportRadiusOnAndNoMoreBehindTheLine) {
   const HalfSupport half;
   for (const double d : {1.0, 1.5, 1e9}) {
     EXPECT_EQ(half.line(d), 0);
@@ -123,7 +123,7 @@ TEST(ColumnWalls, PressureBalancesALevelLayer) {
   }
 }
 
-TEST(ColumnWalls, DoNothingBeyondTheReach) {
+TEST(ColumnWalls, DoNothingBeyondTheSupport) {
   const ColumnWalls walls;
   const Domain domain = bounded_by({west_wall(0.5)});
   const ColumnAtWall column{{4, 0, 0}, {0, 0, 1}, 4, 2, 9.81};
@@ -149,7 +149,7 @@ struct RandomMeeting {
     Vec3 beside = Vec3(u(random), u(random), u(random));
     beside -= beside.dot(wall.normal) * wall.normal;
     const double d = 0.7 + 0.9 * u(random);  // some start behind the wall
-    column.place = wall.point + beside + d * wall.normal;
+    column.position = wall.point + beside + d * wall.normal;
     velocity = 20 * Vec3(u(random), u(random), u(random));
     velocity -= velocity.dot(column.ground_normal) * column.ground_normal;
     pressed = u(random) > 0 ? 0.3 * (1 + u(random)) : 0;
@@ -158,8 +158,8 @@ struct RandomMeeting {
   /// The part of a velocity in the ground's plane that neither nears nor leaves the wall.
   Vec3 along_wall(const Vec3& v) const {
     const Vec3& g = column.ground_normal;
-    const Vec3 way = (wall.normal - wall.normal.dot(g) * g).normalized();
-    return v - v.dot(way) * way;
+    const Vec3 direction = (wall.normal - wall.normal.dot(g) * g).normalized();
+    return v - v.dot(direction) * direction;
   }
 };
 
@@ -171,7 +171,7 @@ TEST(ColumnWalls, ImpulseNeverLetsAColumnCross) {
     const RandomMeeting m(random);
     const auto impulse = walls.impulse(m.wall, m.column, m.velocity, m.pressed, m.drift);
     const Vec3 after = m.velocity + impulse.normal + impulse.friction;
-    const Vec3 end = m.column.place + m.drift * after;
+    const Vec3 end = m.column.position + m.drift * after;
     const double d = (end - m.wall.point).dot(m.wall.normal);
     EXPECT_GE(d, -1e-12);
     // It stays in the ground's plane, and is only pushed into the free side.

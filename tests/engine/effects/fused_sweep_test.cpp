@@ -24,7 +24,8 @@ const std::vector<Part> parts{
     {"acceleration", [](const SlowRates& r) -> Eigen::MatrixXd { return r.acceleration; }},
     {"gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; }},
     {"diffusion", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.diffusion, 0, 0); }},
-    {"wall share", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.wall_share, 0, 0); }},
+    {"mirror weight",
+     [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.mirror_weight, 0, 0); }},
     {"smoothing", [](const SlowRates& r) -> Eigen::MatrixXd { return r.smoothing; }}};
 
 /// A block with free surfaces all around and walls' terms on some of the particles.
@@ -105,7 +106,8 @@ TEST(FusedSweep, PairForcesKeepMomentum) {
   Vec3 sum(0, 0, 0);
   double scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double mass = constants.reference_density * (1 + cloud[i].compression) * cloud[i].volume;
+    const double mass =
+        constants.reference_density * (1 + cloud[i].density_change) * cloud[i].volume;
     sum += mass * fast[i].acceleration;
     scale += mass * fast[i].acceleration.norm();
   }
@@ -194,7 +196,7 @@ TEST(FusedSweep, LinearVelocityGivesTheExactGradientBesideAWall) {
   EXPECT_GT(beside, 200);
 }
 
-TEST(FusedSweep, GroundMakesTheSameImageAsAWall) {
+TEST(FusedSweep, GroundMirrorsAsAWallDoes) {
   const auto constants = test::usual_constants(dx);
   const Vec3 n = Vec3(-0.4, 0.1, 1).normalized();
   auto beside_wall = test::lattice({7, 7, 6}, dx, 0.1);
@@ -211,13 +213,14 @@ TEST(FusedSweep, GroundMakesTheSameImageAsAWall) {
   const auto ground = test::fast_sweep(on_ground, constants, fastest()).rates;
   const auto gradient = [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; };
   EXPECT_LT(test::relative_error(ground, wall, gradient), 1e-6);
-  // Far off, both moments are rounding: what counts is how much of the image acts.
+  // Far off, both moments are rounding: what counts is how much of the mirror contribution acts.
   for (std::size_t i = 0; i < wall.size(); ++i)
-    EXPECT_NEAR((ground[i].wall_share - wall[i].wall_share) * beside_wall[i].wall_moment.trace(), 0,
-                1e-6);
+    EXPECT_NEAR(
+        (ground[i].mirror_weight - wall[i].mirror_weight) * beside_wall[i].wall_moment.trace(), 0,
+        1e-6);
 }
 
-TEST(FusedSweep, WithoutGrainsAboveAWallHasNoImage) {
+TEST(FusedSweep, WithoutGrainsAboveAWallIsNotMirrored) {
   const auto constants = test::usual_constants(dx);
   auto sheet = test::lattice({9, 9, 1}, dx, 0);
   auto layers = test::lattice({9, 9, 4}, dx, 0);
@@ -227,10 +230,10 @@ TEST(FusedSweep, WithoutGrainsAboveAWallHasNoImage) {
       add_wall(p, {0, 0, 1}, {0, 0, (*cloud)[0].position.z() - 0.5 * dx}, constants.h);
     }
   const auto alone = test::fast_sweep(sheet, constants, fastest()).rates[40];
-  EXPECT_NEAR(alone.wall_share, 0, 1e-6);
+  EXPECT_NEAR(alone.mirror_weight, 0, 1e-6);
   EXPECT_NEAR(alone.gradient(2, 2), 0, 1e-6);
   const auto carried = test::fast_sweep(layers, constants, fastest()).rates[40 * 4];
-  EXPECT_EQ(carried.wall_share, 1);
+  EXPECT_EQ(carried.mirror_weight, 1);
   EXPECT_LT(carried.gradient(2, 2), -0.1);
 }
 
@@ -241,8 +244,8 @@ TEST(FusedSweep, LinearDensityDoesNotDiffuse) {
   auto rough = cloud;
   std::mt19937 random(4);
   std::uniform_real_distribution<double> u(-6e-3, 6e-3);
-  for (SlowParticle& p : cloud) p.compression = 6e-3 + rise.dot(p.position - utm_corner);
-  for (SlowParticle& p : rough) p.compression = u(random);
+  for (SlowParticle& p : cloud) p.density_change = 6e-3 + rise.dot(p.position - utm_corner);
+  for (SlowParticle& p : rough) p.density_change = u(random);
   const auto slow = test::slow_sweep(cloud, {}, constants);
   const auto column = test::fast_sweep(cloud, constants, fastest()).rates;
   const auto noise = test::fast_sweep(rough, constants, fastest()).rates;
@@ -260,7 +263,7 @@ TEST(FusedSweep, DiffusionDrawsDensitiesTogether) {
   const auto constants = test::usual_constants(dx);
   auto cloud = test::lattice({7, 7, 7}, dx, 0);
   const std::size_t middle = 3 * 49 + 3 * 7 + 3;
-  cloud[middle].compression = 0.01;
+  cloud[middle].density_change = 0.01;
   const auto rates = test::fast_sweep(cloud, constants, fastest()).rates;
   EXPECT_LT(rates[middle].diffusion, 0);
   EXPECT_GT(rates[middle + 1].diffusion, 0);
@@ -284,7 +287,7 @@ TEST(FusedSweep, UniformStressRatioIsNotSmoothed) {
     EXPECT_LT(even[i].smoothing.norm(), 1e-5 * noise[i].smoothing.norm() + 1e-4);
 }
 
-TEST(FusedSweep, ViscosityResistsApproachAndParting) {
+TEST(FusedSweep, ViscosityResistsApproachAndSeparation) {
   auto constants = test::usual_constants(dx);
   auto pair = test::lattice({2, 1, 1}, dx, 0);
   for (double sign : {-1.0, 1.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole members whose grains part, fly alone and come back.
+// Whole members whose grains separate, fly alone and come back.
 #include "engine/effects/fields.hpp"
 #include "engine/effects/isolated/flight.hpp"
 #include "engine/effects/motion/accounts.hpp"
@@ -58,14 +58,14 @@ TEST(GrainStates, AreAbsentWhereTheSceneDoesNotNameThem) {
   s.grains->states.reset();
   const Simulation simulation = made(s);
   const MovingSet& grains = simulation.parts().state.grains();
-  for (const FieldKey* key :
-       {&fields::fill, &fields::granular_temperature, &fields::kinetic_stress, &fields::spin})
+  for (const FieldKey* key : {&fields::support_completeness, &fields::granular_temperature,
+                              &fields::kinetic_stress, &fields::spin})
     EXPECT_FALSE(grains.has(*key)) << key->name;
   for (const FlagKey* key : {&fields::state, &fields::steps_alone, &fields::membership})
     EXPECT_FALSE(grains.has(*key)) << key->name;
 }
 
-TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
+TEST(GrainStates, AFallOverACliffClosesItsLedger) {
   Scenario s = short_cliff();
   Simulation simulation = made(s);
   const MemberResult result = simulation.run();
@@ -80,7 +80,7 @@ TEST(GrainStates, AFallOverACliffKeepsItsBooks) {
 }
 
 /// A block on level ground whose grains are thrown apart and up.
-Simulation explosion(ParcelContactLaw contacts) {
+Simulation explosion(IsolatedContactLaw contacts) {
   Scenario s = with_states(pile(1));
   s.release.cylinder.reset();
   s.release.paraboloid.reset();
@@ -104,8 +104,8 @@ Simulation explosion(ParcelContactLaw contacts) {
 
 /// B.8, I13, I16: detached grains keep mass and momentum, fly, land, and are taken back.
 TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
-  for (const ParcelContactLaw contacts :
-       {ParcelContactLaw::none, ParcelContactLaw::hertz_mindlin}) {
+  for (const IsolatedContactLaw contacts :
+       {IsolatedContactLaw::none, IsolatedContactLaw::hertz_mindlin}) {
     Simulation simulation = explosion(contacts);
     std::size_t most = 0;
     RunControl control;
@@ -125,10 +125,10 @@ TEST(GrainStates, GrainsThrownApartFlyAloneAndLand) {
   }
 }
 
-/// In free flight nobody is listed: a parcel follows its parabola to the bit of the same parcel
+/// In free flight no particle is listed: it follows its parabola to the bit of the same particle
 /// without states.
-TEST(GrainStates, ALoneParcelFliesItsParabola) {
-  Simulation simulation = explosion(ParcelContactLaw::none);
+TEST(GrainStates, AnIsolatedParticleFollowsItsParabola) {
+  Simulation simulation = explosion(IsolatedContactLaw::none);
   const State& state = simulation.parts().state;
   const auto& membership = state.grains().flags(fields::membership);
   std::size_t followed = state.grains().size();
@@ -151,10 +151,11 @@ TEST(GrainStates, ALoneParcelFliesItsParabola) {
   EXPECT_NEAR(state.grains().x[i], x0 + vx * (state.time - t0), 1e-12);
 }
 
-/// Puts the first grains at rest on `places`, in units of dx about a point high up, and the others
-/// far apart from everybody; all as lone parcels. \return how many are taken back as grains
-std::size_t taken_back(const std::vector<Vec3>& places) {
-  Simulation simulation = explosion(ParcelContactLaw::none);
+/// Puts the first grains at rest on `positions`, in units of dx about a point high up, and the
+/// others far apart from all grains; all as isolated particles. \return how many are taken back as
+/// grains
+std::size_t taken_back(const std::vector<Vec3>& positions) {
+  Simulation simulation = explosion(IsolatedContactLaw::none);
   State& state = simulation.parts().state;
   MovingSet& p = state.grains();
   const double dx = simulation.parts().facts.spacing_m;
@@ -162,7 +163,7 @@ std::size_t taken_back(const std::vector<Vec3>& places) {
   std::fill(membership.begin(), membership.end(), in_flight);
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double above = 10.0 * static_cast<double>(i);
-    const Vec3 at = i < places.size() ? places[i] : Vec3(0, 0, 10 + above);
+    const Vec3 at = i < positions.size() ? positions[i] : Vec3(0, 0, 10 + above);
     p.x[i] = dx * at.x(), p.y[i] = dx * at.y(), p.z[i] = 100 + dx * at.z();
     p.vx[i] = p.vy[i] = p.vz[i] = 0;
     for (auto& before : p.components(fields::velocity_before)) before[i] = 0;
@@ -172,8 +173,8 @@ std::size_t taken_back(const std::vector<Vec3>& places) {
   return state.grains().n_listed;
 }
 
-/// B.9: eight neighbours among the grains. One that stays in flight is nobody's neighbour.
-TEST(GrainStates, AParcelComesBackOnlyAmongThoseThatComeToo) {
+/// B.9: eight neighbours among the grains. One that stays in flight is a neighbour of none.
+TEST(GrainStates, AParticleRejoinsOnlyAmongThoseThatRejoinToo) {
   std::vector<Vec3> star{Vec3(0, 0, 0)}, crowd;
   for (const double x : {-1.04, 1.04})
     for (const double y : {-1.04, 1.04})
@@ -185,7 +186,7 @@ TEST(GrainStates, AParcelComesBackOnlyAmongThoseThatComeToo) {
   EXPECT_EQ(taken_back(crowd), crowd.size());
 }
 
-/// A mass looser than a packing that carries load is set down as that packing.
+/// A mass looser than a packing that carries load is deposited as that packing.
 TEST(GrainStates, ALooseReleaseIsSetDownDense) {
   Scenario loose = with_states(pile(1)), dense = loose;
   loose.grains->solid_fraction = Uncertain(0.5);

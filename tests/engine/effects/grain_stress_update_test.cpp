@@ -22,7 +22,7 @@ GrainStressSettings settings() {
 
 /// One particle of 1560 kg with its columns and rates.
 struct Grain {
-  double mass = 1560, vx = 5, vy = 0, vz = 0, compression = 0, viscous_ratio = 0;
+  double mass = 1560, vx = 5, vy = 0, vz = 0, density_change = 0, viscous_ratio = 0;
   std::array<double, 6> stress{};
   std::array<float, 9> gradient{};
   std::array<float, 6> smooth{};
@@ -33,7 +33,7 @@ struct Grain {
       for (int b = 0; b < 3; ++b) gradient[3 * a + b] = static_cast<float>(l(a, b));
   }
   void set_stress(const GrainStressSettings& g, double pressure, const Matrix3d& deviator) {
-    compression = pressure / g.bulk_modulus();
+    density_change = pressure / g.bulk_modulus();
     const Matrix3d s = deviator - pressure * Matrix3d::Identity();
     stress = {s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(2, 0)};
   }
@@ -48,7 +48,7 @@ struct Grain {
 
   StressEnergies update(const GrainStressSettings& g, double dt, bool smoothing = false) {
     StressColumns c;
-    c.mass = &mass, c.vx = &vx, c.vy = &vy, c.vz = &vz, c.compression = &compression;
+    c.mass = &mass, c.vx = &vx, c.vy = &vy, c.vz = &vz, c.density_change = &density_change;
     for (int k = 0; k < 6; ++k) c.stress[k] = &stress[k];
     c.viscous_ratio = &viscous_ratio;
     SweepOutput r{};
@@ -73,21 +73,21 @@ TEST(GrainStressUpdate, PressureFollowsTheContinuityEquation) {
   Grain grain;
   grain.set_gradient(-0.02 / 3 * Matrix3d::Identity());  // 2 % of volume per second
   for (int n = 0; n < 1000; ++n) grain.update(g, 1e-3);
-  EXPECT_NEAR(grain.compression, std::exp(0.02) - 1, 1e-6);
-  EXPECT_NEAR(grain.pressure(), g.bulk_modulus() * grain.compression, 1e-6 * grain.pressure());
+  EXPECT_NEAR(grain.density_change, std::exp(0.02) - 1, 1e-6);
+  EXPECT_NEAR(grain.pressure(), g.bulk_modulus() * grain.density_change, 1e-6 * grain.pressure());
   EXPECT_NEAR(grain.tau(), 0, 1e-6 * grain.pressure());
 }
 
-TEST(GrainStressUpdate, MassesInTensionPartWithoutPull) {
+TEST(GrainStressUpdate, MassesInTensionSeparateWithoutPull) {
   const GrainStressSettings g = settings();
   Grain grain;
   grain.set_stress(g, 1e4, 1e3 * (Matrix3d() << 0, 0, 1, 0, 0, 0, 1, 0, 0).finished());
   grain.set_gradient(0.5 * Matrix3d::Identity());
   for (int n = 0; n < 300; ++n) grain.update(g, 1e-3);
   for (double s : grain.stress) EXPECT_EQ(std::abs(s), 0);
-  EXPECT_LT(grain.compression, GrainStressSettings::separation);
+  EXPECT_LT(grain.density_change, GrainStressSettings::separation_threshold);
   for (int n = 0; n < 100000; ++n) grain.update(g, 1e-3);
-  EXPECT_GT(grain.compression, -1);  // the density stays positive however far they part
+  EXPECT_GT(grain.density_change, -1);  // the density stays positive however far they separate
 }
 
 TEST(GrainStressUpdate, SteadyShearReachesTheFrictionOfItsRate) {
@@ -158,7 +158,7 @@ TEST(GrainStressUpdate, WorkIsStoredOrDissipated) {
   const double stiff = g.bulk_modulus();
   Grain grain;
   grain.set_stress(g, 3e4, Matrix3d::Zero());
-  double stored = elastic_energy(g, 1, grain.compression, grain.tau());
+  double stored = elastic_energy(g, 1, grain.density_change, grain.tau());
   double scale = 0, error = 0;
   for (int n = 0; n < 2000; ++n) {
     Matrix3d l;
@@ -169,30 +169,32 @@ TEST(GrainStressUpdate, WorkIsStoredOrDissipated) {
     grain.diffusion = static_cast<float>(1e-3 * u(random));
     const StressEnergies e = grain.update(g, 1e-4);
     EXPECT_GE(e.plastic, -1e-9 * stiff);
-    EXPECT_NEAR(e.elastic, elastic_energy(g, 1, grain.compression, grain.tau()), 1e-9 * e.elastic);
+    EXPECT_NEAR(e.elastic, elastic_energy(g, 1, grain.density_change, grain.tau()),
+                1e-9 * e.elastic);
     error += std::abs(e.elastic - stored - (e.power - e.plastic + e.diffusion));
     scale += std::abs(e.power);
     stored = e.elastic;
   }
-  EXPECT_LT(error, 0.01 * scale);  // volumes are taken at rho_ref: first order in the compression
+  EXPECT_LT(error,
+            0.01 * scale);  // volumes are taken at rho_ref: first order in the density change
 }
 
 TEST(GrainStressUpdate, DragActsOnLoadedGrainsAtRestOnly) {
   const GrainStressSettings g = settings();
-  const auto speed_after = [&](double pressure, double speed, StressEnergies* booked = nullptr) {
+  const auto speed_after = [&](double pressure, double speed, StressEnergies* accounted = nullptr) {
     Grain grain;
     grain.set_stress(g, pressure, Matrix3d::Zero());
     grain.vx = 0, grain.vz = speed;
     const StressEnergies e = grain.update(g, 1e-3);
-    if (booked) *booked = e;
+    if (accounted) *accounted = e;
     return grain.vz;
   };
   const double slow = 0.5 * g.rest_speed();
-  StressEnergies booked;
-  const double kept = speed_after(1e4, slow, &booked);
+  StressEnergies accounted;
+  const double kept = speed_after(1e4, slow, &accounted);
   EXPECT_LT(kept, slow);
   EXPECT_GT(kept, 0);
-  EXPECT_NEAR(booked.rest, 0.5 * 1560 * (slow * slow - kept * kept), 1e-12);
+  EXPECT_NEAR(accounted.rest, 0.5 * 1560 * (slow * slow - kept * kept), 1e-12);
   EXPECT_EQ(speed_after(0, slow), slow);
   EXPECT_EQ(speed_after(1e4, 1.01 * g.rest_speed()), 1.01 * g.rest_speed());
 }

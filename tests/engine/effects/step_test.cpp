@@ -50,7 +50,7 @@ TEST(Step, AppliesPassesByStageAndThenInTheOrderInWhichTheyCame) {
   const std::pair<const char*, Stage> given[] = {
       {"drift", Stage::move},      {"first force", Stage::force},  {"kick", Stage::kick},
       {"lists", Stage::neighbors}, {"second force", Stage::force}, {"ground", Stage::boundary},
-      {"yield", Stage::stress},    {"friction", Stage::contact},   {"records", Stage::pack}};
+      {"yield", Stage::stress},    {"friction", Stage::contact},   {"records", Stage::gather}};
   for (const auto& [name, stage] : given) step.add(std::make_unique<Note>(name, stage, &heard));
   State state = empty_state();
   step.apply(state, 0.1);
@@ -67,18 +67,18 @@ TEST(Step, AppliesPassesByStageAndThenInTheOrderInWhichTheyCame) {
 }
 
 TEST(Step, TimesByPassAndByEffectHaveTheSameSum) {
-  const EffectPart flying{EffectName::kinetic_theory, "groups that fly"};
+  const EffectPart dispersed{EffectName::kinetic_theory, "dispersed groups"};
   const std::vector<PassTime> passes = {{"lists", 1, "grain stress"},
-                                        {"sweep", 8, "grain stress", flying, 3},
+                                        {"sweep", 8, "grain stress", dispersed, 3},
                                         {"warmth", 0.5, "kinetic theory"},
-                                        {"ground", 2, "base"}};
+                                        {"ground", 2, "bed"}};
   EXPECT_THAT(by_pass(passes),
               testing::ElementsAre(testing::Pair("lists", 1), testing::Pair("sweep", 5),
-                                   testing::Pair("sweep, groups that fly", 3),
+                                   testing::Pair("sweep, dispersed groups", 3),
                                    testing::Pair("warmth", 0.5), testing::Pair("ground", 2)));
   EXPECT_THAT(by_effect(passes),
               testing::ElementsAre(testing::Pair("grain stress", 6),
-                                   testing::Pair("kinetic theory", 3.5), testing::Pair("base", 2)));
+                                   testing::Pair("kinetic theory", 3.5), testing::Pair("bed", 2)));
 }
 
 TEST(Step, AdvancesTheClock) {
@@ -121,13 +121,13 @@ TEST(Step, EveryLimitBindsInItsOwnSituation) {
   EXPECT_EQ(binding(), "force");
   EXPECT_DOUBLE_EQ(made.step.limit(made.state).dt, 0.25 * std::sqrt(1.3e-6));
 
-  auto lone = test::parcels_on(even_ground(16), {{0, 0, 5}}, {400, 0, 0});
-  EXPECT_STREQ(lone.step.limit(lone.state).name, "advection");
-  EXPECT_DOUBLE_EQ(lone.step.limit(lone.state).dt, 0.25 / 400);
+  auto single = test::particles_on(even_ground(16), {{0, 0, 5}}, {400, 0, 0});
+  EXPECT_STREQ(single.step.limit(single.state).name, "advection");
+  EXPECT_DOUBLE_EQ(single.step.limit(single.state).dt, 0.25 / 400);
   Raster<double> fine(Grid{40, 40, -2, 2, 0.1, ""});
-  lone.state.terrain = Terrain(std::make_shared<Raster<double>>(fine), NodataRule::outflow);
-  EXPECT_STREQ(lone.step.limit(lone.state).name, "terrain cell");
-  EXPECT_DOUBLE_EQ(lone.step.limit(lone.state).dt, 0.05 / 400);
+  single.state.terrain = Terrain(std::make_shared<Raster<double>>(fine), NodataRule::outflow);
+  EXPECT_STREQ(single.step.limit(single.state).name, "terrain cell");
+  EXPECT_DOUBLE_EQ(single.step.limit(single.state).dt, 0.05 / 400);
 }
 
 TEST(Step, GrainScenesHoldTheirPassesInOrder) {
@@ -135,35 +135,35 @@ TEST(Step, GrainScenesHoldTheirPassesInOrder) {
   EXPECT_THAT(
       made.step.pass_names(),
       testing::ElementsAre("neighbors: neighbor lists", "boundary: ground and wall support",
-                           "pack: pack", "force: pair sweep", "kick: gravity and kick",
+                           "gather: gather", "force: pair sweep", "kick: gravity and kick",
                            "contact: terrain contact", "stress: stress update", "move: motion"));
 }
 
 TEST(Step, WhatASceneDoesNotCallForIsNotThere) {
-  const auto lone = test::parcels_on(even_ground(16), {{0, 0, 5}}, {0, 0, 0});
-  EXPECT_THAT(lone.step.pass_names(),
+  const auto single = test::particles_on(even_ground(16), {{0, 0, 5}}, {0, 0, 0});
+  EXPECT_THAT(single.step.pass_names(),
               testing::ElementsAre("boundary: ground and wall support", "kick: gravity and kick",
                                    "contact: terrain contact", "move: motion"));
-  EXPECT_EQ(lone.state.grains().find(fields::stress), nullptr);
+  EXPECT_EQ(single.state.grains().find(fields::stress), nullptr);
   Domain walled;
   walled.walls.push_back({{0, 0, 0}, {1, 0, 0}, 0, 1});
-  const auto made = test::parcels_on(even_ground(16), {{1, 0, 5}}, {0, 0, 0}, walled);
+  const auto made = test::particles_on(even_ground(16), {{1, 0, 5}}, {0, 0, 0}, walled);
   EXPECT_THAT(made.step.pass_names(), testing::Contains("contact: wall contact"));
 }
 
 TEST(Step, FreeFlightFollowsTheParabola) {
   // The first kick takes half a step, from v(0) to v(dt/2); with even steps the rest is exact.
-  auto lone = test::parcels_on(even_ground(200), {{0, 0, 50}}, {20, 5, 0});
+  auto single = test::particles_on(even_ground(200), {{0, 0, 50}}, {20, 5, 0});
   const double dt = 1e-3;
-  for (int n = 0; n < 1000; ++n) lone.step.apply(lone.state, dt);
-  const ParticleSet& p = lone.state.grains();
+  for (int n = 0; n < 1000; ++n) single.step.apply(single.state, dt);
+  const ParticleSet& p = single.state.grains();
   EXPECT_NEAR(p.x[0], 20, 1e-9);
   EXPECT_NEAR(p.y[0], 5, 1e-9);
   EXPECT_NEAR(p.z[0], 50 - 0.5 * 9.81, 1e-9);
 }
 
 TEST(Step, BoundsOfTheMotionAreTheExtremes) {
-  auto made = test::parcels_on(even_ground(16), {{0, 0, 5}, {1, 0, 5}, {2, 0, 5}}, {0, 0, 0});
+  auto made = test::particles_on(even_ground(16), {{0, 0, 5}, {1, 0, 5}, {2, 0, 5}}, {0, 0, 0});
   ParticleSet& p = made.state.grains();
   p.vx = {3, -1, 0}, p.vy = {4, 0, 0}, p.vz = {0, 0, -2};
   refresh_motion(made.state, made.state.grains(), 0);
@@ -184,12 +184,12 @@ TEST(Step, BoundsOfTheMotionAreTheExtremes) {
 TEST(Step, WallsHoldUntilTheyAreTakenAway) {
   Domain gate;
   gate.walls.push_back({{2, 0, 0}, {-1, 0, 0}, 0, 0.5});
-  auto lone = test::parcels_on(even_ground(100, 0), {{0, 0, 0.5}}, {6, 0, 0}, gate, 0);
-  while (lone.state.time < 0.45) lone.advance();
-  EXPECT_LT(lone.state.grains().x[0], 2);
-  lone.state.grains().vx[0] = 6;
-  while (lone.state.time < 1.5) lone.advance();
-  EXPECT_GT(lone.state.grains().x[0], 4);
+  auto single = test::particles_on(even_ground(100, 0), {{0, 0, 0.5}}, {6, 0, 0}, gate, 0);
+  while (single.state.time < 0.45) single.advance();
+  EXPECT_LT(single.state.grains().x[0], 2);
+  single.state.grains().vx[0] = 6;
+  while (single.state.time < 1.5) single.advance();
+  EXPECT_GT(single.state.grains().x[0], 4);
 }
 
 }  // namespace

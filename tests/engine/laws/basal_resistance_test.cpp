@@ -12,7 +12,7 @@ namespace {
 
 constexpr double g = standard_gravity, density = 2000;
 
-/// A base with nothing but the named terms.
+/// A bed with nothing but the named terms.
 BasalResistance bare(double friction = 0) {
   BasalResistance b;
   b.friction_coefficient = friction;
@@ -32,7 +32,7 @@ TEST(BasalResistance, CoulombFrictionIsReducedByPorePressure) {
   b.pore_pressure_ratio = 0.75;
   EXPECT_NEAR(b.effective_friction(), 0.1, 1e-16);
   EXPECT_NEAR(b.plastic(8, 3, density), 0.1 * 8, 1e-15);
-  EXPECT_EQ(b.plastic(0, 3, density), 0) << "a column that flies is not braked";
+  EXPECT_EQ(b.plastic(0, 3, density), 0) << "a column in the air is not braked";
   EXPECT_FALSE(b.has_rate());
   EXPECT_EQ(b.rate(10, 3, density, g), 0);
 }

@@ -83,8 +83,8 @@ TEST(ContactImpulse, FrictionNeverTurnsAParticleRound) {
   }
 }
 
-/// Loss of tangential speed over gain of normal speed: the friction that was really booked.
-double booked_friction(Touch t) {
+/// Loss of tangential speed over gain of normal speed: the friction that was really accounted.
+double accounted_friction(Touch t) {
   const Vec3 before = t.velocity;
   const Vec3 after = t.apply();
   return (tangential(before, t.normal).norm() - tangential(after, t.normal).norm()) /
@@ -92,28 +92,28 @@ double booked_friction(Touch t) {
 }
 
 TEST(ContactImpulse, EveryNormalImpulseEntersTheCoulombCap) {
-  Touch base;
-  base.law = {1000, 5, 0.5, 0.4, 0, -1};
-  base.normal = Vec3(0.3, -0.2, 1).normalized();
-  base.velocity = {30, 10, 0};
-  Touch spring = base;
+  Touch named;
+  named.law = {1000, 5, 0.5, 0.4, 0, -1};
+  named.normal = Vec3(0.3, -0.2, 1).normalized();
+  named.velocity = {30, 10, 0};
+  Touch spring = named;
   spring.distance = 0.2;
-  EXPECT_NEAR(booked_friction(spring), 0.4, 1e-9);
-  Touch pressure = base;
+  EXPECT_NEAR(accounted_friction(spring), 0.4, 1e-9);
+  Touch pressure = named;
   pressure.pressure = 300;
-  EXPECT_NEAR(booked_friction(pressure), 0.4, 1e-9);
+  EXPECT_NEAR(accounted_friction(pressure), 0.4, 1e-9);
   Touch both = spring;
   both.pressure = 300;
-  EXPECT_NEAR(booked_friction(both), 0.4, 1e-9);
+  EXPECT_NEAR(accounted_friction(both), 0.4, 1e-9);
   // The guard: a centre under the ground that still sinks is stopped, which is an impulse too.
-  Touch guard = base;
+  Touch guard = named;
   guard.distance = -1e-9;
   guard.law.stiffness = 1e-6;
   guard.law.damping = 0;
   guard.velocity = tangential(guard.velocity, guard.normal) - 4 * guard.normal;
   Touch stopped = guard;
   EXPECT_NEAR(stopped.apply().dot(guard.normal), 0, 1e-12);
-  EXPECT_NEAR(booked_friction(guard), 0.4, 1e-9);
+  EXPECT_NEAR(accounted_friction(guard), 0.4, 1e-9);
 }
 
 TEST(ContactImpulse, SpringNeverPulls) {
@@ -124,7 +124,7 @@ TEST(ContactImpulse, SpringNeverPulls) {
   EXPECT_EQ(t.apply().z(), 3);
 }
 
-TEST(ContactImpulse, OutOfReachNothingHappens) {
+TEST(ContactImpulse, BeyondTheContactDistanceNothingHappens) {
   Touch t;
   t.law = {100, 5, 0.5, 0.6, 10, 1};
   t.distance = 1.0;
@@ -188,9 +188,9 @@ TEST(ContactImpulse, WorksAddUpToTheChangeOfKineticEnergy) {
     const Vec3 after = t.apply();
     const double kick_work = (kicked - t.before).dot(0.5 * (t.before + after));
     const double change = 0.5 * (after.squaredNorm() - t.before.squaredNorm());
-    const double booked =
+    const double accounted =
         kick_work + t.energy.pressure_work + t.energy.contact_work - t.energy.friction;
-    ASSERT_NEAR(booked, change, 1e-12 * (1 + std::abs(change)));
+    ASSERT_NEAR(accounted, change, 1e-12 * (1 + std::abs(change)));
     ASSERT_GE(t.energy.spring, 0);
   }
 }

@@ -57,7 +57,7 @@ TEST(EarthPressure, ABaseRougherThanTheMassCountsAsTheMass) {
 }
 
 TEST(EarthPressure, AConstantOtherThanOneCountsAsVaryingWhateverItsRounding) {
-  // Isotropic is K = 1: a rough base holds K at 1 + 2 tan^2 phi, which is not that.
+  // Isotropic is K = 1: a rough bed holds K at 1 + 2 tan^2 phi, which is not that.
   for (double mu = 0.1; mu < 1; mu += 0.01) {
     EXPECT_TRUE(EarthPressure(mu, mu).varies()) << mu;
     EXPECT_TRUE(EarthPressure(mu, mu + 0.02).varies()) << mu;

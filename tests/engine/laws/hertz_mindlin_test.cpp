@@ -45,8 +45,8 @@ HeadOn collide(const ContactPair& pair, double v0, int n) {
   const Vec3 normal(0, 0, 1), none(0, 0, 0);
   Vec3 history(0, 0, 0);
   const double dt = impact_duration(pair, v0) / n, energy = 0.5 * pair.mass * v0 * v0;
-  const auto force = [&](double overlap, double parting) {
-    return press_contact(pair, overlap, normal, parting * normal, none, history);
+  const auto force = [&](double overlap, double separating) {
+    return press_contact(pair, overlap, normal, separating * normal, none, history);
   };
   HeadOn out;
   double x = 0, v = -v0, t = 0;  // x: gap
@@ -172,7 +172,7 @@ TEST(HertzMindlin, ApartThereIsNoForceAndNoMemory) {
   EXPECT_EQ(history, Vec3(0, 0, 0));
 }
 
-TEST(HertzMindlin, SpringFollowsTheTurningPlane) {
+TEST(HertzMindlin, SpringFollowsTheRotatingPlane) {
   ContactPair pair = spheres(1);
   pair.friction = 10;
   Vec3 history(0, 0, 0);
@@ -187,10 +187,10 @@ TEST(HertzMindlin, SpringFollowsTheTurningPlane) {
 TEST(HertzMindlin, TheCutNeverLetsTheNormalForcePull) {
   ContactPair pair = spheres(0.3);
   Vec3 history(0, 0, 0);
-  const Vec3 n(0, 0, 1), parting(0, 0, 1), none(0, 0, 0);
-  EXPECT_LT(press_contact(pair, 1e-7, n, parting, none, history).normal, 0);
+  const Vec3 n(0, 0, 1), separating(0, 0, 1), none(0, 0, 0);
+  EXPECT_LT(press_contact(pair, 1e-7, n, separating, none, history).normal, 0);
   pair.never_pulls = true;
-  EXPECT_EQ(press_contact(pair, 1e-7, n, parting, none, history).normal, 0);
+  EXPECT_EQ(press_contact(pair, 1e-7, n, separating, none, history).normal, 0);
 }
 
 struct Rebound {

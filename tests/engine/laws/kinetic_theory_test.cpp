@@ -178,7 +178,7 @@ TEST(RiccatiStep, HasTheClosedFormsOfItsLimits) {
   EXPECT_NEAR(riccati_step(0.5, 0, 4, 0, 10), 0.5 * std::exp(-40), 1e-12 * 0.5 * std::exp(-40));
   EXPECT_NEAR(riccati_step(0.5, 0, -4, 0, 10), 0.5 * std::exp(40), 1e-12 * 0.5 * std::exp(40));
   EXPECT_NEAR(riccati_step(0.5, 3, 4, 0, 0.2), 0.75 + (0.5 - 0.75) * std::exp(-0.8), 1e-15);
-  // Heated and cooled without b: sqrt(a/c) tanh.
+  // Production and dissipation without b: sqrt(a/c) tanh.
   EXPECT_NEAR(riccati_step(0, 3, 0, 2, 0.1), std::sqrt(1.5) * std::tanh(std::sqrt(6.0) * 0.1),
               1e-15);
   // Slow ends: continuous where the root vanishes.

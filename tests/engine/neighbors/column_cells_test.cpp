@@ -16,12 +16,12 @@ namespace {
 /// Columns with the radius of each.
 struct Cloud {
   ParticleSet set;
-  std::vector<double> reach;
+  std::vector<double> support_radius;
 
   void add(double x, double y, double r, double z = 0) {
     set.grow(1);
     set.x.back() = x, set.y.back() = y, set.z.back() = z;
-    reach.push_back(r);
+    support_radius.push_back(r);
   }
 };
 
@@ -83,12 +83,12 @@ bool holds(const std::vector<Vec3>& offsets, const Vec3& offset, double toleranc
 double in_plan(const Vec3& offset) { return std::hypot(offset.x(), offset.y()); }
 
 /// How often a period may lie between a column and a neighbour.
-int turns(const Period& p, double reach) {
-  return p.active ? 1 + static_cast<int>(std::ceil(reach / p.length())) : 0;
+int turns(const Period& p, double support_radius) {
+  return p.active ? 1 + static_cast<int>(std::ceil(support_radius / p.length())) : 0;
 }
 
-/// Pairs within the smaller reach of the two, images included; those of them that are missing, and
-/// neighbours that are seen where nobody stands.
+/// Pairs within the smaller support radius of the two, images included; those of them that are
+/// missing, and neighbours that are seen where there is no column.
 struct PairCount {
   long pairs = 0, missing = 0, phantoms = 0;
 };
@@ -96,7 +96,7 @@ struct PairCount {
 class BruteForce {
  public:
   BruteForce(const Cloud& c, const Domain& d) : cloud_(c) {
-    const double longest = *std::max_element(c.reach.begin(), c.reach.end());
+    const double longest = *std::max_element(c.support_radius.begin(), c.support_radius.end());
     for (int a = -turns(d.x, longest); a <= turns(d.x, longest); ++a)
       for (int b = -turns(d.y, longest); b <= turns(d.y, longest); ++b)
         shifts_.emplace_back(a * d.x.length(), b * d.y.length(), a * d.x.rise + b * d.y.rise);
@@ -104,13 +104,13 @@ class BruteForce {
   void count(const Found& found, std::size_t record, std::uint32_t i, PairCount& out) const {
     const ParticleSet& p = cloud_.set;
     for (std::uint32_t j = 0; j < p.size(); ++j) {
-      const double within = std::min(cloud_.reach[i], cloud_.reach[j]);
+      const double within = std::min(cloud_.support_radius[i], cloud_.support_radius[j]);
       const auto seen = found.offsets(record, j);
       std::vector<Vec3> real;
       for (const Vec3& shift : shifts_)
         real.push_back(Vec3(p.x[j] - p.x[i], p.y[j] - p.y[i], p.z[j] - p.z[i]) + shift);
       for (const Vec3& offset : real) {
-        // On the rim itself a neighbour weighs nothing.
+        // On the edge of the support a neighbour weighs nothing.
         if (in_plan(offset) >= within * (1 - 1e-7)) continue;
         ++out.pairs;
         out.missing += !holds(seen, offset, found.tolerance());
@@ -144,7 +144,7 @@ void expect_each_column_once(const ColumnCells& cells, std::size_t n) {
 
 PairCount count_pairs(const Cloud& c, const Domain& domain) {
   ColumnCells cells;
-  cells.build(c.set, domain, c.reach);
+  cells.build(c.set, domain, c.support_radius);
   expect_each_column_once(cells, c.set.size());
   const BruteForce slow(c, domain);
   PairCount out;
@@ -179,7 +179,7 @@ TEST(ColumnCells, FindEveryPairFarFromTheOrigin) {
   expect_all_found(c, 3000);
 }
 
-TEST(ColumnCells, FindEveryPairOfMixedReaches) {
+TEST(ColumnCells, FindEveryPairOfMixedSupportRadii) {
   expect_all_found(random_cloud(500, 60, 40, 1, 8), 4000);
   expect_all_found(random_cloud(500, 60, 40, 0.01, 16), 4000);
 }
@@ -203,7 +203,7 @@ TEST(ColumnCells, FindEveryPairOfALine) {
 }
 
 TEST(ColumnCells, FindEveryPairOfALattice) {
-  // Many distances equal the reach or a cell's edge.
+  // Many distances equal the support radius or a cell's edge.
   Cloud c;
   for (int i = 0; i < 24; ++i)
     for (int j = 0; j < 20; ++j) c.add(i, j, 4);
@@ -215,7 +215,7 @@ TEST(ColumnCells, HoldOneColumnAndNone) {
   one.add(7, -3, 2);
   expect_all_found(one, 1);  // itself
   ColumnCells cells;
-  cells.build(one.set, {}, one.reach);
+  cells.build(one.set, {}, one.support_radius);
   cells.build(ParticleSet{}, {}, {});
   EXPECT_EQ(cells.size(), 0u);
   EXPECT_EQ(cells.n_groups(), 0u);
@@ -226,10 +226,10 @@ TEST(ColumnCells, StrayColumnsFarAwayCostNoTableOfEmptyCells) {
   c.add(-2e5, 3e5, 4, 800);
   c.add(9e5, 1, 4, -100);
   c.add(9e5 + 1, 2, 4, -100);
-  // Positions are rounded to a billionth of the extent: well under a reach.
+  // Positions are rounded to a billionth of the extent: well under a support radius.
   expect_all_found(c, 300);
   ColumnCells cells;
-  cells.build(c.set, {}, c.reach);
+  cells.build(c.set, {}, c.support_radius);
   EXPECT_LT(cells.bytes(), 300000u);
 }
 
@@ -275,7 +275,7 @@ TEST(ColumnCells, ImagesAreMarked) {
   Cloud c = random_cloud(498, 60, 40, 4, 4);
   c.add(0, 20, 4), c.add(59.99, 20, 4);  // from edge to edge: every image has a neighbour
   ColumnCells cells;
-  cells.build(c.set, d, c.reach);
+  cells.build(c.set, d, c.support_radius);
   std::size_t images = 0, near_edge = 0;
   for (std::size_t k = 0; k < cells.size(); ++k) images += cells.is_image(k);
   for (double x : c.set.x) near_edge += (x < 4) + (x >= 56);
@@ -294,20 +294,20 @@ TEST(ColumnCells, AreTheSameAfterAnyHistory) {
   d.x = period(0, 60, 3);
   const Cloud c = random_cloud(500, 60, 40, 2, 6), other = random_cloud(700, 60, 10, 1, 3, 9);
   ColumnCells fresh, used;
-  fresh.build(c.set, d, c.reach);
-  used.build(other.set, d, other.reach);
-  used.build(c.set, d, c.reach);
+  fresh.build(c.set, d, c.support_radius);
+  used.build(other.set, d, other.support_radius);
+  used.build(c.set, d, c.support_radius);
   EXPECT_EQ(order_of(fresh), order_of(used));
   EXPECT_EQ(fresh.n_groups(), used.n_groups());
   EXPECT_EQ(fresh.view().unit_m, used.view().unit_m);
 }
 
 TEST(ColumnCells, KeepTheStorageOrderWithinACell) {
-  // Three places that columns take turns to stand on: three cells.
+  // Three positions that columns take turns to stand on: three cells.
   Cloud c;
   for (int k = 0; k < 90; ++k) c.add(10 * (k % 3), 0, 4);
   ColumnCells cells;
-  cells.build(c.set, {}, c.reach);
+  cells.build(c.set, {}, c.support_radius);
   const auto order = order_of(cells);
   for (std::size_t k = 0; k < 90; ++k) EXPECT_EQ(order[k], 3 * (k % 30) + k / 30);
 }

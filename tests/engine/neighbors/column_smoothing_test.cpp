@@ -10,16 +10,16 @@ namespace sturz {
 namespace {
 
 TEST(ColumnSmoothing, HasTheIntegralOne) {
-  for (const double reach : {0.3, 1.0, 17.0}) {
-    const ColumnSmoothing w{reach};
+  for (const double support_radius : {0.3, 1.0, 17.0}) {
+    const ColumnSmoothing w{support_radius};
     const int n = 20000;
-    const double step = reach / n;
+    const double step = support_radius / n;
     double integral = 0;
     for (int k = 0; k < n; ++k) {
       const double r = (k + 0.5) * step;
       integral += 2 * std::numbers::pi * r * w.value(r) * step;
     }
-    EXPECT_NEAR(integral, 1, 1e-8) << reach;  // midpoints: (1/n)^2
+    EXPECT_NEAR(integral, 1, 1e-8) << support_radius;  // midpoints: (1/n)^2
   }
 }
 
@@ -32,7 +32,7 @@ TEST(ColumnSmoothing, GradientIsTheDerivative) {
   }
 }
 
-TEST(ColumnSmoothing, EndsSmoothlyAtItsReach) {
+TEST(ColumnSmoothing, EndsSmoothlyAtItsSupportRadius) {
   const ColumnSmoothing w{2};
   for (const double r : {2.0, 2.1, 50.0}) {
     EXPECT_EQ(w.value(r), 0);
@@ -43,7 +43,7 @@ TEST(ColumnSmoothing, EndsSmoothlyAtItsReach) {
   for (double r = 0; r < 1.9; r += 0.1) EXPECT_GT(w.value(r), w.value(r + 0.1));
 }
 
-TEST(ColumnSmoothing, ScalesWithItsReach) {
+TEST(ColumnSmoothing, ScalesWithItsSupportRadius) {
   const ColumnSmoothing one{1}, three{3};
   for (const double q : {0.0, 0.2, 0.55, 0.9}) {
     EXPECT_NEAR(three.value(3 * q), one.value(q) / 9, 1e-15);

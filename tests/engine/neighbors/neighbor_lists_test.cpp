@@ -15,7 +15,7 @@
 namespace sturz {
 namespace {
 
-constexpr double support = 2.6, skin = 0.195, reach = support + skin;
+constexpr double support = 2.6, skin = 0.195, search_radius = support + skin;
 
 NeighborLists make_lists() {
   return NeighborLists(support, skin, sweeps(best_instruction_set()).tight_list);
@@ -53,8 +53,8 @@ std::vector<Copy> copies(const ParticleSet& set, const Domain& d) {
 /// A list's entry where it is now: from the fixed-point offset to a particle that is known.
 Vec3 entry_place(const NeighborLists& lists, const ParticleSet& set, std::size_t anchor,
                  std::uint32_t entry) {
-  const PackedView view = lists.view();
-  const PackedRecord &a = view.records[anchor], &b = view.records[entry];
+  const NeighborView view = lists.view();
+  const NeighborRecord &a = view.records[anchor], &b = view.records[entry];
   const Vec3 units(double(b.x) - a.x, double(b.y) - a.y, double(b.z) - a.z);
   return place(set, anchor) + units * view.unit_m;
 }
@@ -62,8 +62,8 @@ Vec3 entry_place(const NeighborLists& lists, const ParticleSet& set, std::size_t
 /// All pairs closer than `range` must be listed, each once; nothing else than neighbours may be.
 void expect_complete(const NeighborLists& lists, const ParticleSet& set, const Domain& domain,
                      double range, double allowed) {
-  const PackedView view = lists.view();
-  const auto everyone = copies(set, domain);
+  const NeighborView view = lists.view();
+  const auto all = copies(set, domain);
   std::size_t missing = 0, strangers = 0;
   for (std::size_t g = 0; g < lists.n_groups(); ++g) {
     const std::size_t first = g * group_size, last = std::min(set.size(), first + group_size);
@@ -82,7 +82,7 @@ void expect_complete(const NeighborLists& lists, const ParticleSet& set, const D
       strangers += gap(at) > allowed + 1e-5;
       if (entry >= lists.padded_size()) images.push_back(at);
     }
-    for (const Copy& c : everyone) {
+    for (const Copy& c : all) {
       const Vec3 at = place(set, c.source) + c.shift;
       if (gap(at) >= range - 1e-5) continue;
       if (c.shift.isZero(0)) {
@@ -91,9 +91,9 @@ void expect_complete(const NeighborLists& lists, const ParticleSet& set, const D
       }
       const auto here = [&](const Vec3& p) { return (p - at).norm() < 1e-4; };
       const auto listed = std::count_if(images.begin(), images.end(), here);
-      const auto expected =
-          std::count_if(everyone.begin() + set.size(), everyone.end(),
-                        [&](const Copy& o) { return here(place(set, o.source) + o.shift); });
+      const auto expected = std::count_if(all.begin() + set.size(), all.end(), [&](const Copy& o) {
+        return here(place(set, o.source) + o.shift);
+      });
       missing += listed != expected;
     }
   }
@@ -106,7 +106,7 @@ void build_and_check(const std::vector<Vec3>& points, const Domain& domain = {})
   NeighborLists lists = make_lists();
   lists.rebuild(set, domain, 1);
   ASSERT_EQ(lists.n_groups(), (points.size() + group_size - 1) / group_size);
-  expect_complete(lists, set, domain, reach, reach);
+  expect_complete(lists, set, domain, search_radius, search_radius);
 }
 
 std::vector<Vec3> box(std::size_t n, const Vec3& from, const Vec3& to, unsigned seed = 1) {
@@ -188,7 +188,7 @@ TEST(NeighborLists, LongPeriodsDoNotAlias) {
   ParticleSet set = set_of({{0.5, 0, 0}, {1.5, 0, 0}, {2.5, 1, 0}});
   NeighborLists lists = make_lists();
   lists.rebuild(set, domain, 1);
-  expect_complete(lists, set, domain, reach, reach);
+  expect_complete(lists, set, domain, search_radius, search_radius);
   EXPECT_EQ(lists.n_entries(), 3u);
 }
 
@@ -207,7 +207,7 @@ TEST(NeighborLists, OrderDoesNotDependOnStorageOrThreads) {
   b.rebuild(two, domain, 2);
   EXPECT_EQ(one.id, two.id);
   ASSERT_EQ(a.n_entries(), b.n_entries());
-  const PackedView va = a.view(), vb = b.view();
+  const NeighborView va = a.view(), vb = b.view();
   for (std::size_t g = 0; g < a.n_groups(); ++g) {
     ASSERT_EQ(va.list_size(g), vb.list_size(g));
     EXPECT_TRUE(std::equal(va.list(g), va.list(g) + va.list_size(g), vb.list(g)));
@@ -231,9 +231,9 @@ TEST(NeighborLists, MissNoNeighbourAfterMovesWithinTheSkin) {
       moved.y[i] += step.y() + 1.0 * move;
       moved.z[i] += step.z();
     }
-    lists.pack_positions(moved, 0, moved.size());
+    lists.gather_positions(moved, 0, moved.size());
     lists.copy_images();
-    expect_complete(lists, moved, domain, support, reach + skin);
+    expect_complete(lists, moved, domain, support, search_radius + skin);
   }
 }
 
@@ -259,7 +259,7 @@ TEST(NeighborLists, FollowAChangingNumberOfParticles) {
   for (std::size_t n : {100, 300, 7, 40}) {
     ParticleSet set = set_of(box(n, {0, 0, 0}, {6, 6, 6}, static_cast<unsigned>(n)));
     lists.rebuild(set, {}, 1);
-    expect_complete(lists, set, {}, reach, reach);
+    expect_complete(lists, set, {}, search_radius, search_radius);
   }
 }
 

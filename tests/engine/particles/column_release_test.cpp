@@ -104,12 +104,12 @@ TEST(ColumnRelease, HasTheJitterOfTheStacksLowestParticles) {
     ReleaseSettings stacked = columns(3, 0.2, member);
     stacked.columns = false;
     const Release s = release_particles(ground, thickness, stacked);
-    std::set<std::pair<double, double>> places;
-    for (std::size_t i = 0; i < s.x.size(); ++i) places.insert({s.x[i], s.y[i]});
+    std::set<std::pair<double, double>> positions;
+    for (std::size_t i = 0; i < s.x.size(); ++i) positions.insert({s.x[i], s.y[i]});
     // Stacks leave the thinnest edge out.
     std::size_t shared = 0, thick = 0;
     for (std::size_t i = 0; i < c.x.size(); ++i) {
-      shared += places.count({c.x[i], c.y[i]});
+      shared += positions.count({c.x[i], c.y[i]});
       thick += c.thickness[i] >= 0.2 * 3;
     }
     EXPECT_EQ(shared, thick);

@@ -103,11 +103,11 @@ TEST(History, TheTableNamesEveryFieldOnceInOrder) {
   EXPECT_FALSE(dry.has(HistoryPart::states) || dry.has(HistoryPart::temperature));
 }
 
-/// Parcels in a row that have moved: parcel i by i metres eastward, at i m/s.
+/// Particles in a row that have moved: particle i by i metres eastward, at i m/s.
 SimulationParts moved_row(int n) {
-  std::vector<Vec3> places;
-  for (int i = 0; i < n; ++i) places.emplace_back(0, i, 0.5 * i);
-  test::HandMade made = test::parcels_on(test::even_ground(2 * n + 4), places, {0, 0, 0});
+  std::vector<Vec3> positions;
+  for (int i = 0; i < n; ++i) positions.emplace_back(0, i, 0.5 * i);
+  test::HandMade made = test::particles_on(test::even_ground(2 * n + 4), positions, {0, 0, 0});
   SimulationParts parts{std::move(made.state), std::move(made.step),
                         PeakMaps({.grid = Grid{1, 1, 0, 1, 1, ""}}), StopRule({})};
   MovingSet& p = parts.state.grains();
@@ -133,12 +133,12 @@ TEST(Travel, FrontAndTailAreSharesOfTheMass) {
   std::vector<ParticleTravel> each;
   measure(parts.state, each);
   const FrontAndTail ends = front_and_tail(each);
-  EXPECT_EQ(ends.front_speed, 199.5);  // parcels 199 and 200 of 201
+  EXPECT_EQ(ends.front_speed, 199.5);  // particles 199 and 200 of 201
   EXPECT_EQ(ends.tail_speed, 1);       // 0, 1, 2: two of 201 are less than 1 %
   EXPECT_EQ(ends.tail_travel, 10);     // 0 .. 10: ten of 201 are less than 5 %
 }
 
-TEST(Travel, AHeavyParcelCountsByItsMass) {
+TEST(Travel, AHeavyParticleCountsByItsMass) {
   SimulationParts parts = moved_row(201);
   parts.state.grains().mass[150] *= 1e6;
   std::vector<ParticleTravel> each;
@@ -149,7 +149,7 @@ TEST(Travel, AHeavyParcelCountsByItsMass) {
   EXPECT_GT(ends.tail_speed, 149);
 }
 
-TEST(Travel, OneParcelIsFrontAndTail) {
+TEST(Travel, OneParticleIsFrontAndTail) {
   SimulationParts parts = moved_row(1);
   parts.state.grains().vz[0] = -3;
   parts.state.grains().x[0] += 4;

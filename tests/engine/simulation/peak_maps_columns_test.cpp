@@ -25,10 +25,10 @@ struct Columns {
   ParticleSet set;
 
   Columns() { set.add(fields::support_radius); }
-  void add(double x, double y, double volume, double reach) {
+  void add(double x, double y, double volume, double support_radius) {
     set.grow(1);
     set.x.back() = x, set.y.back() = y, set.mass.back() = density * volume;
-    set.scalar(fields::support_radius).back() = reach;
+    set.scalar(fields::support_radius).back() = support_radius;
   }
 };
 
@@ -51,9 +51,9 @@ MemberResult particle_of_width(double x, double y, double volume, double width) 
   return maps_of({grid, width, density, 1e-6}, p);
 }
 
-MemberResult column_of_reach(double x, double y, double volume, double reach) {
+MemberResult column_of_radius(double x, double y, double volume, double support_radius) {
   Columns c;
-  c.add(x, y, volume, reach);
+  c.add(x, y, volume, support_radius);
   // The spacing does not count: columns stretch and crowd.
   return maps_of({grid, 1, density, 1e-6}, c.set);
 }
@@ -67,17 +67,17 @@ void expect_same_maps(const MemberResult& a, const MemberResult& b) {
   }
 }
 
-TEST(ColumnMaps, AFootprintFollowsItsReach) {
-  for (const double reach : {20.0, 28.0, 47.3, 90.0, 160.0})
+TEST(ColumnMaps, AFootprintFollowsItsSupportRadius) {
+  for (const double support_radius : {20.0, 28.0, 47.3, 90.0, 160.0})
     expect_same_maps(
-        column_of_reach(301.7, 252.2, 800, reach),
-        particle_of_width(301.7, 252.2, 800, PeakMapSettings{}.width_per_reach * reach));
+        column_of_radius(301.7, 252.2, 800, support_radius),
+        particle_of_width(301.7, 252.2, 800, PeakMapSettings{}.width_per_radius * support_radius));
 }
 
 TEST(ColumnMaps, AFootprintIsAtLeastACellWide) {
   const MemberResult cell = particle_of_width(301.7, 252.2, 800, 5);
-  for (const double reach : {0.1, 4.0, 13.3})
-    expect_same_maps(column_of_reach(301.7, 252.2, 800, reach), cell);
+  for (const double support_radius : {0.1, 4.0, 13.3})
+    expect_same_maps(column_of_radius(301.7, 252.2, 800, support_radius), cell);
 }
 
 TEST(ColumnMaps, EachColumnHasItsOwnWidth) {
@@ -85,8 +85,8 @@ TEST(ColumnMaps, EachColumnHasItsOwnWidth) {
   both.add(152.5, 252.5, 300, 80);
   both.add(450, 251, 500, 24);
   const MemberResult r = maps_of({grid, 1, density, 1e-6}, both.set);
-  const MemberResult wide = column_of_reach(152.5, 252.5, 300, 80);
-  const MemberResult narrow = column_of_reach(450, 251, 500, 24);
+  const MemberResult wide = column_of_radius(152.5, 252.5, 300, 80);
+  const MemberResult narrow = column_of_radius(450, 251, 500, 24);
   for (int row = 0; row < grid.n_rows; ++row)
     for (int col = 0; col < grid.n_cols; ++col)
       EXPECT_EQ(at(r, PeakLayer::deposit, row, col),
@@ -97,7 +97,7 @@ double volume_of(const ParticleSet& p) {
   return std::accumulate(p.mass.begin(), p.mass.end(), 0.0) / density;
 }
 
-TEST(ColumnMaps, KeepVolumeWhateverTheReaches) {
+TEST(ColumnMaps, KeepVolumeWhateverTheSupportRadii) {
   for (const auto& [least, most] : {std::pair(1.0, 10.0), {16.0, 16.0}, {10.0, 200.0}}) {
     const Columns c = random_columns(400, least, most);
     const MemberResult r = maps_of({grid, 3, density, 1e-3}, c.set);
@@ -108,18 +108,18 @@ TEST(ColumnMaps, KeepVolumeWhateverTheReaches) {
   }
 }
 
-TEST(ColumnMaps, FollowReachesThatGrowAndShrink) {
+TEST(ColumnMaps, FollowSupportRadiiThatGrowAndShrink) {
   Columns c = random_columns(200, 20, 20);
-  auto& reach = c.set.scalar(fields::support_radius);
+  auto& support_radius = c.set.scalar(fields::support_radius);
   test::OneSetMaps maps({grid, 1, density, 1e-3});
   for (const double now : {20.0, 110.0, 6.0, 61.0}) {
-    std::fill(reach.begin(), reach.end(), now);
+    std::fill(support_radius.begin(), support_radius.end(), now);
     maps.record(c.set, now);
   }
   MemberResult r, narrow;
   maps.finish(c.set, r);
   EXPECT_NEAR(sum_of(r.layer(PeakLayer::deposit)) * 25, volume_of(c.set), 3e-8 * volume_of(c.set));
-  std::fill(reach.begin(), reach.end(), 6.0);
+  std::fill(support_radius.begin(), support_radius.end(), 6.0);
   narrow = maps_of({grid, 1, density, 1e-3}, c.set);
   EXPECT_EQ(r.scalars.max_thickness_m, narrow.scalars.max_thickness_m) << "narrowest is thickest";
   EXPECT_LT(r.scalars.max_deposit_m, narrow.scalars.max_deposit_m);
@@ -132,16 +132,16 @@ TEST(ColumnMaps, WidthsThatJustTouchOneMoreCellStayInTheirRoom) {
   for (const double cell : {0.3, 5.0, 7.0})
     for (int thirds = 4; thirds < 24; ++thirds)
       for (const double beside : {-1e9, 0.0, 1e9}) {
-        const double reach = std::nextafter(4 * cell * thirds / 3, beside);
+        const double support_radius = std::nextafter(4 * cell * thirds / 3, beside);
         const Grid g{60, 60, 0, 60 * cell, cell, ""};
         Columns c;
-        c.add(29.8 * cell, 31.3 * cell, 10, reach);
+        c.add(29.8 * cell, 31.3 * cell, 10, support_radius);
         const MemberResult r = maps_of({g, 1, density, 1e-6}, c.set);
         EXPECT_NEAR(sum_of(r.layer(PeakLayer::deposit)) * cell * cell, 10, 1e-6);
       }
 }
 
-/// n x n particles of 1 m spacing on the centres of cells of 1 m: `layers` thick but at its rim.
+/// n x n particles of 1 m spacing on the centres of cells of 1 m: `layers` thick but at its edge.
 test::OneSetMaps plate(int n, double layers) {
   ParticleSet p;
   p.grow(static_cast<std::size_t>(n) * n);
@@ -161,9 +161,9 @@ TEST(LayerCount, AnEvenPlateHasItsLayers) {
 }
 
 TEST(LayerCount, ExactlyFourLayersAreNotThin) {
-  // The rim's cells carry 7/8 and 1/8 of four layers: they are thin.
-  const double rim = 1 - 58.0 * 58 / (60 * 60);
-  EXPECT_NEAR(plate(60, 4).layers().thin_fraction, rim, 1e-12);
+  // The edge's cells carry 7/8 and 1/8 of four layers: they are thin.
+  const double edge = 1 - 58.0 * 58 / (60 * 60);
+  EXPECT_NEAR(plate(60, 4).layers().thin_fraction, edge, 1e-12);
   EXPECT_NEAR(plate(60, 3.999).layers().thin_fraction, 1, 1e-12);
   EXPECT_LT(plate(60, 300).layers().thin_fraction, 1e-12);
 }

@@ -172,13 +172,13 @@ TEST(PeakMaps, MassBeyondTheGridIsDroppedNotPushedIn) {
   const Grid g{20, 20, 0, 100, 5, ""};
   ParticleSet p;
   p.grow(3);
-  p.x = {0.0, 50, 500}, p.y = {50, 50, 50};  // on the western rim, inside, far away
+  p.x = {0.0, 50, 500}, p.y = {50, 50, 50};  // on the western edge, inside, far away
   p.mass = {density, density, density};
   const MemberResult r = maps_of({g, 5, density, 1e-6}, p);
   EXPECT_NEAR(sum_of(r.layer(PeakLayer::deposit)) * 25, 1.5, 1e-6);
-  const double rim =
+  const double edge =
       at(r, PeakLayer::deposit, g.row_of(52.5), 0) + at(r, PeakLayer::deposit, g.row_of(47.5), 0);
-  EXPECT_NEAR(rim, 0.5 / 25, 1e-7);
+  EXPECT_NEAR(edge, 0.5 / 25, 1e-7);
 }
 
 TEST(PeakMaps, TheWindowIsTightAndNothingMakesAnEmptyOne) {

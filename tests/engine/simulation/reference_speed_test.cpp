@@ -67,7 +67,7 @@ TEST(ReferenceSpeed, NeverFallsBelowTheThicknessOfTheRelease) {
 }
 
 TEST(ReferenceSpeed, NeverExceedsWhatGravityGives) {
-  // Cliffs, take-offs and noise of two metres from node to node.
+  // Cliffs, detachments and noise of two metres from node to node.
   const auto rough = [](double x, double y) {
     const int k = static_cast<int>(x / 5) * 31 + static_cast<int>(y / 5) * 17;
     return 400 - 0.2 * x - 80 * (x > 500) - 60 * (x > 900) + 2 * std::sin(k * 1.7);
@@ -84,7 +84,7 @@ TEST(ReferenceSpeed, NeverExceedsWhatGravityGives) {
   EXPECT_GT(reference_speed(t, point_at(t, 480, 150), 0.1, 5, 200), 20);
 }
 
-TEST(ReferenceSpeed, PitsNodataAndRimsAreSurvived) {
+TEST(ReferenceSpeed, PitsNodataAndBoundariesAreSurvived) {
   const Terrain pit = terrain_of([](double x, double y) {
     const double r = std::hypot(x - 500, y - 150);
     return r > 400 ? nan_d : 0.002 * r * r;

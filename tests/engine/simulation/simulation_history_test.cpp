@@ -15,7 +15,7 @@
 namespace sturz {
 namespace {
 
-/// A few hundred grains that go over a cliff: the front parts in the air.
+/// A few hundred grains that go over a cliff: the front separates in the air.
 Scenario over_the_cliff() {
   Scenario s = cliff(2);
   s.numerics.end_time_s = 3;
@@ -74,26 +74,26 @@ TEST(SimulationHistory, ADenseSceneTellsHowMuchOfItParted) {
 TEST(SimulationHistory, StatesSumToOneAndAgreeWithTheScalars) {
   const MemberResult r = run(with_states(over_the_cliff()));
   ASSERT_TRUE(r.history.has_states && r.history.has_temperature);
-  double dilute = 0, hottest = 0;
+  double dilute = 0, largest_temperature = 0;
   const auto& rows = r.history.rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const HistoryRow& row = rows[i];
     EXPECT_NEAR(row.dense + row.transition + row.dilute + row.ultradilute, 1, 1e-6);
     EXPECT_LE(row.mean_granular_temperature_m2_s2, row.max_granular_temperature_m2_s2);
     if (i > 0) dilute += row.dilute * (row.time_s - rows[i - 1].time_s);
-    hottest = std::max<double>(hottest, row.max_granular_temperature_m2_s2);
+    largest_temperature = std::max<double>(largest_temperature, row.max_granular_temperature_m2_s2);
   }
   const MemberScalars& s = r.scalars;
   EXPECT_GT(s.dilute_fraction, 0);
   EXPECT_NEAR(dilute / s.end_time_s, s.dilute_fraction, 0.02 * s.dilute_fraction + 1e-4);
   EXPECT_GT(s.transition_fraction, 0);
-  EXPECT_GE(s.max_granular_temperature_m2_s2, hottest * (1 - 1e-6));
-  EXPECT_GT(hottest, 0);
+  EXPECT_GE(s.max_granular_temperature_m2_s2, largest_temperature * (1 - 1e-6));
+  EXPECT_GT(largest_temperature, 0);
   EXPECT_NEAR(s.granular_ratio * s.max_speed_m_s * s.max_speed_m_s,
               s.max_granular_temperature_m2_s2, 1e-9 * s.max_granular_temperature_m2_s2);
 }
 
-TEST(SimulationHistory, ColumnsHaveAHistoryButKnowNothingOfParting) {
+TEST(SimulationHistory, ColumnsHaveAHistoryButHaveNoStates) {
   Scenario s = over_the_cliff();
   s.formulation = Formulation::depth_averaged;
   const MemberResult r = run(s);
@@ -111,7 +111,7 @@ TEST(SimulationHistory, EndsWithTheLastOfTheMass) {
   s.numerics.end_time_s = 30;
   const MemberResult r = run(s);
   ASSERT_EQ(r.outcome, Outcome::left_terrain);
-  EXPECT_GT(r.history.rows.back().front_travel_m, 5) << "nobody is left to measure";
+  EXPECT_GT(r.history.rows.back().front_travel_m, 5) << "no particle is left to measure";
 }
 
 TEST(SimulationHistory, FramesShowStatesWhereThereAreStates) {
@@ -191,14 +191,14 @@ TEST(SimulationHistory, TheComputingTimeIsSharedOutByEffect) {
     ASSERT_NE(seconds_of(with.effect_seconds, name), nullptr) << name;
     EXPECT_GT(*seconds_of(with.effect_seconds, name), 0) << name;
   }
-  EXPECT_EQ(seconds_of(without.pass_seconds, "pair sweep, groups that fly"), nullptr);
-  const double* flying = seconds_of(with.pass_seconds, "pair sweep, groups that fly");
-  ASSERT_NE(flying, nullptr);
-  EXPECT_GT(*flying, 0);
-  EXPECT_LT(*flying, *seconds_of(with.effect_seconds, EffectName::kinetic_theory));
+  EXPECT_EQ(seconds_of(without.pass_seconds, "pair sweep, dispersed groups"), nullptr);
+  const double* dispersed = seconds_of(with.pass_seconds, "pair sweep, dispersed groups");
+  ASSERT_NE(dispersed, nullptr);
+  EXPECT_GT(*dispersed, 0);
+  EXPECT_LT(*dispersed, *seconds_of(with.effect_seconds, EffectName::kinetic_theory));
 }
 
-TEST(SimulationHistory, GroupsThatFlyTakeNoTimeWhereNobodyFlies) {
+TEST(SimulationHistory, DispersedGroupsTakeNoTimeInADenseMass) {
   // A sheet without edges, at rest.
   Scenario s = with_states(thin_sheet(8));
   s.terrain.synthetic->parameters["slope_deg"] = 0;
@@ -206,8 +206,8 @@ TEST(SimulationHistory, GroupsThatFlyTakeNoTimeWhereNobodyFlies) {
   const MemberResult r = run(s);
   const MemberScalars& m = r.scalars;
   ASSERT_EQ(m.transition_fraction + m.dilute_fraction + m.ultradilute_fraction, 0);
-  ASSERT_NE(seconds_of(r.pass_seconds, "pair sweep, groups that fly"), nullptr);
-  EXPECT_EQ(*seconds_of(r.pass_seconds, "pair sweep, groups that fly"), 0);
+  ASSERT_NE(seconds_of(r.pass_seconds, "pair sweep, dispersed groups"), nullptr);
+  EXPECT_EQ(*seconds_of(r.pass_seconds, "pair sweep, dispersed groups"), 0);
   EXPECT_GT(*seconds_of(r.pass_seconds, "pair sweep"), 0);
 }
 

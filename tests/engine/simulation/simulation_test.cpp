@@ -92,9 +92,9 @@ TEST(Simulation, PairForcesHaveNoDrift) {
   const Scenario s = small_slide();
   Simulation simulation = assemble(s, load_scene_inputs(s), 0, 1);
   simulation.run();
-  const Ledger& book = simulation.parts().state.grains().ledger;
-  for (double impulse : book.stress_impulse)
-    EXPECT_LT(std::abs(impulse), 1e-6 * book.stress_impulse_scale);
+  const Ledger& ledger = simulation.parts().state.grains().ledger;
+  for (double impulse : ledger.stress_impulse)
+    EXPECT_LT(std::abs(impulse), 1e-6 * ledger.stress_impulse_scale);
 }
 
 TEST(Simulation, TellsWhatBoundItsStep) {
@@ -136,7 +136,7 @@ TEST(Simulation, CanBeCancelled) {
   const MemberResult result = assemble(s, load_scene_inputs(s), 0, 1).run(control);
   EXPECT_EQ(result.outcome, Outcome::cancelled);
   EXPECT_THAT(result.reason, testing::StartsWith("cancelled at t = "));
-  EXPECT_EQ(result.scalars.n_steps, 48);  // every 16 steps someone looks
+  EXPECT_EQ(result.scalars.n_steps, 48);  // sampled every 16 steps
   ASSERT_EQ(seen.size(), 3u);
   EXPECT_LT(seen[0].time_s, seen[1].time_s);
   EXPECT_EQ(seen[0].end_time_s, 4);

@@ -18,7 +18,7 @@ MovingSet four_grains() {
   MovingSet p;
   p.grow(4);
   p.mass = {1, 2, 3, 4};
-  p.add(fields::compression).component[0] = {0.01, -0.019, -0.5, -0.99};
+  p.add(fields::density_change).component[0] = {0.01, -0.019, -0.5, -0.99};
   p.add(fields::state).value = {static_cast<std::uint8_t>(GrainState::dense),
                                 static_cast<std::uint8_t>(GrainState::transition),
                                 static_cast<std::uint8_t>(GrainState::dilute),
@@ -45,13 +45,13 @@ TEST(StateShares, AreSharesOfTheMass) {
   EXPECT_DOUBLE_EQ(s.transition, 0.2);
   EXPECT_DOUBLE_EQ(s.dilute, 0.3);
   EXPECT_DOUBLE_EQ(s.ultradilute, 0.4);
-  EXPECT_DOUBLE_EQ(s.parted, 0.7);
+  EXPECT_DOUBLE_EQ(s.dilated, 0.7);
   EXPECT_DOUBLE_EQ(s.mean_theta, 0.7);
   EXPECT_DOUBLE_EQ(s.max_theta, 2);
 }
 
 TEST(StateShares, PartAtTheStrainThatTheStressLawKnows) {
-  EXPECT_EQ(parted_compression, GrainStressSettings::separation);
+  EXPECT_EQ(dilated_density_change, GrainStressSettings::separation_threshold);
 }
 
 TEST(StateShares, AreNotMadeUpWhereNothingIsKnown) {
@@ -59,20 +59,20 @@ TEST(StateShares, AreNotMadeUpWhereNothingIsKnown) {
   columns.grow(2);
   columns.mass = {1, 1};
   const StateShares none = shares_of(columns);
-  EXPECT_TRUE(std::isnan(none.parted));
+  EXPECT_TRUE(std::isnan(none.dilated));
   EXPECT_EQ(none.dense + none.transition + none.dilute + none.ultradilute, 0);
   MovingSet empty = four_grains();
   empty.compact(std::vector<std::uint8_t>{0, 0, 0, 0});
-  EXPECT_EQ(shares_of(empty).parted, 0);
+  EXPECT_EQ(shares_of(empty).dilated, 0);
 }
 
 TEST(StateTimes, WeighSharesByHowLongTheyHeld) {
   StateTimes times;
   StateShares s;
   times.add(s, 0);
-  s.parted = 0.5, s.dilute = 0.2, s.ultradilute = 0.1, s.transition = 0.3;
+  s.dilated = 0.5, s.dilute = 0.2, s.ultradilute = 0.1, s.transition = 0.3;
   times.add(s, 1);
-  s.parted = 0.1, s.dilute = 0, s.ultradilute = 0, s.transition = 0;
+  s.dilated = 0.1, s.dilute = 0, s.ultradilute = 0, s.transition = 0;
   times.add(s, 3);
   MemberScalars m;
   times.write(m);
@@ -85,7 +85,7 @@ TEST(StateTimes, WeighSharesByHowLongTheyHeld) {
 TEST(StateTimes, OfNoTimeAreWhatThereIsNow) {
   StateTimes times;
   StateShares s;
-  s.parted = 0.25;
+  s.dilated = 0.25;
   times.add(s, 0);
   MemberScalars m;
   times.write(m);

@@ -87,8 +87,8 @@ TEST(StopRule, StopsAfterASlideHasComeToRest) {
 TEST(StopRule, KineticEnergyAboveAThousandthOfThePeakKeepsItOpen) {
   const auto swinging = [](double t) { return MotionSummary{t, t < 2 ? 1e8 : 1.01e5, 50, 30}; };
   EXPECT_EQ(stop_time(field_scale(), swinging), never);
-  const auto calm = [](double t) { return MotionSummary{t, t < 2 ? 1e8 : 0.99e5, 50, 30}; };
-  EXPECT_LT(stop_time(field_scale(), calm), 10);
+  const auto calm_end = [](double t) { return MotionSummary{t, t < 2 ? 1e8 : 0.99e5, 50, 30}; };
+  EXPECT_LT(stop_time(field_scale(), calm_end), 10);
 }
 
 TEST(StopRule, CreepOfTheFrontKeepsItOpen) {

@@ -50,7 +50,7 @@ TEST(ChangingTerrain, EqualsOneThatWasSoFromTheStart) {
     const double x = place(random), y = place(random);
     ASSERT_EQ(changing.height(x, y), whole.height(x, y));
     ASSERT_EQ(changing.surface(x, y).normal, whole.surface(x, y).normal);
-    ASSERT_EQ(changing.curved(x, y).bend_ee, whole.curved(x, y).bend_ee);
+    ASSERT_EQ(changing.curved(x, y).curvature_ee, whole.curved(x, y).curvature_ee);
     // Bounds decide how a distance is found: they must know the new steps of the ground.
     const Vec3 p(x, y, whole.height(x, y) + above(random));
     ASSERT_NEAR(changing.distance(p, 1).distance, whole.distance(p, 1).distance, 1e-12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The rounded ground under columns: exact where it can be, smooth everywhere, honest at its rims.
+/// The rounded ground under columns: exact where it can be, smooth everywhere, honest at its edges.
 #include "engine/terrain/terrain.hpp"
 #include "tests/support/formula_ground.hpp"
 
@@ -43,9 +43,9 @@ void expect_same(const CurvedSurface& a, const CurvedSurface& b, double x, doubl
   EXPECT_EQ(a.z, b.z) << x << " " << y;
   EXPECT_EQ(a.east, b.east) << x << " " << y;
   EXPECT_EQ(a.north, b.north) << x << " " << y;
-  EXPECT_EQ(a.bend_ee, b.bend_ee) << x << " " << y;
-  EXPECT_EQ(a.bend_en, b.bend_en) << x << " " << y;
-  EXPECT_EQ(a.bend_nn, b.bend_nn) << x << " " << y;
+  EXPECT_EQ(a.curvature_ee, b.curvature_ee) << x << " " << y;
+  EXPECT_EQ(a.curvature_en, b.curvature_en) << x << " " << y;
+  EXPECT_EQ(a.curvature_nn, b.curvature_nn) << x << " " << y;
 }
 
 TEST(CurvedSurface, IsExactOnPlanesOfAnyTilt) {
@@ -59,7 +59,8 @@ TEST(CurvedSurface, IsExactOnPlanesOfAnyTilt) {
         EXPECT_NEAR(s.z, plane(p.x(), p.y()), 1e-11);
         EXPECT_NEAR(s.east, east, 1e-12);
         EXPECT_NEAR(s.north, north, 1e-12);
-        for (const double bend : {s.bend_ee, s.bend_en, s.bend_nn}) EXPECT_NEAR(bend, 0, 1e-12);
+        for (const double curvature : {s.curvature_ee, s.curvature_en, s.curvature_nn})
+          EXPECT_NEAR(curvature, 0, 1e-12);
       }
     }
 }
@@ -78,9 +79,9 @@ TEST(CurvedSurface, IsExactOnQuadraticsButForItsRounding) {
     EXPECT_NEAR(s.z, z(x, y) + rounding, 1e-11);
     EXPECT_NEAR(s.east, 0.3 + ee * x + en * y, 1e-12);
     EXPECT_NEAR(s.north, -0.2 + en * x + nn * y, 1e-12);
-    EXPECT_NEAR(s.bend_ee, ee, 1e-12);
-    EXPECT_NEAR(s.bend_en, en, 1e-12);
-    EXPECT_NEAR(s.bend_nn, nn, 1e-12);
+    EXPECT_NEAR(s.curvature_ee, ee, 1e-12);
+    EXPECT_NEAR(s.curvature_en, en, 1e-12);
+    EXPECT_NEAR(s.curvature_nn, nn, 1e-12);
   }
 }
 
@@ -98,9 +99,9 @@ TEST(CurvedSurface, SlopesAndBendsAreDerivativesOfItsHeight) {
     EXPECT_NEAR((n.z - o.z) / (2 * step), s.north, 3.2 * step);
     if (std::abs(std::remainder(x, cell)) < step || std::abs(std::remainder(y, cell)) < step)
       continue;
-    EXPECT_NEAR((e.east - w.east) / (2 * step), s.bend_ee, 1e-7);
-    EXPECT_NEAR((e.north - w.north) / (2 * step), s.bend_en, 1e-7);
-    EXPECT_NEAR((n.north - o.north) / (2 * step), s.bend_nn, 1e-7);
+    EXPECT_NEAR((e.east - w.east) / (2 * step), s.curvature_ee, 1e-7);
+    EXPECT_NEAR((e.north - w.north) / (2 * step), s.curvature_en, 1e-7);
+    EXPECT_NEAR((n.north - o.north) / (2 * step), s.curvature_nn, 1e-7);
   }
 }
 
@@ -112,18 +113,18 @@ TEST(CurvedSurface, HeightsAndSlopesAreContinuousAcrossCellBorders) {
     EXPECT_NEAR(a.east, b.east, 1e-7);
     EXPECT_NEAR(a.north, b.north, 1e-7);
   };
-  double bend_jump = 0;
+  double curvature_jump = 0;
   for (int k = 2; k < 19; ++k)
     for (const double along : {-7.3, -31.1, -40.0, -62.9}) {
       const double x = k * cell;
       const CurvedSurface west = t.curved(x - hair, along), east = t.curved(x + hair, along);
       expect_close(west, east);
-      bend_jump = std::max(bend_jump, std::abs(west.bend_ee - east.bend_ee));
+      curvature_jump = std::max(curvature_jump, std::abs(west.curvature_ee - east.curvature_ee));
     }
   for (int k = 2; k < 15; ++k)
     for (const double along : {7.3, 31.1, 50.0, 90.9})
       expect_close(t.curved(along, -k * cell - hair), t.curved(along, -k * cell + hair));
-  EXPECT_GT(bend_jump, 0.1) << "borders of the spline's patches were looked at";
+  EXPECT_GT(curvature_jump, 0.1) << "borders of the spline's patches were looked at";
 }
 
 TEST(CurvedSurface, StaysWithinTheNodesAroundIt) {
@@ -164,7 +165,7 @@ void expect_patch_seen(int row0, int col0, int n_rows, int n_cols) {
   EXPECT_TRUE(changed);
 }
 
-TEST(CurvedSurface, SeesAPatchAlsoWhereItsNodesStraddleTheRim) { expect_patch_seen(6, 7, 4, 5); }
+TEST(CurvedSurface, SeesAPatchAlsoWhereItsNodesStraddleTheEdge) { expect_patch_seen(6, 7, 4, 5); }
 
 TEST(CurvedSurface, SeesAPatchOfOneNode) { expect_patch_seen(8, 10, 1, 1); }
 
@@ -192,7 +193,7 @@ void expect_bilinear(const Terrain& t, double x, double y) {
   EXPECT_TRUE(s.known) << x << " " << y;
   EXPECT_EQ(s.z, flat.z) << x << " " << y;
   EXPECT_LT((upward_normal(s.east, s.north) - flat.normal).norm(), 1e-14) << x << " " << y;
-  EXPECT_EQ(s.bend(1, 2), 0) << x << " " << y;
+  EXPECT_EQ(s.curvature(1, 2), 0) << x << " " << y;
 }
 
 TEST(CurvedSurface, IsBilinearBesideUnknownCells) {
@@ -200,11 +201,11 @@ TEST(CurvedSurface, IsBilinearBesideUnknownCells) {
   nodes.at(7, 9) = nan_d;
   const Terrain t = ground_of(nodes);
   const double x = grid.x_center(9), y = grid.y_center(7);
-  // Outside the four blocks that the unknown node spoils, within reach of the stencil.
+  // Outside the four blocks that the unknown node spoils, within the stencil.
   expect_bilinear(t, x + 1.2 * cell, y);
   expect_bilinear(t, x - 1.4 * cell, y + 0.3 * cell);
   expect_bilinear(t, x + 1.1 * cell, y - 1.1 * cell);
-  EXPECT_NE(t.curved(x + 1.6 * cell, y).bend(1, 0), 0) << "farther on it is smooth again";
+  EXPECT_NE(t.curved(x + 1.6 * cell, y).curvature(1, 0), 0) << "farther on it is smooth again";
   const CurvedSurface hole = t.curved(x + 0.9 * cell, y);
   EXPECT_FALSE(hole.known);
   EXPECT_TRUE(std::isfinite(hole.z));
@@ -230,16 +231,16 @@ TEST(CurvedSurface, IsUnknownAndLevelOutside) {
     EXPECT_EQ(s.z, t.height(p.x(), p.y()));
     EXPECT_EQ(s.east, 0);
     EXPECT_EQ(s.north, 0);
-    EXPECT_EQ(s.bend(3, 4), 0);
+    EXPECT_EQ(s.curvature(3, 4), 0);
   }
   EXPECT_FALSE(t.curved(nan_d, -40).known);
 }
 
 TEST(CurvedSurface, BendIsTheSecondDerivativeAlongAVelocity) {
   CurvedSurface s;
-  s.bend_ee = 0.1, s.bend_en = -0.02, s.bend_nn = 0.03;
+  s.curvature_ee = 0.1, s.curvature_en = -0.02, s.curvature_nn = 0.03;
   const double vx = 3, vy = -4;  // speed 5: d2z/ds2 of the profile along (0.6, -0.8), times 25
-  EXPECT_NEAR(s.bend(vx, vy), 25 * (0.1 * 0.36 + 2 * 0.02 * 0.48 + 0.03 * 0.64), 1e-15);
+  EXPECT_NEAR(s.curvature(vx, vy), 25 * (0.1 * 0.36 + 2 * 0.02 * 0.48 + 0.03 * 0.64), 1e-15);
 }
 
 }  // namespace

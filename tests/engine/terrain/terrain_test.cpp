@@ -66,24 +66,25 @@ TEST(Terrain, DistanceToAPlaneIsExactAtAnySlopeAndSide) {
       const double a = slope * std::cos(turn), b = slope * std::sin(turn);
       const Terrain t = terrain_of([&](double x, double y) { return a * x + b * y; });
       const Vec3 n = Vec3(-a, -b, 1).normalized();
-      for (double reach : {1.0, 4.9, 12.0})
+      for (double contact_distance : {1.0, 4.9, 12.0})
         for (double d : {-0.7, -1e-3, 0.0, 0.2, 0.9})
           for (double shift : {0.0, 1.3, 2.5, 4.9}) {
             const Vec3 foot(50 + shift, -40 - 0.7 * shift,
                             a * (50 + shift) - b * (40 + 0.7 * shift));
-            const SurfaceDistance s = t.distance(foot + d * reach * n, reach);
-            EXPECT_NEAR(s.distance, d * reach, 1e-9) << slope << ' ' << turn << ' ' << reach;
+            const SurfaceDistance s = t.distance(foot + d * contact_distance * n, contact_distance);
+            EXPECT_NEAR(s.distance, d * contact_distance, 1e-9)
+                << slope << ' ' << turn << ' ' << contact_distance;
             EXPECT_LT((s.normal - n).norm(), 1e-6) << slope << ' ' << turn << ' ' << d;
           }
     }
 }
 
-TEST(Terrain, FeelsACliffBesideTheParticle) {
+TEST(Terrain, SeesACliffBesideTheParticle) {
   // Flat up to x = 52.5, then 60 degrees up.
   const double tan60 = std::sqrt(3.0);
   const Terrain t =
       terrain_of([&](double x, double) { return x > 52.5 ? (x - 52.5) * tan60 : 0.0; });
-  const double reach = 2;
+  const double contact_distance = 2;
   for (double x : {50.0, 51.0, 52.0, 52.4, 52.5, 53.0})
     for (double z : {0.5, 1.0, 1.8}) {
       const Vec3 p(x, -31.0, z);
@@ -91,7 +92,7 @@ TEST(Terrain, FeelsACliffBesideTheParticle) {
       const double to_cliff = ((52.5 - x) * tan60 + z) * 0.5;
       const double exact = x < 52.5 ? std::min(to_floor, to_cliff) : to_cliff;
       if (x > 52.5 && z < (x - 52.5) * tan60) continue;
-      EXPECT_NEAR(t.distance(p, reach).distance, exact, 1e-6) << x << ' ' << z;
+      EXPECT_NEAR(t.distance(p, contact_distance).distance, exact, 1e-6) << x << ' ' << z;
     }
 }
 
@@ -105,23 +106,23 @@ TEST(Terrain, DistanceNeverLiesAboutTheSideNorJumpsAcrossSeams) {
     const double cliff = 1.7 * std::clamp(x - 70, 0.0, 12.0);
     return pit + ridge + cliff + 0.3 * unit(random);
   });
-  const double reach = 2.5;
+  const double contact_distance = 2.5;
   for (int i = 0; i < 4000; ++i) {
     const double x = 6 + 86 * unit(random), y = -6 - 66 * unit(random);
-    const double above = reach * (2 * unit(random) - 0.5);
+    const double above = contact_distance * (2 * unit(random) - 0.5);
     const Vec3 p(x, y, t.height(x, y) + above);
-    const SurfaceDistance s = t.distance(p, reach);
+    const SurfaceDistance s = t.distance(p, contact_distance);
     ASSERT_TRUE(std::isfinite(s.distance));
     ASSERT_EQ(s.distance > 0, above > 0) << p.transpose();
     ASSERT_NEAR(s.normal.norm(), 1, 1e-12);
     ASSERT_GT(s.normal.z(), 0) << p.transpose();
     ASSERT_LE(std::abs(s.distance), std::abs(above) + 1e-12);
-    if (std::abs(s.distance) > reach) continue;
+    if (std::abs(s.distance) > contact_distance) continue;
     // Distance is a contraction; the tangent plane's share of it may miss by a few per cent.
     const Vec3 step =
-        0.01 * reach * Vec3(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
-    const double jump = std::abs(t.distance(p + step, reach).distance - s.distance);
-    ASSERT_LT(jump, step.norm() + 0.05 * reach) << p.transpose();
+        0.01 * contact_distance * Vec3(unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5);
+    const double jump = std::abs(t.distance(p + step, contact_distance).distance - s.distance);
+    ASSERT_LT(jump, step.norm() + 0.05 * contact_distance) << p.transpose();
   }
 }
 
@@ -131,31 +132,33 @@ TEST(Terrain, DistanceMatchesADenseSearch) {
   const Terrain t = terrain_of([&](double x, double y) {
     return 6 * std::sin(x / 6) * std::cos(y / 9) + (x > 60 ? 9.0 : 0.0) + 0.5 * unit(random);
   });
-  const double reach = 2.5;
+  const double contact_distance = 2.5;
   int compared = 0;
   for (int i = 0; i < 150; ++i) {
     const double x = 10 + 78 * unit(random), y = -10 - 58 * unit(random);
-    const Vec3 p(x, y, t.height(x, y) + reach * (2.5 * unit(random) - 0.5));
-    const SurfaceDistance s = t.distance(p, reach);
-    const double exact = distance_by_sampling(t, p, 2 * reach, 0.05);
-    if (std::abs(exact) > reach) {
-      EXPECT_GT(std::abs(s.distance), 0.97 * reach);
+    const Vec3 p(x, y, t.height(x, y) + contact_distance * (2.5 * unit(random) - 0.5));
+    const SurfaceDistance s = t.distance(p, contact_distance);
+    const double exact = distance_by_sampling(t, p, 2 * contact_distance, 0.05);
+    if (std::abs(exact) > contact_distance) {
+      EXPECT_GT(std::abs(s.distance), 0.97 * contact_distance);
       continue;
     }
     ++compared;
-    EXPECT_NEAR(s.distance, exact, 0.05 * reach) << p.transpose();
+    EXPECT_NEAR(s.distance, exact, 0.05 * contact_distance) << p.transpose();
   }
   EXPECT_GT(compared, 60);
 }
 
-TEST(Terrain, GroundFinerThanTheReachStillFeelsItsCliffs) {
+TEST(Terrain, GroundFinerThanTheContactDistanceKeepsItsCliffs) {
   const double tan60 = std::sqrt(3.0);
   const Terrain t =
       terrain_of([&](double x, double) { return x > 20 ? (x - 20) * tan60 : 0.0; }, 80, 60, 0.5);
-  const double reach = 3;
+  const double contact_distance = 3;
   for (double x : {17.0, 18.0, 19.0, 19.9}) {
     const double exact = std::min(2.5, ((20 - x) * tan60 + 2.5) * 0.5);
-    EXPECT_NEAR(t.distance({x, -15, 2.5}, reach).distance, exact, 0.12 * reach) << x;
+    EXPECT_NEAR(t.distance({x, -15, 2.5}, contact_distance).distance, exact,
+                0.12 * contact_distance)
+        << x;
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Zones of the base: which one a point lies in, and that parcels and columns feel theirs.
+/// Zones of the bed: which one a point lies in, and that particles and columns feel theirs.
 #include "engine/core/constants.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/terrain/zone_map.hpp"
@@ -58,12 +58,12 @@ void advance_to(HandMade& made, double time) {
     made.step.apply(made.state, std::min(time - made.state.time, 2e-3));
 }
 
-/// A parcel per strip, 6 m/s eastward.
+/// A particle per strip, 6 m/s eastward.
 const std::vector<Vec3> one_per_strip{{-10, -10, 0.5}, {-10, 0, 0.5}, {-10, 10, 0.5}};
 
-TEST(ZonesOfTheBase, AParcelFeelsTheFrictionOfItsZone) {
-  HandMade made = test::parcels_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
-                                         {{0.2}, {0.6}, {0.6, 0.5}}, strips());
+TEST(ZonesOfTheBed, AParticleFeelsTheFrictionOfItsZone) {
+  HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
+                                           {{0.2}, {0.6}, {0.6, 0.5}}, strips());
   advance_to(made, 0.8);
   const ParticleSet& p = made.state.grains();
   // What bounces does not weigh: the contact's first millimetres are the one per cent.
@@ -72,20 +72,20 @@ TEST(ZonesOfTheBase, AParcelFeelsTheFrictionOfItsZone) {
   EXPECT_NEAR(p.vx[2], 6 - 0.3 * g * 0.8, 0.01 * 0.3 * g) << "its pore pressure bears half";
 }
 
-TEST(ZonesOfTheBase, AParcelFeelsTheCohesionOfItsZone) {
-  HandMade made = test::parcels_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
-                                         {{0}, {0, 0, 1560 * 2.0}, {0}}, strips());
+TEST(ZonesOfTheBed, AParticleFeelsTheCohesionOfItsZone) {
+  HandMade made = test::particles_on_zones(even_ground(40), one_per_strip, {6, 0, 0}, {},
+                                           {{0}, {0, 0, 1560 * 2.0}, {0}}, strips());
   advance_to(made, 0.8);
-  // A parcel of 1 m^3 and 1560 kg on 1 m^2: 2 m/s^2.
+  // A particle of 1 m^3 and 1560 kg on 1 m^2: 2 m/s^2.
   EXPECT_EQ(made.state.grains().vx[0], 6);
   EXPECT_NEAR(made.state.grains().vx[1], 6 - 2 * 0.8, 1e-9);
   EXPECT_EQ(made.state.grains().vx[2], 6);
 }
 
-TEST(ZonesOfTheBase, AParcelChangesZonesOnItsWay) {
+TEST(ZonesOfTheBed, AParticleChangesZonesOnItsWay) {
   const auto rough_east = zones_of([](double x, double) { return x >= 0; });
-  HandMade made = test::parcels_on_zones(even_ground(40), {{-3, 0, 0.5}}, {6, 0, 0}, {},
-                                         {{0.2}, {0.6}}, rough_east);
+  HandMade made = test::particles_on_zones(even_ground(40), {{-3, 0, 0.5}}, {6, 0, 0}, {},
+                                           {{0.2}, {0.6}}, rough_east);
   advance_to(made, 3);
   // v^2/2 = 18: three metres take 0.2 g each, the rest 0.6 g.
   const double stop = (18 - 3 * 0.2 * g) / (0.6 * g);
@@ -101,24 +101,24 @@ Domain repeating() {
 }
 const auto rough_west = zones_of([](double x, double) { return x < 0; });
 
-TEST(ZonesOfTheBase, AParcelBeyondThePeriodFeelsTheZoneOfItsImage) {
-  HandMade made = test::parcels_on_zones(even_ground(40), {{9, 0, 0.5}}, {6, 0, 0}, repeating(),
-                                         {{0.2}, {0.6}}, rough_west);
+TEST(ZonesOfTheBed, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
+  HandMade made = test::particles_on_zones(even_ground(40), {{9, 0, 0.5}}, {6, 0, 0}, repeating(),
+                                           {{0.2}, {0.6}}, rough_west);
   advance_to(made, 3);
-  const double way = 1 + (18 - 0.2 * g) / (0.6 * g);
-  EXPECT_NEAR(made.state.grains().x[0], 9 + way, 0.01 * way);
+  const double travel = 1 + (18 - 0.2 * g) / (0.6 * g);
+  EXPECT_NEAR(made.state.grains().x[0], 9 + travel, 0.01 * travel);
 }
 
 DepthAveragedSettings column_bases(std::vector<double> friction, ZoneMap zones) {
   DepthAveragedSettings s;
-  s.base.clear();
-  for (double mu : friction) s.base.emplace_back().friction_coefficient = mu;
+  s.bed.clear();
+  for (double mu : friction) s.bed.emplace_back().friction_coefficient = mu;
   s.earth_pressure.assign(friction.size(), {});
   s.zones = std::move(zones);
   return s;
 }
 
-TEST(ZonesOfTheBase, AColumnFeelsTheFrictionOfItsZone) {
+TEST(ZonesOfTheBed, AColumnFeelsTheFrictionOfItsZone) {
   HandMade made = test::columns_on(even_ground(40), one_per_strip, 0.5, {6, 0, 0}, {},
                                    column_bases({0.2, 0.6, 0.3}, strips()));
   advance_to(made, 0.8);
@@ -128,17 +128,17 @@ TEST(ZonesOfTheBase, AColumnFeelsTheFrictionOfItsZone) {
     EXPECT_NEAR(made.state.grains().vx[i], 6 - mu * g * t, 1e-9) << i;
 }
 
-TEST(ZonesOfTheBase, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
+TEST(ZonesOfTheBed, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
   HandMade made = test::columns_on(even_ground(40), {{9, 0, 0}}, 0.5, {6, 0, 0}, repeating(),
                                    column_bases({0.2, 0.6}, rough_west));
   advance_to(made, 3);
-  const double way = 1 + (18 - 0.2 * g) / (0.6 * g);
+  const double travel = 1 + (18 - 0.2 * g) / (0.6 * g);
   const double wrapped = made.state.grains().x[0] + made.state.grains().wrapped_x[0];
-  EXPECT_NEAR(wrapped, 9 + way, 0.005 * way);
+  EXPECT_NEAR(wrapped, 9 + travel, 0.005 * travel);
 }
 
-TEST(ZonesOfTheBase, AnEarthPressureOtherThanOneIsFollowed) {
-  // Over a base rougher than the mass K is constant, and not one.
+TEST(ZonesOfTheBed, AnEarthPressureOtherThanOneIsFollowed) {
+  // Over a bed rougher than the mass K is constant, and not one.
   DepthAveragedSettings rough = column_bases({0.4}, {});
   rough.earth_pressure = {EarthPressure(0.38, 0.4)};
   HandMade made =

@@ -30,13 +30,13 @@ CaseReport same_bits(States);
 CaseReport breathing(States);
 /// I6: a loose layer hits the ground at 10 m/s and is pressed up to the largest fraction.
 CaseReport pressed_to_the_limit(States);
-/// I13: a mass that flies apart, until nobody has a neighbour.
+/// I13: a mass that flies apart, until no particle has a neighbour.
 CaseReport jet_breaks_up(States);
-/// I14: parcels that touch at 1e-6 to 1 m/s part again, with the restitution that was set.
+/// I14: particles that touch at 1e-6 to 1 m/s separate again, with the restitution that was set.
 CaseReport slow_contacts_part(States);
-/// I15: parcels of one scene are alike in mass.
+/// I15: particles of one scene are alike in mass.
 CaseReport masses_mix(States);
-/// I16: going and coming of parcels over a cliff must not make energy.
-CaseReport parcels_come_and_go(States);
+/// I16: going and coming of particles over a cliff must not make energy.
+CaseReport isolated_come_and_go(States);
 
 }  // namespace sturz::test

@@ -22,11 +22,11 @@ double critical_height() {
 
 /// One slice, four particles thick and ten high, of a bank with a vertical face at both ends.
 Scenario bank(double height, double times) {
-  const double dx = height / 10, half = 1.2 * height, reach = 5 * height;
+  const double dx = height / 10, half = 1.2 * height, runout = 5 * height;
   Scenario s;
   s.formulation = Formulation::full_stress;
   s.terrain.synthetic = SyntheticTerrain{
-      "plane", 2 * dx, {{"slope_deg", 0}, {"length_m", 2 * reach}, {"width_m", 4 * dx}}};
+      "plane", 2 * dx, {{"slope_deg", 0}, {"length_m", 2 * runout}, {"width_m", 4 * dx}}};
   s.release.box = ReleaseBox{{-half, half}, {-2 * dx, 2 * dx}};
   s.release.thickness_m = Uncertain(height);
   s.grains.emplace().friction_angle_deg = Uncertain(friction_deg);
@@ -104,7 +104,7 @@ CaseReport stretched_bar(States states) {
   ParticleSet& p = parts.state.grains();
   parts.state.gravity = 0;
   for (double& z : p.z) z += 30;
-  for (const FieldKey* key : {&fields::stress, &fields::compression})
+  for (const FieldKey* key : {&fields::stress, &fields::density_change})
     for (auto& column : p.components(*key)) std::fill(column.begin(), column.end(), 0.0);
   std::vector<double> pull(p.size());
   for (std::size_t i = 0; i < p.size(); ++i)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// I14: the damper of a Hertz contact pulls while the two part (A.5). Slow parcels must
+// I14: the damper of a Hertz contact pulls while the two separate (A.5). Slow particles must
 // come off each other all the same, with the restitution that was set.
 #include "tests/hard/cases/cases.hpp"
-#include "tests/support/parcel_flight.hpp"
+#include "tests/support/isolated_flight.hpp"
 
 #include <cmath>
 #include <utility>
@@ -29,12 +29,12 @@ struct Softened {
   ContactPair law;
   double fine_step = 0;
 
-  /// \param partners  2: two parcels, 1: a parcel and the ground
+  /// \param partners  2: two particles, 1: a particle and the ground
   explicit Softened(int partners) {
-    const GrainMaterial m = softened({}, softest_modulus(parcel_density, bound_m_s));
+    const GrainMaterial m = softened({}, softest_modulus(contact_density, bound_m_s));
     law.modulus = contact_modulus(m, m);
     law.radius = radius_m / partners;
-    law.mass = 4.0 / 3 * std::numbers::pi * parcel_density * std::pow(radius_m, 3) / partners;
+    law.mass = 4.0 / 3 * std::numbers::pi * contact_density * std::pow(radius_m, 3) / partners;
     fine_step = contact_time_step(m, radius_m, law, bound_m_s);
   }
 };
@@ -52,32 +52,32 @@ Scene scene_at(Place place, double restitution, bool cut, double friction) {
 
 struct Meeting {
   double restitution = 0, pulling_share = 0;
-  bool parted = false;
+  bool separated = false;
   double energy_gained = 0;  ///< of what the two had, in flight
 };
 
-/// Two parcels at `speed` towards each other, followed until long after they have touched.
-/// \param offset  of their ways, across [m]; \param steps  fine steps in one of the scene
+/// Two particles at `speed` towards each other, followed until long after they have touched.
+/// \param offset  of their paths, across [m]; \param steps  fine steps in one of the scene
 Meeting meet(const Scene& scene, double speed, double offset, double steps, double start) {
   const Softened soft(2);
   const double dt = steps * soft.fine_step, z = scene.ground ? radius_m : 100;
-  const double reach = std::sqrt(4 * radius_m * radius_m - offset * offset);
-  const double half = 0.5 * (reach + speed * dt * (3 + start));
+  const double chord = std::sqrt(4 * radius_m * radius_m - offset * offset);
+  const double half = 0.5 * (chord + speed * dt * (3 + start));
   Flight f({{{-half, 0, z}, {0.5 * speed, 0, 0}}, {{half, offset, z}, {-0.5 * speed, 0, 0}}},
            scene);
   Meeting m;
   double pushed = 0, pulled = 0, last = -speed;
-  const double touching = impact_duration(soft.law, speed * reach / (2 * radius_m));
+  const double touching = impact_duration(soft.law, speed * chord / (2 * radius_m));
   for (double t = 0; t < 5 * dt + 3 * touching; t += dt) {
     f.advance(dt);
     const double now = f.velocity(1).x() - f.velocity(0).x();
     (now > last ? pushed : pulled) += std::abs(now - last);
     last = now;
   }
-  const Vec3 way = f.place(1) - f.place(0), parting = f.velocity(1) - f.velocity(0);
+  const Vec3 offset = f.position(1) - f.position(0), separation = f.velocity(1) - f.velocity(0);
   m.restitution = last / speed;
   m.pulling_share = pulled / pushed;
-  m.parted = way.norm() > 2 * radius_m && parting.dot(way) > 0;
+  m.separated = offset.norm() > 2 * radius_m && separation.dot(offset) > 0;
   m.energy_gained = f.energy() / f.state.grains().ledger.kinetic_0 - 1;
   return m;
 }
@@ -88,7 +88,7 @@ struct Worst {
   void add(const Meeting& m, double restitution, double pulling_share) {
     off = std::max(off, std::abs(m.restitution - restitution));
     pulling = std::max(pulling, m.pulling_share - pulling_share);
-    together += m.parted ? 0 : 1;
+    together += m.separated ? 0 : 1;
   }
 };
 
@@ -119,14 +119,14 @@ std::pair<double, double> off_centre() {
       for (const double offset : {0.3, 0.7, 0.95}) {
         const Scene scene = scene_at(Place::in_flight, e.set, false, 0.5);
         const Meeting m = meet(scene, speed, offset, 7.7, 0.4);
-        together += m.parted ? 0 : 1;
+        together += m.separated ? 0 : 1;
         gained = std::max(gained, m.energy_gained);
       }
   return {together, gained};
 }
 
-/// A parcel against the ground as its partner. The ground's distance is a float: below 1e-3 m/s its
-/// rounding is felt in the restitution, but parcels leave at any speed.
+/// A particle against the ground as its partner. The ground's distance is a float: below 1e-3 m/s
+/// its rounding shows in the restitution, but particles leave at any speed.
 Worst against_the_ground() {
   Worst worst;
   const Softened soft(1);
@@ -140,7 +140,7 @@ Worst against_the_ground() {
       for (double t = 0; t < 5 * dt + 3 * impact_duration(soft.law, speed); t += dt) f.advance(dt);
       const double back = f.velocity(0).z() / speed;
       if (speed > 0.5e-3) worst.off = std::max(worst.off, std::abs(back - e.set));
-      worst.together += back > 0 && f.place(0).z() > radius_m ? 0 : 1;
+      worst.together += back > 0 && f.position(0).z() > radius_m ? 0 : 1;
     }
   }
   return worst;
@@ -157,7 +157,7 @@ CaseReport slow_contacts_part(States) {
   return {
       {at_most("pairs in flight that stay together", flight.together + oblique, 0),
        at_most("pairs on the ground that stay together", level.together, 0),
-       at_most("parcels that stay on the ground", ground.together, 0),
+       at_most("particles that stay on the ground", ground.together, 0),
        at_most("restitution off what was set, in flight", flight.off, off),
        at_most("restitution off what was set, on the ground", level.off, off),
        at_most("restitution off what was set, against the ground, from 1e-3 m/s", ground.off, off),

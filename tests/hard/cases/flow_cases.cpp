@@ -59,14 +59,14 @@ double grid_scale_share(const SimulationParts& parts) {
   return std::sqrt(rough / smooth);
 }
 
-/// What the ledger can still give back [J]; diffusion adds to the elastic part by its own booking.
+/// What the ledger can still give back [J]; diffusion adds to the elastic part by its own account.
 double mechanical_energy(const Ledger& l) {
   return l.kinetic + l.potential + l.elastic + l.spring - l.diffusion;
 }
 
 }  // namespace
 
-/// A heap 4 m high on a slope of 20 degrees, inside and base far from yielding, over 10 s.
+/// A heap 4 m high on a slope of 20 degrees, inside and at the bed far from yielding, over 10 s.
 CaseReport heap_on_a_slope(States states) {
   Scenario s = pile(1);
   s.terrain.synthetic->parameters["slope_deg"] = 20;
@@ -155,7 +155,7 @@ CaseReport gate_removal(States states) {
                                    }});
   const MemberScalars& m = f.result.scalars;
   const double whole = m.released_mass_kg * gravity_m_s2 * 0.5;  // 1 m high
-  return {{at_most("energy that no booking explains at the gate, of m g H/2", residual_jump / whole,
+  return {{at_most("energy that no account explains at the gate, of m g H/2", residual_jump / whole,
                    1e-3),
            at_most("mechanical energy, jump at the gate, of m g H/2", jump / whole, 1e-3),
            at_most("mechanical energy, any rise after it, of m g H/2", risen / whole, 1e-3),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// I5, I6, I13, I15, I16: grains on the borders between their states, and the parcels that leave.
+// I5, I6, I13, I15, I16: grains on the borders between their states, and the particles that leave.
 #include "engine/effects/fields.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/effect.hpp"
@@ -35,7 +35,7 @@ Simulation floating_box() {
   SimulationParts& parts = simulation.parts();
   parts.state.gravity = 0;
   for (double& z : parts.state.grains().z) z += 60;
-  for (const FieldKey* key : {&fields::stress, &fields::compression})
+  for (const FieldKey* key : {&fields::stress, &fields::density_change})
     for (auto& column : parts.state.grains().components(*key))
       std::fill(column.begin(), column.end(), 0.0);
   return simulation;
@@ -144,7 +144,7 @@ CaseReport jet_breaks_up(States states) {
                     std::abs(m.z - before.z - 10 - 20 * t + 0.5 * gravity_m_s2 * t * t)});
   });
   std::vector<Check> checks = checks_of(survived, true);
-  checks.push_back(at_least("share that flies alone", most_in_flight, 0.9));
+  checks.push_back(at_least("share that is isolated", most_in_flight, 0.9));
   checks.push_back(at_most("centre of mass off its parabola, dx", off, 0.01));
   return {std::move(checks), survived.particles, survived.seconds};
 }
@@ -154,12 +154,12 @@ CaseReport masses_mix(States states) {
   Simulation simulation = assemble(m.scenario, m.inputs, 100, 1);
   const auto& mass = simulation.parts().state.grains().mass;
   const auto [least, most] = std::minmax_element(mass.begin(), mass.end());
-  return {{at_most("heaviest parcel / lightest", *most / *least, 8)},
+  return {{at_most("heaviest particle / lightest", *most / *least, 8)},
           static_cast<double>(mass.size()),
           0};
 }
 
-CaseReport parcels_come_and_go(States states) {
+CaseReport isolated_come_and_go(States states) {
   Scenario s = with_states(cliff(1), states);
   s.numerics.end_time_s = 8;
   double residual = 0, jump = 0, most_in_flight = 0;
@@ -174,9 +174,9 @@ CaseReport parcels_come_and_go(States states) {
   const MemberScalars& m = f.result.scalars;
   const double released = f.simulation.parts().state.grains().ledger.released_energy();
   return {
-      {at_most("energy from nothing as parcels come and go, of released", jump / released, 1e-3),
-       at_least("steps in which parcels came or went", static_cast<double>(events), 10),
-       at_least("share that flies alone", most_in_flight, 0.01),
+      {at_most("energy from nothing as particles come and go, of released", jump / released, 1e-3),
+       at_least("steps in which particles came or went", static_cast<double>(events), 10),
+       at_least("share that is isolated", most_in_flight, 0.01),
        at_most("energy residual", std::abs(m.energy_residual), 0.01)},
       m.n_particles,
       m.wall_s};

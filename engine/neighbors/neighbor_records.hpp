@@ -10,42 +10,42 @@ namespace sturz {
 
 /// Particles per group: they sit in lanes while their common neighbours are broadcast.
 inline constexpr int group_size = 16;
-/// Groups whose lists are kept together, see PackedView.
+/// Groups whose lists are kept together, see NeighborView.
 inline constexpr std::size_t groups_per_block = 32;
 
 /// One particle as neighbour. Positions are fixed point (differences are exact however far the
-/// scene's origin is); the unit is PackedView::unit_m.
-struct alignas(64) PackedRecord {
+/// scene's origin is); the unit is NeighborView::unit_m.
+struct alignas(64) NeighborRecord {
   std::int32_t x, y, z;
   float volume;                        ///< m / rho [m^3]
   float vx, vy, vz;                    ///< [m/s]
-  float compression;                   ///< rho / rho_ref - 1 [-]
+  float density_change;                ///< rho / rho_ref - 1 [-]
   float sxx, syy, szz, sxy, syz, szx;  ///< stress, tension positive [Pa]
   float viscosity;                     ///< share of the artificial viscosity that acts [-]
   float tension;  ///< artificial pressure against clumps in tension [Pa], see TensionSums
 };
-static_assert(sizeof(PackedRecord) == 64);
+static_assert(sizeof(NeighborRecord) == 64);
 
-/// What a grain that flies among others brings besides its PackedRecord (B.6, B.9). The
-/// record's volume and stress are those of enduring contacts, which grains that have parted no
-/// longer feel; kinetic stresses act on the volume that the grains really take up.
+/// What a dispersed grain brings besides its NeighborRecord (B.6, B.9). The
+/// record's volume and stress are those of enduring contacts, which dilated grains do
+/// not have; kinetic stresses act on the volume that the grains really take up.
 struct alignas(16) KineticRecord {
-  float growth = 1;  ///< true volume over PackedRecord::volume [-]
-  /// Takes the place of `growth` in pairs: sqrt(growth/fill) makes the sums over a cloud's few
-  /// neighbours complete, and keeps pairs symmetric.
+  float dilation_ratio = 1;  ///< true volume over NeighborRecord::volume [-]
+  /// Replaces `dilation_ratio` in pairs: sqrt(dilation_ratio/support_completeness) makes the sums
+  /// over a cloud's few neighbours complete, and keeps pairs symmetric.
   float weight = 1;
   float xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;  ///< kinetic stress, tension positive [Pa]
   float theta = 0;                                       ///< granular temperature [m^2/s^2]
   float resistance = 1e30f;  ///< 1/k_theta; huge: no conduction [m s/kg]
-  float viscosity = 1;       ///< takes the place of PackedRecord::viscosity [-]
+  float viscosity = 1;       ///< replaces NeighborRecord::viscosity [-]
   float spare = 0;
 };
 static_assert(sizeof(KineticRecord) == 48);
 
 /// Everything a sweep needs to read. Group g holds particles g*16 .. g*16+15 of storage order;
 /// records n_particles .. n_records-1 are periodic images and padding.
-struct PackedView {
-  const PackedRecord* records = nullptr;
+struct NeighborView {
+  const NeighborRecord* records = nullptr;
   std::size_t n_particles = 0;
   /// Record numbers near group g: from list(g) to list(g) + list_size(g). Lists are kept in blocks
   /// of `groups_per_block` groups; list_end[g] counts from the start of g's block.
@@ -68,36 +68,38 @@ struct SweepConstants {
   double sound_speed = 1;          ///< c0 [m/s]
   double viscosity = 0.1;          ///< alpha_v
   double density_diffusion = 0.1;  ///< delta
-  bool tension = false;            ///< whether PackedRecord::tension is in this sweep
-  double spacing = 1;              ///< dx [m]; read where tension is
+  bool tension = false;            ///< whether NeighborRecord::tension is in this sweep
+  double spacing = 1;              ///< initial particle spacing dx [m]; read where tension is
   double stress_smoothing = 0;     ///< zeta of the stress ratio s/(p + p_c); 0: not in this sweep
   double ratio_floor = 0;          ///< p_c [Pa]; read where the ratio is smoothed
 };
 
 /// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep
-/// takes their mirror image in the share n.M.n / 0.25 (at most 1) of the support that neighbours
-/// give along the normal: a grain with nothing above it has no pressure field to be mirrored, and
-/// would bounce off its own image without loss.
+/// takes their mirror contribution with the weight n.M.n / 0.25 (at most 1) of the support that
+/// neighbours give along the normal: a grain with nothing above it has no pressure field to be
+/// mirrored, and would bounce off its own mirror image without loss.
 struct BoundaryView {
-  const float* distance;      ///< to the ground [m]; 2h and more: not felt
+  const float* distance;      ///< to the ground [m]; 2h and more: no effect
   const float *nx, *ny, *nz;  ///< the ground's normal, finite everywhere
   /// What analytic walls add, order xx yy zz xy yz zx; null where there are none.
   const float* moment[6];    ///< to the moment matrix [-]
   const float* gradient[6];  ///< to the velocity gradient before correction [1/s]
 };
 
-/// How long a sweep spends on groups in which some grain flies or meets one that does. A function
-/// of the caller because headers of the library must not be compiled for one instruction set.
-struct FlyingClock {
+/// How long a sweep spends on groups in which some grain is dispersed or has a dispersed neighbour.
+/// A function of the caller because headers of the library must not be compiled for one instruction
+/// set.
+struct DispersedClock {
   std::int64_t (*now_ns)() = nullptr;
   std::int64_t spent_ns = 0;  ///< added to
 };
 
-/// For a mass whose grains may part.
+/// For a mass whose grains may disperse.
 struct KineticView {
-  const KineticRecord* records = nullptr;  ///< as many as PackedView::records
-  const std::uint8_t* calm = nullptr;      ///< by record/group_size: 1 where no grain flies
-  FlyingClock* clock = nullptr;            ///< may be null
+  const KineticRecord* records = nullptr;  ///< as many as NeighborView::records
+  const std::uint8_t* dense_group =
+      nullptr;                      ///< by record/group_size: 1 where no grain is dispersed
+  DispersedClock* clock = nullptr;  ///< may be null
 };
 
 /// Results per particle, each [n_particles rounded up to whole groups].
@@ -114,16 +116,16 @@ struct SweepOutput {
   float* lzx;
   float* lzy;
   float* lzz;
-  float* diffusion;   ///< d(compression)/dt by delta-SPH [1/s]
-  float* wall_share;  ///< 0..1: how much of a wall's mirror image acts, see BoundaryView
+  float* diffusion;      ///< d(density_change)/dt by delta-SPH [1/s]
+  float* mirror_weight;  ///< 0..1: how much of a wall's mirror contribution acts, see BoundaryView
   /// Written where a KineticView is given: how full the support is of neighbours and ground (1
-  /// inside a dense mass, about a half at its surface), how many neighbours there are, and the heat
-  /// that granular temperature conducts per volume of the record [W/m^3].
-  float *fill, *neighbors, *heat;
-  /// Symmetric velocity gradient as the pair forces of kinetic stresses feel it, xx yy zz xy yz zx:
-  /// their work on the motion is V sigma_k : this, exactly [1/s].
-  float* felt[6];
-  static constexpr float uncounted = 1000;  ///< neighbours of a grain that nobody flies near
+  /// inside a dense mass, about a half at its surface), how many neighbours there are, and the
+  /// granular energy that is conducted to it per volume of the record [W/m^3].
+  float *support_completeness, *neighbors, *conducted;
+  /// Symmetric velocity gradient consistent with the pair forces of kinetic stresses, xx yy zz xy
+  /// yz zx: their work on the motion is V sigma_k : this, exactly [1/s].
+  float* pair_gradient[6];
+  static constexpr float uncounted = 1000;  ///< neighbours of a grain far from dispersed ones
   float* smooth[6];  ///< d(s/(p + p_c))/dt, written when stress_smoothing > 0 [1/s]
 };
 
