@@ -12,7 +12,7 @@ namespace sturz {
 ///
 /// Kinetic energy changes only through accounted works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
-///   lost_energy + added_energy.
+///   lost_energy + added_energy + outer_work.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
@@ -21,6 +21,7 @@ struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
   double added_mass = 0;                                     ///< by effects, after the release
   double added_energy = 0;                                   ///< kinetic energy that it brought
+  double outer_work = 0;  ///< by forces of effects that nothing below names, such as wind
 
   /// Now. Potential is the accounted change since release: it counts what left as it was when it
   /// left, and a periodic image's jump not at all.
@@ -70,24 +71,28 @@ struct Ledger {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +
            rest_damping + damping() + rotational + isolated_elastic + isolated_dissipated() +
-           numerical() - diffusion + lost_energy - added_energy;
+           numerical() - diffusion + lost_energy - added_energy - outer_work;
   }
 };
 
 inline Ledger& Ledger::operator+=(const Ledger& other) {
   using Entry = double Ledger::*;
-  constexpr Entry entries[] = {
-      &Ledger::released_mass,       &Ledger::lost_mass,        &Ledger::leaked_mass,
-      &Ledger::added_mass,          &Ledger::added_energy,     &Ledger::kinetic,
-      &Ledger::potential,           &Ledger::elastic,          &Ledger::spring,
-      &Ledger::kinetic_0,           &Ledger::elastic_0,        &Ledger::spring_0,
-      &Ledger::gravity_work,        &Ledger::stress_work,      &Ledger::stress_power,
-      &Ledger::frictional,          &Ledger::granular,         &Ledger::conducted,
-      &Ledger::collisions,          &Ledger::granular_lost,    &Ledger::plastic,
-      &Ledger::diffusion,           &Ledger::contact_work,     &Ledger::isolated_work,
-      &Ledger::rotational,          &Ledger::isolated_elastic, &Ledger::friction,
-      &Ledger::rest_damping,        &Ledger::lost_energy,      &Ledger::detachment,
-      &Ledger::stress_impulse_scale};
+  constexpr Entry entries[] = {&Ledger::released_mass,    &Ledger::lost_mass,
+                               &Ledger::leaked_mass,      &Ledger::added_mass,
+                               &Ledger::added_energy,     &Ledger::kinetic,
+                               &Ledger::potential,        &Ledger::elastic,
+                               &Ledger::spring,           &Ledger::kinetic_0,
+                               &Ledger::elastic_0,        &Ledger::spring_0,
+                               &Ledger::gravity_work,     &Ledger::outer_work,
+                               &Ledger::stress_work,      &Ledger::stress_power,
+                               &Ledger::frictional,       &Ledger::granular,
+                               &Ledger::conducted,        &Ledger::collisions,
+                               &Ledger::granular_lost,    &Ledger::plastic,
+                               &Ledger::diffusion,        &Ledger::contact_work,
+                               &Ledger::isolated_work,    &Ledger::rotational,
+                               &Ledger::isolated_elastic, &Ledger::friction,
+                               &Ledger::rest_damping,     &Ledger::lost_energy,
+                               &Ledger::detachment,       &Ledger::stress_impulse_scale};
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));
   for (const Entry entry : entries) this->*entry += other.*entry;

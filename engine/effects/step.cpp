@@ -38,8 +38,9 @@ void Step::add(std::unique_ptr<Pass> pass) {
   auto after =
       std::upper_bound(passes_.begin(), passes_.end(), pass->stage(),
                        [](Stage s, const std::unique_ptr<Pass>& p) { return s < p->stage(); });
+  const std::string effect(pass->effect().empty() ? effect_ : pass->effect());
   timings_.insert(timings_.begin() + (after - passes_.begin()),
-                  {std::string(pass->name()), 0.0, std::string(pass->effect()), pass->part(), 0.0});
+                  {std::string(pass->name()), 0.0, effect, pass->part(), 0.0});
   passes_.insert(after, std::move(pass));
 }
 

@@ -46,7 +46,8 @@ class Pass {
   virtual ~Pass() = default;
   virtual std::string_view name() const = 0;  ///< lower-case noun, for `describe` and timings
   virtual Stage stage() const = 0;
-  virtual std::string_view effect() const = 0;  ///< EffectName that its time counts to
+  /// EffectName that its time counts to; empty: the effect that was begun when it was added.
+  virtual std::string_view effect() const { return {}; }
   virtual EffectPart part() const { return {}; }
   /// Appends this pass's limits; none by default.
   virtual void limits(const State&, std::vector<StepLimit>&) const {}
@@ -75,6 +76,8 @@ NamedSeconds by_effect(std::span<const PassTime>);
 
 class Step {
  public:
+  /// Passes that are added from now on and name no effect themselves count to this one.
+  void begin_effect(std::string_view name) { effect_ = name; }
   /// Keeps the order in which passes of one stage were added.
   void add(std::unique_ptr<Pass>);
 
@@ -92,6 +95,7 @@ class Step {
 
   std::vector<std::unique_ptr<Pass>> passes_;
   std::vector<PassTime> timings_;
+  std::string effect_;
   mutable std::vector<StepLimit> limits_;
 };
 

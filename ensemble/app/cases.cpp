@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz cases: list the shipped cases, or copy one to where it can be run and changed.
-#include "ensemble/app/cases.hpp"
-
 #include "engine/core/error.hpp"
+#include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -19,6 +19,11 @@
 namespace sturz::app {
 namespace fs = std::filesystem;
 namespace {
+
+struct Options {
+  std::string name;  ///< empty: list them
+  std::string out;   ///< folder of the copy; empty: the case's name, here
+};
 
 /// Seen from the program itself, so that an installation may be moved; a build folder has a link
 /// in the same place.
@@ -79,9 +84,7 @@ void copy_case(const fs::path& source, const fs::path& target, Console& console)
   console.event(event.dump());
 }
 
-}  // namespace
-
-int cases_command(const CasesOptions& options, Console& console) {
+int cases(const Options& options, Console& console) {
   const fs::path folder = cases_folder();
   if (options.name.empty()) {
     require(options.out.empty(),
@@ -99,6 +102,18 @@ int cases_command(const CasesOptions& options, Console& console) {
   }
   copy_case(folder / options.name, options.out.empty() ? options.name : options.out, console);
   return ok;
+}
+
+}  // namespace
+
+void add_cases(Grammar& grammar) {
+  auto [parser, options] =
+      add_command(grammar, "cases", "List the shipped cases, or copy one to start from", cases);
+  parser.add_option("name", options.name, "Case to copy; without one they are listed")
+      ->type_name("CASE");
+  parser.add_option("-o,--out", options.out, "Folder of the copy (default: ./NAME)")
+      ->type_name("DIR");
+  add_json(grammar, parser);
 }
 
 }  // namespace sturz::app

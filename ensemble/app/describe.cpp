@@ -2,6 +2,7 @@
 // sturz describe: what a scene is and what it will cost, before anything is computed.
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
@@ -15,6 +16,12 @@
 
 namespace sturz::app {
 namespace {
+
+struct Options {
+  std::string scenario;
+  std::vector<std::string> set;  ///< "key=value"
+  bool measure_again = false;    ///< forget the cached speed of this machine
+};
 
 using workflow::Scene;
 
@@ -59,9 +66,7 @@ void print_uncertain(const Scene& scene, Console& console) {
         fmt::format("  {} [{}]: {}", key.path, key.units, distribution_text(key.distribution)));
 }
 
-}  // namespace
-
-int describe_command(const DescribeOptions& options, Console& console) {
+int describe(const Options& options, Console& console) {
   const Scene scene =
       workflow::load_scene({options.scenario, options.set, speed_cache(options.measure_again)});
   if (console.json()) {
@@ -81,6 +86,17 @@ int describe_command(const DescribeOptions& options, Console& console) {
   for (const std::string& note : scene.inputs.notes) console.say("note: " + note);
   for (const std::string& warning : scene.description.warnings) console.warn(warning);
   return ok;
+}
+
+}  // namespace
+
+void add_describe(Grammar& grammar) {
+  auto [parser, options] =
+      add_command(grammar, "describe",
+                  "Say what a scene is and how long it will take, without computing it", describe);
+  add_scenario(parser, options.scenario, options.set);
+  parser.add_flag("--measure-again", options.measure_again, "Measure this machine's speed anew");
+  add_json(grammar, parser, "One JSON object instead of words");
 }
 
 }  // namespace sturz::app

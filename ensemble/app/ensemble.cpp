@@ -5,6 +5,7 @@
 #include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/app/verdict.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
@@ -21,6 +22,16 @@
 namespace sturz::app {
 namespace {
 
+struct Options {
+  std::string scenario;
+  std::string out;               ///< folder; empty: out/<name of the scenario>
+  std::vector<std::string> set;  ///< "key=value"
+  int members = 0;               ///< 0: as the scenario says
+  int workers = 0;               ///< 0: all cores available to the process
+  std::string shard;             ///< "k/n", 1 <= k <= n; empty: everything
+  bool retry_failed = false;     ///< compute failed members again
+};
+
 using workflow::EnsembleJob;
 
 workflow::Shard shard_of(const std::string& text) {
@@ -34,14 +45,14 @@ workflow::Shard shard_of(const std::string& text) {
 }
 
 /// The command as manifest and log keep it.
-std::string command_text(const EnsembleOptions& o) {
+std::string command_text(const Options& o) {
   std::string text = "ensemble " + o.scenario;
   for (const std::string& set : o.set) text += " --set " + set;
   if (o.members > 0) text += fmt::format(" -n {}", o.members);
   return text;
 }
 
-workflow::EnsembleRequest request_of(const EnsembleOptions& o) {
+workflow::EnsembleRequest request_of(const Options& o) {
   workflow::EnsembleRequest request;
   request.scene = {o.scenario, o.set, speed_cache()};
   request.folder = o.out.empty() ? workflow::default_folder(o.scenario) : o.out;
@@ -53,7 +64,7 @@ workflow::EnsembleRequest request_of(const EnsembleOptions& o) {
   return request;
 }
 
-void announce(const EnsembleJob& job, const EnsembleOptions& options, Console& console) {
+void announce(const EnsembleJob& job, const Options& options, Console& console) {
   const double seconds = job.scene.description.predicted_seconds;
   const double total =
       seconds * static_cast<double>(job.to_do.size()) / (job.workers * job.threads);
@@ -97,9 +108,7 @@ int how_it_ended(const workflow::MembersRun& run, Console& console) {
   return ok;
 }
 
-}  // namespace
-
-int ensemble_command(const EnsembleOptions& options, Console& console) {
+int ensemble(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request_of(options), observer);
   announce(job, options, console);
@@ -114,6 +123,29 @@ int ensemble_command(const EnsembleOptions& options, Console& console) {
     return ok;
   }
   return verdict(workflow::make_maps(job, observer), console);
+}
+
+}  // namespace
+
+void add_ensemble(Grammar& grammar) {
+  auto [parser, options] =
+      add_command(grammar, "ensemble",
+                  "Compute many members and the hazard maps; the same command resumes", ensemble);
+  add_scenario(parser, options.scenario, options.set);
+  parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
+      ->type_name("DIR");
+  parser
+      .add_option("-n,--members", options.members, "Number of members, instead of the scenario's")
+      ->check(CLI::Range(1, 100000000));
+  parser.add_option("--workers", options.workers, "Members at a time (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  parser
+      .add_option("--shard", options.shard,
+                  "Compute only part K of N of the members and no maps; `merge` makes them")
+      ->type_name("K/N");
+  parser.add_flag("--retry-failed", options.retry_failed,
+                  "Compute members again that failed, for instance at a wall-time limit");
+  add_json(grammar, parser);
 }
 
 }  // namespace sturz::app

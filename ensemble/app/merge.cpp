@@ -4,13 +4,32 @@
 
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/grammar.hpp"
 #include "ensemble/app/verdict.hpp"
 
 namespace sturz::app {
+namespace {
 
-int merge_command(const MergeOptions& options, Console& console) {
+struct Options {
+  std::string folder;
+  bool partial = false;  ///< maps from the members that are there
+};
+
+int merge(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   return verdict(workflow::merge_members({options.folder, options.partial}, observer), console);
+}
+
+}  // namespace
+
+void add_merge(Grammar& grammar) {
+  auto [parser, options] =
+      add_command(grammar, "merge", "Make the maps from the members of a results folder", merge);
+  parser.add_option("folder", options.folder, "Folder of an ensemble")
+      ->type_name("DIR")
+      ->required();
+  parser.add_flag("--partial", options.partial, "Go on although members are missing");
+  add_json(grammar, parser);
 }
 
 }  // namespace sturz::app

@@ -3,14 +3,31 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 
 namespace sturz::app {
+namespace {
 
-int report_command(const ReportOptions& options, Console& console) {
+struct Options {
+  std::string folder;
+};
+
+int report(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   console.say(workflow::rewrite_page(options.folder, observer).string());
   return ok;
+}
+
+}  // namespace
+
+void add_report(Grammar& grammar) {
+  auto [parser, options] =
+      add_command(grammar, "report", "Write the report page of a results folder again", report);
+  parser.add_option("folder", options.folder, "Folder of an ensemble or a run")
+      ->type_name("DIR")
+      ->required();
+  add_json(grammar, parser);
 }
 
 }  // namespace sturz::app

@@ -4,6 +4,7 @@
 #include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/workflow/members/single_run.hpp"
 #include "ensemble/workflow/readable.hpp"
@@ -17,16 +18,24 @@
 namespace sturz::app {
 namespace {
 
+struct Options {
+  std::string scenario;
+  std::string out;                          ///< folder; empty: out/<name of the scenario>_run
+  std::vector<std::string> set;             ///< "key=value"
+  int threads = 0;                          ///< 0: all cores available to the process
+  std::optional<double> particles_every_s;  ///< frames for ParaView, simulated seconds apart
+};
+
 using workflow::duration_text;
 using workflow::grouped;
 
-std::string command_text(const RunOptions& o) {
+std::string command_text(const Options& o) {
   std::string text = "run " + o.scenario;
   for (const std::string& set : o.set) text += " --set " + set;
   return text;
 }
 
-workflow::RunRequest request_of(const RunOptions& o) {
+workflow::RunRequest request_of(const Options& o) {
   workflow::RunRequest request;
   request.scene = {o.scenario, o.set, speed_cache()};
   request.folder = o.out.empty() ? workflow::default_folder(o.scenario) + "_run" : o.out;
@@ -127,9 +136,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   console.say(fmt::format("Results are in {}: report.html, peaks.nc", folder.root.string()));
 }
 
-}  // namespace
-
-int run_command(const RunOptions& options, Console& console) {
+int run(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   workflow::SingleRun run = workflow::prepare_run(request_of(options), observer);
   for (const std::string& warning : run.scene.description.warnings) console.warn(warning);
@@ -147,6 +154,25 @@ int run_command(const RunOptions& options, Console& console) {
   if (is_valid(result.outcome)) return ok;
   console.error(fmt::format("the member is not valid: {}", result.reason));
   return too_many_failed;
+}
+
+}  // namespace
+
+void add_run(Grammar& grammar) {
+  auto [parser, options] =
+      add_command(grammar, "run", "Compute one member: medians of all distributions", run);
+  add_scenario(parser, options.scenario, options.set);
+  parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME_run)")
+      ->type_name("DIR");
+  parser
+      .add_option("--threads", options.threads, "Threads of this one member (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  parser
+      .add_option("--particles", options.particles_every_s,
+                  "Write particle frames for ParaView, this many simulated seconds apart")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  add_json(grammar, parser);
 }
 
 }  // namespace sturz::app

@@ -3,6 +3,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/gdal/cog.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -19,6 +20,13 @@
 namespace sturz::app {
 namespace fs = std::filesystem;
 namespace {
+
+struct Options {
+  std::string what;  ///< a synthetic shape or a scenario file
+  std::string out;   ///< folder
+  std::optional<double> cell_size_m;
+  std::vector<std::string> set;  ///< shape's "parameter=value", or scenario keys
+};
 
 /// "slope_deg=20" into the shape's parameters; names are checked by make_synthetic.
 void set_parameter(SyntheticTerrain& shape, const std::string& word) {
@@ -42,7 +50,7 @@ void write_raster(const fs::path& file, const Raster<double>& raster, bool synth
                           raster.grid.n_rows, raster.grid.cell_m, what));
 }
 
-void write_shape(const TerrainOptions& options, Console& console) {
+void write_shape(const Options& options, Console& console) {
   SyntheticTerrain shape;
   shape.shape = options.what;
   for (const std::string& word : options.set) set_parameter(shape, word);
@@ -56,7 +64,7 @@ void write_shape(const TerrainOptions& options, Console& console) {
                  console);
 }
 
-void write_scene(const TerrainOptions& options, Console& console) {
+void write_scene(const Options& options, Console& console) {
   require(!options.cell_size_m,
           "--cell is for shapes (a scenario says terrain.cell_size_m). Use --set instead.");
   const Scenario scenario = read_scenario(options.what, options.set);
@@ -74,9 +82,7 @@ void write_scene(const TerrainOptions& options, Console& console) {
   for (const std::string& note : inputs.notes) console.say("note: " + note);
 }
 
-}  // namespace
-
-int terrain_command(const TerrainOptions& options, Console& console) {
+int terrain(const Options& options, Console& console) {
   const std::vector<std::string> shapes = synthetic_shapes();
   if (std::find(shapes.begin(), shapes.end(), options.what) != shapes.end()) {
     write_shape(options, console);
@@ -90,6 +96,24 @@ int terrain_command(const TerrainOptions& options, Console& console) {
                       names, near.empty() ? "" : fmt::format(" Did you mean {}?", near)));
   write_scene(options, console);
   return ok;
+}
+
+}  // namespace
+
+void add_terrain(Grammar& grammar) {
+  auto [parser, options] = add_command(
+      grammar, "terrain",
+      "Write the terrain and release of a synthetic shape or scenario as GeoTIFF", terrain);
+  parser.add_option("what", options.what, "Name of a shape, or a scenario file")
+      ->type_name("SHAPE|SCENARIO")
+      ->required();
+  parser.add_option("-o,--out", options.out, "Folder for the rasters")
+      ->type_name("DIR")
+      ->required();
+  parser.add_option("--cell", options.cell_size_m, "Cell size of a shape [m]")
+      ->check(CLI::PositiveNumber);
+  add_set(parser, options.set, "A shape's parameter=value, or a scenario's key=value");
+  add_json(grammar, parser);
 }
 
 }  // namespace sturz::app

@@ -43,8 +43,8 @@ State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
 /// The effects that a scene calls for, in the order of the step.
 Step make_step(const Scenario& s, const ScenePlan& plan, State& state) {
   Step step;
-  SceneParts parts{plan, step, state};
-  add_effects(s, parts);
+  SceneParts parts{s, plan, step, state};
+  add_effects(parts);
   refresh_motion(state, state.grains(), 0);
   state.grains().ledger.kinetic_0 = state.grains().ledger.kinetic;
   return step;
@@ -128,7 +128,7 @@ std::vector<EffectNote> effect_notes(const Scenario& s, SceneParts& parts) {
     if (!called.active || !row.add) continue;
     const MovingSet& set = parts.state.grains();
     const std::size_t n_fields = set.field_names().size(), before = set.bytes_per_particle();
-    row.add(parts);
+    add_effect(row, parts);
     const auto names = set.field_names();
     note.fields.assign(names.begin() + static_cast<std::ptrdiff_t>(n_fields), names.end());
     note.bytes_per_particle = set.bytes_per_particle() - before;
@@ -162,7 +162,7 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   const ScenePlan plan = plan_scene(s, inputs, 0);
   State state = make_state(s, plan, 1);
   Step step;
-  SceneParts parts{plan, step, state};
+  SceneParts parts{s, plan, step, state};
   SceneDescription d;
   d.effects = effect_notes(s, parts);
   refresh_motion(state, state.grains(), 0);

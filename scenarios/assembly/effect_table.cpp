@@ -131,9 +131,14 @@ constexpr EffectRow table[] = {
 
 std::span<const EffectRow> effect_table() { return table; }
 
-void add_effects(const Scenario& scenario, SceneParts& parts) {
+void add_effect(const EffectRow& row, SceneParts& parts) {
+  parts.step.begin_effect(row.name);
+  row.add(parts);
+}
+
+void add_effects(SceneParts& parts) {
   for (const EffectRow& row : table)
-    if (row.add && row.called(scenario, parts.plan).active) row.add(parts);
+    if (row.add && row.called(parts.scenario, parts.plan).active) add_effect(row, parts);
 }
 
 }  // namespace sturz

@@ -18,6 +18,7 @@ namespace sturz {
 
 /// A scene while its effects are added.
 struct SceneParts {
+  const Scenario& scenario;
   const ScenePlan& plan;
   Step& step;
   State& state;
@@ -43,7 +44,9 @@ struct EffectRow {
 /// In the order in which they are added: passes of one stage run in this order.
 std::span<const EffectRow> effect_table();
 
+/// Adds one effect to the step, under the name of its row.
+void add_effect(const EffectRow&, SceneParts&);
 /// Adds every effect that the scene calls for.
-void add_effects(const Scenario&, SceneParts&);
+void add_effects(SceneParts&);
 
 }  // namespace sturz

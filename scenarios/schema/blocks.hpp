@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The blocks of a scenario file, each as its path of members through Scenario.
+/// A block of a scenario file as its path of members through Scenario. The files of the key table
+/// name the blocks that they have rows for.
 #pragma once
 
 #include "scenarios/scenario.hpp"
@@ -70,22 +71,6 @@ inline constexpr Block<OwnerAt<members...>> at{
 
 inline constexpr Block<Scenario> scene{[](const Scenario& s) { return &s; },
                                        [](Scenario& s) -> Scenario& { return s; }};
-inline constexpr auto terrain = at<&Scenario::terrain>;
-inline constexpr auto release = at<&Scenario::release>;
-inline constexpr auto release_box = at<&Scenario::release, &ReleaseSpec::box>;
-inline constexpr auto release_paraboloid = at<&Scenario::release, &ReleaseSpec::paraboloid>;
-inline constexpr auto release_cylinder = at<&Scenario::release, &ReleaseSpec::cylinder>;
-inline constexpr auto grains = at<&Scenario::grains>;
-inline constexpr auto friction = at<&Scenario::grains, &GrainsSpec::friction>;
-inline constexpr auto states = at<&Scenario::grains, &GrainsSpec::states>;
-inline constexpr auto dilute = at<&Scenario::grains, &GrainsSpec::states, &GrainStatesSpec::dilute>;
-inline constexpr auto ultradilute =
-    at<&Scenario::grains, &GrainsSpec::states, &GrainStatesSpec::ultradilute>;
-inline constexpr auto basal = at<&Scenario::basal>;
-inline constexpr auto numerics = at<&Scenario::numerics>;
-inline constexpr auto domain = at<&Scenario::domain>;
-inline constexpr auto ensemble = at<&Scenario::ensemble>;
-inline constexpr auto hazard = at<&Scenario::hazard>;
 
 }  // namespace blocks
 }  // namespace sturz

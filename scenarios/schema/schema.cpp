@@ -2,7 +2,6 @@
 #include "scenarios/schema/schema.hpp"
 
 #include "engine/core/error.hpp"
-#include "scenarios/schema/blocks.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/schema_rows.hpp"
 #include "scenarios/schema/suggest.hpp"
@@ -21,29 +20,11 @@ std::vector<KeyInfo> all_keys() {
   return keys;
 }
 
-template <class Owner>
-BlockInfo optional_block(const char* path, const char* help, const Block<Owner>& block) {
-  return {path, help, [block](const Scenario& s) { return block.find(s) != nullptr; },
-          [block](Scenario& s) { block.make(s); }};
-}
-
 std::vector<BlockInfo> all_optional_blocks() {
-  using namespace blocks;
-  return {
-      optional_block("release.box", "A rectangular source.", release_box),
-      optional_block("release.paraboloid", "A cap-shaped source.", release_paraboloid),
-      optional_block("release.cylinder", "A round source of even thickness.", release_cylinder),
-      optional_block("grains", "The moving mass.", grains),
-      optional_block("grains.friction", "Internal friction that grows with the shear rate, mu(I).",
-                     friction),
-      optional_block("grains.states",
-                     "Grains that part: pressure of loose packings, dilute and isolated grains.",
-                     states),
-      optional_block("grains.states.dilute",
-                     "Grains that collide: kinetic theory, granular temperature.", dilute),
-      optional_block("grains.states.ultradilute",
-                     "Grains without neighbours: isolated particles in free flight.", ultradilute),
-  };
+  std::vector<BlockInfo> blocks;
+  schema_rows::add_site_blocks(blocks);
+  schema_rows::add_material_blocks(blocks);
+  return blocks;
 }
 
 /// The name that follows "block." in `path`, or empty when `path` does not lie below the block.

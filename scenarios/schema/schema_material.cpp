@@ -5,7 +5,15 @@
 namespace sturz::schema_rows {
 namespace {
 
-using namespace blocks;
+constexpr auto scene = blocks::scene;
+constexpr auto grains = blocks::at<&Scenario::grains>;
+constexpr auto friction = blocks::at<&Scenario::grains, &GrainsSpec::friction>;
+constexpr auto states = blocks::at<&Scenario::grains, &GrainsSpec::states>;
+constexpr auto dilute =
+    blocks::at<&Scenario::grains, &GrainsSpec::states, &GrainStatesSpec::dilute>;
+constexpr auto ultradilute =
+    blocks::at<&Scenario::grains, &GrainsSpec::states, &GrainStatesSpec::ultradilute>;
+constexpr auto basal = blocks::at<&Scenario::basal>;
 
 void add_grains(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
@@ -117,6 +125,21 @@ void add_material_keys(std::vector<KeyInfo>& keys) {
                  "auto: full_stress where at least four layers of particles resolve the flow, else "
                  "depth_averaged; full_stress: three-dimensional particles with a full stress "
                  "tensor; depth_averaged: columns on the terrain."));
+}
+
+void add_material_blocks(std::vector<BlockInfo>& blocks) {
+  blocks.push_back(optional_block("grains", "The moving mass.", grains));
+  blocks.push_back(optional_block(
+      "grains.friction", "Internal friction that grows with the shear rate, mu(I).", friction));
+  blocks.push_back(optional_block(
+      "grains.states", "Grains that part: pressure of loose packings, dilute and isolated grains.",
+      states));
+  blocks.push_back(optional_block("grains.states.dilute",
+                                  "Grains that collide: kinetic theory, granular temperature.",
+                                  dilute));
+  blocks.push_back(optional_block("grains.states.ultradilute",
+                                  "Grains without neighbours: isolated particles in free flight.",
+                                  ultradilute));
 }
 
 }  // namespace sturz::schema_rows

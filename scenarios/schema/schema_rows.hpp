@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Tools to write rows of the key table: a block of blocks.hpp, a member, the limits, one sentence.
+/// Tools to write rows of the key table: a block (blocks.hpp), a member, the limits, one sentence.
 /// For the schema_*.cpp files only.
 #pragma once
 
@@ -149,9 +149,19 @@ inline KeyInfo absent_when_zero(KeyInfo info) {
   return info;
 }
 
+/// A block that is there only where the file has it.
+template <class Owner>
+BlockInfo optional_block(const char* path, const char* help, const Block<Owner>& block) {
+  return {path, help, [block](const Scenario& s) { return block.find(s) != nullptr; },
+          [block](Scenario& s) { block.make(s); }};
+}
+
 // The table's parts, in file order; schema.cpp joins them.
 void add_site_keys(std::vector<KeyInfo>&);      ///< title, terrain, release
 void add_material_keys(std::vector<KeyInfo>&);  ///< grains, basal, formulation
 void add_run_keys(std::vector<KeyInfo>&);       ///< numerics, domain, ensemble, hazard
+// Their optional blocks.
+void add_site_blocks(std::vector<BlockInfo>&);
+void add_material_blocks(std::vector<BlockInfo>&);
 
 }  // namespace sturz::schema_rows

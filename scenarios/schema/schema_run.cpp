@@ -5,7 +5,10 @@
 namespace sturz::schema_rows {
 namespace {
 
-using namespace blocks;
+constexpr auto numerics = blocks::at<&Scenario::numerics>;
+constexpr auto domain = blocks::at<&Scenario::domain>;
+constexpr auto ensemble = blocks::at<&Scenario::ensemble>;
+constexpr auto hazard = blocks::at<&Scenario::hazard>;
 
 void add_numerics(std::vector<KeyInfo>& keys) {
   using enum ValueKind;

@@ -5,7 +5,12 @@
 namespace sturz::schema_rows {
 namespace {
 
-using namespace blocks;
+constexpr auto scene = blocks::scene;
+constexpr auto terrain = blocks::at<&Scenario::terrain>;
+constexpr auto release = blocks::at<&Scenario::release>;
+constexpr auto release_box = blocks::at<&Scenario::release, &ReleaseSpec::box>;
+constexpr auto release_paraboloid = blocks::at<&Scenario::release, &ReleaseSpec::paraboloid>;
+constexpr auto release_cylinder = blocks::at<&Scenario::release, &ReleaseSpec::cylinder>;
 
 constexpr double map_limit = 1e8;  // metres; no projected coordinate is larger
 
@@ -98,6 +103,14 @@ void add_site_keys(std::vector<KeyInfo>& keys) {
                           "One line that names the scene in reports."));
   add_terrain(keys);
   add_release(keys);
+}
+
+void add_site_blocks(std::vector<BlockInfo>& blocks) {
+  blocks.push_back(optional_block("release.box", "A rectangular source.", release_box));
+  blocks.push_back(
+      optional_block("release.paraboloid", "A cap-shaped source.", release_paraboloid));
+  blocks.push_back(
+      optional_block("release.cylinder", "A round source of even thickness.", release_cylinder));
 }
 
 }  // namespace sturz::schema_rows

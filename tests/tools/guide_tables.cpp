@@ -94,7 +94,15 @@ std::string generated(const std::string& what) {
   throw std::runtime_error("nothing is known to generate for '" + what + "'");
 }
 
+/// Every key has its row: a new top-level block needs a heading and an empty generated block.
+void require_all_blocks(const std::string& guide) {
+  for (const std::string& name : names_in_block(""))
+    if (is_block(name) && guide.find("<!-- generated: keys " + name + " -->") == std::string::npos)
+      throw std::runtime_error("there is no generated block for the keys of `" + name + "`");
+}
+
 std::string with_tables(const std::string& guide) {
+  require_all_blocks(guide);
   constexpr std::string_view opening = "<!-- generated: ", closing = " -->\n",
                              end = "<!-- end -->\n";
   std::string text;
