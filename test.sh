@@ -66,7 +66,7 @@ stage_tidy() { record tidy scripts/tidy.sh; }
 stage_asan() {
   build asan unit_tests fuzz
   tests asan asan -L '^unit$' -E "$slow_under_asan"
-  for target in scenario design polygons rasters netcdf manifest; do
+  for target in $(tests/fuzz/run.sh --list); do
     record "fuzz-$target" quietly tests/fuzz/run.sh "$target" -max_total_time=20
   done
 }

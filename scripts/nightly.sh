@@ -13,7 +13,7 @@ install_packages "${build_packages[@]}" "${test_packages[@]}" || exit 1
 cmake --preset asan >/dev/null && cmake --build build/asan --target fuzz || exit 1
 
 broken=0
-for target in scenario design polygons rasters netcdf manifest; do
+for target in $(tests/fuzz/run.sh --list); do
   log=build/asan/tests/fuzz/$target.log
   if tests/fuzz/run.sh "$target" -runs=1000000 -max_total_time="$seconds" >"$log" 2>&1; then
     echo "$target: $(grep -E '^Done ' "$log")"

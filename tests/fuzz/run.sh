@@ -1,15 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Fuzzes one reader of foreign bytes. Usage: tests/fuzz/run.sh TARGET [libFuzzer options]
-#   TARGET   scenario design polygons rasters netcdf manifest
+#   TARGET   NAME of a fuzz_NAME.cpp here; `--list` names them all
 #   options  e.g. -runs=1000 or -max_total_time=60; one million runs when neither is given
 # Build first:  cmake --preset asan && cmake --build build/asan --target fuzz
 # Seeds, what libFuzzer learned and findings lie in build/asan/tests/fuzz (or $STURZ_FUZZ_DIR).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
-target=${1:?TARGET: scenario design polygons rasters netcdf manifest}
+target=${1:?TARGET, or --list}
 shift
+if [ "$target" = --list ]; then
+  for file in "$here"/fuzz_*.cpp; do basename "$file" .cpp | sed s/^fuzz_//; done
+  exit
+fi
 work=${STURZ_FUZZ_DIR:-$root/build/asan/tests/fuzz}
 /usr/bin/python3 "$here/make_corpus.py" "$target" "$root" "$work"
 
