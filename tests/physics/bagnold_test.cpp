@@ -24,7 +24,7 @@ const double tan_slope = std::tan(slope_deg * degree);
 double solution_m_s(double z) {
   static const double scale = [] {
     const GrainsSpec grains = *bagnold_slab(slope_deg).grains;
-    const FrictionLaw& law = *grains.friction;
+    const FrictionLaw law = grains.friction.value();
     const double inertial = law.inertial_number_scale.value *
                             (tan_slope - law.static_coefficient.value) /
                             (law.dynamic_coefficient.value - tan_slope);

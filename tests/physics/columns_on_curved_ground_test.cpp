@@ -116,7 +116,9 @@ TEST(ColumnBits, AreTheSameOnTwoThreadsAndBothInstructionSets) {
   const std::uint64_t first = hash_of(1, best_instruction_set());
   EXPECT_EQ(hash_of(1, best_instruction_set()), first);
   EXPECT_EQ(hash_of(2, best_instruction_set()), first);
-  if (supports(InstructionSet::avx2)) EXPECT_EQ(hash_of(1, InstructionSet::avx2), first);
+  if (supports(InstructionSet::avx2)) {
+    EXPECT_EQ(hash_of(1, InstructionSet::avx2), first);
+  }
 }
 
 }  // namespace
