@@ -52,7 +52,9 @@ TEST(SteepGround, ColumnsSurviveEveryCorner) {
     EXPECT_TRUE(is_finite(simulation.parts().state.grains()));
     EXPECT_LE(std::abs(s.mass_error), 1e-12);
     EXPECT_EQ(ledger.leaked_mass, 0);
-    if (m.scenario.terrain.nodata == TerrainEdge::wall) EXPECT_EQ(ledger.lost_mass, 0);
+    if (m.scenario.terrain.nodata == TerrainEdge::wall) {
+      EXPECT_EQ(ledger.lost_mass, 0);
+    }
     EXPECT_LE(std::abs(s.energy_residual), 0.01);
     EXPECT_LE(s.max_speed_m_s, most);
     EXPECT_GT(s.mean_dt_s, 1e-3 * std::sqrt(m.scenario.numerics.spacing_m / standard_gravity));
