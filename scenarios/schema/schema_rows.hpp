@@ -119,6 +119,10 @@ KeyInfo choice_key(const Block<Owner>& block, Enum Owner::*member, const char* p
                    const char* help, std::vector<std::string> later = {}) {
   KeyInfo info = key(block, member, {path, ValueKind::choice, "", -no_limit, no_limit, help});
   for (const auto& word : words_of(Enum{})) info.choices.emplace_back(word.text);
+  info.set = [set = std::move(info.set)](Scenario& s, const KeyValue& v) {
+    // An unknown word does not even make the block that it stands in.
+    if (from_word<Enum>(held<std::string>(v))) set(s, v);
+  };
   info.later_choices = std::move(later);
   return info;
 }
