@@ -51,6 +51,7 @@ class Run {
         control_(control),
         start_(Clock::now()),
         passes_before_(parts.step.timings()),
+        removed_before_(n_created(parts.state) - parts.state.n_particles()),
         history_(sample_interval(parts.facts.spacing_m)) {}
 
   MemberResult operator()() {
@@ -260,9 +261,7 @@ class Run {
     const double released = ledger.released_energy();
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
     m.take_off_fraction = s.time > 0 ? ledger.detachment / (ledger.released_mass * s.time) : 0;
-    std::size_t created = 0;
-    for (const MovingSet& set : s.sets) created += set.n_created();
-    m.n_particles = static_cast<double>(created);
+    m.n_particles = static_cast<double>(n_created(s) - removed_before_);
   }
 
   /// What is averaged over the run's time.
@@ -338,6 +337,7 @@ class Run {
   const RunControl& control_;
   Clock::time_point start_;
   std::vector<PassTime> passes_before_;  // of steps that were made by hand
+  std::size_t removed_before_;           // particles that a set was cut by before its run
   MemberResult result_;
   Displacement now_;
   std::map<std::string, std::size_t> bound_;
