@@ -12,16 +12,16 @@ namespace sturz {
 ///
 /// Kinetic energy changes only through accounted works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
-///   lost_energy + added_energy + outer_work.
+///   lost_energy - taken_energy + added_energy + outer_work.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
 /// and among isolated particles -(change of rotational and isolated_elastic + isolated_dissipated).
 struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
-  double added_mass = 0;                                     ///< by effects, after the release
-  double added_energy = 0;                                   ///< kinetic energy that it brought
-  double outer_work = 0;  ///< by forces of effects that nothing below names, such as wind
+  double added_mass = 0, taken_mass = 0;                     ///< by effects, after the release
+  double added_energy = 0, taken_energy = 0;                 ///< kinetic energy that went with it
+  double outer_work = 0;  ///< by what nothing below names: effects such as wind, ground that moves
 
   /// Now. Potential is the accounted change since release: it counts what left as it was when it
   /// left, and a periodic image's jump not at all.
@@ -59,6 +59,10 @@ struct Ledger {
 
   /// Potential energy set free so far, plus what the mass started with [J].
   double released_energy() const { return kinetic_0 + elastic_0 - potential; }
+  /// What was released and what came later, for shares of it [kg].
+  double brought_mass() const { return released_mass + added_mass; }
+  /// Energy that shares are taken of [J].
+  double available_energy() const { return released_energy() + added_energy; }
   /// Dissipated by artificial viscosity and discretisation.
   double numerical() const { return -stress_work - stress_power; }
   /// Dissipated in normal contact with ground and walls.
@@ -71,7 +75,7 @@ struct Ledger {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +
            rest_damping + damping() + rotational + isolated_elastic + isolated_dissipated() +
-           numerical() - diffusion + lost_energy - added_energy - outer_work;
+           numerical() - diffusion + lost_energy + taken_energy - added_energy - outer_work;
   }
 };
 
@@ -80,6 +84,7 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
   constexpr Entry entries[] = {&Ledger::released_mass,    &Ledger::lost_mass,
                                &Ledger::leaked_mass,      &Ledger::added_mass,
                                &Ledger::added_energy,     &Ledger::kinetic,
+                               &Ledger::taken_mass,       &Ledger::taken_energy,
                                &Ledger::potential,        &Ledger::elastic,
                                &Ledger::spring,           &Ledger::kinetic_0,
                                &Ledger::elastic_0,        &Ledger::spring_0,

@@ -3,6 +3,8 @@
 
 #include "engine/effects/fields.hpp"
 
+#include <algorithm>
+
 namespace sturz {
 namespace {
 
@@ -10,6 +12,7 @@ void place(MovingSet& p, std::size_t i, const Arrival& a) {
   p.x[i] = a.position.x(), p.y[i] = a.position.y(), p.z[i] = a.position.z();
   p.vx[i] = a.velocity.x(), p.vy[i] = a.velocity.y(), p.vz[i] = a.velocity.z();
   p.mass[i] = a.mass;
+  p.motion.max_speed = std::max(p.motion.max_speed, a.velocity.norm());
   p.ledger.added_mass += a.mass;
   p.ledger.added_energy += 0.5 * a.mass * a.velocity.squaredNorm();
 }

@@ -42,7 +42,9 @@ enum class Fate : std::uint8_t {
   stays,
   off_terrain,  ///< beyond the known ground; leaves where the domain boundary lets mass out
   underground,  ///< lost below the surface
-  taken,        ///< an effect took it (deposited, detached, moved to another set)
+  /// An effect took it (deposited, detached, moved to another set); set with `any_leaving` by
+  /// passes of the stages gather to stress, after the ground was looked up.
+  taken,
 };
 
 /// A particle that an effect wants to add.
@@ -77,7 +79,7 @@ struct MovingSet : ParticleSet {
   BoundarySupport boundary;
   MotionBounds motion;
   Ledger ledger;
-  /// Particles that passes of this step want to add; they enter before the next step.
+  /// Particles that passes of this step want to add; they enter at its end.
   std::vector<Arrival> arrivals;
 };
 

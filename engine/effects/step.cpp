@@ -53,7 +53,7 @@ StepLimit Step::limit(const State& state) const {
   return least;
 }
 
-void Step::let_in(State& state) {
+void Step::admit(State& state) {
   for (std::size_t set = 0; set < state.sets.size(); ++set) {
     if (state.sets[set].arrivals.empty()) continue;
     const std::size_t first = enter_arrivals(state.domain, state.sets[set]);
@@ -63,7 +63,6 @@ void Step::let_in(State& state) {
 
 void Step::apply(State& state, double dt) {
   using Clock = std::chrono::steady_clock;
-  let_in(state);
   auto before = Clock::now();
   for (std::size_t k = 0; k < passes_.size(); ++k) {
     passes_[k]->apply(state, dt);
@@ -76,6 +75,7 @@ void Step::apply(State& state, double dt) {
   state.time += dt;
   state.previous_dt = dt;
   ++state.n_steps;
+  admit(state);
 }
 
 std::vector<std::string> Step::pass_names() const {

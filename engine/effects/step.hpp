@@ -83,7 +83,10 @@ class Step {
 
   /// The smallest limit of all passes. \return name and dt [s]
   StepLimit limit(const State&) const;
-  /// Lets in what arrives, applies all passes in order and advances the clock.
+  /// Makes particles of what waits in MovingSet::arrivals. `apply` does so at its end, so that the
+  /// next limit knows them; to be called by hand for arrivals from outside a step.
+  void admit(State&);
+  /// Applies all passes in order, advances the clock and admits what passes let arrive.
   void apply(State&, double dt);
 
   std::vector<std::string> pass_names() const;
@@ -91,8 +94,6 @@ class Step {
   std::size_t bytes() const;
 
  private:
-  void let_in(State&);
-
   std::vector<std::unique_ptr<Pass>> passes_;
   std::vector<PassTime> timings_;
   std::string effect_;

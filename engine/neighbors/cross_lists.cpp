@@ -5,6 +5,7 @@
 #include "engine/core/parallel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -14,7 +15,8 @@ namespace {
 constexpr int bits = 21;  // of each index in a cell's number
 constexpr double last_index = (1 << bits) - 3;
 
-/// A position far away or nowhere (NaN) falls into the last cell: slow, never wrong.
+/// A position far away falls into the last cell, one nowhere (NaN) into the first: slow, never
+/// wrong.
 std::uint64_t index_along(double distance, double cell, int offset) {
   const double i = distance > 0 ? std::min(distance / cell, last_index) : 0;
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(i) + 1 + offset);
@@ -41,12 +43,14 @@ std::uint64_t CrossLists::cell_of(double x, double y, double z, int dx, int dy, 
 void CrossLists::add_images(const ParticleSet& to, const Period& period, bool along_x) {
   if (!period.active) return;
   const double margin = support_ + skin_, length = period.length();
+  const int most = static_cast<int>(std::ceil(margin / length));  // a box may be short
   const std::size_t n = sources_.size();
   for (std::size_t k = 0; k < n; ++k) {
     const Source s = sources_[k];
     const double at = along_x ? to.x[s.index] + s.dx : to.y[s.index] + s.dy;
-    for (const double turn : {1.0, -1.0}) {
-      if (turn > 0 ? at >= period.min + margin : at <= period.max - margin) continue;
+    for (int turn = -most; turn <= most; ++turn) {
+      const double there = at + turn * length;
+      if (turn == 0 || there < period.min - margin || there > period.max + margin) continue;
       Source image = s;
       (along_x ? image.dx : image.dy) += turn * length;
       image.dz += turn * period.rise;
@@ -61,9 +65,12 @@ void CrossLists::enter(const ParticleSet& to, const Domain& domain) {
   add_images(to, domain.x, true);
   add_images(to, domain.y, false);
   const double margin = 2 * (support_ + skin_);
-  origin_[0] = least(to.x) - (domain.x.active ? domain.x.length() : 0) - margin;
-  origin_[1] = least(to.y) - (domain.y.active ? domain.y.length() : 0) - margin;
-  origin_[2] = least(to.z) - std::abs(domain.x.rise) - std::abs(domain.y.rise) - margin;
+  origin_[0] = least(to.x) - (domain.x.active ? margin + domain.x.length() : 0) - margin;
+  origin_[1] = least(to.y) - (domain.y.active ? margin + domain.y.length() : 0) - margin;
+  double lift = 0;  // how far images may lie below
+  for (const Period* p : {&domain.x, &domain.y})
+    if (p->active) lift += std::abs(p->rise) * std::ceil(margin / p->length());
+  origin_[2] = least(to.z) - lift - margin;
   for (Source& s : sources_)
     s.cell = cell_of(to.x[s.index] + s.dx, to.y[s.index] + s.dy, to.z[s.index] + s.dz, 0, 0, 0);
   std::sort(sources_.begin(), sources_.end(), [](const Source& a, const Source& b) {

@@ -38,6 +38,12 @@ std::uint64_t hash_of(const State& state) {
   return hash.value();
 }
 
+std::size_t n_created(const State& state) {
+  std::size_t n = 0;
+  for (const MovingSet& set : state.sets) n += set.n_created();
+  return n;
+}
+
 bool any_has(const State& state, const auto& key) {
   return std::any_of(state.sets.begin(), state.sets.end(),
                      [&](const MovingSet& set) { return set.has(key); });
@@ -57,6 +63,7 @@ class Run {
   MemberResult operator()() {
     State& s = parts_.state;
     for (MovingSet& set : s.sets) set.ledger.kinetic_0 = set.ledger.kinetic;
+    parts_.step.admit(s);
     record();
     sample_diagnostics();
     frame(true);
@@ -250,17 +257,17 @@ class Run {
     MemberScalars& m = result_.scalars;
     const Ledger ledger = s.ledger();
     const ReleaseFacts& release = parts_.facts.release;
-    const double brought = ledger.released_mass + ledger.added_mass;
+    const double brought = ledger.brought_mass();
     m.com_travel_m = now_.com;
     m.drop_m = release.top_m - now_.lowest;
     m.release_volume_m3 = release.volume_m3;
     m.release_layers = release.layers;
     m.released_mass_kg = ledger.released_mass;
     m.lost_mass_kg = ledger.lost_mass;
-    m.mass_error = (mass_on_terrain(s) + ledger.lost_mass - brought) / brought;
-    const double released = ledger.released_energy();
+    m.mass_error = (mass_on_terrain(s) + ledger.lost_mass + ledger.taken_mass - brought) / brought;
+    const double released = ledger.available_energy();
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
-    m.take_off_fraction = s.time > 0 ? ledger.detachment / (ledger.released_mass * s.time) : 0;
+    m.take_off_fraction = s.time > 0 ? ledger.detachment / (brought * s.time) : 0;
     m.n_particles = static_cast<double>(n_created(s) - removed_before_);
   }
 
@@ -290,9 +297,9 @@ class Run {
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
     result_.state_hash = hash_of(s);
-    if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.released_mass) {
+    if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
-      result_.reason = std::to_string(100 * ledger.lost_mass / ledger.released_mass) +
+      result_.reason = std::to_string(100 * ledger.lost_mass / ledger.brought_mass()) +
                        " % of the mass left the terrain";
     }
   }
@@ -362,6 +369,9 @@ Simulation::~Simulation() = default;
 
 MemberResult Simulation::run(const RunControl& control) { return Run(*parts_, control)(); }
 
-void Simulation::step() { parts_->step.apply(parts_->state, parts_->step.limit(parts_->state).dt); }
+void Simulation::step() {
+  parts_->step.admit(parts_->state);
+  parts_->step.apply(parts_->state, parts_->step.limit(parts_->state).dt);
+}
 
 }  // namespace sturz

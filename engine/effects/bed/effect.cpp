@@ -106,10 +106,11 @@ class BoundaryPass final : public Pass {
     MovingSet& p = s.sets[set_];
     make_room(s.domain, p);
     // Where nothing moved in storage, what was far from the ground has come no nearer than it went.
-    const bool known =
-        p.n_sorts == sorts_ && p.size() == n_ && s.terrain.n_changes() == ground_changes_;
+    const bool known = p.n_sorts == sorts_ && p.size() == n_ && p.n_created() == created_ &&
+                       s.terrain.n_changes() == ground_changes_;
     ground_changes_ = s.terrain.n_changes();
     sorts_ = p.n_sorts;
+    created_ = p.n_created();
     n_ = p.size();
     const auto travel = static_cast<float>(1.0001 * p.motion.max_speed * s.previous_dt);
     const auto far = static_cast<float>(2 * settings_.smoothing_length);
@@ -204,7 +205,7 @@ class BoundaryPass final : public Pass {
 
   std::size_t set_;
   ContactSettings settings_;
-  std::size_t sorts_ = 0, n_ = 0, ground_changes_ = 0;  // of the step before
+  std::size_t sorts_ = 0, n_ = 0, created_ = 0, ground_changes_ = 0;  // of the step before
 };
 
 void account(MovingSet& p, const ContactSums& sums) {

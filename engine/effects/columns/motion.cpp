@@ -119,12 +119,34 @@ class ColumnMotion final : public Pass {
 
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[flow_->set];
+    if (s.terrain.n_changes() != ground_changes_) follow_ground(s, p);
     if (p.any_leaving) remove_outside(s, p, keep_);
     refresh_motion(s, p, kick_interval(s, dt));
     advance(s, p, dt);
   }
+  /// The next kick counts half of the step before it for new columns too.
+  void entered(State& s, std::size_t set, std::size_t first) override {
+    if (set != flow_->set) return;
+    const MovingSet& p = s.sets[set];
+    for (std::size_t i = first; i < p.size(); ++i)
+      later_rise_ += 0.5 * s.previous_dt * p.mass[i] * p.vz[i];
+  }
 
  private:
+  /// Ground that moved takes its columns along: their speed is not what pays for it.
+  void follow_ground(const State& s, MovingSet& p) {
+    ground_changes_ = s.terrain.n_changes();
+    const GroundColumns ground(p);
+    double lifted = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double z = p.z[i];
+      look_up_ground(s, p, ground, i);
+      lifted += p.mass[i] * s.gravity * (p.z[i] - z);
+    }
+    p.ledger.potential += lifted;
+    p.ledger.outer_work += lifted;
+  }
+
   /// In separate loops: the arithmetic four columns side by side, the look-ups one by one.
   void advance(const State& s, MovingSet& p, double dt) {
     const GroundColumns ground(p);
@@ -232,6 +254,7 @@ class ColumnMotion final : public Pass {
   std::shared_ptr<ColumnFlow> flow_;
   std::vector<std::uint8_t> keep_;
   std::vector<double> climb_, rise_;  // of each column: v_z at the step's start [m/s], dz [m]
+  std::size_t ground_changes_ = 0;    // that the columns stand on
   double later_rise_ = 0;             // sum of m dz that the next kick counts [kg m]
 };
 

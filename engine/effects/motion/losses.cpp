@@ -26,8 +26,10 @@ void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& kee
     n_listed += keep[i] && i < p.n_listed;
     if (keep[i]) continue;
     p.corrupt = p.corrupt || !std::isfinite(p.x[i] + p.y[i] + p.z[i]);
-    p.ledger.lost_mass += p.mass[i];
-    p.ledger.lost_energy += 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
+    const bool taken = p.fate[i] == Fate::taken;
+    const double energy = 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
+    (taken ? p.ledger.taken_mass : p.ledger.lost_mass) += p.mass[i];
+    (taken ? p.ledger.taken_energy : p.ledger.lost_energy) += energy;
   }
   if (n_kept == p.size()) return;
   for (auto* a : {&p.ax, &p.ay, &p.az}) {

@@ -101,7 +101,9 @@ TEST(Arrivals, AreFollowedByIdInTravelAndFrames) {
   EXPECT_LT(f.result.scalars.front_travel_m, 6);
   EXPECT_GT(f.result.scalars.front_travel_m, 1);
   EXPECT_LT(std::abs(f.result.scalars.mass_error), 1e-13);
-  EXPECT_NEAR(f.ledger.lost_mass, f.taken * 1560.0, 1e-9);
+  EXPECT_NEAR(f.ledger.taken_mass, f.taken * 1560.0, 1e-9);
+  EXPECT_EQ(f.ledger.lost_mass, 0);
+  EXPECT_NE(f.result.outcome, Outcome::left_terrain) << "what an effect takes has not left";
 }
 
 TEST(Arrivals, GiveTheSameBitsOnTwoThreads) {
@@ -126,9 +128,48 @@ TEST(Arrivals, ColumnsEnterOnTheGround) {
     EXPECT_GT(p.scalar(fields::support_radius)[i], 0.5);
     EXPECT_GT(p.scalar(fields::thickness)[i], 0);
   }
+  EXPECT_LT(std::abs(p.ledger.residual()), 0.05 * p.ledger.available_energy());
   std::vector<ParticleTravel> each;
   EXPECT_LT(measure(made.state, each).front, 15);
   EXPECT_NEAR(p.ledger.added_mass, 12 * 1560.0, 1e-9);
+}
+
+/// The step that an arrival moves in is chosen with it.
+TEST(Arrivals, AFastOneShortensItsFirstStep) {
+  std::vector<Vec3> places;
+  for (int i = 0; i < 36; ++i) places.emplace_back(i % 6 + 0.5, i / 6 + 0.5, 0);
+  HandMade made = columns_on(even_ground(60), places, 1.0, {0, 0, 0});
+  MovingSet& p = made.state.grains();
+  for (int step = 0; step < 20; ++step) made.advance();
+  p.arrivals.push_back({{-20.5, 3.5, 0}, {100, 0, 0}, 1560});
+  made.step.admit(made.state);
+  const std::size_t i = p.size() - 1;
+  const std::uint32_t id = p.id[i];
+  const double before = p.x[i];
+  made.advance();
+  const auto now = std::find(p.id.begin(), p.id.end(), id) - p.id.begin();
+  EXPECT_LT(p.x[static_cast<std::size_t>(now)] - before, 1.0) << "at most about a cell";
+}
+
+/// Ground that sinks or rises under columns is no slope: they keep their speed.
+TEST(Arrivals, ColumnsKeepTheirSpeedOverGroundThatMoves) {
+  for (const double moved : {-0.5, 0.2}) {
+    std::vector<Vec3> places;
+    for (int i = 0; i < 36; ++i) places.emplace_back(i % 6 + 0.5, i / 6 + 0.5, 0);
+    HandMade made = columns_on(even_ground(60), places, 0.2, {3, 0, 0});
+    for (int step = 0; step < 10; ++step) made.advance();
+    const MovingSet& p = made.state.grains();
+    const double before = p.ledger.kinetic, unexplained = p.ledger.residual();
+    std::vector<NodeChange> all;
+    for (int r = 0; r < 60; ++r)
+      for (int c = 0; c < 60; ++c) all.push_back({r, c, moved});
+    made.state.terrain.change(all);
+    made.advance();
+    made.advance();
+    EXPECT_NEAR(p.ledger.kinetic, before, 0.2 * before) << moved;
+    EXPECT_NEAR(p.ledger.residual(), unexplained, 0.02 * before) << moved;
+    EXPECT_NEAR(p.z[0], moved, 1e-9);
+  }
 }
 
 /// The ground under one layer of grains at rest sinks: they follow it down, and nothing is lost.

@@ -42,8 +42,8 @@ Found slow(const ParticleSet& a, const ParticleSet& b, double support, const Dom
   Found out;
   for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j)
-      for (int m = d.x.active ? -1 : 0; m <= (d.x.active ? 1 : 0); ++m)
-        for (int n = d.y.active ? -1 : 0; n <= (d.y.active ? 1 : 0); ++n) {
+      for (int m = d.x.active ? -4 : 0; m <= (d.x.active ? 4 : 0); ++m)
+        for (int n = d.y.active ? -4 : 0; n <= (d.y.active ? 4 : 0); ++n) {
           const Vec3 r(a.x[i] - b.x[j] - m * d.x.length(), a.y[i] - b.y[j] - n * d.y.length(),
                        a.z[i] - b.z[j] - m * d.x.rise - n * d.y.rise);
           if (r.squaredNorm() < support * support) out.insert(entry(a.id[i], b.id[j], r));
@@ -81,6 +81,19 @@ TEST(CrossLists, CrossPeriodicBordersThatRise) {
   CrossLists lists(1.5, 0.15);
   lists.rebuild(a, b, box, 1);
   EXPECT_EQ(listed(lists, a, b), slow(a, b, 1.5, box));
+}
+
+/// A slice may be thinner than a support: then a particle meets several images of another.
+TEST(CrossLists, FindEveryImageInAShortBox) {
+  Domain box;
+  box.x = {true, 0, 3, 0.7};
+  box.y = {true, 0, 3, 0};
+  const ParticleSet a = cloud(60, 12, 3), b = cloud(60, 13, 3);
+  for (double support : {2.0, 3.5, 6.5}) {
+    CrossLists lists(support, 0.1);
+    lists.rebuild(a, b, box, 1);
+    EXPECT_EQ(listed(lists, a, b), slow(a, b, support, box)) << support;
+  }
 }
 
 TEST(CrossLists, MissNothingAfterMovesWithinTheSkin) {

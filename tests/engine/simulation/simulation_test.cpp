@@ -33,6 +33,13 @@ MemberResult run(const Scenario& s, int threads = 1, InstructionSet set = best_i
   return assemble(s, load_scene_inputs(s), 3, threads, set).run();
 }
 
+TEST(Simulation, AShippedSceneIsOneSetWithNoPassOfAnother) {
+  const Simulation simulation = assemble(ramp_slide(), load_scene_inputs(ramp_slide()), 0, 1);
+  EXPECT_EQ(simulation.parts().state.sets.size(), 1U);
+  EXPECT_EQ(simulation.parts().step.pass_names().size(), 9U)
+      << "sound speed, lists, ground, gather, sweep, kick, contact, stress, motion and no more";
+}
+
 TEST(Simulation, GivesTheSameBitsAtAnyNumberOfThreads) {
   Scenario s = ramp_slide(90, 1.8);  // more than one block of the ordered sums
   s.numerics.end_time_s = 1.4;

@@ -102,12 +102,33 @@ TEST(TwoSets, ExchangeMomentumThroughCrossLists) {
   EXPECT_LT(slip, 0.9 * slip0) << "they brake each other";
 }
 
-TEST(TwoSets, ASceneWithOneHasNoSecond) {
-  const std::vector<GrainBox> boxes = coarse_and_fine();
-  HandMade one = sets_of({boxes[0]});
-  EXPECT_EQ(one.state.sets.size(), 1u);
-  for (const std::string& pass : one.step.pass_names())
-    EXPECT_EQ(pass.find("exchange"), std::string::npos);
+/// Two columns of different density on one cell: thickness adds, pressure is that of the mixture.
+TEST(TwoSets, PeaksCountEachSetByItsOwnDensity) {
+  MovingSet sets[2];
+  const double density[] = {1000, 2500}, speed[] = {4, 8};
+  for (int k : {0, 1}) {
+    sets[k].spacing = 0.5 + k;
+    sets[k].bulk_density = density[k];
+    sets[k].grow(400);
+    for (int i = 0; i < 400; ++i) {  // 1 m and 2 m of flow on 20 x 20 m
+      sets[k].x[i] = i % 20 - 9.5, sets[k].y[i] = i / 20 - 9.5;
+      sets[k].vx[i] = speed[k];
+      sets[k].mass[i] = density[k] * (1 + k);
+    }
+  }
+  PeakMaps maps({Grid{64, 64, -32, 32, 1, ""}, 0.05});
+  maps.record(sets, 0);
+  MemberResult r;
+  maps.finish(sets, r);
+  const int row = r.grid.row_of(0.5), col = r.grid.col_of(0.5);
+  const double mass = 1000 + 5000, v = (1000 * 4 + 5000 * 8) / mass;
+  EXPECT_NEAR(at(r, PeakLayer::thickness, row, col), 3, 1e-5);
+  EXPECT_NEAR(at(r, PeakLayer::deposit, row, col), 3, 1e-5);
+  EXPECT_NEAR(at(r, PeakLayer::speed, row, col), v, 1e-5);
+  EXPECT_NEAR(at(r, PeakLayer::energy, row, col), 0.5 * (1000 * 16 + 5000 * 64), 1);
+  EXPECT_NEAR(at(r, PeakLayer::pressure, row, col), mass / 3 * v * v, 0.1);
+  // 3 m are six layers of the first set and two of the second: 5000 of 6000 kg are thin.
+  EXPECT_NEAR(maps.layers().thin_fraction, 5.0 / 6, 0.05);
 }
 
 }  // namespace
