@@ -12,7 +12,10 @@ def main(files):
         if not pathlib.Path(name).is_file():
             failed.append(f"{name} was not written")
             continue
-        for case in tree.parse(name).getroot().iter("testcase"):
+        cases = list(tree.parse(name).getroot().iter("testcase"))
+        if not cases:
+            failed.append(f"{name} holds no test")
+        for case in cases:
             status = case.get("status")
             if status == "run":
                 passed += 1

@@ -48,7 +48,7 @@ struct ColumnConstants {
   double viscosity = 0.5;  ///< alpha of Monaghan's viscosity between approaching columns
 };
 
-/// Sums per record, each [n_records]; see terms/column_sums.hpp.
+/// Sums per record, each [n_records]; see columns/sums.hpp.
 struct ColumnSweepOutput {
   float* thickness;  ///< sum V_j W_ij [m]
   float* density;    ///< sum W_ij: columns per area [1/m^2]

@@ -145,6 +145,8 @@ class CheckStyle(unittest.TestCase):
     def test_long_functions_are_found_and_tables_are_not(self):
         body = "  work();\n" * 70
         self.assertTrue(self.findings("functions", "io/a.cpp", "void f(int x) {\n" + body + "}\n"))
+        self.assertTrue(self.findings("functions", "io/a.cpp",
+                                      "  void f(int x,\n         int y) const {\n" + body + "  }\n"))
         self.assertFalse(self.findings("functions", "io/a.cpp", "constexpr int t[] = {\n" + body + "};\n"))
         self.assertFalse(self.findings("functions", "io/a.cpp", "void f() {\n" + body[:300] + "}\n"))
 

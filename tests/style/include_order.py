@@ -86,6 +86,8 @@ def problems(name, text):
             continue
         included = match.group(2)
         theirs = layer(included)
+        if match.group(1) == '"' and (included.startswith((".", "tests/")) or "/" not in included):
+            yield f"{name}:{n}: {included}: headers of the house are named from its root, tests not at all"
         if theirs and not may_see(mine, theirs):
             yield f"{name}:{n}: {mine} must not include {included}"
         if mine == "engine/simulation" and theirs == "engine/effects" and \

@@ -6,7 +6,7 @@
 ///   moment matrix      M += r_ij (x) d                 B.3
 ///   momentum           A += sigma_j d, G += d          B.4, a = -(C/rho)(A + sigma_i G)
 ///   viscosity          A += k (f_i + f_j)/2 q d, q = v_ij.r_ij/(r^2 + 0.01 h^2)   B.4, bilateral,
-///                      in the shares f that act (terms/viscous_share.hpp)
+///                      in the shares f that act (dense/viscous_share.hpp)
 ///   density diffusion  D += V_j t^3 (e_j - e_i), N += (e_j - e_i) d  B.2; the linear part of the
 ///                      density field, N's gradient, is taken out so that a hydrostatic column
 ///                      or a sheet on a slope does not diffuse

@@ -20,11 +20,11 @@ InstructionSet best_instruction_set();
 /// The sweeps of one instruction set. All give the same bits on avx2 and avx512.
 struct Sweeps {
   /// One fused pass over groups [first, last): dense stress force, velocity gradient, density
-  /// diffusion (terms/dense_sums.hpp).
+  /// diffusion (dense/sums.hpp).
   void (*dense)(const NeighborView&, const SweepConstants&, const BoundaryView&, const SweepOutput&,
                 std::size_t first_group, std::size_t last_group);
   /// The same where grains may disperse: kinetic stresses, conduction of granular temperature, how
-  /// full each support is (terms/kinetic_sums.hpp). Groups without dispersed grains in or near them
+  /// full each support is (kinetic/sums.hpp). Groups without dispersed grains in or near them
   /// take `dense`.
   void (*kinetic)(const NeighborView&, const KineticView&, const SweepConstants&,
                   const BoundaryView&, const SweepOutput&, std::size_t first_group,
@@ -34,7 +34,7 @@ struct Sweeps {
   std::size_t (*tight_list)(const NeighborRecord* records, std::size_t first, int n_in_group,
                             const std::uint32_t* candidates, std::size_t n_candidates,
                             float radius_units, std::uint32_t* out);
-  /// One pass over groups [first, last) of depth-averaged columns (terms/column_sums.hpp).
+  /// One pass over groups [first, last) of depth-averaged columns (columns/sums.hpp).
   void (*columns)(const ColumnView&, const ColumnConstants&, const ColumnSweepOutput&,
                   std::size_t first_group, std::size_t last_group);
 };
