@@ -3,18 +3,21 @@
 # Installs what the tests need, builds everything and runs what a change must pass:
 #   release     warnings are errors; all tests labelled style, unit, physics or hard
 #   clang-tidy  over the files that changed (scripts/tidy.sh)
-#   asan        the unit tests under AddressSanitizer and UBSan (clang, -O1), but for those named
-#               below; then twenty seconds of each fuzz target
+#   asan        the unit tests of engine, scenarios, io, designs and hazard maps under
+#               AddressSanitizer and UBSan (clang, -O1)
+#   fuzz        twenty seconds of each fuzz target
 #   tsan        the executor's and the runner's tests, and an ensemble on two workers, under the
 #               thread sanitizer (clang, -O1, one OpenMP thread: libomp is not instrumented)
-# Long fuzzing is scripts/nightly.sh. STURZ_STAGES="release asan" runs only these stages.
+# Without STURZ_STAGES the first and the asan stage run, which every change must pass; name the
+# others too before a release: STURZ_STAGES="release tidy asan fuzz tsan". Long fuzzing is
+# scripts/nightly.sh.
 # The last line is always "N passed, N failed"; the exit code is zero only when nothing failed.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . scripts/packages.sh
 
 give_up() { echo "$1" >&2; echo "0 passed, 1 failed"; exit 1; }
-wanted() { case " ${STURZ_STAGES:-release tidy asan tsan} " in *" $1 "*) ;; *) return 1 ;; esac; }
+wanted() { case " ${STURZ_STAGES:-release asan} " in *" $1 "*) ;; *) return 1 ;; esac; }
 
 install_packages "${build_packages[@]}" "${test_packages[@]}" || give_up "Packages are missing."
 install_node
@@ -67,10 +70,22 @@ stage_release() {
 
 stage_tidy() { record tidy scripts/tidy.sh; }
 
+# Whole ensembles, browser pages and counted allocations take minutes there, or mean nothing.
+asan_tests=(engine_tests scenarios_test io_foreign_bytes_test io_input_test io_output_test
+            scenario_file_test ensemble_design_test ensemble_hazard_test)
+
 stage_asan() {
-  build asan unit_tests fuzz
-  tests asan asan -L '^unit$' -E "$slow_under_asan"
-  for target in $(tests/fuzz/run.sh --list); do
+  build asan "${asan_tests[@]}"
+  local binary
+  for binary in "${asan_tests[@]}"; do
+    record "asan-$binary" quietly "$(find build/asan/tests -name "$binary" -type f -perm -u+x)" --gtest_brief=1
+  done
+}
+
+stage_fuzz() {
+  build asan fuzz
+  local target
+  for target in scenario design polygons rasters netcdf manifest; do
     record "fuzz-$target" quietly tests/fuzz/run.sh "$target" -max_total_time=20
   done
 }
@@ -89,10 +104,7 @@ quietly() {
   return 1
 }
 
-# Whole ensembles, browser pages and counted allocations: minutes under ASan, or meaningless there.
-slow_under_asan='^App|^Ensemble|ReportPages|Allocation'
-
-for stage in release tidy asan tsan; do
+for stage in release tidy asan fuzz tsan; do
   wanted "$stage" || continue
   begin=$SECONDS
   "stage_$stage"
