@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/command_line.hpp"
 
+#include "engine/core/cancel.hpp"
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
@@ -8,6 +9,7 @@
 #include "ensemble/workflow/version.hpp"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <exception>
 #include <new>
@@ -39,6 +41,11 @@ int guarded(const std::function<int(Console&)>& action, Console& console) {
     return action(console);
   } catch (const SetupError& problem) {
     console.error(problem.what());
+  } catch (const Cancelled&) {
+    console.clear_progress();
+    console.event(nlohmann::json{{"event", "interrupted"}}.dump());
+    console.warn("interrupted; members are safe. The same command goes on.");
+    return interrupted;
   } catch (const std::bad_alloc&) {
     console.error("Out of memory. A coarser spacing, fewer workers or a larger cell needs less.");
   } catch (const std::exception& problem) {

@@ -29,9 +29,11 @@ class AtomicFile {
   void write(std::span<const std::byte> bytes);
   /// Makes the content durable and gives it its name. \throws IoError
   void commit();
+  /// For those who write the part file by other means: says why in this class's words.
+  /// \param code errno, 0: not known
+  [[noreturn]] void fail(const char* what, int code) const;
 
  private:
-  [[noreturn]] void fail(const char* what, int code) const;
 
   std::filesystem::path target_, part_;
   int descriptor_ = -1;

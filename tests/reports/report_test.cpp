@@ -191,10 +191,10 @@ TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   const auto data = data_of(make_report(results.ensemble_input()));
   EXPECT_EQ(data["valid"], 31);
   const auto& layers = data["maps"]["layers"];
-  EXPECT_EQ(layers[data["maps"]["start"].get<std::size_t>()]["name"], "probability_reached");
+  EXPECT_EQ(layers[data["maps"]["start"].get<std::size_t>()]["name"], "probability_of_reach");
   bool seen = false;
   for (const auto& layer : layers)
-    if (layer["name"] == "probability_of_peak_thickness_above_threshold") {
+    if (layer["name"] == "thickness_exceedance") {
       seen = true;
       ASSERT_EQ(layer["planes"].size(), 4U);
       EXPECT_EQ(layer["planes"][3]["axis"], 2.0);

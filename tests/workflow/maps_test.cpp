@@ -38,14 +38,14 @@ TEST_F(MapsWorkflow, AreMadeAgainFromTheFolderAlone) {
 TEST_F(MapsWorkflow, FollowNewThresholdsWithoutNewMembers) {
   Recorder first, second;
   whole(request("out"), first);
-  const std::string map = "out/hazard/probability_of_peak_thickness_above_threshold_";
-  ASSERT_TRUE(exists(map + "0.5.tif"));
+  const std::string map = "out/hazard/thickness_exceedance_";
+  ASSERT_TRUE(exists(map + "0.5_m.tif"));
   workflow::EnsembleRequest other = request("out");
   other.scene = scene({"hazard.thickness_m=[0.75]"});
   whole(other, second);
   EXPECT_TRUE(second.members.empty());
-  EXPECT_FALSE(exists(map + "0.5.tif"));
-  EXPECT_TRUE(exists(map + "0.75.tif"));
+  EXPECT_FALSE(exists(map + "0.5_m.tif"));
+  EXPECT_TRUE(exists(map + "0.75_m.tif"));
 }
 
 TEST_F(MapsWorkflow, NeedAMember) {

@@ -75,7 +75,7 @@ void store_run(SingleRun& run, const MemberResult& result) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
   manifest.write(folder.manifest());
   write_member(folder.members(), result);
-  LayerStack peaks = peak_layers(result);
+  LayerStack peaks = peak_layers(result, scene.inputs.elevation.get());
   peaks.attributes = {
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},

@@ -4,21 +4,22 @@
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
+#include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/text_files.hpp"
-#include "io/gdal/cog.hpp"
 #include "io/members/member_store.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <set>
 
 namespace sturz::workflow {
+namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -27,8 +28,8 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-LayerStack hazard_of(const MemberStore& store, const Manifest& manifest, const Scenario& scenario,
-                     const DesignTable& design) {
+HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
+                         const DesignTable& design) {
   HazardContext context;
   context.spacing_m = scenario.numerics.spacing_m;
   context.n_planned = design.n_members();
@@ -37,17 +38,26 @@ LayerStack hazard_of(const MemberStore& store, const Manifest& manifest, const S
                         {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
                         {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
                                                design.n_members(), design.seed)}};
-  return make_hazard_map(store, scenario.hazard, context);
+  return context;
 }
 
-/// The folder then holds these maps and no older ones, say of other thresholds.
-void write_tifs(const OutputFolder& folder, const LayerStack& hazard) {
-  const auto written = write_cogs(folder.tif_folder(), hazard);
-  std::set<std::filesystem::path> names;
-  for (const auto& file : written) names.insert(file.filename());
-  for (const auto& entry : std::filesystem::directory_iterator(folder.tif_folder()))
-    if (entry.path().extension() == ".tif" && !names.contains(entry.path().filename()))
-      std::filesystem::remove(entry.path());
+/// What a killed process left of files that only the making of maps writes.
+void remove_parts(const OutputFolder& folder) {
+  std::error_code failed;
+  for (const fs::path& place : {folder.root, folder.tif_folder(), folder.tif_folder() / "bounds"})
+    for (const auto& entry : fs::directory_iterator(place, failed))
+      if (entry.path().extension() == ".part") fs::remove(entry.path(), failed);
+}
+
+/// Writes hazard.nc as the members pass by. \return the maps' hash
+std::string write_hazard(const OutputFolder& folder, const MemberStore& store,
+                         const HazardSpec& spec, const HazardContext& context) {
+  LayersFileWriter file(folder.hazard_nc());
+  HashingSink hashed(file);
+  make_hazard_map(store, spec, context, hashed);
+  context.cancel.check();
+  file.commit();
+  return fmt::format("{:016x}", hashed.value());
 }
 
 }  // namespace
@@ -58,11 +68,12 @@ bool MapsMade::too_many_failed() const {
   return share > max_failed_fraction;
 }
 
-MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenario& scenario,
-                   const DesignTable& design, const Raster<double>* elevation, Observer& observer) {
+MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observer& observer,
+                   CancelFlag cancel) {
   const auto begin = Clock::now();
+  const auto& [folder, manifest, scenario, design, elevation] = request;
   observer.maps_begin();
-  const MemberStore store(folder.members());
+  remove_parts(folder);
   MapsMade made;
   made.folder = folder;
   made.max_failed_fraction = scenario.ensemble.max_failed_fraction;
@@ -70,31 +81,46 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
   made.finished = static_cast<std::int64_t>(store.members().size());
   made.valid = std::count_if(store.members().begin(), store.members().end(),
                              [](const MemberSummary& m) { return is_valid(m.outcome); });
-
-  write_text_atomic(folder.members_csv(), members_csv(design, store.members()));
-  const LayerStack hazard = hazard_of(store, manifest, scenario, design);
-  write_layers(folder.hazard_nc(), hazard);
-  write_tifs(folder, hazard);
-  manifest.hazard_hash = fmt::format("{:016x}", hash_of(hazard));
+  store.grid();  // no member, no maps: said before anything is written
+  // From here on the folder's files do not belong together until all are there.
+  manifest.hazard_hash.clear();
   manifest.write(folder.manifest());
 
+  write_text_atomic(folder.members_csv(), members_csv(design, store.members()));
+  ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
+  HazardContext context = context_of(manifest, scenario, design);
+  context.ground = elevation;
+  context.convergence = &convergence;
+  context.cancel = cancel;
+  const std::string hash = write_hazard(folder, store, scenario.hazard, context);
+  const LayersFileReader maps(folder.hazard_nc());
+  const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
+  write_map_files(folder.tif_folder(), maps, coarse, cancel);
+
   PageContent page;
-  page.hazard = &hazard;
+  page.hazard = &coarse;
   page.design = &design;
   page.elevation = elevation;
   page.members = store.members();
-  const auto convergence = probability_convergence(store);
-  page.convergence = convergence;
+  const double cell_m = store.grid().cell_m;
+  const auto points = made.valid > 0 ? convergence.points(cell_m * cell_m)
+                                     : std::vector<ConvergencePoint>{};
+  page.convergence = points;
+  page.cancel = cancel;
+  manifest.hazard_hash = hash;
   write_page(folder, manifest, scenario, page);
-  made.hazard_hash = manifest.hazard_hash;
+  manifest.write(folder.manifest());
+  made.hazard_hash = hash;
   made.seconds = seconds_since(begin);
   return made;
 }
 
-MapsMade make_maps(EnsembleJob& job, Observer& observer) {
+MapsMade make_maps(EnsembleJob& job, Observer& observer, CancelFlag cancel) {
   job.manifest.compute_s += seconds_since(job.begin);
-  return make_maps(job.folder, job.manifest, job.scene.scenario, job.design,
-                   job.scene.inputs.elevation.get(), observer);
+  const MemberStore store(job.folder.members(), MemberCheck::open, cancel);
+  return make_maps({job.folder, job.manifest, job.scene.scenario, job.design,
+                    job.scene.inputs.elevation.get()},
+                   store, observer, cancel);
 }
 
 }  // namespace sturz::workflow

@@ -31,26 +31,25 @@ std::string what_is_missing(const MemberStore& store, std::int64_t planned) {
 
 }  // namespace
 
-MapsMade merge_members(const MergeRequest& request, Observer& observer) {
+MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFlag cancel) {
   FinishedFolder finished = open_finished(request.folder, observer);
   const std::string where = request.folder.string();
   require(finished.manifest.kind == "ensemble",
           fmt::format("{} holds a single run (there is nothing to merge).", where));
   const DesignTable design = saved_design(finished.folder);
-  {
-    const MemberStore store(finished.folder.members());
-    for (const std::string& problem : store.problems()) observer.warning(problem);
-    const std::string missing = what_is_missing(store, design.n_members());
-    require(missing.empty() || request.partial,
-            fmt::format("{}: {}. Run their shards, or make maps from the others with --partial.",
-                        where, missing));
-    require(!store.members().empty(),
-            fmt::format("{} has no finished member (maps need at least one).", where));
-    if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");
-  }
+  const MemberStore store(finished.folder.members(), MemberCheck::open, cancel);
+  for (const std::string& problem : store.problems()) observer.warning(problem);
+  const std::string missing = what_is_missing(store, design.n_members());
+  require(missing.empty() || request.partial,
+          fmt::format("{}: {}. Run their shards, or make maps from the others with --partial.", where,
+                      missing));
+  require(!store.members().empty(),
+          fmt::format("{} has no finished member (maps need at least one).", where));
+  if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");
   observer.folder_ready(finished.folder);
-  return make_maps(finished.folder, finished.manifest, finished.scenario, design,
-                   finished.elevation.get(), observer);
+  return make_maps({finished.folder, finished.manifest, finished.scenario, design,
+                    finished.elevation.get()},
+                   store, observer, cancel);
 }
 
 }  // namespace sturz::workflow

@@ -9,6 +9,7 @@
 #include "io/members/member_store.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "reports/page/report.hpp"
+#include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/core.h>
 
@@ -46,6 +47,20 @@ NamedSeconds largest_first(NamedSeconds passes) {
   return passes;
 }
 
+/// Maps of 8 members beside 10 finished ones, as an interrupted ensemble leaves them, make no page.
+void require_current_maps(const FinishedFolder& finished, const LayerStack& maps,
+                          const MemberStore& store) {
+  std::string in_maps;
+  for (const auto& [name, value] : maps.attributes)
+    if (name == "number_of_finished_members") in_maps = value;
+  require(!finished.manifest.hazard_hash.empty() && in_maps == std::to_string(store.members().size()),
+          fmt::format("{}: the maps are not those of its {} finished members (they show {}, or making "
+                      "them was interrupted). Make them again with `sturz merge`, or `sturz merge "
+                      "--partial` where members are missing.",
+                      finished.folder.root.string(), store.members().size(),
+                      in_maps.empty() ? "an unknown number" : in_maps));
+}
+
 }  // namespace
 
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
@@ -63,6 +78,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.convergence.assign(content.convergence.begin(), content.convergence.end());
   input.warnings = manifest.warnings;
   input.notes = manifest.notes;
+  input.cancel = content.cancel;
   input.description = manifest.description;
   if (content.run) {
     input.history = &content.run->history;
@@ -78,24 +94,28 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   write_text_atomic(folder.report(), make_report(input));
 }
 
-std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer) {
+std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
+                                   CancelFlag cancel) {
   const FinishedFolder finished = open_finished(folder, observer);
   const bool one_run = finished.manifest.kind == "run";
   const auto maps = one_run ? finished.folder.peaks_nc() : finished.folder.hazard_nc();
   require(std::filesystem::exists(maps),
           fmt::format("{} does not exist (the page shows its maps). {}", maps.string(),
                       one_run ? "Run the scene again." : "Make it with `sturz merge`."));
-  const LayerStack stack = read_layers(maps);
-  const MemberStore store(finished.folder.members());
+  const LayerStack stack = coarse_layers(LayersFileReader(maps), page_cells, cancel);
+  const MemberStore store(finished.folder.members(), MemberCheck::open, cancel);
+  if (!one_run) require_current_maps(finished, stack, store);
   DesignTable design;
   std::vector<ConvergencePoint> convergence;
   MemberResult run;
   PageContent page;
+  page.cancel = cancel;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
     design = saved_design(finished.folder);
     page.design = &design;
-    convergence = probability_convergence(store);
+    convergence =
+        probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
     page.convergence = convergence;
   }
   page.elevation = finished.elevation.get();
