@@ -109,6 +109,7 @@ int how_it_ended(const workflow::MembersRun& run, Console& console) {
 }
 
 int ensemble(const Options& options, Console& console) {
+  end_on_interrupt();
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request_of(options), observer);
   announce(job, options, console);

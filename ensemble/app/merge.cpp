@@ -18,7 +18,7 @@ struct Options {
 
 int merge(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  watch_for_interrupts();
+  end_on_interrupt();  // until the maps begin
   return verdict(
       workflow::merge_members({options.folder, options.partial}, observer, interrupt_flag()),
       console);

@@ -103,22 +103,23 @@ TEST(MemberCells, HandOutEveryCellOnceWithWhatMembersLeft) {
   const Window extent{1, 2, 298, 285};
   for (const std::size_t limit : {std::size_t{1}, std::size_t{1} << 15, std::size_t{1} << 30}) {
     std::vector<int> seen(source.grid().n_cells(), 0);
-    cells.visit(extent, {PeakLayer::speed, PeakLayer::arrival}, limit, {}, [&](const CellRows& rows) {
-      for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
-        const int row = rows.window.row0 + static_cast<int>(i) / rows.window.n_cols;
-        const int col = rows.window.col0 + static_cast<int>(i) % rows.window.n_cols;
-        ++seen[source.grid().index(row, col)];
-        const auto speeds = rows.of(PeakLayer::speed, i);
-        std::vector<float> expected;
-        for (std::size_t m = 0; m < source.members().size(); ++m) {
-          if (!is_valid(source.members()[m].outcome)) continue;
-          const float v = source.value(m, PeakLayer::speed, row, col);
-          if (v != 0 || !std::isnan(source.value(m, PeakLayer::arrival, row, col)))
-            expected.push_back(v);
-        }
-        EXPECT_TRUE(std::equal(speeds.begin(), speeds.end(), expected.begin(), expected.end()));
-      }
-    });
+    cells.visit(
+        extent, {PeakLayer::speed, PeakLayer::arrival}, limit, {}, [&](const CellRows& rows) {
+          for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
+            const int row = rows.window.row0 + static_cast<int>(i) / rows.window.n_cols;
+            const int col = rows.window.col0 + static_cast<int>(i) % rows.window.n_cols;
+            ++seen[source.grid().index(row, col)];
+            const auto speeds = rows.of(PeakLayer::speed, i);
+            std::vector<float> expected;
+            for (std::size_t m = 0; m < source.members().size(); ++m) {
+              if (!is_valid(source.members()[m].outcome)) continue;
+              const float v = source.value(m, PeakLayer::speed, row, col);
+              if (v != 0 || !std::isnan(source.value(m, PeakLayer::arrival, row, col)))
+                expected.push_back(v);
+            }
+            EXPECT_TRUE(std::equal(speeds.begin(), speeds.end(), expected.begin(), expected.end()));
+          }
+        });
     for (int row = 0; row < source.grid().n_rows; ++row)
       for (int col = 0; col < source.grid().n_cols; ++col)
         EXPECT_EQ(seen[source.grid().index(row, col)],

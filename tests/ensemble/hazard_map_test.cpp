@@ -99,8 +99,7 @@ TEST_F(HazardMapOfRandomMembers, CountsExceedanceAsBruteForceDoes) {
       for (std::size_t t = 0; t < thresholds.size(); ++t) {
         const auto hits = std::count_if(x.begin(), x.end(),
                                         [&](double v) { return v > thresholds[t] * peak.si; });
-        expect_probability(peak.word + "_exceedance", row, col, t,
-                           static_cast<int>(hits));
+        expect_probability(peak.word + "_exceedance", row, col, t, static_cast<int>(hits));
       }
     });
 }
@@ -158,10 +157,8 @@ TEST_F(HazardMapOfRandomMembers, SharesReachedMembersBetweenTheIntensities) {
       medium += !is_high && !std::isnan(t[m]);
     }
     const double n = static_cast<double>(h.size());
-    EXPECT_EQ(at("probability_of_high_intensity", row, col),
-              static_cast<float>(high / n));
-    EXPECT_EQ(at("probability_of_medium_intensity", row, col),
-              static_cast<float>(medium / n));
+    EXPECT_EQ(at("probability_of_high_intensity", row, col), static_cast<float>(high / n));
+    EXPECT_EQ(at("probability_of_medium_intensity", row, col), static_cast<float>(medium / n));
     EXPECT_FLOAT_EQ(static_cast<float>((high + medium) / n), at("probability_of_reach", row, col));
   });
 }
@@ -224,10 +221,8 @@ TEST_F(HazardMapOfRandomMembers, MarksThresholdsThatTheSpacingCannotResolve) {
   EXPECT_THAT(comment, HasSubstr("not resolved (below half the particle spacing of 3 m): 0.1 m, "
                                  "0.5 m, 1 m"));
   EXPECT_THAT(comment, testing::Not(HasSubstr("2 m")));
-  EXPECT_THAT(map_.find("probability_of_high_intensity")->comment,
-              HasSubstr("not resolved"));
-  EXPECT_THAT(map_.find("speed_exceedance")->comment,
-              testing::Not(HasSubstr("not resolved")));
+  EXPECT_THAT(map_.find("probability_of_high_intensity")->comment, HasSubstr("not resolved"));
+  EXPECT_THAT(map_.find("speed_exceedance")->comment, testing::Not(HasSubstr("not resolved")));
 }
 
 TEST(HazardMap, LeavesOutLayersWithoutThresholdsOrQuantiles) {

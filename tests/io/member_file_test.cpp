@@ -7,10 +7,10 @@
 #include "io/members/member_store.hpp"
 #include "tests/io/io_fixture.hpp"
 
-#include <atomic>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <csignal>

@@ -9,8 +9,11 @@
 #include "io/netcdf/netcdf_file.hpp"
 #include "tests/io/io_fixture.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <random>
 #include <thread>
 
 namespace sturz::test {
@@ -251,9 +254,10 @@ TEST_F(NetcdfLayers, ADiskThatFillsUpOnTheWayLeavesNothingAndTheNextFileIsWhole)
     file.begin(s);
     for (int row = 0; row < 600; row += 128) {
       const int n = std::min(128, 600 - row);
-      file.put(0, 0, {row, 0, n, 600},
-               std::span(noise.values).subspan(static_cast<std::size_t>(row) * 600,
-                                               static_cast<std::size_t>(n) * 600));
+      file.put(
+          0, 0, {row, 0, n, 600},
+          std::span(noise.values)
+              .subspan(static_cast<std::size_t>(row) * 600, static_cast<std::size_t>(n) * 600));
     }
     file.commit();
   };

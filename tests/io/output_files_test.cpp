@@ -201,8 +201,9 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
   EXPECT_EQ(first, 0.75F);
   // Every cell, through blocks of other sizes than the source's.
   std::vector<float> all(312000);
-  ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 600, 520, all.data(), 600, 520, GDT_Float32, 0, 0, nullptr),
-            CE_None);
+  ASSERT_EQ(
+      band.RasterIO(GF_Read, 0, 0, 600, 520, all.data(), 600, 520, GDT_Float32, 0, 0, nullptr),
+      CE_None);
   EXPECT_EQ(std::memcmp(all.data(), &p.values[312000], all.size() * sizeof(float)), 0);
   GDALClose(data);
 }

@@ -196,9 +196,9 @@ class MadeUpSource : public MemberParts {
                  std::span<float> out) const override {
     const auto& values = results_[index].layer(layer);
     for (int row = 0; row < part.n_rows; ++row)
-      std::copy_n(values.begin() +
-                      static_cast<std::ptrdiff_t>(grid_.index(part.row0 + row, part.col0)),
-                  part.n_cols, out.begin() + static_cast<std::ptrdiff_t>(row) * part.n_cols);
+      std::copy_n(
+          values.begin() + static_cast<std::ptrdiff_t>(grid_.index(part.row0 + row, part.col0)),
+          part.n_cols, out.begin() + static_cast<std::ptrdiff_t>(row) * part.n_cols);
   }
   const std::vector<MemberResult>& results() const { return results_; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/console/console_observer.hpp"
 
+#include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/console/progress_bar.hpp"
 
 #include <fmt/core.h>
@@ -37,6 +38,9 @@ void ConsoleObserver::member_stored(const MemberResult& result) {
                      .dump());
 }
 
-void ConsoleObserver::maps_begin() { console_.progress("making maps ..."); }
+void ConsoleObserver::maps_begin() {
+  watch_for_interrupts();
+  console_.progress("making maps ...");
+}
 
 }  // namespace sturz::app

@@ -40,11 +40,10 @@ bool is_ours(const std::string& name) {
 
 std::string line_of(const std::string& name, const Layer& layer, std::size_t plane) {
   const bool axis = !layer.axis.values.empty();
-  return fmt::format("{},{},{},{},{},{},{},{},\"{}\"\n", name, layer.name,
-                     to_string(layer.meaning.quantity), to_string(layer.meaning.statistic),
-                     layer.units, layer.axis.name,
-                     axis ? fmt::format("{:g}", layer.axis.values[plane]) : "", layer.axis.units,
-                     layer.long_name);
+  return fmt::format(
+      "{},{},{},{},{},{},{},{},\"{}\"\n", name, layer.name, to_string(layer.meaning.quantity),
+      to_string(layer.meaning.statistic), layer.units, layer.axis.name,
+      axis ? fmt::format("{:g}", layer.axis.values[plane]) : "", layer.axis.units, layer.long_name);
 }
 
 }  // namespace

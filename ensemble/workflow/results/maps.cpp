@@ -44,9 +44,17 @@ HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
 /// What a killed process left of files that only the making of maps writes.
 void remove_parts(const OutputFolder& folder) {
   std::error_code failed;
-  for (const fs::path& place : {folder.root, folder.tif_folder(), folder.tif_folder() / "bounds"})
+  const auto remove_in = [&](const fs::path& place, auto is_ours) {
     for (const auto& entry : fs::directory_iterator(place, failed))
-      if (entry.path().extension() == ".part") fs::remove(entry.path(), failed);
+      if (entry.path().extension() == ".part" && is_ours(entry.path().filename().string()))
+        fs::remove(entry.path(), failed);
+  };
+  remove_in(folder.root, [](const std::string& name) {
+    return name.starts_with("hazard.nc.") || name.starts_with("members.csv.") ||
+           name.starts_with("report.html.");
+  });
+  for (const fs::path& place : {folder.tif_folder(), folder.tif_folder() / "bounds"})
+    remove_in(place, [](const std::string&) { return true; });
 }
 
 /// Writes hazard.nc as the members pass by. \return the maps' hash
@@ -103,8 +111,8 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   page.elevation = elevation;
   page.members = store.members();
   const double cell_m = store.grid().cell_m;
-  const auto points = made.valid > 0 ? convergence.points(cell_m * cell_m)
-                                     : std::vector<ConvergencePoint>{};
+  const auto points =
+      made.valid > 0 ? convergence.points(cell_m * cell_m) : std::vector<ConvergencePoint>{};
   page.convergence = points;
   page.cancel = cancel;
   manifest.hazard_hash = hash;
@@ -118,9 +126,9 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
 MapsMade make_maps(EnsembleJob& job, Observer& observer, CancelFlag cancel) {
   job.manifest.compute_s += seconds_since(job.begin);
   const MemberStore store(job.folder.members(), MemberCheck::open, cancel);
-  return make_maps({job.folder, job.manifest, job.scene.scenario, job.design,
-                    job.scene.inputs.elevation.get()},
-                   store, observer, cancel);
+  return make_maps(
+      {job.folder, job.manifest, job.scene.scenario, job.design, job.scene.inputs.elevation.get()},
+      store, observer, cancel);
 }
 
 }  // namespace sturz::workflow

@@ -41,15 +41,15 @@ MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFl
   for (const std::string& problem : store.problems()) observer.warning(problem);
   const std::string missing = what_is_missing(store, design.n_members());
   require(missing.empty() || request.partial,
-          fmt::format("{}: {}. Run their shards, or make maps from the others with --partial.", where,
-                      missing));
+          fmt::format("{}: {}. Run their shards, or make maps from the others with --partial.",
+                      where, missing));
   require(!store.members().empty(),
           fmt::format("{} has no finished member (maps need at least one).", where));
   if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");
   observer.folder_ready(finished.folder);
-  return make_maps({finished.folder, finished.manifest, finished.scenario, design,
-                    finished.elevation.get()},
-                   store, observer, cancel);
+  return make_maps(
+      {finished.folder, finished.manifest, finished.scenario, design, finished.elevation.get()},
+      store, observer, cancel);
 }
 
 }  // namespace sturz::workflow

@@ -21,12 +21,12 @@ std::vector<float> values_of(const MemberResult& result, PeakLayer peak, const W
   values.reserve(extent.n_cells());
   for (int row = extent.row0; row < end_row(extent); ++row)
     for (int col = extent.col0; col < end_col(extent); ++col) {
-      const bool mine = row >= w.row0 && row < end_row(w) && col >= w.col0 && col < end_col(w) &&
-                        !from.empty();
-      const std::size_t i = mine ? static_cast<std::size_t>(row - w.row0) *
-                                           static_cast<std::size_t>(w.n_cols) +
-                                       static_cast<std::size_t>(col - w.col0)
-                                 : 0;
+      const bool mine =
+          row >= w.row0 && row < end_row(w) && col >= w.col0 && col < end_col(w) && !from.empty();
+      const std::size_t i =
+          mine ? static_cast<std::size_t>(row - w.row0) * static_cast<std::size_t>(w.n_cols) +
+                     static_cast<std::size_t>(col - w.col0)
+               : 0;
       const float v = mine ? from[i] : info(peak).untouched;
       const bool came = mine && (v > 0 || !std::isnan(result.layer(PeakLayer::arrival)[i]));
       values.push_back(came || ground.at(row, col) ? static_cast<float>(factor * v) : nan_f);

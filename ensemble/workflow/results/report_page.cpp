@@ -53,12 +53,13 @@ void require_current_maps(const FinishedFolder& finished, const LayerStack& maps
   std::string in_maps;
   for (const auto& [name, value] : maps.attributes)
     if (name == "number_of_finished_members") in_maps = value;
-  require(!finished.manifest.hazard_hash.empty() && in_maps == std::to_string(store.members().size()),
-          fmt::format("{}: the maps are not those of its {} finished members (they show {}, or making "
-                      "them was interrupted). Make them again with `sturz merge`, or `sturz merge "
-                      "--partial` where members are missing.",
-                      finished.folder.root.string(), store.members().size(),
-                      in_maps.empty() ? "an unknown number" : in_maps));
+  require(
+      !finished.manifest.hazard_hash.empty() && in_maps == std::to_string(store.members().size()),
+      fmt::format("{}: the maps are not those of its {} finished members (they show {}, or making "
+                  "them was interrupted). Make them again with `sturz merge`, or `sturz merge "
+                  "--partial` where members are missing.",
+                  finished.folder.root.string(), store.members().size(),
+                  in_maps.empty() ? "an unknown number" : in_maps));
 }
 
 }  // namespace
@@ -102,6 +103,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   require(std::filesystem::exists(maps),
           fmt::format("{} does not exist (the page shows its maps). {}", maps.string(),
                       one_run ? "Run the scene again." : "Make it with `sturz merge`."));
+  observer.maps_begin();
   const LayerStack stack = coarse_layers(LayersFileReader(maps), page_cells, cancel);
   const MemberStore store(finished.folder.members(), MemberCheck::open, cancel);
   if (!one_run) require_current_maps(finished, stack, store);
@@ -114,8 +116,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   if (!one_run) {
     design = saved_design(finished.folder);
     page.design = &design;
-    convergence =
-        probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
+    convergence = probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
     page.convergence = convergence;
   }
   page.elevation = finished.elevation.get();
