@@ -248,6 +248,8 @@ class Run {
     result_.censoring =
         censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
     write_averages();
+    for (const std::string& doubt : doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m))
+      result_.warnings += (result_.warnings.empty() ? "" : "; ") + doubt;
     if (sound) write_final_state();
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
@@ -310,8 +312,8 @@ class Run {
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
-    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.settings().runout_limit_m,
-                       result_);
+    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(), result_.grid,
+                       result_.scalars);
     result_.state_hash = hash_of(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
