@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Finished members that can be read in any part of their windows: what touched little costs little.
+/// Finished members that can be read in any part of their windows: what touched little costs
+/// little.
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
@@ -24,9 +25,9 @@ inline Window overlap(const Window& a, const Window& b) {
 
 class MemberParts : public MemberSource {
  public:
-  /// One layer of member members()[index] in the cells of `part`, which lies inside the member's own
-  /// window. Layer after layer of one member comes cheapest.
-  /// \param out [part.n_rows][part.n_cols]
+  /// One layer of member members()[index] in the cells of `part`, which lies inside the member's
+  /// own window. Layer after layer of one member comes cheapest. \param out
+  /// [part.n_rows][part.n_cols]
   virtual void read_part(std::size_t index, PeakLayer layer, const Window& part,
                          std::span<float> out) const = 0;
 
@@ -38,9 +39,9 @@ class MemberParts : public MemberSource {
     std::vector<float> values(part.n_cells());
     if (!values.empty()) read_part(index, layer, part, values);
     for (int row = 0; row < part.n_rows; ++row)
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(row) * part.n_cols, part.n_cols,
-                  out.begin() + static_cast<std::ptrdiff_t>(part.row0 + row - row0) * width +
-                      part.col0);
+      std::copy_n(
+          values.begin() + static_cast<std::ptrdiff_t>(row) * part.n_cols, part.n_cols,
+          out.begin() + static_cast<std::ptrdiff_t>(part.row0 + row - row0) * width + part.col0);
   }
 };
 

@@ -32,6 +32,11 @@ void CellStatistics::add(const CellRows& rows) {
     reached(rows, i, cell);
     for (const QuantityLayers& q : layers_.quantities) quantity(q, rows, i, cell);
     intensity(rows, i, cell);
+    if (layers_.mass_left) {
+      const std::span<const float> left = rows.of(PeakLayer::left, i);
+      put(*layers_.mass_left, 0, cell,
+          share(std::count_if(left.begin(), left.end(), [](float v) { return v > 0; })));
+    }
   }
   if (rows.completes_block()) finish_block(rows.block);
 }

@@ -43,11 +43,11 @@ class CellStatistics {
   Window extent_;
   KnownGround ground_;
   LayerSink& to_;
-  std::vector<ProbabilityBounds> bounds_;    // of each possible number of hits
-  std::size_t n_cells_ = 0;                  // of the block
-  std::vector<std::vector<float>> values_;   // [layer][plane][cell of the block]
-  std::vector<bool> touched_;                // [cell of the block]
-  std::vector<float> sorted_;                // scratch
+  std::vector<ProbabilityBounds> bounds_;   // of each possible number of hits
+  std::size_t n_cells_ = 0;                 // of the block
+  std::vector<std::vector<float>> values_;  // [layer][plane][cell of the block]
+  std::vector<bool> touched_;               // [cell of the block]
+  std::vector<float> sorted_;               // scratch
 };
 
 }  // namespace sturz

@@ -18,7 +18,8 @@ std::vector<std::int64_t> sizes_up_to(std::int64_t n, int max_points) {
   return sizes;
 }
 
-ConvergencePoint summary(const std::vector<std::int64_t>& cells, std::int64_t n, double cell_area_m2) {
+ConvergencePoint summary(const std::vector<std::int64_t>& cells, std::int64_t n,
+                         double cell_area_m2) {
   ConvergencePoint point;
   point.n_members = n;
   std::int64_t n_cells = 0, n_likely = 0, n_possible = 0, hits_in_all = 0;

@@ -56,12 +56,13 @@ Layer made(std::string name, LayerMeaning meaning, std::string long_name, std::s
 
 class Builder {
  public:
-  Builder(const Grid& grid, const HazardSpec& spec, double spacing_m, std::int64_t n_members)
-      : spec_(spec), spacing_m_(spacing_m), n_members_(n_members) {
+  Builder(const Grid& grid, const HazardSpec& spec, double spacing_m, std::int64_t n_members,
+          std::int64_t n_censored)
+      : spec_(spec), spacing_m_(spacing_m), n_members_(n_members), n_censored_(n_censored) {
     out_.stack.grid = grid;
   }
 
-  HazardLayers build() {
+  HazardLayers build(bool any_left) {
     Layer count =
         made("number_of_members", {Quantity::members, Statistic::count},
              "valid members of the ensemble", "1", "settled, out of time or left the terrain");
@@ -69,6 +70,12 @@ class Builder {
     out_.reached = add_probability(
         "probability_of_reach", Quantity::reached, "share of members that reach the cell",
         "reached: smoothed thickness above the runout limit at any time", {}, {});
+    if (any_left)
+      out_.mass_left =
+          add(made("probability_of_mass_left", {Quantity::left, Statistic::probability},
+                   "share of members whose mass crossed the edge of the known ground here", "1",
+                   "members / valid members; what lies beyond is not known"),
+              0);
     for (const PeakMaps& q : peaks) out_.quantities.push_back(add_peak(q));
     out_.arrival_quantile = add_quantiles(
         "arrival", Quantity::arrival, "time until the flow arrives", "s", "",
@@ -84,6 +91,12 @@ class Builder {
   /// Adds a layer, with its value of an untouched cell, and tells its place.
   std::size_t add(Layer layer, float fill) {
     const bool defined = n_members_ > 0 || layer.is_count();
+    if (!layer.is_count()) layer.n_censored = static_cast<int>(n_censored_);
+    if (n_censored_ > 0 && layer.meaning.statistic == Statistic::probability)
+      layer.comment =
+          joined(layer.comment, fmt::format("a lower bound: the end of {} of {} members "
+                                            "was not seen",
+                                            n_censored_, n_members_));
     out_.untouched.push_back(defined ? fill : nan_f);
     out_.stack.layers.push_back(std::move(layer));
     return out_.stack.layers.size() - 1;
@@ -141,7 +154,8 @@ class Builder {
       const bool is_thickness = q.source == PeakLayer::thickness;
       const LayerAxis axis{name + "_threshold", "", unit.name, thresholds};
       std::vector<float> si;
-      for (const double t : thresholds) si.push_back(static_cast<float>(t * std::round(1 / unit.per_si)));
+      for (const double t : thresholds)
+        si.push_back(static_cast<float>(t * std::round(1 / unit.per_si)));
       layers.exceedance = add_probability(
           name + "_exceedance", quantity,
           fmt::format("share of members whose {} exceeds the threshold", meaning),
@@ -158,8 +172,8 @@ class Builder {
     QuantityLayers layers;
     layers.source = PeakLayer::deposit;
     layers.mean = add_mean("deposit", Quantity::deposit, of.long_name, of.units, "");
-    layers.quantile = add_quantiles("deposit", Quantity::deposit, of.long_name, of.units,
-                                    "", quantile_rule, 0);
+    layers.quantile =
+        add_quantiles("deposit", Quantity::deposit, of.long_name, of.units, "", quantile_rule, 0);
     return layers;
   }
 
@@ -185,15 +199,15 @@ class Builder {
 
   const HazardSpec& spec_;
   double spacing_m_;
-  std::int64_t n_members_;
+  std::int64_t n_members_, n_censored_;
   HazardLayers out_;
 };
 
 }  // namespace
 
 HazardLayers hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
-                                 std::int64_t n_members) {
-  return Builder(grid, spec, spacing_m, n_members).build();
+                           std::int64_t n_members, std::int64_t n_censored, bool any_left) {
+  return Builder(grid, spec, spacing_m, n_members, n_censored).build(any_left);
 }
 
 }  // namespace sturz

@@ -71,11 +71,10 @@ double unresolved_spacing(const std::vector<MemberSummary>& members, const Hazar
 }
 
 void add_extent(LayerStack& stack, const Window& extent, const Grid& grid, bool touched) {
-  const std::string cells =
-      fmt::format("rows {} to {} of {} and columns {} to {} of {} of the hazard grid, counted from 0 "
-                  "in the north-west",
-                  extent.row0, end_row(extent) - 1, grid.n_rows, extent.col0, end_col(extent) - 1,
-                  grid.n_cols);
+  const std::string cells = fmt::format(
+      "rows {} to {} of {} and columns {} to {} of {} of the hazard grid, counted from 0 "
+      "in the north-west",
+      extent.row0, end_row(extent) - 1, grid.n_rows, extent.col0, end_col(extent) - 1, grid.n_cols);
   stack.attributes.emplace_back(
       "map_extent", touched ? fmt::format("what valid members touched and {} cells around: {}",
                                           map_margin_cells, cells)
@@ -86,9 +85,12 @@ void add_extent(LayerStack& stack, const Window& extent, const Grid& grid, bool 
       "missing where no member came");
 }
 
-std::vector<PeakLayer> all_peak_layers() {
+/// What is read of each member; nothing for `left` where nothing left.
+std::vector<PeakLayer> read_layers_of(bool any_left) {
   std::vector<PeakLayer> layers;
-  for (int i = 0; i < n_peak_layers; ++i) layers.push_back(static_cast<PeakLayer>(i));
+  for (int i = 0; i < n_peak_layers; ++i)
+    if (any_left || static_cast<PeakLayer>(i) != PeakLayer::left)
+      layers.push_back(static_cast<PeakLayer>(i));
   return layers;
 }
 
@@ -114,15 +116,23 @@ void make_hazard_map(const MemberParts& members, const HazardSpec& spec,
                      const HazardContext& context, LayerSink& to) {
   const MemberCells cells(members);
   const Window extent = map_extent(cells.touched(), members.grid());
-  HazardLayers layers = hazard_layers(
-      grid_of(members.grid(), extent), spec, unresolved_spacing(members.members(), context),
-      static_cast<std::int64_t>(cells.n_members()));
+  const std::vector<MemberSummary>& all = members.members();
+  const auto n_censored = std::count_if(all.begin(), all.end(), [](const MemberSummary& m) {
+    return is_valid(m.outcome) && is_censored(m.censoring);
+  });
+  const bool any_left = std::any_of(all.begin(), all.end(), [](const MemberSummary& m) {
+    return is_valid(m.outcome) && has_left(m.censoring);
+  });
+  HazardLayers layers =
+      hazard_layers(grid_of(members.grid(), extent), spec, unresolved_spacing(all, context),
+                    static_cast<std::int64_t>(cells.n_members()), n_censored, any_left);
+  layers.stack.attributes.emplace_back("number_of_censored_members", std::to_string(n_censored));
   add_attributes(layers.stack, members.members(), context);
   add_extent(layers.stack, extent, members.grid(), cells.touched().n_cells() > 0);
   to.begin(layers.stack);
   CellStatistics statistics(layers, cells.n_members(), extent,
                             KnownGround(context.ground, members.grid()), to);
-  cells.visit(extent, all_peak_layers(), context.memory_bytes, context.cancel,
+  cells.visit(extent, read_layers_of(any_left), context.memory_bytes, context.cancel,
               [&](const CellRows& rows) {
                 statistics.add(rows);
                 if (context.convergence != nullptr) context.convergence->add(rows);

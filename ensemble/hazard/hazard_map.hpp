@@ -37,7 +37,7 @@ struct HazardContext {
   std::size_t memory_bytes = MemberCells::default_memory_bytes;  ///< for members' values
   const Raster<double>* ground = nullptr;  ///< elevations; null: the ground is known everywhere
   std::vector<std::pair<std::string, std::string>> attributes;  ///< more global attributes
-  ConvergenceCount* convergence = nullptr;  ///< counts on the way, where wanted
+  ConvergenceCount* convergence = nullptr;                      ///< counts on the way, where wanted
   CancelFlag cancel;
 };
 
@@ -55,8 +55,8 @@ Window map_extent(const Window& touched, const Grid& grid);
 ///   number_of_members
 ///   probability_of_reach, ..._lower, ..._upper
 ///   for X in thickness [m], speed [m s-1], energy [kJ m-2], pressure [kPa]:
-///     X_exceedance, ..._lower, ..._upper   [X_threshold][y][x], where the scenario gives thresholds
-///     X_mean, X_quantile                   [quantile][y][x]
+///     X_exceedance, ..._lower, ..._upper   [X_threshold][y][x], where the scenario gives
+///     thresholds X_mean, X_quantile                   [quantile][y][x]
 ///   arrival_quantile [s]                   [quantile][y][x]
 ///   deposit_mean, deposit_quantile [m]
 ///   probability_of_high_intensity, probability_of_medium_intensity

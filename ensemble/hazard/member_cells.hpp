@@ -49,10 +49,10 @@ class MemberCells {
   /// Smallest rectangle around the windows of all valid members; empty when none moved.
   const Window& touched() const { return touched_; }
 
-  /// Hands out every cell of `extent` once, untouched ones too. A cell counts as touched by a member
-  /// that left another value than that of an untouched cell in one of `layers`.
-  /// \param memory_bytes bound on what members' values take; a row of a block is the least
-  /// \throws SetupError naming the member if a peak is negative or not a number, or an arrival time
+  /// Hands out every cell of `extent` once, untouched ones too. A cell counts as touched by a
+  /// member that left another value than that of an untouched cell in one of `layers`. \param
+  /// memory_bytes bound on what members' values take; a row of a block is the least \throws
+  /// SetupError naming the member if a peak is negative or not a number, or an arrival time
   ///         is negative; Cancelled
   void visit(const Window& extent, const std::vector<PeakLayer>& layers, std::size_t memory_bytes,
              CancelFlag cancel, const std::function<void(const CellRows&)>& visitor) const;

@@ -12,7 +12,9 @@ namespace {
 constexpr int edge = MemberCells::block_edge;
 static_assert(edge * edge <= 65536, "cells of a block are numbered in 16 bits");
 
-std::size_t blocks_along(int n_cells) { return static_cast<std::size_t>((n_cells + edge - 1) / edge); }
+std::size_t blocks_along(int n_cells) {
+  return static_cast<std::size_t>((n_cells + edge - 1) / edge);
+}
 
 bool is_untouched(float value, float untouched) {
   return value == untouched || (std::isnan(value) && std::isnan(untouched));
@@ -46,8 +48,8 @@ Window TouchedRecords::rows_ahead() const {
   const auto first_row = static_cast<int>(first_block_ / n_block_cols_) * edge;
   const auto end_row =
       (static_cast<int>((first_block_ + blocks_.size() - 1) / n_block_cols_) + 1) * edge;
-  return {extent_.row0 + first_row, extent_.col0,
-          std::min(end_row, extent_.n_rows) - first_row, extent_.n_cols};
+  return {extent_.row0 + first_row, extent_.col0, std::min(end_row, extent_.n_rows) - first_row,
+          extent_.n_cols};
 }
 
 Window TouchedRecords::block_window(std::size_t block) const {

@@ -34,8 +34,8 @@ class TouchedRecords {
     std::vector<std::uint16_t> cells;  // of the whole block, row by row
     std::vector<float> values;         // [touch][layer]
   };
-  // Rows of blocks, counted through: row r of block b is b * block_edge + r. The window of a block at
-  // the southern edge has fewer; those rows are empty.
+  // Rows of blocks, counted through: row r of block b is b * block_edge + r. The window of a block
+  // at the southern edge has fewer; those rows are empty.
   using RowCount = std::int64_t;
 
   Window block_window(std::size_t block) const;

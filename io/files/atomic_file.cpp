@@ -98,7 +98,8 @@ void AtomicFile::fail(const char* what, int code) const {
                               target_.string(), folder.string()));
   throw IoError(fmt::format(
       "{} {} ({}{}). Make room or choose another folder; files already there are unharmed.", what,
-      target_.string(), code == 0 ? "the disk refuses" : std::strerror(code), free_space_text(folder)));
+      target_.string(), code == 0 ? "the disk refuses" : std::strerror(code),
+      free_space_text(folder)));
 }
 
 void write_bytes_atomic(const fs::path& target, std::span<const std::byte> bytes) {

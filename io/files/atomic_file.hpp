@@ -34,7 +34,6 @@ class AtomicFile {
   [[noreturn]] void fail(const char* what, int code) const;
 
  private:
-
   std::filesystem::path target_, part_;
   int descriptor_ = -1;
 };

@@ -20,12 +20,11 @@ struct PlaneFile {
   std::filesystem::path path;
 };
 
-/// One Cloud-Optimised GeoTIFF per plane, plane_name() + ".tif", in `folder`; bounds of probabilities
-/// in its folder `bounds`, so that the maps that people open first stand alone; counts, the same
-/// number everywhere, are left out. float32 with nodata NaN; unit, description and the stack's
-/// attributes as metadata. Planes pass through block by block; each file appears whole or not at all.
-/// \return the files in the order of the layers
-/// \throws IoError; Cancelled
+/// One Cloud-Optimised GeoTIFF per plane, plane_name() + ".tif", in `folder`; bounds of
+/// probabilities in its folder `bounds`, so that the maps that people open first stand alone;
+/// counts, the same number everywhere, are left out. float32 with nodata NaN; unit, description and
+/// the stack's attributes as metadata. Planes pass through block by block; each file appears whole
+/// or not at all. \return the files in the order of the layers \throws IoError; Cancelled
 std::vector<PlaneFile> write_cogs(const std::filesystem::path& folder, const LayerSource& maps,
                                   CancelFlag cancel = {});
 

@@ -16,10 +16,7 @@ constexpr int block_edge = 256;
 class PlaneBand final : public GDALRasterBand {
  public:
   PlaneBand(PlaneDataset& owner, const LayerSource& source, std::size_t layer, std::size_t plane)
-      : owner_(owner),
-        source_(source),
-        layer_(layer),
-        plane_(plane) {
+      : owner_(owner), source_(source), layer_(layer), plane_(plane) {
     poDS = &owner;
     nBand = 1;
     eAccess = GA_ReadOnly;

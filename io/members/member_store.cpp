@@ -64,8 +64,8 @@ void MemberStore::add(std::int64_t number, MemberCheck check) {
   if (check == MemberCheck::read_all && summary.window.n_cells() > 0) {
     std::vector<float> values(summary.window.n_cells());
     for (int i = 0; i < n_peak_layers; ++i)
-      read_member_rows(file, summary.window, static_cast<PeakLayer>(i), 0, summary.window.n_rows,
-                       values);
+      if (const auto layer = static_cast<PeakLayer>(i); is_kept(layer, summary.censoring))
+        read_member_rows(file, summary.window, layer, 0, summary.window.n_rows, values);
   }
   members_.push_back(std::move(summary));
 }
@@ -96,6 +96,10 @@ void MemberStore::read_part(std::size_t index, PeakLayer layer, const Window& pa
          "the part lies in the member's window");
   expect(out.size() == part.n_cells(), "out holds the part");
   if (part.n_cells() == 0) return;
+  if (!is_kept(layer, members_[index].censoring)) {
+    std::fill(out.begin(), out.end(), info(layer).untouched);
+    return;
+  }
   const std::lock_guard lock(mutex_);
   read_member_part(reader(index), w, layer, part, out);
 }

@@ -24,9 +24,9 @@ enum class MemberCheck {
 /// file, or one on another grid than the first, is named in problems() and treated as absent, so
 /// that a resumed run computes it again.
 ///
-/// Maps are read from their files each time, only the rows asked for, and the file of the last member
-/// stays open: who wants several layers of a member asks for them in a row.
-/// read_part may be called from several threads.
+/// Maps are read from their files each time, only the rows asked for, and the file of the last
+/// member stays open: who wants several layers of a member asks for them in a row. read_part may be
+/// called from several threads.
 class MemberStore final : public MemberParts {
  public:
   /// A folder that does not exist holds no members.

@@ -8,7 +8,6 @@
 #include <hdf5.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
-
 #include <unistd.h>
 
 #include <cerrno>
@@ -34,8 +33,8 @@ nc_type code(NcType type) {
 
 std::recursive_mutex& netcdf_mutex() {
   static std::recursive_mutex mutex;
-  // Every file is closed by its owner; what HDF5 would do at exit with one that a full disk kept open
-  // is to complain or to hang. It must be told before anything else.
+  // Every file is closed by its owner; what HDF5 would do at exit with one that a full disk kept
+  // open is to complain or to hang. It must be told before anything else.
   static const bool told = H5dont_atexit() >= 0;
   static_cast<void>(told);
   // HDF5 prints its errors thread by thread, and netCDF silences only the thread in which it woke

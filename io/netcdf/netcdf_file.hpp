@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// netCDF-4 files through netCDF-C, with every status checked and one lock for the process.
 ///
-/// Neither netCDF-C nor HDF5 may run in two threads at once, not even on different files. Small files
-/// are therefore built in memory under the lock and go to disk as plain bytes (atomic_file.hpp): a
-/// full disk is then an ordinary write error. Maps may be larger than memory: their file grows in its
-/// part file on disk, one chunk after the other.
+/// Neither netCDF-C nor HDF5 may run in two threads at once, not even on different files. Small
+/// files are therefore built in memory under the lock and go to disk as plain bytes
+/// (atomic_file.hpp): a full disk is then an ordinary write error. Maps may be larger than memory:
+/// their file grows in its part file on disk, one chunk after the other.
 #pragma once
 
 #include "io/files/atomic_file.hpp"

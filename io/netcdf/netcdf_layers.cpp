@@ -22,6 +22,7 @@ constexpr std::size_t chunk_edge = 128;  // the blocks in which maps are made
 constexpr const char* order_attribute = "layer_order";
 constexpr const char* quantity_attribute = "sturz_quantity";
 constexpr const char* statistic_attribute = "sturz_statistic";
+constexpr const char* censored_attribute = "sturz_censored_members";
 constexpr const char* intensity_attribute = "sturz_intensity_class";
 
 struct WrittenAxis {
@@ -95,6 +96,7 @@ int define_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
   text_if_any(file, variable, "cell_methods", layer.cell_methods);
   text_if_any(file, variable, "comment", layer.comment);
   write_meaning(file, variable, layer.meaning);
+  if (layer.n_censored > 0) file.integer(variable, censored_attribute, layer.n_censored);
   link_grid(file, variable, grid);
   return variable;
 }
@@ -152,6 +154,8 @@ Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& 
   layer.units = text(name, "units");
   layer.cell_methods = text(name, "cell_methods");
   layer.comment = text(name, "comment");
+  layer.n_censored =
+      static_cast<int>(std::clamp(file.number(name, censored_attribute).value_or(0), 0.0, 1e9));
   if (dimensions.size() == 3)
     layer.axis = {dimensions[0], text(dimensions[0], "standard_name"), text(dimensions[0], "units"),
                   file.doubles(dimensions[0])};

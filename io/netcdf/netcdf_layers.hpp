@@ -24,16 +24,15 @@ namespace sturz {
 class LayersFileWriter final : public LayerSink {
  public:
   /// \throws IoError when the disk refuses
-  explicit LayersFileWriter(std::filesystem::path file,
-                            NetcdfMedium medium = NetcdfMedium::disk);
+  explicit LayersFileWriter(std::filesystem::path file, NetcdfMedium medium = NetcdfMedium::disk);
   /// \throws SetupError for layers that contradict each other (two axes of one name with other
   ///   values, axis not increasing); IoError
   void begin(const LayerStack& about) override;
   void put(std::size_t layer, std::size_t plane, const Window& window,
            std::span<const float> values) override;
   /// The history of the member whose maps these are (see history_netcdf.hpp), and the end. How long
-  /// it took to compute is not in it: the file says what the mass did, and two machines should agree
-  /// on it; computing times are in the member's file. \throws IoError
+  /// it took to compute is not in it: the file says what the mass did, and two machines should
+  /// agree on it; computing times are in the member's file. \throws IoError
   void commit(const MemberHistory& history = {});
 
  private:
@@ -42,8 +41,8 @@ class LayersFileWriter final : public LayerSink {
   std::vector<bool> is_count_, has_axis_;
 };
 
-/// Reads the maps that were written so, window by window. \throws IoError, also where a map does not
-/// say what it shows
+/// Reads the maps that were written so, window by window. \throws IoError, also where a map does
+/// not say what it shows
 class LayersFileReader final : public LayerSource {
  public:
   explicit LayersFileReader(const std::filesystem::path& file);

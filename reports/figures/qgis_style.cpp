@@ -12,8 +12,8 @@
 namespace sturz {
 namespace {
 
-/// QGIS gives a class its upper end, and the end belongs to it; here a class begins at its lower end.
-/// The step is that of Legend::class_of.
+/// QGIS gives a class its upper end, and the end belongs to it; here a class begins at its lower
+/// end. The step is that of Legend::class_of.
 std::string upper_end(const Legend& legend, std::size_t k) {
   if (k + 1 == legend.classes.size()) return "inf";
   const double next = legend.classes[k + 1].lower / legend.unit.factor;
@@ -37,9 +37,8 @@ std::string qgis_style(const Layer& layer) {
       "    <colorrampshader colorRampType=\"DISCRETE\" classificationMode=\"1\" clip=\"0\" "
       "minimumValue=\"0\" maximumValue=\"{0:.9g}\" labelPrecision=\"3\">\n",
       last,
-      legend.clear_zero
-          ? "     <pixelListEntry min=\"0\" max=\"0\" percentTransparent=\"100\"/>\n"
-          : "");
+      legend.clear_zero ? "     <pixelListEntry min=\"0\" max=\"0\" percentTransparent=\"100\"/>\n"
+                        : "");
   const std::string unit = legend.unit.label.empty() ? "" : " " + legend.unit.label;
   for (std::size_t k = 0; k < legend.classes.size(); ++k)
     text += fmt::format("     <item value=\"{}\" color=\"{}\" alpha=\"255\" label=\"{}\"/>\n",

@@ -95,13 +95,11 @@ std::string map_html(const ReportInput& input, const MapScene* scene, const Laye
                 "(STURZ_REPORT_JS=OFF, or node was missing). All maps are in the result files.";
   html += "</p>" + hillshade_defs(*scene) + still_figures(input, *scene, *maps);
   const int joined = scene->coarsening * maps->joined;
-  html +=
-      fmt::format("<p class=\"note\">{}; cells of {}{}.</p>",
-                  html_escape(crs_name(maps->grid.crs_wkt)), with_unit(scene->cells.cell_m, "m"),
-                  joined > 1
-                      ? fmt::format(" (the most severe of {0} x {0} cells of the result files)",
-                                    joined)
-                      : std::string());
+  html += fmt::format(
+      "<p class=\"note\">{}; cells of {}{}.</p>", html_escape(crs_name(maps->grid.crs_wkt)),
+      with_unit(scene->cells.cell_m, "m"),
+      joined > 1 ? fmt::format(" (the most severe of {0} x {0} cells of the result files)", joined)
+                 : std::string());
   return html + "</section>";
 }
 

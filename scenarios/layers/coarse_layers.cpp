@@ -43,8 +43,8 @@ LayerStack coarse_layers(const LayerSource& source, std::size_t max_cells, Cance
   LayerStack coarse;
   const int f = coarse.joined = factor_for(g.n_cells(), max_cells);
   coarse.attributes = about.attributes;
-  coarse.grid = {(g.n_cols + f - 1) / f, (g.n_rows + f - 1) / f, g.west_m, g.north_m, f * g.cell_m,
-                 g.crs_wkt};
+  coarse.grid = {
+      (g.n_cols + f - 1) / f, (g.n_rows + f - 1) / f, g.west_m, g.north_m, f * g.cell_m, g.crs_wkt};
   for (std::size_t l = 0; l < about.layers.size(); ++l) {
     if (about.layers[l].is_count() || about.layers[l].meaning.is_bound()) continue;
     Layer layer = about.layers[l];

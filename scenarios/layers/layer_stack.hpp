@@ -33,6 +33,8 @@ struct Layer {
   std::string comment;        ///< free text (rules, 'not resolved' notes) or empty
   LayerAxis axis;             ///< empty values: a plain map
   std::vector<float> values;  ///< empty where layers are only described, see layer_stream.hpp
+  /// Members behind the values whose end was not seen: probabilities and peaks are lower bounds.
+  int n_censored = 0;
 
   std::size_t n_planes() const { return axis.values.empty() ? 1 : axis.values.size(); }
   /// Whole numbers: stored as int32, never quantised.

@@ -9,7 +9,8 @@
 namespace sturz {
 
 /// Short, with the value of the axis and the unit, without an ending: "thickness_exceedance_0.5_m",
-/// "thickness_exceedance_0.5_m_lower", "speed_p95_m_s", "energy_mean_kj_m2", "probability_of_reach".
+/// "thickness_exceedance_0.5_m_lower", "speed_p95_m_s", "energy_mean_kj_m2",
+/// "probability_of_reach".
 std::string plane_name(const Layer& layer, std::size_t plane);
 
 }  // namespace sturz

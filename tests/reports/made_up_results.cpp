@@ -186,8 +186,8 @@ class MadeUpSource : public MemberParts {
     for (int k = 0; k < scene.n_members; ++k) {
       results_.push_back(make_member(k, scene, grid_, design.values[static_cast<std::size_t>(k)]));
       const MemberResult& r = results_.back();
-      summaries_.push_back({r.member, r.outcome, r.reason, r.formulation, "sound", r.warnings,
-                            r.state_hash, r.scalars, r.window, r.effect_seconds});
+      summaries_.push_back({r.member, r.outcome, r.censoring, r.reason, r.formulation, "sound",
+                            r.warnings, r.state_hash, r.scalars, r.window, r.effect_seconds});
     }
   }
   const std::vector<MemberSummary>& members() const override { return summaries_; }
@@ -195,6 +195,8 @@ class MadeUpSource : public MemberParts {
   void read_part(std::size_t index, PeakLayer layer, const Window& part,
                  std::span<float> out) const override {
     const auto& values = results_[index].layer(layer);
+    std::fill(out.begin(), out.end(), info(layer).untouched);
+    if (values.empty()) return;
     for (int row = 0; row < part.n_rows; ++row)
       std::copy_n(
           values.begin() + static_cast<std::ptrdiff_t>(grid_.index(part.row0 + row, part.col0)),

@@ -35,12 +35,13 @@ struct MapsRequest {
   Manifest& manifest;  ///< gets the maps' hash and is saved
   const Scenario& scenario;
   const DesignTable& design;
-  const Raster<double>* elevation;  ///< where the ground is known, and the page's relief; may be null
+  const Raster<double>*
+      elevation;  ///< where the ground is known, and the page's relief; may be null
 };
 
 /// Reads the members' maps, writes members.csv, hazard.nc, hazard/*.tif with their styles and list,
-/// and report.html. Memory holds a few hundred MB whatever the size of terrain and ensemble. When it
-/// is cancelled or fails, the manifest has no hash until all files belong together again.
+/// and report.html. Memory holds a few hundred MB whatever the size of terrain and ensemble. When
+/// it is cancelled or fails, the manifest has no hash until all files belong together again.
 /// \throws SetupError; IoError when the disk refuses (members are not touched); Cancelled
 MapsMade make_maps(const MapsRequest&, const MemberStore&, Observer&, CancelFlag cancel = {});
 

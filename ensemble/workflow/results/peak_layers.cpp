@@ -42,6 +42,7 @@ LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground)
   stack.grid = grid_of(result.grid, extent);
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto peak = static_cast<PeakLayer>(i);
+    if (peak == PeakLayer::left && result.layer(peak).empty()) continue;  // nothing left
     Layer layer;
     layer.name = info(peak).name;
     layer.meaning = {quantity_of(peak), Statistic::peak};

@@ -8,9 +8,8 @@
 namespace sturz::workflow {
 
 /// Every peak layer of the member in the units of hazard maps (energy kJ m-2, pressure kPa), over
-/// map_extent() of what it touched; 0 where the ground is known and no flow came, NaN where it is not
-/// known, arrival NaN where none came.
-/// \param ground elevations; null: known everywhere
+/// map_extent() of what it touched; 0 where the ground is known and no flow came, NaN where it is
+/// not known, arrival NaN where none came. \param ground elevations; null: known everywhere
 LayerStack peak_layers(const MemberResult&, const Raster<double>* ground);
 
 }  // namespace sturz::workflow
