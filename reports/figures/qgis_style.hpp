@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How a map looks when somebody opens its GeoTIFF in QGIS.
+/// How a map looks when its GeoTIFF is opened in QGIS.
 #pragma once
 
 #include "scenarios/layers/layer_stack.hpp"

@@ -20,7 +20,7 @@ constexpr const char* index_header =
 
 fs::path style_of(fs::path tif) { return tif.replace_extension(".qml"); }
 
-/// First column of an earlier list; empty when there is none, or it is somebody else's.
+/// First column of an earlier list; empty when there is none, or another program's.
 std::set<std::string> listed_files(const fs::path& index) {
   std::set<std::string> files;
   if (!fs::exists(index)) return files;
