@@ -87,6 +87,8 @@ class Run {
   bool over() {
     State& s = parts_.state;
     if (ended_) return true;
+    if (s.terrain.needs_more())
+      return end(Outcome::cancelled, "ground beyond the part that was read is needed");
     if (s.n_particles() == 0) return end(Outcome::left_terrain, "all mass left the terrain");
     if (parts_.stop.out_of_time(s.time)) return end(Outcome::out_of_time, "");
     return false;
@@ -234,6 +236,7 @@ class Run {
       history_.add_last(history_row(state_shares(s.sets)));
       frame(true);
     }
+    result_.needs_more_ground = s.terrain.needs_more();
     result_.member = parts_.facts.member;
     result_.formulation = parts_.facts.formulation;
     result_.warnings = parts_.facts.warnings;

@@ -16,8 +16,10 @@ Scene load_scene(const SceneRequest& request) {
   scene.scenario = read_scenario(request.file, request.overrides);
   scene.medians = median_scenario(scene.scenario);
   scene.inputs = load_scene_inputs(scene.scenario);
+  scene.ground = std::make_shared<GrowingGround>(scene.scenario, scene.inputs);
   SceneDescription& d = scene.description;
-  d = describe(scene.medians, scene.inputs);
+  d = scene.ground->computed(
+      [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;

@@ -89,7 +89,7 @@ PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) 
 }
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
-  return StopRule({s.numerics.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
+  return StopRule({plan.end.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
                    plan.release.max_thickness_m, plan.available_energy_j});
 }
 
@@ -184,8 +184,11 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;
-  d.n_steps = std::ceil(s.numerics.end_time_s / limit.dt);
+  d.n_steps = std::ceil(plan.end.end_time_s / limit.dt);
+  d.end_time_s = plan.end.end_time_s;
+  d.end_time_reason = plan.end.reason;
   d.warnings = plan_warnings(s, plan);
+  d.needs_more_ground = state.terrain.needs_more();
   return d;
 }
 
