@@ -4,6 +4,7 @@
 
 #include "engine/terrain/terrain.hpp"
 #include "scenarios/assembly/reach.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -37,8 +38,11 @@ struct SceneInputs {
   double source_volume_m3 =
       0;  ///< exact volume of the source before resampling; 0: follows from thickness_m
   std::vector<std::string> notes;  ///< what was reprojected, resampled, corrected, by how much
-  std::vector<std::pair<std::string, std::string>>
-      checksums;  ///< input file -> hash, for the manifest
+  std::vector<std::string> warnings;  ///< what was guessed, and what cannot be right
+  std::vector<InputIdentity> identities;  ///< of every file, in the order of the scenario's blocks
+  /// Hash of ground and pattern where the release lies; the same whatever window of the terrain was
+  /// read.
+  std::string release_hash;
   /// How far the mass can come, of the whole scene and whatever is held; empty: not looked at.
   std::optional<Reach> reach;
   Window first_window;  ///< of level 0, see larger_window

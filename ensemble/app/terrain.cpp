@@ -80,6 +80,7 @@ void write_scene(const Options& options, Console& console) {
       cover ? "share of each cell that the source covers [-]" : "thickness of the source [m]",
       console);
   for (const std::string& note : inputs.notes) console.say("note: " + note);
+  for (const std::string& warning : inputs.warnings) console.warn(warning);
 }
 
 int terrain(const Options& options, Console& console) {

@@ -20,6 +20,8 @@ Scene load_scene(const SceneRequest& request) {
   SceneDescription& d = scene.description;
   d = scene.ground->computed(
       [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
+  d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(),
+                    scene.inputs.warnings.end());
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;
@@ -64,7 +66,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.command = command;
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
-  m.inputs = scene.inputs.checksums;
+  m.inputs = scene.inputs.identities;
   m.description = description_lines(scene);
   m.notes = scene.inputs.notes;
   m.warnings = scene.description.warnings;

@@ -18,7 +18,8 @@ bool is_plain_relative(const std::string& path) {
 
 /// The same file, seen from another directory.
 std::string moved_path(const std::string& path, const fs::path& from, const fs::path& to) {
-  if (to.empty() || !is_plain_relative(path)) return path;
+  if (to.empty() || path.empty()) return path;
+  if (!is_plain_relative(path)) return anchored_gdal_name(path, from.string());
   const fs::path there = fs::absolute(from.empty() ? fs::path(".") : from) / path;
   return there.lexically_normal().lexically_proximate(fs::absolute(to).lexically_normal()).string();
 }

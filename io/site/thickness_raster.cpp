@@ -189,19 +189,39 @@ void carry_over(const RasterSource& s, OGRCoordinateTransformation* transform,
 
 }  // namespace
 
-ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) {
-  const GdalScope scope;
-  RasterSource source =
-      read_source(request, RasterQuantity::thickness, /*crs_optional=*/terrain.crs_wkt.empty());
+namespace {
+
+RasterSource read_depths(const RasterRequest& request, bool terrain_is_local) {
+  RasterSource source = read_source(request, RasterQuantity::thickness, terrain_is_local);
   if (request.factor != 1)
     for (double& v : source.values) v *= request.factor;
   refuse_negative(source);
+  return source;
+}
+
+}  // namespace
+
+void check_thickness(const RasterRequest& request, bool terrain_is_local) {
+  const GdalScope scope;
+  read_depths(request, terrain_is_local);
+}
+
+ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) {
+  const GdalScope scope;
+  RasterSource source = read_depths(request, terrain.crs_wkt.empty());
   ThicknessRead result;
   result.notes = std::move(source.notes);
-  result.files = std::move(source.files);
+  result.warnings = std::move(source.warnings);
+  result.identity = std::move(source.identity);
   result.thickness = Raster<double>(terrain, 0.0);
   const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
-  const TransformPtr transform = transform_between(source.crs, to, source.label);
+  std::string warning;
+  const TransformPtr transform = transform_between(source.crs, to, source.label, &warning);
+  if (!warning.empty()) result.warnings.push_back(warning);
+  if (to.IsEmpty() && !source.crs.IsEmpty())
+    result.notes.push_back(source.label +
+                           ": its coordinates are taken as they are, because the terrain has no "
+                           "coordinate system");
   if (transform)
     result.notes.push_back(fmt::format("{}: reprojected from {} to {}", source.label,
                                        crs_name(source.crs), crs_name(to)));

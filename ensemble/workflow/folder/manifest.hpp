@@ -2,6 +2,8 @@
 /// manifest.json: how the results of a folder came to be.
 #pragma once
 
+#include "scenarios/input_identity.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -18,7 +20,7 @@ struct Manifest {
   std::string design;
   std::uint64_t seed = 0;
   std::int64_t members = 0;                                 ///< planned
-  std::vector<std::pair<std::string, std::string>> inputs;  ///< file, checksum
+  std::vector<InputIdentity> inputs;                        ///< what was read of each file
   std::vector<std::string> description, notes, warnings;    ///< as `describe` says them
   double spacing_m = 0;
   double compute_s = 0;     ///< wall time of all calls so far
