@@ -141,10 +141,10 @@ struct BasalSpec {
 };
 
 struct NumericsSpec {
-  double spacing_m = 0;  ///< initial particle spacing dx; 0 = not given (an error)
+  double spacing_m = 0;              ///< initial particle spacing dx; 0 = not given (an error)
   std::optional<double> end_time_s;  ///< absent: to rest, see scenarios/assembly/time_cap.hpp
-  double courant = 0.25;           ///< dt <= courant h / (c0 + |v|)
-  double sound_speed_factor = 10;  ///< c0 = factor * expected flow speed
+  double courant = 0.25;             ///< dt <= courant h / (c0 + |v|)
+  double sound_speed_factor = 10;    ///< c0 = factor * expected flow speed
   bool adaptive_sound_speed =
       true;  ///< c0 follows the flow, see engine/effects/dense/sound_speed.cpp
   double artificial_viscosity = 0.1;  ///< alpha_v of B.4

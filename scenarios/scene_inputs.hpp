@@ -37,7 +37,7 @@ struct SceneInputs {
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =
       0;  ///< exact volume of the source before resampling; 0: follows from thickness_m
-  std::vector<std::string> notes;  ///< what was reprojected, resampled, corrected, by how much
+  std::vector<std::string> notes;     ///< what was reprojected, resampled, corrected, by how much
   std::vector<std::string> warnings;  ///< what was guessed, and what cannot be right
   std::vector<InputIdentity> identities;  ///< of every file, in the order of the scenario's blocks
   /// Hash of ground and pattern where the release lies; the same whatever window of the terrain was

@@ -20,8 +20,7 @@ Scene load_scene(const SceneRequest& request) {
   SceneDescription& d = scene.description;
   d = scene.ground->computed(
       [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
-  d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(),
-                    scene.inputs.warnings.end());
+  d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(), scene.inputs.warnings.end());
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;
