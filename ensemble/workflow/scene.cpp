@@ -26,6 +26,19 @@ Scene load_scene(const SceneRequest& request) {
   return scene;
 }
 
+namespace {
+
+/// When a member is over.
+std::string end_line(const Scene& scene) {
+  const SceneDescription& d = scene.description;
+  return fmt::format(
+      "end: {}{:.6g} s ({})",
+      scene.scenario.numerics.stop_at_rest ? "at rest, at the latest after " : "after ",
+      d.end_time_s, d.end_time_reason);
+}
+
+}  // namespace
+
 std::vector<std::string> description_lines(const Scene& scene) {
   const SceneDescription& d = scene.description;
   std::vector<std::string> lines;
@@ -51,6 +64,8 @@ std::vector<std::string> description_lines(const Scene& scene) {
   if (d.sound_speed_m_s > 0)
     lines.push_back(fmt::format("expected speed: {:.1f} m/s; numerical sound speed {:.0f} m/s",
                                 d.reference_speed_m_s, d.sound_speed_m_s));
+  lines.push_back(d.ground);
+  lines.push_back(end_line(scene));
   lines.push_back(fmt::format("time step: {:.2g} s ({}); about {} steps", d.dt_s, d.binding_limit,
                               grouped(d.n_steps)));
   lines.push_back(fmt::format("predicted: at most {} a member on one core",

@@ -7,6 +7,7 @@
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
 #include "scenarios/assembly/effect_table.hpp"
+#include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/schema.hpp"
 
@@ -77,6 +78,15 @@ double typical_speed(const ScenePlan& plan) {
 const std::size_t bare_bytes_per_particle = ParticleSet().bytes_per_particle() + 24;
 /// Of the peak maps, where the whole grid is touched.
 constexpr std::size_t bytes_per_hazard_cell = 60;
+
+/// Cells of the maps that one member may touch: a quarter of what lies within the energy line's
+/// bounds, because hardly a flow goes every way at once.
+double touched_cells(const SceneInputs& in) {
+  const auto all = static_cast<double>(in.hazard_grid.n_cells());
+  if (!in.reach) return all;
+  const double shorter = in.terrain_grid().cell_m / in.hazard_grid.cell_m;
+  return std::min(all, 0.25 * static_cast<double>(in.reach->window.n_cells()) * shorter * shorter);
+}
 
 std::string joined(const std::vector<std::string>& parts) {
   std::string out;
@@ -172,7 +182,8 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.n_particles = state.n_particles();
   std::size_t bytes = bare_bytes_per_particle;
   for (const EffectNote& note : d.effects) bytes += note.bytes_per_particle;
-  d.memory_bytes = d.n_particles * bytes + inputs.hazard_grid.n_cells() * bytes_per_hazard_cell;
+  d.memory_bytes = d.n_particles * bytes +
+                   static_cast<std::size_t>(touched_cells(inputs)) * bytes_per_hazard_cell;
   d.spacing_m = s.numerics.spacing_m;
   d.release_volume_m3 = plan.release.volume_m3;
   d.release_area_m2 = plan.release.area_m2;
@@ -187,7 +198,10 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.n_steps = std::ceil(plan.end.end_time_s / limit.dt);
   d.end_time_s = plan.end.end_time_s;
   d.end_time_reason = plan.end.reason;
-  d.warnings = plan_warnings(s, plan);
+  d.ground = ground_line(s, inputs);
+  d.warnings = ground_warnings(s, inputs);
+  const auto warnings = plan_warnings(s, plan);
+  d.warnings.insert(d.warnings.end(), warnings.begin(), warnings.end());
   d.needs_more_ground = state.terrain.needs_more();
   return d;
 }
