@@ -197,7 +197,7 @@ WorkingGrid working_grid(RasterSource& source, const std::optional<double>& want
     return {{source.n_cols, source.n_rows, source.affine[0], source.affine[3], source.affine[1],
              crs_wkt2(source.crs)},
             true,
-            {}};
+            OGRSpatialReference()};
   return resampled_in_place(source, wanted ? *wanted : std::min(col_step, row_step));
 }
 
