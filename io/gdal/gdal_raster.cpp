@@ -224,7 +224,7 @@ class ElevationRaster::Impl {
 
   const Grid& grid() const { return working_.grid; }
 
-  RasterRead read(const Window& w) {
+  RasterRead read(const Window& w, bool identified) {
     expect(whole_of(grid()).contains(w), "a window lies on its grid");
     require_raster_size(w.n_cols, w.n_rows, about_.label, about_.max_cells);
     RasterRead result;
@@ -233,7 +233,7 @@ class ElevationRaster::Impl {
     result.warnings = about_.warnings;
     result.identity = about_.identity;
     if (working_.as_it_is) {
-      RasterSource part = source_.read(w);
+      RasterSource part = source_.read(w, identified);
       result.raster.values = std::move(part.values);
       add_facts(part, result);
     } else {
@@ -353,7 +353,11 @@ ElevationRaster::~ElevationRaster() = default;
 const Grid& ElevationRaster::grid() const { return impl_->grid(); }
 RasterRead ElevationRaster::read(const Window& w) {
   const GdalScope scope;
-  return impl_->read(w);
+  return impl_->read(w, true);
+}
+Raster<double> ElevationRaster::look(const Window& w) {
+  const GdalScope scope;
+  return impl_->read(w, false).raster;
 }
 
 RasterRead read_elevation(const RasterRequest& request) {

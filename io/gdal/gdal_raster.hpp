@@ -33,6 +33,8 @@ class ElevationRaster {
   /// \pre the window lies on the grid \throws SetupError when it is larger than
   ///   request.max_cells, or the file is not complete
   RasterRead read(const Window&);
+  /// The same for a look: elevations alone.
+  Raster<double> look(const Window&);
 
  private:
   class Impl;

@@ -249,7 +249,7 @@ void OpenRaster::turn_north_up() {
   }
 }
 
-RasterSource OpenRaster::read(const Window& w) {
+RasterSource OpenRaster::read(const Window& w, bool identified) {
   const GdalScope scope;
   expect(whole().contains(w), "a window lies on its raster");
   require_raster_size(w.n_cols, w.n_rows, about_.label, about_.max_cells);
@@ -260,8 +260,10 @@ RasterSource OpenRaster::read(const Window& w) {
   source.affine[0] = about_.x_of(w.col0, w.row0);
   source.affine[3] = about_.y_of(w.col0, w.row0);
   read_heights(source, *dataset_->GetRasterBand(1), unit_, quantity_);
-  source.identity.parts = block_hashes(
-      source.values, {source.col0, source.row0, w.n_cols, w.n_rows}, about_.n_cols, about_.n_rows);
+  if (identified)
+    source.identity.parts =
+        block_hashes(source.values, {source.col0, source.row0, w.n_cols, w.n_rows}, about_.n_cols,
+                     about_.n_rows);
   turn_values(source, south_up_, east_to_west_);
   return source;
 }

@@ -56,9 +56,9 @@ class OpenRaster {
   /// The whole file without its values, turned north up.
   const RasterSource& about() const { return about_; }
   Window whole() const { return {0, 0, about_.n_rows, about_.n_cols}; }
-  /// Cells of a window, counted north up, with their own placement, notes and identity.
-  /// \throws SetupError when it is not complete or holds more than request.max_cells
-  RasterSource read(const Window&);
+  /// Cells of a window, counted north up, with their own placement, notes and, where wanted,
+  /// identity. \throws SetupError when it is not complete or holds more than request.max_cells
+  RasterSource read(const Window&, bool identified = true);
 
  private:
   void turn_north_up();

@@ -131,7 +131,7 @@ void load_terrain(Loading& loading) {
 
 /// Elevations of a window, read or cut out.
 Raster<double> ground_of(Loading& loading, const Window& w) {
-  if (loading.raster) return loading.raster->read(w).raster;
+  if (loading.raster) return loading.raster->look(w);
   const Raster<double>& all = *loading.inputs.elevation;
   Raster<double> part(grid_of(w, all.grid));
   for (int r = 0; r < w.n_rows; ++r)
