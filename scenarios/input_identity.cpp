@@ -35,9 +35,10 @@ std::string difference(const InputIdentity& before, const InputIdentity& now) {
   }
   if (other == 0) return {};
   if (first == "features") return "other polygons or values than before";
-  return fmt::format("other values than before in {} of {} blocks of 256 x 256 cells, the first "
-                     "block {} (row/column of blocks, from 0)",
-                     other, common, first);
+  return fmt::format(
+      "other values than before in {} of {} blocks of 256 x 256 cells, the first "
+      "block {} (row/column of blocks, from 0)",
+      other, common, first);
 }
 
 }  // namespace

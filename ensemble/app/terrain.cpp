@@ -125,6 +125,7 @@ void add_terrain(Grammar& grammar) {
   parser.add_option("--cell", options.cell_size_m, "Cell size of a shape [m]")
       ->check(CLI::PositiveNumber);
   add_set(parser, options.set, "A shape's parameter=value, or a scenario's key=value");
+  add_remote(parser);
   add_json(grammar, parser);
 }
 

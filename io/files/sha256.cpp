@@ -26,11 +26,11 @@ Sha256::Sha256(Sha256&&) noexcept = default;
 Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 
 void Sha256::add(std::span<const char> bytes) {
-  state_->good = state_->good &&
-                 EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size()) == 1;
+  state_->good =
+      state_->good && EVP_DigestUpdate(state_->context.get(), bytes.data(), bytes.size()) == 1;
 }
 
-void Sha256::add(std::span<const double> values) {
+void Sha256::add_values(std::span<const double> values) {
   std::array<double, 512> plain{};
   while (!values.empty()) {
     const std::size_t n = std::min(values.size(), plain.size());
@@ -46,8 +46,7 @@ void Sha256::add(std::span<const double> values) {
 std::string Sha256::hex() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned n = 0;
-  state_->good =
-      state_->good && EVP_DigestFinal_ex(state_->context.get(), digest.data(), &n) == 1;
+  state_->good = state_->good && EVP_DigestFinal_ex(state_->context.get(), digest.data(), &n) == 1;
   expect(state_->good, "libcrypto computes SHA-256");
   std::string text;
   for (unsigned i = 0; i < n; ++i) text += fmt::format("{:02x}", digest[i]);

@@ -17,9 +17,9 @@ class Sha256 {
   Sha256& operator=(Sha256&&) noexcept;
 
   void add(std::span<const char> bytes);
-  void add(std::string_view text) { add(std::span(text.data(), text.size())); }
+  void add_text(std::string_view text) { add(std::span(text.data(), text.size())); }
   /// The numbers' bits; every NaN counts as the same one, and -0 as 0.
-  void add(std::span<const double> values);
+  void add_values(std::span<const double> values);
   /// 64 hexadecimal digits. Nothing may be added afterwards.
   std::string hex();
 

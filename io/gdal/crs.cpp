@@ -229,7 +229,8 @@ bool names_a_datum(const OGRSpatialReference& crs) {
   std::transform(name.begin(), name.end(), name.begin(),
                  [](unsigned char c) { return c == '_' ? ' ' : std::tolower(c); });
   return !name.empty() && name.find("unknown") == std::string::npos &&
-         name.find("not specified") == std::string::npos && name.find("unnamed") == std::string::npos;
+         name.find("not specified") == std::string::npos &&
+         name.find("unnamed") == std::string::npos;
 }
 
 bool is_shift_known(const OGRSpatialReference& from, const OGRSpatialReference& to) {

@@ -13,8 +13,8 @@ namespace sturz {
 inline constexpr double highest_ground_m = 9000, lowest_ground_m = -11000;
 
 /// Blanks the usual marks in the values as they are stored: not finite, beyond 1e15, the largest
-/// (or smallest) number of the band's integer type, and, where the band has no scale, -9999, -99999,
-/// -32767, -32768, 32767 and 65535. The count goes to the notes.
+/// (or smallest) number of the band's integer type, and, where the band has no scale, -9999,
+/// -99999, -32767, -32768, 32767 and 65535. The count goes to the notes.
 void blank_marks(RasterSource& source, GDALDataType type, bool scaled);
 
 /// Blanks elevations in metres that no ground has. The count goes to the notes.

@@ -2,6 +2,7 @@
 #include "io/gdal/gdal_raster.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/doubts/dem_doubts.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/raster_source.hpp"
@@ -14,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -234,6 +237,7 @@ class ElevationRaster::Impl {
     result.identity = about_.identity;
     if (working_.as_it_is) {
       RasterSource part = source_.read(w, identified);
+      if (identified) doubt(part, w);
       result.raster.values = std::move(part.values);
       add_facts(part, result);
     } else {
@@ -259,6 +263,11 @@ class ElevationRaster::Impl {
     for (std::size_t i = whole.warnings.size(); i < part.warnings.size(); ++i)
       result.warnings.push_back(part.warnings[i]);
     result.identity.parts.insert(part.identity.parts.begin(), part.identity.parts.end());
+  }
+
+  static void doubt(RasterSource& part, const Window& at) {
+    std::vector<std::string> doubts = dem_doubts(part, {at.row0, at.col0});
+    std::move(doubts.begin(), doubts.end(), std::back_inserter(part.warnings));
   }
 
   void copy_from(const Block& from, const Window& w, RasterRead& result) const {
@@ -329,6 +338,7 @@ class ElevationRaster::Impl {
     const Window below = source_window(made->values.grid);
     if (below.n_cells() > 0) {
       made->facts = source_.read(below);
+      doubt(made->facts, below);
       warp_bilinear(made->facts, working_.to, ratio_, made->values);
       made->facts.values = {};
     }

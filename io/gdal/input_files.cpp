@@ -35,7 +35,7 @@ bool is_gdal_name(const std::string& text) {
   return text.rfind("/vsi", 0) == 0 || text.find(':') != std::string::npos;
 }
 
-bool exists(const fs::path& path) {
+bool is_there(const fs::path& path) {
   std::error_code error;
   return fs::exists(path, error);
 }
@@ -84,9 +84,10 @@ void require_archive_entry(const std::string& path, const std::string& label) {
   const GdalScope scope;
   VSIStatBufL about;
   if (archive_prefix(path).empty() || VSIStatL(path.c_str(), &about) == 0) return;
-  throw SetupError(fmt::format("{}: nothing of that name is there (looked for {}). Relative paths "
-                               "start at the scenario file's folder.",
-                               label, path));
+  throw SetupError(
+      fmt::format("{}: nothing of that name is there (looked for {}). Relative paths "
+                  "start at the scenario file's folder.",
+                  label, path));
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ InputFile find_input(const std::string& key, const std::string& written,
   fs::path path(written);
   if (path.is_relative() && !directory.empty()) path = fs::path(directory) / path;
   InputFile file{path.string(), label};
-  if (!exists(path)) {
+  if (!is_there(path)) {
     if (!is_gdal_name(written))
       throw SetupError(fmt::format("{}: no such file (looked for {}). {}", label, path.string(),
                                    suggestion(path)));

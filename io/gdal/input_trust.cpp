@@ -24,8 +24,8 @@ namespace {
 
 std::atomic<bool> remote_allowed{false};
 
-constexpr std::array network_systems{"vsicurl",  "vsis3",  "vsigs",    "vsiaz", "vsiadls",
-                                     "vsioss",   "vsiswift", "vsihdfs", "vsiwebhdfs"};
+constexpr std::array network_systems{"vsicurl", "vsis3",    "vsigs",   "vsiaz",     "vsiadls",
+                                     "vsioss",  "vsiswift", "vsihdfs", "vsiwebhdfs"};
 
 /// Drivers whose data lie behind a server or a database, as GDAL names them.
 constexpr const char* network_drivers =
@@ -43,14 +43,15 @@ bool holds(const std::string& text, std::string_view what) {
          }) != text.end();
 }
 
-/// Anywhere in the name: "/vsizip//vsicurl/...", "NETCDF:https://...".
+/// Systems anywhere in the name ("/vsizip//vsicurl/...", "NETCDF:https://..."), servers at its
+/// start.
 bool is_remote(const std::string& name) {
   for (const char* system : network_systems)
     if (holds(name, std::string("/") + system)) return true;
-  for (const char* word : {"://", "pg:", "mysql:", "mssql:", "odbc:", "wfs:", "wms:", "wcs:",
-                           "wmts:", "oapif:", "dods:"})
-    if (holds(name, word)) return true;
-  return false;
+  for (const char* server : {"pg:", "postgresql:", "mysql:", "mssql:", "oci:", "odbc:", "wfs:",
+                             "wms:", "wcs:", "wmts:", "oapif:", "dods:", "es:", "csw:"})
+    if (holds(name.substr(0, std::string_view(server).size()), server)) return true;
+  return holds(name, "://");
 }
 
 /// A file of the library that cannot be opened, whatever its name.
@@ -105,9 +106,10 @@ void search_file(const std::string& name, const Search& search);
 
 /// "... = chain.vrt: names the source 'x', which ..."
 [[noreturn]] void refuse_source(const Search& search, const std::string& why) {
-  throw SetupError(fmt::format("{}: {}. Copy the data beside the scenario, or call sturz with "
-                               "--allow-remote-inputs if you trust the scenario.",
-                               search.label, why));
+  throw SetupError(
+      fmt::format("{}: {}. Copy the data beside the scenario, or call sturz with "
+                  "--allow-remote-inputs if you trust the scenario.",
+                  search.label, why));
 }
 
 void search_node(const CPLXMLNode* node, const std::string& folder, const Search& search) {
@@ -120,8 +122,8 @@ void search_node(const CPLXMLNode* node, const std::string& folder, const Search
                                         CPLGetXMLValue(node, "SourceFilename", "another file")));
     if (element == "SourceFilename" || element == "SourceDataset" || element == "SrcDataSource") {
       const std::string source = CPLGetXMLValue(node, "", "");
-      const std::string relative = CPLGetXMLValue(
-          node, "relativeToVRT", CPLGetXMLValue(node, "relativetoVRT", "0"));
+      const std::string relative =
+          CPLGetXMLValue(node, "relativeToVRT", CPLGetXMLValue(node, "relativetoVRT", "0"));
       const bool beside = relative == "1" && source.find('<') == std::string::npos;
       search_file(beside ? CPLProjectRelativeFilename(folder.c_str(), source.c_str()) : source,
                   search);
@@ -131,6 +133,11 @@ void search_node(const CPLXMLNode* node, const std::string& folder, const Search
 }
 
 void search_file(const std::string& name, const Search& search) {
+  constexpr std::string_view view = "vrt://";  // a local file, seen in another way
+  if (name.starts_with(view)) {
+    const std::size_t end = std::min(name.find('?'), name.size());
+    return search_file(name.substr(view.size(), end - view.size()), search);
+  }
   if (is_remote(name))
     refuse_source(search, fmt::format("'{}' lies on the network (a scenario may not fetch by "
                                       "itself)",
@@ -156,9 +163,9 @@ void require_trusted(const InputFile& file) {
 void close_network() {
   if (remote_allowed) return;
   const std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
-  CPLSetConfigOption("GDAL_SKIP", (skipped.empty() ? std::string(network_drivers)
-                                                   : skipped + "," + network_drivers)
-                                      .c_str());
+  CPLSetConfigOption(
+      "GDAL_SKIP",
+      (skipped.empty() ? std::string(network_drivers) : skipped + "," + network_drivers).c_str());
   for (const char* system : network_systems)
     for (const char* kind : {"", "_streaming"})
       // The library keeps it to its end.

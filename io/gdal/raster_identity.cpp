@@ -27,8 +27,8 @@ Reach reach_of(int block, int window_from, int window_n, int file_n) {
 std::string part_name(int row, int col, const Reach& rows, const Reach& cols) {
   std::string name = fmt::format("{}/{}", row, col);
   if (!rows.whole || !cols.whole)
-    name += fmt::format(" rows {}-{} columns {}-{}", rows.from, rows.end - 1, cols.from,
-                        cols.end - 1);
+    name +=
+        fmt::format(" rows {}-{} columns {}-{}", rows.from, rows.end - 1, cols.from, cols.end - 1);
   return name;
 }
 
@@ -46,9 +46,9 @@ std::map<std::string, std::string> block_hashes(std::span<const double> values,
       const Reach cols = reach_of(bc, window.col0, window.n_cols, file_cols);
       Sha256 hash;
       for (int row = rows.from; row < rows.end; ++row)
-        hash.add(values.subspan(static_cast<std::size_t>(row - window.row0) * window.n_cols +
-                                    static_cast<std::size_t>(cols.from - window.col0),
-                                static_cast<std::size_t>(cols.end - cols.from)));
+        hash.add_values(values.subspan(static_cast<std::size_t>(row - window.row0) * window.n_cols +
+                                           static_cast<std::size_t>(cols.from - window.col0),
+                                       static_cast<std::size_t>(cols.end - cols.from)));
       hashes[part_name(br, bc, rows, cols)] = hash.hex().substr(0, hash_digits);
     }
   return hashes;
@@ -64,7 +64,7 @@ std::string crs_identity(const OGRSpatialReference& crs) {
   if (crs.IsEmpty()) return "no coordinate system";
   if (crs.GetAuthorityCode(nullptr) != nullptr) return crs_name(crs);
   Sha256 hash;
-  hash.add(crs_wkt2(crs));
+  hash.add_text(crs_wkt2(crs));
   return fmt::format("{} #{}", crs_name(crs), hash.hex().substr(0, 8));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario as YAML text.
+#include "io/gdal/input_files.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/value_text.hpp"

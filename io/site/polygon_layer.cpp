@@ -46,10 +46,10 @@ void refuse_other_shapes(const PolygonLayer& layer, const PolygonRequest& reques
                      type == wkbMultiLineString || type == wkbCircularString ||
                      type == wkbCompoundCurve || type == wkbMultiCurve;
   if (!other) return;
-  throw SetupError(fmt::format("{}: layer '{}' holds features of type {}, not polygons. Draw the "
-                               "{} as polygons.",
-                               layer.label, layer.layer->GetName(), OGRGeometryTypeToName(type),
-                               request.what));
+  throw SetupError(
+      fmt::format("{}: layer '{}' holds features of type {}, not polygons. Draw the "
+                  "{} as polygons.",
+                  layer.label, layer.layer->GetName(), OGRGeometryTypeToName(type), request.what));
 }
 
 /// nullptr where the coordinates stay as they are.
@@ -67,12 +67,11 @@ TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request
     return nullptr;
   }
   std::string note, warning;
-  const OGRSpatialReference from =
-      settle_crs(own,
-                 {layer.label, request.crs_key, request.crs, request.fallback_crs_key,
-                  request.fallback_crs},
-                 {box.MinX, box.MaxX, box.MinY, box.MaxY, 0}, note)
-          .crs;
+  const OGRSpatialReference from = settle_crs(own,
+                                              {layer.label, request.crs_key, request.crs,
+                                               request.fallback_crs_key, request.fallback_crs},
+                                              {box.MinX, box.MaxX, box.MinY, box.MaxY, 0}, note)
+                                       .crs;
   layer.identity.shape = crs_identity(from);
   if (!note.empty()) layer.notes.push_back(note);
   if (request.without_terrain) return nullptr;
@@ -101,7 +100,7 @@ void add_corners(Sha256& hash, const OGRMultiPolygon& polygons) {
       numbers.push_back(ring->getNumPoints());
       for (const Vec2& p : points_of(*ring)) numbers.insert(numbers.end(), {p.x(), p.y()});
     }
-  hash.add(std::span<const double>(numbers));
+  hash.add_values(std::span<const double>(numbers));
 }
 
 PolygonsPtr mended(PolygonLayer& layer, const OGRMultiPolygon& polygons, const std::string& name) {
@@ -151,7 +150,7 @@ PolygonLayer open_polygon_layer(const PolygonRequest& request) {
   layer.identity.role = request.key;
   layer.identity.file = file.path;
   layer.layer = &choose_layer(layer, request);
-  refuse_other_shapes(layer, request);
+  if (!request.thickness_attribute.empty()) refuse_other_shapes(layer, request);
   return layer;
 }
 
@@ -172,7 +171,7 @@ std::vector<PolygonFeature> read_features(
     require(feature.polygons->get_Area() > 0,
             fmt::format("{}: {} has no area. Draw it again.", layer.label, feature.name));
     if (read_fields) read_fields(*read, feature);
-    reading.hash.add(std::span<const double>(&feature.thickness_m, 1));
+    reading.hash.add_values(std::span<const double>(&feature.thickness_m, 1));
     features.push_back(std::move(feature));
   }
   require(!features.empty(),

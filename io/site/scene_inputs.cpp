@@ -2,6 +2,7 @@
 #include "io/site/scene_inputs.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/doubts/release_doubts.hpp"
 #include "io/files/sha256.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_raster.hpp"
@@ -343,7 +344,7 @@ std::string hash_of_release(const SceneInputs& in) {
                                        std::round((g.y_center(row)) / g.cell_m * 1024),
                                        ground.at(row - held.row0, col - held.col0),
                                        release.at(r, c)};
-      hash.add(std::span<const double>(cell));
+      hash.add_values(std::span<const double>(cell));
     }
   return "sha256:" + hash.hex();
 }
@@ -378,6 +379,8 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   else
     check_zones(loading);
   loading.refuse_problems();
+  std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
+  if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
   inputs.release_hash = hash_of_release(inputs);
   inputs.hazard_grid = hazard_grid(scenario, loading.grid());
   prepare_grounds(scenario, inputs);

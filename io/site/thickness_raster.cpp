@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/vec.hpp"
+#include "io/doubts/release_doubts.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/raster_identity.hpp"
@@ -257,6 +258,7 @@ Depths read_depths(const RasterRequest& request, bool terrain_is_local) {
     depths.source = factored(all);
     found.add(depths.source, all);
     refuse_negative(found, depths.whole);
+    refuse_mask(depths.source.values, request.factor, depths.whole.label);
     return depths;
   }
   std::map<std::string, std::string> parts;
@@ -273,6 +275,7 @@ Depths read_depths(const RasterRequest& request, bool terrain_is_local) {
     depths.at = {0, 0, 1, 1};
   depths.source = factored(depths.at);
   depths.source.identity.parts = std::move(parts);
+  refuse_mask(depths.source.values, request.factor, depths.whole.label);
   return depths;
 }
 
@@ -326,6 +329,11 @@ ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) 
     take_cells(depths, terrain, result);
   else
     carry_over(source, transform.get(), terrain, result);
+  double largest = 0;
+  for (const double v : source.values) largest = std::max(largest, std::isnan(v) ? 0 : v);
+  std::string doubt =
+      thickness_doubt(result.volume_m3, result.area_m2, largest, request.factor, source.label);
+  if (!doubt.empty()) result.warnings.push_back(std::move(doubt));
   return result;
 }
 

@@ -13,7 +13,7 @@ namespace sturz {
 /// Which part of the raster is read first, and why: one line.
 std::string ground_line(const Scenario&, const SceneInputs&);
 
-/// Where the release or its energy line comes near the end of the known ground.
+/// Where the energy line meets the end of the known ground.
 std::vector<std::string> ground_warnings(const Scenario&, const SceneInputs&);
 
 }  // namespace sturz

@@ -98,8 +98,7 @@ Manifest Manifest::read(const fs::path& file) {
     m.seed = whole<std::uint64_t>(file, all, "seed");
     m.members = whole<std::int64_t>(file, all, "members");
     m.spacing_m = all.at("spacing_m").get<double>();
-    for (const auto& input : all.at("inputs"))
-      m.inputs.push_back(identity_from(input));
+    for (const auto& input : all.at("inputs")) m.inputs.push_back(identity_from(input));
     m.description = all.at("description").get<std::vector<std::string>>();
     m.notes = all.at("notes").get<std::vector<std::string>>();
     m.warnings = all.at("warnings").get<std::vector<std::string>>();
