@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/assemble.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/arrivals.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
+#include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
@@ -103,6 +105,21 @@ StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
                    plan.release.max_thickness_m, plan.available_energy_j});
 }
 
+/// Masses spread and settle while a point is long at rest.
+constexpr double settling = 1.5;
+
+/// How long a member will probably move [s]; its own end time where it gives one.
+double expected_time(const Scenario& s, const ScenePlan& plan) {
+  if (s.numerics.end_time_s || !s.domain.periodic.empty()) return plan.end.end_time_s;
+  const auto& v0 = s.release.velocity_m_s;
+  const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
+  const double friction =
+      s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  const double moving = time_to_rest(plan.bed, plan.release, friction, start, plan.end.end_time_s);
+  const double spreading = 5 * std::sqrt(plan.release.max_thickness_m / standard_gravity);
+  return std::min(plan.end.end_time_s, settling * (moving + spreading));
+}
+
 double least_step(const Scenario& s, const ScenePlan& plan) {
   if (plan.formulation.depth_averaged)
     return 1e-6 * std::sqrt(s.numerics.spacing_m / standard_gravity);
@@ -195,14 +212,14 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;
-  d.n_steps = std::ceil(plan.end.end_time_s / limit.dt);
+  d.n_steps = std::ceil(expected_time(s, plan) / limit.dt);
   d.end_time_s = plan.end.end_time_s;
   d.end_time_reason = plan.end.reason;
   d.ground = ground_line(s, inputs);
   d.warnings = ground_warnings(s, inputs);
   const auto warnings = plan_warnings(s, plan);
   d.warnings.insert(d.warnings.end(), warnings.begin(), warnings.end());
-  d.needs_more_ground = state.terrain.needs_more();
+  d.needs_more_ground = state.terrain.needs_more() || plan.bed.needs_more();
   return d;
 }
 

@@ -68,7 +68,13 @@ class Growing : public Workflow {
       text = replaced(text, "  thickness_m: 5\n", "  thickness_m: 5\n" + changes);
     write("scene.yaml", text);
     Recorder silent;
-    return workflow::prepare_ensemble(request(fmt::format("out{}", ++n_jobs_)), silent);
+    return untouched(workflow::prepare_ensemble(request(fmt::format("out{}", ++n_jobs_)), silent));
+  }
+  /// Describing the scene may have grown the ground already: the members shall do it.
+  static workflow::EnsembleJob untouched(workflow::EnsembleJob job) {
+    job.scene.ground =
+        std::make_shared<workflow::GrowingGround>(job.scene.scenario, job.scene.inputs);
+    return job;
   }
 
   static int level(const workflow::EnsembleJob& job) { return job.scene.ground->now()->level; }
