@@ -245,7 +245,7 @@ struct Depths {
 
 Depths read_depths(const RasterRequest& request, bool terrain_is_local) {
   OpenRaster raster(request, RasterQuantity::thickness, terrain_is_local);
-  Depths depths{raster.about(), {}, raster.whole()};
+  Depths depths{raster.about(), RasterSource(), raster.whole()};
   const auto factored = [&](const Window& w) {
     RasterSource source = raster.read(w);
     if (request.factor != 1)

@@ -147,7 +147,8 @@ TEST_F(Growing, ZonesGrowAlong) {
   const auto with_zones = [&](const char* window) {
     job(window);
     write("scene.yaml", replaced(read("scene.yaml"), "basal:\n", "basal:\n" + zones));
-    return workflow::prepare_ensemble(request(fmt::format("zoned{}", ++n_jobs_)), silent);
+    return untouched(
+        workflow::prepare_ensemble(request(fmt::format("zoned{}", ++n_jobs_)), silent));
   };
   workflow::EnsembleJob small = with_zones(tiny), full = with_zones(everything);
   const MemberResult a = workflow::run_member(small, 1, silent.cancel);
@@ -178,6 +179,8 @@ TEST_F(Growing, ASingleRunWritesItsFramesOnce) {
   request.threads = 1;
   request.particles_every_s = 10;
   workflow::SingleRun run = workflow::prepare_run(request, heard);
+  run.scene.ground =
+      std::make_shared<workflow::GrowingGround>(run.scene.scenario, run.scene.inputs);
   const MemberResult result = workflow::compute_run(run, heard, heard.cancel);
   EXPECT_GT(run.scene.ground->now()->level, 0);
   EXPECT_EQ(result.outcome, Outcome::settled);
