@@ -22,12 +22,20 @@ struct SyntheticTerrain {
   bool operator==(const SyntheticTerrain&) const = default;
 };
 
+/// The part of a large raster that is read first: a rectangle, or what a polygon layer spans.
+struct TerrainWindow {
+  std::array<double, 2> x_m{}, y_m{};
+  std::string polygon;  ///< any OGR polygon layer
+  bool operator==(const TerrainWindow&) const = default;
+};
+
 struct TerrainSpec {
   std::string raster;  ///< path of any GDAL raster; empty: synthetic
   std::optional<SyntheticTerrain> synthetic;
   std::string crs;  ///< given by the user where the file has none (or a wrong one)
   std::optional<double> cell_size_m;  ///< working grid; default: the raster's own
   TerrainEdge nodata = TerrainEdge::outflow;
+  std::optional<TerrainWindow> window;  ///< absent: from the energy line
   bool operator==(const TerrainSpec&) const = default;
 };
 
@@ -133,10 +141,10 @@ struct BasalSpec {
 };
 
 struct NumericsSpec {
-  double spacing_m = 0;  ///< initial particle spacing dx; 0 = not given (an error)
-  double end_time_s = 120;
-  double courant = 0.25;           ///< dt <= courant h / (c0 + |v|)
-  double sound_speed_factor = 10;  ///< c0 = factor * expected flow speed
+  double spacing_m = 0;              ///< initial particle spacing dx; 0 = not given (an error)
+  std::optional<double> end_time_s;  ///< absent: to rest, see scenarios/assembly/time_cap.hpp
+  double courant = 0.25;             ///< dt <= courant h / (c0 + |v|)
+  double sound_speed_factor = 10;    ///< c0 = factor * expected flow speed
   bool adaptive_sound_speed =
       true;  ///< c0 follows the flow, see engine/effects/dense/sound_speed.cpp
   double artificial_viscosity = 0.1;  ///< alpha_v of B.4

@@ -16,12 +16,28 @@ Scene load_scene(const SceneRequest& request) {
   scene.scenario = read_scenario(request.file, request.overrides);
   scene.medians = median_scenario(scene.scenario);
   scene.inputs = load_scene_inputs(scene.scenario);
+  scene.ground = std::make_shared<GrowingGround>(scene.scenario, scene.inputs);
   SceneDescription& d = scene.description;
-  d = describe(scene.medians, scene.inputs);
+  d = scene.ground->computed(
+      [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
+  d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(), scene.inputs.warnings.end());
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;
 }
+
+namespace {
+
+/// When a member is over.
+std::string end_line(const Scene& scene) {
+  const SceneDescription& d = scene.description;
+  return fmt::format(
+      "end: {}{:.6g} s ({})",
+      scene.scenario.numerics.stop_at_rest ? "at rest, at the latest after " : "after ",
+      d.end_time_s, d.end_time_reason);
+}
+
+}  // namespace
 
 std::vector<std::string> description_lines(const Scene& scene) {
   const SceneDescription& d = scene.description;
@@ -48,9 +64,11 @@ std::vector<std::string> description_lines(const Scene& scene) {
   if (d.sound_speed_m_s > 0)
     lines.push_back(fmt::format("expected speed: {:.1f} m/s; numerical sound speed {:.0f} m/s",
                                 d.reference_speed_m_s, d.sound_speed_m_s));
+  lines.push_back(d.ground);
+  lines.push_back(end_line(scene));
   lines.push_back(fmt::format("time step: {:.2g} s ({}); about {} steps", d.dt_s, d.binding_limit,
                               grouped(d.n_steps)));
-  lines.push_back(fmt::format("predicted: at most {} a member on one core",
+  lines.push_back(fmt::format("predicted: about {} a member on one core",
                               duration_text(d.predicted_seconds)));
   return lines;
 }
@@ -62,7 +80,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.command = command;
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
-  m.inputs = scene.inputs.checksums;
+  m.inputs = scene.inputs.identities;
   m.description = description_lines(scene);
   m.notes = scene.inputs.notes;
   m.warnings = scene.description.warnings;

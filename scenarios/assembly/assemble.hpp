@@ -42,6 +42,10 @@ struct SceneDescription {
   double reference_speed_m_s = 0, sound_speed_m_s = 0;
   double dt_s = 0, n_steps = 0;  ///< estimates
   std::string binding_limit;
+  double end_time_s = 0;              ///< when a member is stopped at the latest
+  std::string end_time_reason;        ///< where that comes from
+  std::string ground;                 ///< which part of it is read, and why
+  bool needs_more_ground = false;     ///< describe again with a larger part of the raster
   double predicted_seconds = 0;       ///< n_particles * n_steps / updates per second; by the caller
   std::vector<std::string> warnings;  ///< thin flow, grain larger than particle, ...
 };

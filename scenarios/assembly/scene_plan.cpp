@@ -35,25 +35,35 @@ Raster<double> release_thickness(const ReleaseSpec& spec, const SceneInputs& in)
 }
 
 /// bed = pre-failure surface - thickness, as a patch over the shared raster.
-Terrain excavate(const Terrain& ground, const Raster<double>& fine_thickness) {
+/// \param whole the working grid, of which the thickness covers a part
+Terrain excavate(const Terrain& ground, const Raster<double>& thickness, const Grid& whole) {
   const Grid& g = ground.grid();
-  const int factor = static_cast<int>(std::lround(g.cell_m / fine_thickness.grid.cell_m));
-  const Raster<double> thickness = factor > 1 ? coarsened(fine_thickness, factor) : fine_thickness;
-  int r0 = g.n_rows, r1 = -1, c0 = g.n_cols, c1 = -1;
-  for (int r = 0; r < g.n_rows; ++r)
-    for (int c = 0; c < g.n_cols; ++c)
-      if (thickness.at(r, c) > 0) {
-        r0 = std::min(r0, r), r1 = std::max(r1, r);
-        c0 = std::min(c0, c), c1 = std::max(c1, c);
-      }
-  if (r1 < 0) return ground;
+  const int factor = static_cast<int>(std::lround(g.cell_m / thickness.grid.cell_m));
+  const Window at = window_of(thickness.grid, whole);
+  /// Mean over a cell of the ground.
+  const auto mean = [&](int row, int col) {
+    if (factor <= 1) return thickness.at(row - at.row0, col - at.col0);
+    double sum = 0;
+    for (int r = row * factor; r < (row + 1) * factor; ++r)
+      for (int c = col * factor; c < (col + 1) * factor; ++c)
+        if (at.contains(r, c)) sum += thickness.at(r - at.row0, c - at.col0);
+    return sum / (factor * factor);
+  };
+  const int f = std::max(factor, 1);
+  const Window near = window_between(at.row0 / f, (at.end_row() - 1) / f + 1, at.col0 / f,
+                                     (at.end_col() - 1) / f + 1, g);
+  Window dug;
+  for (int r = near.row0; r < near.end_row(); ++r)
+    for (int c = near.col0; c < near.end_col(); ++c)
+      if (mean(r, c) > 0) dug = joined(dug, {r, c, 1, 1});
+  if (dug.n_cells() == 0) return ground;
   std::vector<double> patch;
-  for (int r = r0; r <= r1; ++r)
-    for (int c = c0; c <= c1; ++c) {
-      const double h = thickness.at(r, c);
+  for (int r = dug.row0; r < dug.end_row(); ++r)
+    for (int c = dug.col0; c < dug.end_col(); ++c) {
+      const double h = mean(r, c);
       patch.push_back(h > 0 ? ground.node(r, c) - h : nan_d);
     }
-  return ground.with_patch(r0, c0, r1 - r0 + 1, c1 - c0 + 1, std::move(patch));
+  return ground.with_patch(dug.row0, dug.col0, dug.n_rows, dug.n_cols, std::move(patch));
 }
 
 /// A direction repeats over the terrain's extent; the ground may rise by a constant per period.
@@ -186,7 +196,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
   const double deepest = plan.release.max_thickness_m;
   plan.reference_speed_m_s =
-      reference_speed(plan.bed, plan.release, least_friction, start, s.numerics.end_time_s);
+      reference_speed(plan.bed, plan.release, least_friction, start, plan.end.end_time_s);
 
   GrainStressSettings& stress = plan.stress;
   stress.law = make_law(*s.grains);
@@ -249,6 +259,8 @@ void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, std::vector<std
 ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
   require(s.grains.has_value(),
           "grains: the block is missing (nothing would move). Add `grains:`.");
+  expect(s.domain.periodic.empty() || in.held() == whole_of(in.terrain_grid()),
+         "ground that repeats itself is held whole");
   const Domain domain = make_domain(s.domain, *in.elevation);
   require_room(domain.x, "x", s.numerics.spacing_m);
   require_room(domain.y, "y", s.numerics.spacing_m);
@@ -260,8 +272,9 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   require(!periodic || s.release.surface == ReleaseSurface::bed,
           "release.surface = pre_failure cannot be used with domain.periodic (the excavation would "
           "not repeat). Use `surface: bed`.");
-  ScenePlan plan(s.release.surface == ReleaseSurface::pre_failure ? excavate(ground, thickness)
-                                                                  : ground);
+  ScenePlan plan(s.release.surface == ReleaseSurface::pre_failure
+                     ? excavate(ground, thickness, in.terrain_grid())
+                     : ground);
   plan.formulation = formulation;
   plan.domain = domain;
 
@@ -276,7 +289,9 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
       release_particles(plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
                          s.ensemble.seed, member, plan.formulation.depth_averaged});
-  plan.zones = {in.zones};
+  plan.end = time_cap(s, in, plan.release.median_thickness_m, plan.bulk_density_kg_m3);
+  const Window held = in.held();
+  plan.zones = {in.zones, in.whole, held.row0, held.col0};
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
   if (plan.formulation.depth_averaged)
     plan_columns(s, bed, plan);
@@ -290,8 +305,12 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     mass += plan.release.mass[i];
     height += plan.release.mass[i] * plan.release.z[i];
   }
-  for (double z : in.elevation->values)
-    if (std::isfinite(z)) lowest = std::min(lowest, z);
+  if (in.reach) {  // whatever part of the raster is held
+    lowest = in.reach->lowest_m;
+  } else {
+    for (double z : in.elevation->values)
+      if (std::isfinite(z)) lowest = std::min(lowest, z);
+  }
   plan.available_energy_j =
       standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
   return plan;

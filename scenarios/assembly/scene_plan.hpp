@@ -10,6 +10,7 @@
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/particles/release.hpp"
 #include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/time_cap.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
 
@@ -31,6 +32,7 @@ struct ScenePlan {
   double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;    ///< depth_averaged
   double reference_speed_m_s = 0;   ///< v_ref of the fastest expected mass point; full_stress
+  TimeCap end;                      ///< when it is stopped at the latest
   double available_energy_j = 0;    ///< release mass falling to the lowest ground within runout
 
   explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}

@@ -11,7 +11,25 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
+/// Results do not depend on the window; one that cannot be meant is refused all the same.
+void check_window(const TerrainSpec& t, Problems& problems) {
+  const TerrainWindow& w = *t.window;
+  if (t.synthetic)
+    problems.push_back(
+        {"terrain.window", "terrain.window (a synthetic terrain is made whole). Remove it."});
+  const bool box = w.x_m[1] > w.x_m[0] && w.y_m[1] > w.y_m[0];
+  const bool none = w.x_m == std::array<double, 2>{} && w.y_m == std::array<double, 2>{};
+  if (!w.polygon.empty() && !none)
+    problems.push_back({"terrain.window",
+                        "terrain.window (polygon and x_m, y_m both say where). Keep one of them."});
+  if (w.polygon.empty() && !box)
+    problems.push_back({"terrain.window",
+                        "terrain.window (no area). Give x_m: [west, east] and y_m: [south, "
+                        "north], the smaller number first, or a polygon."});
+}
+
 void check_terrain(const TerrainSpec& t, Problems& problems) {
+  if (t.window) check_window(t, problems);
   const bool raster = !t.raster.empty();
   if (!raster && !t.synthetic)
     problems.push_back({"terrain",

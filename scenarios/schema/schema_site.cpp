@@ -7,12 +7,27 @@ namespace {
 
 constexpr auto scene = blocks::scene;
 constexpr auto terrain = blocks::at<&Scenario::terrain>;
+constexpr auto terrain_window = blocks::at<&Scenario::terrain, &TerrainSpec::window>;
 constexpr auto release = blocks::at<&Scenario::release>;
 constexpr auto release_box = blocks::at<&Scenario::release, &ReleaseSpec::box>;
 constexpr auto release_paraboloid = blocks::at<&Scenario::release, &ReleaseSpec::paraboloid>;
 constexpr auto release_cylinder = blocks::at<&Scenario::release, &ReleaseSpec::cylinder>;
 
 constexpr double map_limit = 1e8;  // metres; no projected coordinate is larger
+
+void add_window(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(with_size(key(terrain_window, &TerrainWindow::x_m,
+                               {"terrain.window.x_m", number_list, "m", -map_limit, map_limit,
+                                "West and east edge of what is read first of the raster."}),
+                           2));
+  keys.push_back(with_size(key(terrain_window, &TerrainWindow::y_m,
+                               {"terrain.window.y_m", number_list, "m", -map_limit, map_limit,
+                                "South and north edge of it."}),
+                           2));
+  keys.push_back(text_key(terrain_window, &TerrainWindow::polygon, "terrain.window.polygon", path,
+                          "Polygon layer whose extent is read first, instead of x_m and y_m."));
+}
 
 void add_terrain(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
@@ -23,13 +38,14 @@ void add_terrain(std::vector<KeyInfo>& keys) {
                       "Ground written as a formula: one shape with its own numbers."}));
   keys.push_back(text_key(terrain, &TerrainSpec::crs, "terrain.crs", text,
                           "Coordinate system of the raster, e.g. EPSG:32648, where the file has "
-                          "none or a wrong one."));
+                          "none or a wrong one; local: metres that lie nowhere on the map."));
   keys.push_back(key(terrain, &TerrainSpec::cell_size_m,
                      {"terrain.cell_size_m", number, "m", 1e-3, 1e4,
                       "Cell of the working grid; the raster's own when absent."}));
   keys.push_back(
       choice_key(terrain, &TerrainSpec::nodata, "terrain.nodata",
                  "What the edge of the known ground does to the mass: lets it out or holds it."));
+  add_window(keys);
 }
 
 void add_shapes(std::vector<KeyInfo>& keys) {
@@ -107,6 +123,8 @@ void add_site_keys(std::vector<KeyInfo>& keys) {
 }
 
 void add_site_blocks(std::vector<BlockInfo>& blocks) {
+  blocks.push_back(optional_block(
+      "terrain.window", "The part of a large raster that is read first.", terrain_window));
   blocks.push_back(optional_block("release.box", "A rectangular source.", release_box));
   blocks.push_back(
       optional_block("release.paraboloid", "A cap-shaped source.", release_paraboloid));
