@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/terrain/terrain.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -33,9 +34,12 @@ struct SceneInputs {
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =
       0;  ///< exact volume of the source before resampling; 0: follows from thickness_m
-  std::vector<std::string> notes;  ///< what was reprojected, resampled, corrected, by how much
-  std::vector<std::pair<std::string, std::string>>
-      checksums;  ///< input file -> hash, for the manifest
+  std::vector<std::string> notes;     ///< what was reprojected, resampled, corrected, by how much
+  std::vector<std::string> warnings;  ///< what was guessed, and what cannot be right
+  std::vector<InputIdentity> identities;  ///< of every file, in the order of the scenario's blocks
+  /// Hash of ground and pattern where the release lies; the same whatever window of the terrain was
+  /// read.
+  std::string release_hash;
 };
 
 }  // namespace sturz

@@ -80,6 +80,7 @@ void write_scene(const Options& options, Console& console) {
       cover ? "share of each cell that the source covers [-]" : "thickness of the source [m]",
       console);
   for (const std::string& note : inputs.notes) console.say("note: " + note);
+  for (const std::string& warning : inputs.warnings) console.warn(warning);
 }
 
 int terrain(const Options& options, Console& console) {
@@ -113,6 +114,7 @@ void add_terrain(Grammar& grammar) {
   parser.add_option("--cell", options.cell_size_m, "Cell size of a shape [m]")
       ->check(CLI::PositiveNumber);
   add_set(parser, options.set, "A shape's parameter=value, or a scenario's key=value");
+  add_remote(parser);
   add_json(grammar, parser);
 }
 

@@ -18,6 +18,7 @@ Scene load_scene(const SceneRequest& request) {
   scene.inputs = load_scene_inputs(scene.scenario);
   SceneDescription& d = scene.description;
   d = describe(scene.medians, scene.inputs);
+  d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(), scene.inputs.warnings.end());
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;
@@ -62,7 +63,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.command = command;
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
-  m.inputs = scene.inputs.checksums;
+  m.inputs = scene.inputs.identities;
   m.description = description_lines(scene);
   m.notes = scene.inputs.notes;
   m.warnings = scene.description.warnings;

@@ -2,6 +2,7 @@
 #include "io/gdal/gdal_handles.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/gdal/input_trust.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 
 #include <cpl_string.h>
@@ -25,7 +26,10 @@ bool rests_on_hdf5(const std::string& driver) {
 
 GdalScope::GdalScope() : quiet_(CPLQuietErrorHandler) {
   static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
+  std::call_once(once, [] {
+    close_network();
+    GDALAllRegister();
+  });
   CPLErrorReset();
 }
 

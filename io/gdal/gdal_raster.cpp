@@ -2,6 +2,7 @@
 #include "io/gdal/gdal_raster.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/doubts/dem_doubts.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/raster_source.hpp"
@@ -14,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -139,23 +142,34 @@ Extent outline(const RasterSource& s, OGRCoordinateTransformation& transform, do
           std::ceil(e.east / cell) * cell, std::ceil(e.north / cell) * cell};
 }
 
-OGRSpatialReference working_crs_for(const RasterSource& s) {
+/// A metric system around the raster's centre: of WGS 84, or on its own datum where nobody knows
+/// how the two lie to each other.
+OGRSpatialReference working_crs_for(RasterSource& s) {
   OGRSpatialReference degrees = parse_crs("EPSG:4326", "working coordinate system");
-  const TransformPtr to_degrees = transform_between(s.crs, degrees, s.label);
+  // Only the zone is sought here: a shift of some 100 m does not matter.
+  const TransformPtr to_degrees(OGRCreateCoordinateTransformation(&s.crs, &degrees));
   double x = s.x_of(s.n_cols / 2.0, s.n_rows / 2.0), y = s.y_of(s.n_cols / 2.0, s.n_rows / 2.0);
-  require(!to_degrees || to_degrees->Transform(1, &x, &y) != 0,
+  require(to_degrees && to_degrees->Transform(1, &x, &y) != 0,
           fmt::format("{}: its centre ({:.10g}, {:.10g}) cannot be found on the globe by {}. Is "
                       "that the right system?",
                       s.label, x, y, crs_name(s.crs)));
   require(std::isfinite(x) && std::isfinite(y),
           s.label + ": its centre is no place on the globe. Georeference it again.");
-  return best_metric_crs(x, y);
+  OGRSpatialReference utm = best_metric_crs(x, y);
+  if (is_shift_known(s.crs, utm) || !names_a_datum(s.crs)) return utm;
+  s.notes.push_back(
+      fmt::format("{}: the shift from its datum to WGS 84 is not known; the work is "
+                  "done on its own datum",
+                  s.label));
+  return utm_on_own_datum(s.crs, x, y);
 }
 
 Raster<double> reprojected(RasterSource& source, const std::optional<double>& wanted,
                            const std::string& reason) {
   const OGRSpatialReference to = working_crs_for(source);
-  const TransformPtr transform = transform_between(source.crs, to, source.label);
+  std::string warning;
+  const TransformPtr transform = transform_between(source.crs, to, source.label, &warning);
+  if (!warning.empty()) source.warnings.push_back(warning);
   require(transform != nullptr,
           fmt::format("{}: lies in {}, but {} (cells of {:g} x {:g}; a broken geotransform). "
                       "Georeference it again.",
@@ -173,7 +187,8 @@ Raster<double> reprojected(RasterSource& source, const std::optional<double>& wa
 Raster<double> on_working_grid(RasterSource& source, const std::optional<double>& wanted) {
   const double col_step = source.col_step(), row_step = source.row_step();
   std::string reason;
-  if (!is_working_crs(source.crs, source.x_of(source.n_cols / 2.0, source.n_rows / 2.0),
+  if (!source.crs.IsEmpty() &&  // local coordinates are metres already
+      !is_working_crs(source.crs, source.x_of(source.n_cols / 2.0, source.n_rows / 2.0),
                       source.y_of(source.n_cols / 2.0, source.n_rows / 2.0),
                       std::max(col_step, row_step), reason))
     return reprojected(source, wanted, reason);
@@ -190,8 +205,10 @@ RasterRead read_elevation(const RasterRequest& request) {
           fmt::format("terrain.cell_size_m = {:g} (must be positive). Give metres.",
                       request.cell_size_m.value_or(0)));
   RasterSource source = read_source(request, RasterQuantity::elevation);
+  std::vector<std::string> doubts = dem_doubts(source);
+  std::move(doubts.begin(), doubts.end(), std::back_inserter(source.warnings));
   RasterRead result{on_working_grid(source, request.cell_size_m), std::move(source.notes),
-                    std::move(source.files)};
+                    std::move(source.warnings), std::move(source.identity)};
   const auto& values = result.raster.values;
   require(
       std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); }),

@@ -131,6 +131,7 @@ PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& 
   } else {
     merge(reading, sources);
   }
+  if (request.without_terrain) return std::move(reading.result);
   for (const auto& source : sources) require_inside(reading, source, terrain);
   PolygonCover cover(terrain);
   for (const auto& source : sources) {
@@ -140,7 +141,8 @@ PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& 
   }
   reading.result.pattern = cover.finish();
   reading.result.notes = std::move(reading.layer.notes);
-  reading.result.files = std::move(reading.layer.files);
+  reading.result.warnings = std::move(reading.layer.warnings);
+  reading.result.identity = std::move(reading.layer.identity);
   return std::move(reading.result);
 }
 

@@ -5,6 +5,7 @@
 
 #include "io/gdal/crs.hpp"
 #include "io/gdal/raster_request.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <array>
 #include <string>
@@ -19,9 +20,11 @@ struct RasterSource {
   std::vector<double> values;  ///< [n_rows][n_cols] metres, NaN = nodata
   /// GDAL geotransform; where not rotated, rows run south and columns east (files are flipped).
   std::array<double, 6> affine{};
-  OGRSpatialReference crs;  ///< empty only when allowed by the caller
+  OGRSpatialReference crs;  ///< empty only when allowed by the caller or local by the key
+  double quantum_m = 0;     ///< all heights are whole multiples of it; 0: they are not
   std::vector<std::string> notes;
-  std::vector<std::string> files;  ///< the file and its companions
+  std::vector<std::string> warnings;  ///< what was guessed, and what cannot be right
+  InputIdentity identity;             ///< of what was read
 
   bool is_axis_aligned() const { return affine[2] == 0 && affine[4] == 0; }
   double x_of(double col, double row) const {

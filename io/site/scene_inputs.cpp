@@ -2,7 +2,8 @@
 #include "io/site/scene_inputs.hpp"
 
 #include "engine/core/error.hpp"
-#include "io/files/checksum.hpp"
+#include "io/doubts/release_doubts.hpp"
+#include "io/files/sha256.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_raster.hpp"
 #include "io/gdal/gdal_vector.hpp"
@@ -17,10 +18,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
+#include <span>
 
 namespace sturz {
 namespace {
@@ -32,14 +35,32 @@ struct Loading {
   std::string release_label;  ///< for messages about the release
   std::optional<Raster<double>> synthetic_source;
 
-  void take(std::vector<std::string>& notes, const std::vector<std::string>& files) {
-    std::move(notes.begin(), notes.end(), std::back_inserter(inputs.notes));
-    for (const auto& file : files) {
-      std::error_code error;
-      const auto name = std::filesystem::proximate(file, scenario.directory, error);
-      const std::string known = scenario.directory.empty() || error ? file : name.string();
-      inputs.checksums.emplace_back(known, file_checksum(file));
+  std::vector<std::string> problems;  ///< of files that cannot be used
+
+  /// Notes, warnings and identity of a file that was read.
+  template <class Read>
+  void take(Read& read) {
+    std::move(read.notes.begin(), read.notes.end(), std::back_inserter(inputs.notes));
+    std::move(read.warnings.begin(), read.warnings.end(), std::back_inserter(inputs.warnings));
+    std::error_code error;
+    const auto name = std::filesystem::proximate(read.identity.file, scenario.directory, error);
+    const bool inside_file = read.identity.file.starts_with("/vsi");
+    if (!scenario.directory.empty() && !error && !inside_file) read.identity.file = name.string();
+    inputs.identities.push_back(std::move(read.identity));
+  }
+  /// Goes on after a problem, so that all files are looked at in one round.
+  template <class Call>
+  void attempt(Call call) {
+    try {
+      call();
+    } catch (const SetupError& problem) {
+      problems.emplace_back(problem.what());
     }
+  }
+  void refuse_problems() const {
+    std::string all;
+    for (const std::string& problem : problems) all += (all.empty() ? "" : "\n") + problem;
+    require(all.empty(), all);
   }
   void set_release(Raster<double> pattern, ReleasePattern kind) {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
@@ -59,11 +80,11 @@ void load_synthetic(Loading& loading) {
           "terrain.cell_size_m: is for rasters (a synthetic terrain has its own "
           "cell_size_m). Give it inside terrain.synthetic.");
   SyntheticScene scene = make_synthetic(*spec.synthetic);
-  if (!spec.crs.empty()) {
+  if (!spec.crs.empty() && spec.crs != local_crs) {
     const OGRSpatialReference crs = parse_crs(spec.crs, "terrain.crs");
     require(crs.IsProjected() && std::abs(crs.GetLinearUnits() - 1) < 1e-9,
             fmt::format("terrain.crs = {}: a synthetic terrain needs a projected system in metres, "
-                        "like EPSG:32633.",
+                        "like EPSG:32633, or the word local.",
                         spec.crs));
     scene.bed.grid.crs_wkt = crs_wkt2(crs);
   }
@@ -83,7 +104,7 @@ void load_terrain(Loading& loading) {
   request.crs = spec.crs;
   request.cell_size_m = spec.cell_size_m;
   RasterRead read = read_elevation(request);
-  loading.take(read.notes, read.files);
+  loading.take(read);
   loading.inputs.elevation = std::make_shared<const Raster<double>>(std::move(read.raster));
 }
 
@@ -100,17 +121,33 @@ void note_rasterised(Loading& loading, double exact_m2) {
   loading.inputs.notes.push_back(text);
 }
 
-void load_polygon(Loading& loading) {
-  const ReleaseSpec& spec = loading.scenario.release;
-  loading.release_label = "release.polygon = " + spec.polygon;
+/// Where the terrain's file had no system, the files beside it mostly share the lack, and the user
+/// has named the system once.
+template <class Request>
+void stand_in_with_terrain(Request& request, const TerrainSpec& terrain) {
+  if (terrain.crs == local_crs) return;
+  request.fallback_crs = terrain.crs;
+  request.fallback_crs_key = "terrain.crs";
+}
+
+PolygonRequest polygon_request(const Scenario& scenario) {
+  const ReleaseSpec& spec = scenario.release;
   PolygonRequest request;
   request.path = spec.polygon;
   request.layer = spec.layer;
   request.thickness_attribute = spec.thickness_attribute;
-  request.directory = loading.scenario.directory;
+  request.directory = scenario.directory;
   request.crs = spec.crs;
+  stand_in_with_terrain(request, scenario.terrain);
+  return request;
+}
+
+void load_polygon(Loading& loading) {
+  const ReleaseSpec& spec = loading.scenario.release;
+  loading.release_label = "release.polygon = " + spec.polygon;
+  const PolygonRequest request = polygon_request(loading.scenario);
   PolygonRelease read = read_release_polygons(request, loading.grid());
-  loading.take(read.notes, read.files);
+  loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
   loading.set_release(std::move(read.pattern),
@@ -122,22 +159,25 @@ void load_polygon(Loading& loading) {
                   raster_sum(*loading.inputs.release)));
 }
 
-void load_thickness_raster(Loading& loading) {
-  const ReleaseSpec& spec = loading.scenario.release;
-  loading.release_label = "release.thickness_raster = " + spec.thickness_raster;
+RasterRequest thickness_request(const Scenario& scenario) {
+  const ReleaseSpec& spec = scenario.release;
   RasterRequest request;
   request.path = spec.thickness_raster;
   request.key = "release.thickness_raster";
-  request.directory = loading.scenario.directory;
+  request.directory = scenario.directory;
   request.crs = spec.crs;
   request.crs_key = "release.crs";
   request.factor = spec.thickness_factor;
-  // Where the terrain's file had no system, the thickness beside it mostly shares the lack, and
-  // the user has named the system once.
-  request.fallback_crs = loading.scenario.terrain.crs;
-  request.fallback_crs_key = "terrain.crs";
+  stand_in_with_terrain(request, scenario.terrain);
+  return request;
+}
+
+void load_thickness_raster(Loading& loading) {
+  const ReleaseSpec& spec = loading.scenario.release;
+  loading.release_label = "release.thickness_raster = " + spec.thickness_raster;
+  const RasterRequest request = thickness_request(loading.scenario);
   ThicknessRead read = read_thickness(request, loading.grid());
-  loading.take(read.notes, read.files);
+  loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
   loading.set_release(std::move(read.thickness), ReleasePattern::thickness);
@@ -208,29 +248,68 @@ PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
   request.layer = zone.layer;
   request.key = name + ".polygon";
   request.directory = scenario.directory;
-  request.crs_key.clear();  // the file itself has to say it
+  request.crs_key.clear();  // no key of its own
+  stand_in_with_terrain(request, scenario.terrain);
   request.layer_key = name + ".layer";
   request.what = "zone";
   return request;
+}
+
+void load_zone(Loading& loading, std::size_t i, Raster<std::uint8_t>& numbers) {
+  const Grid& grid = loading.grid();
+  ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid);
+  loading.take(read);
+  for (const std::size_t cell : read.cells) numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
+  const auto n = static_cast<double>(read.cells.size());
+  loading.inputs.notes.push_back(fmt::format("basal.zones[{}] {}: {} cells, {:.9g} m2", i,
+                                             loading.scenario.basal.zones[i].polygon,
+                                             read.cells.size(), n * grid.cell_m * grid.cell_m));
 }
 
 void load_zones(Loading& loading) {
   const auto& zones = loading.scenario.basal.zones;
   if (zones.empty()) return;
   expect(zones.size() <= most_basal_zones, "a scenario is validated before its files are read");
-  const Grid& grid = loading.grid();
-  Raster<std::uint8_t> numbers(grid, 0);
-  for (std::size_t i = 0; i < zones.size(); ++i) {
-    ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid);
-    loading.take(read.notes, read.files);
-    for (const std::size_t cell : read.cells)
-      numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
-    const auto n = static_cast<double>(read.cells.size());
-    loading.inputs.notes.push_back(fmt::format("basal.zones[{}] {}: {} cells, {:.9g} m2", i,
-                                               zones[i].polygon, read.cells.size(),
-                                               n * grid.cell_m * grid.cell_m));
-  }
+  Raster<std::uint8_t> numbers(loading.grid(), 0);
+  for (std::size_t i = 0; i < zones.size(); ++i)
+    loading.attempt([&] { load_zone(loading, i, numbers); });
   loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
+}
+
+/// What can be said of release and zones when the terrain cannot be read.
+void check_without_terrain(Loading& loading) {
+  const Scenario& scenario = loading.scenario;
+  const bool local = scenario.terrain.crs == local_crs;
+  if (!scenario.release.polygon.empty())
+    loading.attempt([&] {
+      PolygonRequest request = polygon_request(scenario);
+      request.without_terrain = true;
+      read_release_polygons(request, {});
+    });
+  if (!scenario.release.thickness_raster.empty())
+    loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
+  for (std::size_t i = 0; i < scenario.basal.zones.size(); ++i)
+    loading.attempt([&] {
+      PolygonRequest request = zone_request(scenario, i);
+      request.without_terrain = true;
+      read_zone_cells(request, {});
+    });
+}
+
+/// Cells in the order of the grid, each with its place, so that a window's own counting of rows and
+/// columns does not enter.
+std::string hash_of_release(const Raster<double>& ground, const Raster<double>& release) {
+  const Grid& g = ground.grid;
+  Sha256 hash;
+  for (int row = 0; row < g.n_rows; ++row)
+    for (int col = 0; col < g.n_cols; ++col) {
+      if (!(release.at(row, col) > 0)) continue;
+      const std::array<double, 4> cell{std::round((g.x_center(col)) / g.cell_m * 1024),
+                                       std::round((g.y_center(row)) / g.cell_m * 1024),
+                                       ground.at(row, col), release.at(row, col)};
+      hash.add_values(std::span<const double>(cell));
+    }
+  return "sha256:" + hash.hex();
 }
 
 Grid hazard_grid(const Scenario& scenario, const Grid& terrain) {
@@ -249,14 +328,23 @@ Grid hazard_grid(const Scenario& scenario, const Grid& terrain) {
 }  // namespace
 
 SceneInputs load_scene_inputs(const Scenario& scenario) {
-  Loading loading{scenario, {}, {}, {}};
-  load_terrain(loading);
-  load_release(loading);
-  require_known_ground(loading);
+  Loading loading{scenario, {}, {}, {}, {}};
+  loading.attempt([&] { load_terrain(loading); });
+  if (!loading.inputs.elevation) {
+    check_without_terrain(loading);
+    loading.refuse_problems();
+  }
+  loading.attempt([&] { load_release(loading); });
   load_zones(loading);
-  loading.inputs.hazard_grid = hazard_grid(scenario, loading.grid());
-  prepare_grounds(scenario, loading.inputs);
-  return std::move(loading.inputs);
+  loading.refuse_problems();
+  require_known_ground(loading);
+  SceneInputs& inputs = loading.inputs;
+  std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
+  if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
+  inputs.release_hash = hash_of_release(*inputs.elevation, *inputs.release);
+  inputs.hazard_grid = hazard_grid(scenario, loading.grid());
+  prepare_grounds(scenario, inputs);
+  return std::move(inputs);
 }
 
 }  // namespace sturz

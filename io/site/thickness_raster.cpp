@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/core/vec.hpp"
+#include "io/doubts/release_doubts.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/raster_source.hpp"
@@ -189,36 +190,67 @@ void carry_over(const RasterSource& s, OGRCoordinateTransformation* transform,
 
 }  // namespace
 
-ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) {
-  const GdalScope scope;
-  RasterSource source =
-      read_source(request, RasterQuantity::thickness, /*crs_optional=*/terrain.crs_wkt.empty());
-  if (request.factor != 1)
-    for (double& v : source.values) v *= request.factor;
-  refuse_negative(source);
-  ThicknessRead result;
-  result.notes = std::move(source.notes);
-  result.files = std::move(source.files);
-  result.thickness = Raster<double>(terrain, 0.0);
-  const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
-  const TransformPtr transform = transform_between(source.crs, to, source.label);
-  if (transform)
-    result.notes.push_back(fmt::format("{}: reprojected from {} to {}", source.label,
-                                       crs_name(source.crs), crs_name(to)));
-  if (!is_same_grid(source, terrain, transform != nullptr)) {
-    carry_over(source, transform.get(), result);
-    return result;
-  }
-  const double cell_area = terrain.cell_m * terrain.cell_m;
+namespace {
+
+/// Cell by cell, where the grids are the same.
+void take_over(const RasterSource& source, ThicknessRead& result) {
+  const double cell_m = result.thickness.grid.cell_m, cell_area = cell_m * cell_m;
   for (std::size_t i = 0; i < source.values.size(); ++i) {
     if (!(source.values[i] > 0)) continue;
     result.thickness.values[i] = source.values[i];
     result.volume_m3 += source.values[i] * cell_area;
     result.area_m2 += cell_area;
   }
-  require(
-      result.volume_m3 > 0,
-      source.label + ": holds no thickness above zero (an empty release). Check band and nodata.");
+  require(result.volume_m3 > 0,
+          source.label +
+              ": holds no thickness above zero (an empty release). Check band and "
+              "nodata.");
+}
+
+RasterSource read_depths(const RasterRequest& request, bool terrain_is_local) {
+  RasterSource source = read_source(request, RasterQuantity::thickness, terrain_is_local);
+  if (request.factor != 1)
+    for (double& v : source.values) v *= request.factor;
+  refuse_negative(source);
+  refuse_mask(source.values, request.factor, source.label);
+  return source;
+}
+
+}  // namespace
+
+void check_thickness(const RasterRequest& request, bool terrain_is_local) {
+  const GdalScope scope;
+  read_depths(request, terrain_is_local);
+}
+
+ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) {
+  const GdalScope scope;
+  RasterSource source = read_depths(request, terrain.crs_wkt.empty());
+  ThicknessRead result;
+  result.notes = std::move(source.notes);
+  result.warnings = std::move(source.warnings);
+  result.identity = std::move(source.identity);
+  result.thickness = Raster<double>(terrain, 0.0);
+  const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
+  std::string warning;
+  const TransformPtr transform = transform_between(source.crs, to, source.label, &warning);
+  if (!warning.empty()) result.warnings.push_back(warning);
+  if (to.IsEmpty() && !source.crs.IsEmpty())
+    result.notes.push_back(source.label +
+                           ": its coordinates are taken as they are, because the terrain has no "
+                           "coordinate system");
+  if (transform)
+    result.notes.push_back(fmt::format("{}: reprojected from {} to {}", source.label,
+                                       crs_name(source.crs), crs_name(to)));
+  if (is_same_grid(source, terrain, transform != nullptr))
+    take_over(source, result);
+  else
+    carry_over(source, transform.get(), result);
+  double largest = 0;
+  for (const double v : source.values) largest = std::max(largest, std::isnan(v) ? 0 : v);
+  std::string doubt =
+      thickness_doubt(result.volume_m3, result.area_m2, largest, request.factor, source.label);
+  if (!doubt.empty()) result.warnings.push_back(std::move(doubt));
   return result;
 }
 

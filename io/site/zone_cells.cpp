@@ -27,7 +27,9 @@ ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain) {
   PolygonLayer layer = open_polygon_layer(request);
   ZoneCells zone;
   OGREnvelope extent;
-  for (const auto& feature : read_features(layer, request, terrain)) {
+  const auto features = read_features(layer, request, terrain);
+  if (request.without_terrain) return zone;
+  for (const auto& feature : features) {
     OGREnvelope own;
     feature.polygons->getEnvelope(&own);
     extent.Merge(own);
@@ -42,7 +44,8 @@ ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain) {
                     "coordinate system right?",
                     layer.label, places_text(extent, terrain), terrain.cell_m));
   zone.notes = std::move(layer.notes);
-  zone.files = std::move(layer.files);
+  zone.warnings = std::move(layer.warnings);
+  zone.identity = std::move(layer.identity);
   return zone;
 }
 

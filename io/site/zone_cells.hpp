@@ -4,6 +4,7 @@
 
 #include "engine/terrain/raster.hpp"
 #include "io/site/polygon_request.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <cstddef>
 #include <string>
@@ -14,7 +15,8 @@ namespace sturz {
 struct ZoneCells {
   std::vector<std::size_t> cells;  ///< indices on the terrain's grid, rising, each once
   std::vector<std::string> notes;
-  std::vector<std::string> files;  ///< the file and its companions, for checksums
+  std::vector<std::string> warnings;
+  InputIdentity identity;  ///< of what was read
 };
 
 /// All features of the layer together; what lies beyond the terrain is left out.

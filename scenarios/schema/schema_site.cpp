@@ -23,7 +23,7 @@ void add_terrain(std::vector<KeyInfo>& keys) {
                       "Ground written as a formula: one shape with its own numbers."}));
   keys.push_back(text_key(terrain, &TerrainSpec::crs, "terrain.crs", text,
                           "Coordinate system of the raster, e.g. EPSG:32648, where the file has "
-                          "none or a wrong one."));
+                          "none or a wrong one; local: metres that lie nowhere on the map."));
   keys.push_back(key(terrain, &TerrainSpec::cell_size_m,
                      {"terrain.cell_size_m", number, "m", 1e-3, 1e4,
                       "Cell of the working grid; the raster's own when absent."}));

@@ -6,7 +6,6 @@
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/files/checksum.hpp"
 #include "io/files/text_files.hpp"
 #include "io/members/member_store.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -32,16 +31,9 @@ void require_same_scene(const OutputFolder& folder, const Scene& scene) {
   std::string what;
   for (const std::string& line : differences(read_scenario(folder.scenario()), scene.scenario))
     what += "\n  " + line;
-  const auto& was = Manifest::read(folder.manifest()).inputs;
-  const auto& is = scene.inputs.checksums;
-  for (std::size_t i = 0; i < std::max(was.size(), is.size()); ++i) {
-    const std::string difference = i < was.size() && i < is.size()
-                                       ? checksum_difference(was[i].second, is[i].second)
-                                       : "other content than before";
-    if (!difference.empty())
-      what +=
-          fmt::format("\n  input {}: {}", i < is.size() ? is[i].first : was[i].first, difference);
-  }
+  for (const std::string& line :
+       input_differences(Manifest::read(folder.manifest()).inputs, scene.inputs.identities))
+    what += "\n  " + line;
   require(what.empty(),
           fmt::format("{} was begun with another scene (members of two scenes make no map). "
                       "Choose another folder with --out, or take these changes back:{}",
@@ -112,6 +104,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
     job.design = continued_design(job.folder, job.design);
     const Manifest before = Manifest::read(job.folder.manifest());
     job.manifest.started = before.started;
+    job.manifest.inputs = with_known_parts(job.manifest.inputs, before.inputs);
     job.manifest.compute_s = before.compute_s;
   }
   job.manifest.members = job.design.n_members();
