@@ -11,6 +11,7 @@
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
@@ -94,7 +95,8 @@ void note_rasterised(Loading& loading, double exact_m2) {
   std::string text =
       fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
                   loading.release_label, exact_m2, laid, 100 * (laid / exact_m2 - 1));
-  if (release.thickness_m && release.thickness_m->is_fixed())
+  const bool vertical = release.thickness == ThicknessDirection::vertical;
+  if (vertical && release.thickness_m && release.thickness_m->is_fixed())
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
                         exact_m2 * release.thickness_m->value, laid * release.thickness_m->value);
   loading.inputs.notes.push_back(text);
@@ -253,6 +255,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   load_terrain(loading);
   load_release(loading);
   require_known_ground(loading);
+  shape_release(scenario, loading.inputs);
   load_zones(loading);
   loading.inputs.hazard_grid = hazard_grid(scenario, loading.grid());
   prepare_grounds(scenario, loading.inputs);

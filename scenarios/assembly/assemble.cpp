@@ -7,6 +7,7 @@
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
 #include "scenarios/assembly/effect_table.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/schema.hpp"
 
@@ -115,6 +116,14 @@ ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
   return facts;
 }
 
+/// See SceneDescription::other_formulation_cost.
+double other_cost(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
+  if (!has_both_formulations(s)) return 0;
+  const CostEstimate cost = estimate_cost(s, release_thickness(s.release, inputs), plan.bed);
+  return plan.formulation.depth_averaged ? cost.full_stress / cost.depth_averaged
+                                         : cost.depth_averaged / cost.full_stress;
+}
+
 /// Which effects there are and why, and what each brings: its row is added to a scene of its own
 /// only where the scene calls for it.
 std::vector<EffectNote> effect_notes(const Scenario& s, SceneParts& parts) {
@@ -175,7 +184,9 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.memory_bytes = d.n_particles * bytes + inputs.hazard_grid.n_cells() * bytes_per_hazard_cell;
   d.spacing_m = s.numerics.spacing_m;
   d.release_volume_m3 = plan.release.volume_m3;
-  d.release_area_m2 = plan.release.area_m2;
+  d.release_area_m2 = inputs.source_area_m2 > 0 ? inputs.source_area_m2 : plan.release.area_m2;
+  d.normal_over_vertical = inputs.normal_over_vertical;
+  d.bulk_density_kg_m3 = plan.bulk_density_kg_m3;
   d.layers = plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
   d.sound_speed_m_s = plan.formulation.depth_averaged ? 0 : plan.stress.sound_speed;
@@ -185,7 +196,9 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;
   d.n_steps = std::ceil(s.numerics.end_time_s / limit.dt);
-  d.warnings = plan_warnings(s, plan);
+  d.narrow_side_m = plan.release_narrow_side_m;
+  d.other_formulation_cost = other_cost(s, inputs, plan);
+  d.warnings = scene_warnings(s, inputs, plan);
   return d;
 }
 
