@@ -41,7 +41,7 @@ struct SceneDescription {
   double normal_over_vertical = 1;  ///< volume, if thicknesses count normal to the slope
   double bulk_density_kg_m3 = 0;    ///< of the mass as it is set down
   double layers = 0;                ///< volume-weighted median vertical thickness / spacing
-  double narrow_side_m = 0;  ///< of the release, see scenarios/assembly/start_checks.hpp
+  double narrow_side_m = 0;         ///< of the release, see scenarios/assembly/start_checks.hpp
   /// Cost of a member in the other formulation over that in this one, roughly; 0 where the scene
   /// cannot have the other.
   double other_formulation_cost = 0;

@@ -162,7 +162,7 @@ void weigh_cost(const Scenario& s, const Raster<double>& thickness, const Terrai
   if (c.depth_averaged)
     c.reason = "`formulation: auto`: " + layers_text(c) +
                ", which full_stress would resolve in about " + full + " a member, columns in " +
-               columns + "; more than 2 minutes have to be asked for (formulation: full_stress)";
+               columns + "; more than 10 min have to be asked for (formulation: full_stress)";
   else
     c.reason += "; about " + full + " a member, columns " + columns;
 }
