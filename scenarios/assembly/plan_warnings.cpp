@@ -76,7 +76,7 @@ void warn_of_lip(const Scenario& s, const SceneInputs& in, const ScenePlan& plan
 void warn_of_states(const Scenario& s, const ScenePlan& plan, Warnings& out) {
   if (!s.grains->states) return;
   if (plan.formulation.depth_averaged) {
-    out.push_back(
+    out.emplace_back(
         "grains.states is not used: columns have no states. Use formulation: full_stress "
         "where the grains may disperse");
     return;
