@@ -35,7 +35,7 @@ constexpr auto words_of(ThicknessDirection) {
   return std::array{Word{vertical, "vertical"}, Word{normal, "normal"}};
 }
 
-/// Floor of a release that is dug out of the terrain: at even depth, or rising to its lower rim.
+/// Floor of a release that is dug out of the terrain: at even depth, or rising to its lower edge.
 enum class ReleaseFloor { uniform, tapered };
 constexpr auto words_of(ReleaseFloor) {
   using enum ReleaseFloor;

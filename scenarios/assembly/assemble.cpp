@@ -119,7 +119,8 @@ ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
 /// See SceneDescription::other_formulation_cost.
 double other_cost(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
   if (!has_both_formulations(s)) return 0;
-  const CostEstimate cost = estimate_cost(s, release_thickness(s.release, inputs), plan.bed);
+  const CostEstimate cost =
+      estimate_cost(s, release_thickness(s.release, inputs), plan.bed, s.numerics.end_time_s);
   return plan.formulation.depth_averaged ? cost.full_stress / cost.depth_averaged
                                          : cost.depth_averaged / cost.full_stress;
 }

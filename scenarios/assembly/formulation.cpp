@@ -135,7 +135,7 @@ bool has_both_formulations(const Scenario& s) {
 }
 
 CostEstimate estimate_cost(const Scenario& s, const Raster<double>& thickness,
-                           const Terrain& ground) {
+                           const Terrain& ground, double end_time_s) {
   const Mass mass = mass_on(thickness, ground);
   const double dx = s.numerics.spacing_m, step = s.numerics.courant * smoothing_ratio * dx;
   double friction = s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
@@ -145,18 +145,18 @@ CostEstimate estimate_cost(const Scenario& s, const Raster<double>& thickness,
                       (1 - zone.pore_pressure_ratio.value_or(s.basal.pore_pressure_ratio.value)));
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  const double speed = reference_speed(ground, mass.starts, friction, start, s.numerics.end_time_s);
+  const double speed = reference_speed(ground, mass.starts, friction, start, end_time_s);
   const double wave = std::sqrt(standard_gravity * mass.starts.max_thickness_m);
   const double sound = s.numerics.sound_speed_factor * std::max({speed, wave, start});
   CostEstimate cost;
-  cost.full_stress = mass.volume / (dx * dx * dx) * s.numerics.end_time_s * 1.1 * sound / step;
-  cost.depth_averaged = mass.area / (dx * dx) * s.numerics.end_time_s * (0.5 * speed + wave) / step;
+  cost.full_stress = mass.volume / (dx * dx * dx) * end_time_s * 1.1 * sound / step;
+  cost.depth_averaged = mass.area / (dx * dx) * end_time_s * (0.5 * speed + wave) / step;
   return cost;
 }
 
 void weigh_cost(const Scenario& s, const Raster<double>& thickness, const Terrain& ground,
-                FormulationChoice& c) {
-  const CostEstimate cost = estimate_cost(s, thickness, ground);
+                double end_time_s, FormulationChoice& c) {
+  const CostEstimate cost = estimate_cost(s, thickness, ground, end_time_s);
   const std::string full = time_text(cost.full_stress), columns = time_text(cost.depth_averaged);
   c.depth_averaged = cost.full_stress > affordable_updates;
   if (c.depth_averaged)

@@ -43,11 +43,12 @@ FormulationChoice choose_formulation(const Scenario&, const Raster<double>& thic
 /// constant, so that members are computed alike on every machine.
 inline constexpr double affordable_updates = 1.8e9;
 
-/// What a member costs in either formulation, roughly: particles times steps to end_time_s.
+/// What a member costs in either formulation, roughly: particles times steps to the end.
 struct CostEstimate {
   double full_stress = 0, depth_averaged = 0;  ///< particle updates
 };
-CostEstimate estimate_cost(const Scenario&, const Raster<double>& thickness, const Terrain& ground);
+CostEstimate estimate_cost(const Scenario&, const Raster<double>& thickness, const Terrain& ground,
+                           double end_time_s);
 
 /// Internal friction for full_stress, and nothing that only columns or only full stress know.
 bool has_both_formulations(const Scenario&);
@@ -55,6 +56,6 @@ bool has_both_formulations(const Scenario&);
 /// Takes columns in place of a full_stress that `auto` chose and cannot afford; says either way
 /// what the other would cost.
 void weigh_cost(const Scenario&, const Raster<double>& thickness, const Terrain& ground,
-                FormulationChoice&);
+                double end_time_s, FormulationChoice&);
 
 }  // namespace sturz

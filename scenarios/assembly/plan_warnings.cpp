@@ -35,7 +35,8 @@ std::string rounded_down(double v) {
 /// repeat it, so that its sides are none.
 void warn_of_coarse_spacing(const Scenario& s, const ScenePlan& plan, Warnings& out) {
   const double dx = s.numerics.spacing_m, side = plan.release_narrow_side_m;
-  if (!s.domain.periodic.empty() || !(side > 0) || side >= resolved_across * dx) return;
+  if (!s.domain.periodic.empty() || !(side > 0) || side >= (1 - 1e-9) * resolved_across * dx)
+    return;
   out.push_back("unresolved release: " + std::to_string(plan.release.x.size()) +
                 (plan.formulation.depth_averaged ? " columns, " : " particles, ") +
                 short_number(side / dx) + " spacings of " + short_number(dx) +
@@ -63,7 +64,7 @@ void warn_of_lip(const Scenario& s, const SceneInputs& in, const ScenePlan& plan
           : "Use release.floor: tapered, or a thickness_raster whose floor comes out";
   out.push_back(
       "a lip holds the release: along " + short_number(lip.length_m) +
-      " m of its lower rim the ground stands " + short_number(lip.height_m) +
+      " m of its lower edge the ground stands " + short_number(lip.height_m) +
       " m above its floor (fall line " +
       short_number(std::atan(lip.slope) * 180 / std::numbers::pi) + " degrees, release " +
       short_number(plan.release.median_thickness_m) + " m thick). To push over it takes " +

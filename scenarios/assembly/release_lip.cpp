@@ -18,12 +18,13 @@ struct Footing {
 Footing footing_of(const Raster<double>& ground, const Raster<double>& thickness) {
   Footing f;
   const Grid& g = thickness.grid;
+  const PlaceOnGrid at(g, ground.grid);
   for (int r = 0; r < g.n_rows; ++r)
     for (int c = 0; c < g.n_cols; ++c) {
       const double h = thickness.at(r, c);
       if (!(h > 0)) continue;
       f.sum += h;
-      f.gradient += h * gradient_at(ground, r, c);
+      f.gradient += h * gradient_at(ground, at.row + r, at.col + c);
     }
   if (f.sum > 0) f.gradient /= f.sum;
   return f;
@@ -41,20 +42,23 @@ ReleaseLip release_lip(const Raster<double>& ground, const Raster<double>& thick
   const Vec2 down = -footing.gradient / lip.slope;
   const int east = static_cast<int>(std::lround(down.x())),
             south = static_cast<int>(std::lround(-down.y()));
-  // Rim cells per length of rim: those whose next cell down this step lies outside.
+  // Edge cells per length of edge: those whose next cell down this step lies outside.
   const double width = g.cell_m / (down.x() * east - down.y() * south);
+  const PlaceOnGrid at(g, ground.grid);
+  const auto level = [&](int r, int c) {
+    return ground.grid.contains(at.row + r, at.col + c) ? ground.at(at.row + r, at.col + c) : nan_d;
+  };
   const auto inside = [&](int r, int c) { return g.contains(r, c) && thickness.at(r, c) > 0; };
   double squares = 0, heights = 0;
   for (int r = 0; r < g.n_rows; ++r)
     for (int c = 0; c < g.n_cols; ++c) {
-      if (!inside(r, c) || !g.contains(r + south, c + east) || inside(r + south, c + east))
-        continue;
-      const double outside = ground.at(r + south, c + east);
+      if (!inside(r, c) || inside(r + south, c + east)) continue;
+      const double outside = level(r + south, c + east);  // NaN: no lip is known
       // Cells that the outline cuts hold less than the full depth: look three cells up.
       double floor = outside;
       for (int k = 0; k < 3 && inside(r - k * south, c - k * east); ++k) {
         const int row = r - k * south, col = c - k * east;
-        floor = std::min(floor, ground.at(row, col) - (dug_out ? thickness.at(row, col) : 0));
+        floor = std::min(floor, level(row, col) - (dug_out ? thickness.at(row, col) : 0));
       }
       const double height = outside - floor;
       if (!(height > 0)) continue;

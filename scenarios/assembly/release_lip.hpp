@@ -7,7 +7,7 @@
 namespace sturz {
 
 struct ReleaseLip {
-  double length_m = 0;  ///< of the lower rim where the ground outside stands above the floor
+  double length_m = 0;  ///< of the lower edge where the ground outside stands above the floor
   double height_m = 0;  ///< mean over that length
   double slope = 0;     ///< mean slope of the ground under the release, rise over run
   /// What it takes to push over the lip at rest, rho g height^2 / 2 per width, over what drives
@@ -16,7 +16,7 @@ struct ReleaseLip {
 };
 
 /// \param ground     as delivered [m]
-/// \param thickness  vertical [m], same grid
+/// \param thickness  vertical [m], on the same cells or fewer
 /// \param dug_out    the floor is ground - thickness, else the ground itself
 /// \param friction   effective friction coefficient of the bed
 ReleaseLip release_lip(const Raster<double>& ground, const Raster<double>& thickness, bool dug_out,

@@ -34,13 +34,14 @@ NormalReading read_as_normal(const Raster<double>& pattern, const Raster<double>
                              Visit visit) {
   NormalReading out;
   const Grid& g = pattern.grid;
+  const PlaceOnGrid at(g, ground.grid);
   Sum vertical, normal, steep;
   for (int r = 0; r < g.n_rows; ++r)
     for (int c = 0; c < g.n_cols; ++c) {
       const std::size_t cell = g.index(r, c);
       const double h = pattern.values[cell];
       if (!(h > 0)) continue;
-      const double slope = gradient_at(ground, r, c).norm();
+      const double slope = gradient_at(ground, at.row + r, at.col + c).norm();
       const double stretch = std::sqrt(1 + slope * slope);
       vertical.add(h);
       normal.add(h * stretch);
@@ -88,7 +89,7 @@ void note_readings(const ReleaseSpec& r, const NormalReading& reading, SceneInpu
   in.notes.push_back(text);
 }
 
-/// The synthetic shapes bring thicknesses that nobody measured.
+/// The synthetic shapes bring thicknesses that are no measurements.
 bool is_measured(const ReleaseSpec& r) {
   return !r.polygon.empty() || !r.thickness_raster.empty() || r.box || r.paraboloid || r.cylinder;
 }

@@ -20,13 +20,13 @@ void shape_release(const Scenario&, SceneInputs&);
 /// \throws SetupError when the source covers no cell
 Raster<double> release_thickness(const ReleaseSpec&, const SceneInputs&);
 
-/// A thickness of the same volume with a floor that comes out at the lower rim and the flanks.
+/// A thickness of the same volume with a floor that comes out at the lower edge and the flanks.
 ///
-/// In each connected part laplace(h) = -c * pattern with h = 0 at the rim, but no flux across rims
-/// that face up the fall line (within 60 degrees), where a head scarp may stand; c keeps the part's
-/// volume. This is the floor of constant curvature that the sloping local base level method
+/// In each connected part laplace(h) = -c * pattern with h = 0 at the edge, but no flux across
+/// edges that face up the fall line (within 60 degrees), where a head scarp may stand; c keeps the
+/// part's volume. This is the floor of constant curvature that the sloping local base level method
 /// (Jaboyedoff et al. 2009) ends at, with a free head.
-/// \param ground  elevation on the same grid [m]
+/// \param ground  elevation [m] on the same cells, or more of them
 Raster<double> tapered(const Raster<double>& pattern, const Raster<double>& ground);
 
 }  // namespace sturz

@@ -228,7 +228,8 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   Raster<double> thickness = release_thickness(s.release, in);
   FormulationChoice formulation = choose_formulation(s, thickness);
   if (s.formulation == Formulation::automatic && !formulation.depth_averaged)
-    weigh_cost(s, thickness, scene_ground(s, in, domain, false), formulation);
+    weigh_cost(s, thickness, scene_ground(s, in, domain, false), s.numerics.end_time_s,
+               formulation);
   const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
 
   require(!periodic || s.release.surface == ReleaseSurface::bed,

@@ -9,6 +9,14 @@
 
 namespace sturz {
 
+/// Where the cells of a part lie on a larger grid of the same cells.
+struct PlaceOnGrid {
+  int row = 0, col = 0;  ///< of the part's first cell
+  PlaceOnGrid(const Grid& part, const Grid& whole)
+      : row(static_cast<int>(std::lround((whole.north_m - part.north_m) / whole.cell_m))),
+        col(static_cast<int>(std::lround((part.west_m - whole.west_m) / whole.cell_m))) {}
+};
+
 /// Gradient (east, north) [m/m] of the plane that fits the known cells among the 3 x 3 around a
 /// cell best; 0 along a direction that they do not tell.
 inline Vec2 gradient_at(const Raster<double>& z, int row, int col) {

@@ -77,8 +77,8 @@ double width_by_moments(const Raster<double>& thickness) {
   return std::sqrt(12 * std::max(0.0, least)) * g.cell_m;
 }
 
-/// Four times the area over the length of the rim; a rim along the cells is 4/pi times too long.
-double width_by_rim(const Raster<double>& thickness) {
+/// Four times the area over the length of the edge; a edge along the cells is 4/pi times too long.
+double width_by_edge(const Raster<double>& thickness) {
   const Grid& g = thickness.grid;
   const auto inside = [&](int r, int c) { return g.contains(r, c) && thickness.at(r, c) > 0; };
   double cells = 0, edges = 0;
@@ -105,7 +105,7 @@ void require_before_walls(const Release& release, const Domain& domain, bool col
 }
 
 double narrow_side(const Raster<double>& thickness, double source_area_m2) {
-  double side = std::min(width_by_moments(thickness), width_by_rim(thickness));
+  double side = std::min(width_by_moments(thickness), width_by_edge(thickness));
   if (source_area_m2 > 0) side = std::min(side, std::sqrt(source_area_m2));
   return side;
 }

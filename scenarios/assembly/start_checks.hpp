@@ -14,7 +14,7 @@ namespace sturz {
 void require_before_walls(const Release&, const Domain&, bool columns);
 
 /// Narrow side of a release [m]: the least of three widths of the rectangle that it is like, by
-/// second moments, by area and rim, and by area alone. Exact for a square, up to twice the narrow
+/// second moments, by area and edge, and by area alone. Exact for a square, up to twice the narrow
 /// side of a bent strip.
 /// \param source_area_m2 of the outline, where it is finer than the cells; 0: not known
 double narrow_side(const Raster<double>& thickness, double source_area_m2);

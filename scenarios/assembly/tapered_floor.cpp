@@ -56,9 +56,11 @@ std::vector<Part> parts_of(const Raster<double>& pattern) {
 /// Unit vector down the mean slope under a part; zero on level ground.
 Vec2 fall_line(const Part& part, const Raster<double>& pattern, const Raster<double>& ground) {
   Vec2 down(0, 0);
+  const Grid& g = pattern.grid;
+  const PlaceOnGrid at(g, ground.grid);
   for (const std::size_t k : part.cells)
-    down -= pattern.values[k] * gradient_at(ground, static_cast<int>(k / ground.grid.n_cols),
-                                            static_cast<int>(k % ground.grid.n_cols));
+    down -= pattern.values[k] * gradient_at(ground, at.row + static_cast<int>(k / g.n_cols),
+                                            at.col + static_cast<int>(k % g.n_cols));
   const double length = down.norm();
   return length > 1e-9 ? Vec2(down / length) : Vec2(0, 0);
 }
@@ -88,7 +90,7 @@ void taper(const Part& part, const Raster<double>& ground, Raster<double>& patte
         diagonal += 1;
         entries.emplace_back(i, j, -1);
       } else if (step.direction.dot(down) > -0.5) {
-        diagonal += 2;  // the rim lies half a cell away
+        diagonal += 2;  // the edge lies half a cell away
       }
     }
     entries.emplace_back(i, i, diagonal);

@@ -96,7 +96,7 @@ void add_release(std::vector<KeyInfo>& keys) {
   keys.push_back(choice_key(
       release, &ReleaseSpec::floor, "release.floor",
       "Floor of a pre_failure source: at the depth of its thickness everywhere, or "
-      "tapered so that it comes out at the lower rim and the flanks; the volume stays."));
+      "tapered so that it comes out at the lower edge and the flanks; the volume stays."));
   keys.push_back(with_size(key(release, &ReleaseSpec::velocity_m_s,
                                {"release.velocity_m_s", number_list, "m s-1", -500, 500,
                                 "Velocity of the source at the start: east, north, up."}),

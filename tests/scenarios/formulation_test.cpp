@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/formulation.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 
 #include <gmock/gmock.h>
@@ -128,16 +129,19 @@ TEST(Formulation, AutoTakesColumnsWhereNoInternalFrictionIsGiven) {
 }
 
 /// Level ground under and around the slab.
-Terrain level_ground() { return Terrain(Raster<double>(Grid{30, 30, -100, 200, 10, ""}, 0.0)); }
+Terrain level_ground() {
+  return {std::make_shared<const Raster<double>>(Grid{30, 30, -100, 200, 10, ""}, 0.0),
+          NodataRule::outflow};
+}
 
 TEST(Formulation, RefinementCostsItsPowerOfTheSpacing) {
   // Level ground, so that the speed of sqrt(g H) does not depend on the path.
-  const CostEstimate coarse = estimate_cost(scene(2), slab(20), level_ground());
-  const CostEstimate fine = estimate_cost(scene(1), slab(20), level_ground());
+  const CostEstimate coarse = estimate_cost(scene(2), slab(20), level_ground(), 120);
+  const CostEstimate fine = estimate_cost(scene(1), slab(20), level_ground(), 120);
   EXPECT_NEAR(fine.full_stress / coarse.full_stress, 16, 1e-9);
   EXPECT_NEAR(fine.depth_averaged / coarse.depth_averaged, 8, 1e-9);
   // 200 000 particles of 1 m; c0 = 10 sqrt(g H), a step of 0.25 x 1.3 m / (1.1 c0), 120 s.
-  const double wave = std::sqrt(9.80665 * 20);
+  const double wave = std::sqrt(standard_gravity * 20);
   EXPECT_NEAR(fine.full_stress, 2e5 * 120 * 1.1 * 10 * wave / (0.25 * 1.3),
               1e-3 * fine.full_stress);
 }
@@ -145,19 +149,18 @@ TEST(Formulation, RefinementCostsItsPowerOfTheSpacing) {
 TEST(Formulation, AutoNeverFlipsToWhatTakesHours) {
   FormulationChoice c = choose_formulation(scene(0.5), slab(20));
   ASSERT_FALSE(c.depth_averaged);
-  weigh_cost(scene(0.5), slab(20), level_ground(), c);
+  weigh_cost(scene(0.5), slab(20), level_ground(), 120, c);
   EXPECT_TRUE(c.depth_averaged);
   // 1.6 million particles times 120 s x 11 x 14.0 m/s / 0.1625 m at 3 million a second.
-  EXPECT_THAT(c.reason, ::testing::HasSubstr("which full_stress would resolve in about 16.8 h a "
+  EXPECT_THAT(c.reason, ::testing::HasSubstr("which full_stress would resolve in about 16.9 h a "
                                              "member, columns in "));
   EXPECT_THAT(c.reason, ::testing::HasSubstr("have to be asked for (formulation: full_stress)"));
 }
 
 TEST(Formulation, AutoKeepsFullStressThatIsAffordableAndTellsBothCosts) {
-  Scenario s = confined(scene(5));
-  s.numerics.end_time_s = 30;
+  const Scenario s = confined(scene(5));
   FormulationChoice c = choose_formulation(s, slab(20));
-  weigh_cost(s, slab(20), level_ground(), c);
+  weigh_cost(s, slab(20), level_ground(), 120, c);
   EXPECT_FALSE(c.depth_averaged);
   EXPECT_THAT(c.reason, ::testing::StartsWith(
                             "`formulation: auto`: 4 layers at release (not fewer than 4); about "));
