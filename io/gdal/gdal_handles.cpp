@@ -27,8 +27,8 @@ bool rests_on_hdf5(const std::string& driver) {
 GdalScope::GdalScope() : quiet_(CPLQuietErrorHandler) {
   static std::once_flag once;
   std::call_once(once, [] {
-    close_network();
     GDALAllRegister();
+    close_network();
   });
   CPLErrorReset();
 }
