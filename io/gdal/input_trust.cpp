@@ -172,7 +172,7 @@ void close_network() {
     delete driver;
     gone += std::string(gone.empty() ? "" : ",") + name;
   }
-  // Should somebody register all drivers again.
+  // For a later call that registers all drivers again.
   const std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
   CPLSetConfigOption("GDAL_SKIP", (skipped.empty() ? gone : skipped + "," + gone).c_str());
   for (const char* system : network_systems)
