@@ -173,7 +173,9 @@ void close_network() {
     gone += std::string(gone.empty() ? "" : ",") + name;
   }
   // For a later call that registers all drivers again.
-  const std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
+  std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
+  if (skipped.find(',') == std::string::npos)
+    std::replace(skipped.begin(), skipped.end(), ' ', ',');
   CPLSetConfigOption("GDAL_SKIP", (skipped.empty() ? gone : skipped + "," + gone).c_str());
   for (const char* system : network_systems)
     for (const char* kind : {"", "_streaming"})

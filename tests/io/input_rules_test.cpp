@@ -114,7 +114,7 @@ TEST_F(InputRules, LocalCoordinatesNeedTheWord) {
   EXPECT_THAT(refusal(), HasSubstr("counts in degrees (local coordinates are metres)"));
 }
 
-TEST_F(InputRules, AShiftOfDatumsThatNobodyKnowsIsRefused) {
+TEST_F(InputRules, AnUnknownShiftOfDatumsIsRefused) {
   // Beijing 1954 and CGCS2000, both in the same projection: the numbers fit, the places do not.
   ground("EPSG:4547", 500000, 3500000);
   source("EPSG:2435", 500000, 3500000);
