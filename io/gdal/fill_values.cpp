@@ -74,8 +74,8 @@ void blank_beyond_earth(RasterSource& source) {
   source.notes.push_back(fmt::format(
       "{}: {} cells hold {:.6g} to {:.6g} m, the first at row {}, column {} of the file; no ground "
       "lies above {:g} or below {:g} m, they are treated as nodata",
-      source.label, beyond, lowest, highest, first / n, first % n, highest_ground_m,
-      lowest_ground_m));
+      source.label, beyond, lowest, highest, first / n + static_cast<std::size_t>(source.row0),
+      first % n + static_cast<std::size_t>(source.col0), highest_ground_m, lowest_ground_m));
 }
 
 }  // namespace sturz

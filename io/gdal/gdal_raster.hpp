@@ -6,6 +6,7 @@
 #include "io/gdal/raster_request.hpp"
 #include "scenarios/input_identity.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,27 @@ struct RasterRead {
   std::vector<std::string> notes;     ///< one sentence each: reprojected, resampled, turned, ...
   std::vector<std::string> warnings;  ///< what was guessed, and what cannot be right
   InputIdentity identity;             ///< of what was read
+};
+
+/// An elevation raster on its working grid, read window by window. A window has the same bits as
+/// the same cells of a larger one.
+class ElevationRaster {
+ public:
+  /// \throws SetupError; see read_elevation
+  explicit ElevationRaster(const RasterRequest& request);
+  ~ElevationRaster();
+
+  /// The whole working grid.
+  const Grid& grid() const;
+  /// \pre the window lies on the grid \throws SetupError when it is larger than
+  ///   request.max_cells, or the file is not complete
+  RasterRead read(const Window&);
+  /// The same for a look: elevations alone.
+  Raster<double> look(const Window&);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Band 1 as elevation [m] (band scale, offset and unit applied).

@@ -133,7 +133,13 @@ PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& 
   }
   if (request.without_terrain) return std::move(reading.result);
   for (const auto& source : sources) require_inside(reading, source, terrain);
-  PolygonCover cover(terrain);
+  OGREnvelope box;
+  for (const auto& source : sources) {
+    OGREnvelope own;
+    source.polygons->getEnvelope(&own);
+    box.Merge(own);
+  }
+  PolygonCover cover(terrain, cells_under(box.MinX, box.MaxX, box.MinY, box.MaxY, terrain));
   for (const auto& source : sources) {
     const double area = lay_down(*source.polygons, source.thickness_m, cover);
     reading.result.area_m2 += area;

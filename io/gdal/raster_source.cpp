@@ -57,7 +57,8 @@ void read_values(RasterSource& source, GDALRasterBand& band) {
   const int nx = source.n_cols, ny = source.n_rows;
   source.values.resize(static_cast<std::size_t>(nx) * ny);
   const auto read = [&](GDALRasterBand& from, void* to, GDALDataType type) {
-    if (from.RasterIO(GF_Read, 0, 0, nx, ny, to, nx, ny, type, 0, 0, nullptr) != CE_None)
+    if (from.RasterIO(GF_Read, source.col0, source.row0, nx, ny, to, nx, ny, type, 0, 0, nullptr) !=
+        CE_None)
       throw SetupError(fmt::format("{}: cannot be read ({}). Is the file complete?", source.label,
                                    gdal_reason()));
   };
@@ -105,39 +106,24 @@ void warn_of_depths(RasterSource& source) {
       source.label, lowest, highest));
 }
 
-void read_heights(RasterSource& source, GDALRasterBand& band, const OGRSpatialReference& settled,
-                  const OGRSpatialReference* own, RasterQuantity quantity) {
-  HeightUnit unit = height_unit(settled, own, band.GetUnitType(), source.label);
-  const bool elevation = quantity == RasterQuantity::elevation;
-  unit.down = unit.down && elevation;  // a thickness has no direction
-  if (!unit.note.empty()) source.notes.push_back(unit.note);
-  if (!unit.warning.empty()) source.warnings.push_back(unit.warning);
+void read_heights(RasterSource& source, GDALRasterBand& band, const HeightUnit& unit,
+                  RasterQuantity quantity) {
   read_values(source, band);
   blank_marks(source, band.GetRasterDataType(), band.GetScale() != 1 || band.GetOffset() != 0);
   convert_to_metres(source, band, unit);
-  if (elevation) blank_beyond_earth(source);
+  if (quantity == RasterQuantity::elevation) blank_beyond_earth(source);
   if (unit.down) warn_of_depths(source);
 }
 
 /// Makes rows run south and columns east, as everything else here expects.
-void turn_north_up(RasterSource& source) {
-  if (!source.is_axis_aligned()) return;
-  auto& a = source.affine;
+void turn_values(RasterSource& source, bool rows, bool columns) {
   const int nx = source.n_cols, ny = source.n_rows;
   auto row = [&](int r) { return source.values.begin() + static_cast<std::ptrdiff_t>(r) * nx; };
-  if (a[5] > 0) {
+  if (rows)
     for (int top = 0, bottom = ny - 1; top < bottom; ++top, --bottom)
       std::swap_ranges(row(top), row(top) + nx, row(bottom));
-    a[3] += ny * a[5];
-    a[5] = -a[5];
-    source.notes.push_back(source.label + ": stored south-up, turned north-up");
-  }
-  if (a[1] < 0) {
+  if (columns)
     for (int r = 0; r < ny; ++r) std::reverse(row(r), row(r) + nx);
-    a[0] += nx * a[1];
-    a[1] = -a[1];
-    source.notes.push_back(source.label + ": stored east to west, turned west to east");
-  }
 }
 
 SourceExtent extent_of(const RasterSource& s) {
@@ -215,31 +201,76 @@ OGRSpatialReference settle_source(RasterSource& source, const RasterRequest& req
 
 }  // namespace
 
-RasterSource read_source(const RasterRequest& request, RasterQuantity quantity, bool crs_optional) {
+OpenRaster::OpenRaster(const RasterRequest& request, RasterQuantity quantity, bool crs_optional)
+    : quantity_(quantity) {
   const GdalScope scope;
   const InputFile file = find_input(request.key, request.path, request.directory);
-  const OpenDataset dataset = open_dataset(file.path, file.label, GDAL_OF_RASTER);
-  RasterSource source;
+  dataset_ = open_dataset(file.path, file.label, GDAL_OF_RASTER);
+  RasterSource& source = about_;
   source.label = file.label;
-  GDALRasterBand& band = first_band(*dataset.dataset, source.label);
-  refuse_picture(source, *dataset.dataset, quantity);
-  source.n_cols = dataset->GetRasterXSize();
-  source.n_rows = dataset->GetRasterYSize();
+  GDALDataset& dataset = *dataset_.dataset;
+  GDALRasterBand& band = first_band(dataset, source.label);
+  refuse_picture(source, dataset, quantity);
+  source.n_cols = dataset.GetRasterXSize();
+  source.n_rows = dataset.GetRasterYSize();
   source.max_cells = request.max_cells;
-  require_raster_size(source.n_cols, source.n_rows, source.label, source.max_cells);
-  read_placement(source, *dataset.dataset);
-  const OGRSpatialReference* own = dataset->GetSpatialRef();
+  read_placement(source, dataset);
+  const OGRSpatialReference* own = dataset.GetSpatialRef();
   const OGRSpatialReference settled = settle_source(source, request, own, crs_optional);
-  if (dataset->GetRasterCount() > 1)
+  if (dataset.GetRasterCount() > 1)
     source.notes.push_back(
-        fmt::format("{}: band 1 of {} is used", source.label, dataset->GetRasterCount()));
-  read_heights(source, band, settled, own, quantity);
-  source.identity = {request.key, file.path,
+        fmt::format("{}: band 1 of {} is used", source.label, dataset.GetRasterCount()));
+  unit_ = height_unit(settled, own, band.GetUnitType(), source.label);
+  unit_.down = unit_.down && quantity == RasterQuantity::elevation;  // a thickness has no direction
+  if (!unit_.note.empty()) source.notes.push_back(unit_.note);
+  if (!unit_.warning.empty()) source.warnings.push_back(unit_.warning);
+  source.identity = {request.key,
+                     file.path,
                      raster_shape(source.n_cols, source.n_rows, source.affine, source.crs),
-                     block_hashes(source.values, {0, 0, source.n_cols, source.n_rows},
-                                  source.n_cols, source.n_rows)};
-  turn_north_up(source);
+                     {}};
+  turn_north_up();
+}
+
+/// Placement only: rows run south and columns east, as everything else here expects.
+void OpenRaster::turn_north_up() {
+  if (!about_.is_axis_aligned()) return;
+  auto& a = about_.affine;
+  south_up_ = a[5] > 0;
+  east_to_west_ = a[1] < 0;
+  if (south_up_) {
+    a[3] += about_.n_rows * a[5];
+    a[5] = -a[5];
+    about_.notes.push_back(about_.label + ": stored south-up, turned north-up");
+  }
+  if (east_to_west_) {
+    a[0] += about_.n_cols * a[1];
+    a[1] = -a[1];
+    about_.notes.push_back(about_.label + ": stored east to west, turned west to east");
+  }
+}
+
+RasterSource OpenRaster::read(const Window& w, bool identified) {
+  const GdalScope scope;
+  expect(whole().contains(w), "a window lies on its raster");
+  require_raster_size(w.n_cols, w.n_rows, about_.label, about_.max_cells);
+  RasterSource source = about_;
+  source.n_cols = w.n_cols, source.n_rows = w.n_rows;
+  source.col0 = east_to_west_ ? about_.n_cols - w.end_col() : w.col0;
+  source.row0 = south_up_ ? about_.n_rows - w.end_row() : w.row0;
+  source.affine[0] = about_.x_of(w.col0, w.row0);
+  source.affine[3] = about_.y_of(w.col0, w.row0);
+  read_heights(source, *dataset_->GetRasterBand(1), unit_, quantity_);
+  if (identified)
+    source.identity.parts =
+        block_hashes(source.values, {source.col0, source.row0, w.n_cols, w.n_rows}, about_.n_cols,
+                     about_.n_rows);
+  turn_values(source, south_up_, east_to_west_);
   return source;
+}
+
+RasterSource read_source(const RasterRequest& request, RasterQuantity quantity, bool crs_optional) {
+  OpenRaster raster(request, quantity, crs_optional);
+  return raster.read(raster.whole());
 }
 
 }  // namespace sturz

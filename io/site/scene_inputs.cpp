@@ -9,9 +9,11 @@
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
 #include "io/site/release_shapes.hpp"
+#include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
@@ -35,7 +37,8 @@ struct Loading {
   std::string release_label;  ///< for messages about the release
   std::optional<Raster<double>> synthetic_source;
 
-  std::vector<std::string> problems;  ///< of files that cannot be used
+  std::unique_ptr<ElevationRaster> raster;  ///< of terrain.raster
+  std::vector<std::string> problems;        ///< of files that cannot be used
 
   /// Notes, warnings and identity of a file that was read.
   template <class Read>
@@ -66,8 +69,22 @@ struct Loading {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
     inputs.pattern = kind;
   }
-  const Grid& grid() const { return inputs.elevation->grid; }
+  const Grid& grid() const { return inputs.whole; }
 };
+
+/// What is said of the terrain comes before what is said of release and zones.
+void take_ground(Loading& loading, RasterRead& read) {
+  SceneInputs& in = loading.inputs;
+  SceneInputs others;
+  std::swap(others.notes, in.notes);
+  std::swap(others.warnings, in.warnings);
+  std::swap(others.identities, in.identities);
+  loading.take(read);
+  std::move(others.notes.begin(), others.notes.end(), std::back_inserter(in.notes));
+  std::move(others.warnings.begin(), others.warnings.end(), std::back_inserter(in.warnings));
+  std::move(others.identities.begin(), others.identities.end(), std::back_inserter(in.identities));
+  in.elevation = std::make_shared<const Raster<double>>(std::move(read.raster));
+}
 
 double raster_sum(const Raster<double>& raster) {
   return std::accumulate(raster.values.begin(), raster.values.end(), 0.0) * raster.grid.cell_m *
@@ -90,7 +107,20 @@ void load_synthetic(Loading& loading) {
   }
   if (scene.thickness) scene.thickness->grid = scene.bed.grid;
   loading.synthetic_source = std::move(scene.thickness);
+  loading.inputs.whole = scene.bed.grid;
   loading.inputs.elevation = std::make_shared<const Raster<double>>(std::move(scene.bed));
+}
+
+/// Opens it; what is read of it follows from the release.
+void open_raster(Loading& loading) {
+  const TerrainSpec& spec = loading.scenario.terrain;
+  RasterRequest request;
+  request.path = spec.raster;
+  request.directory = loading.scenario.directory;
+  request.crs = spec.crs;
+  request.cell_size_m = spec.cell_size_m;
+  loading.raster = std::make_unique<ElevationRaster>(request);
+  loading.inputs.whole = loading.raster->grid();
 }
 
 void load_terrain(Loading& loading) {
@@ -98,14 +128,30 @@ void load_terrain(Loading& loading) {
   require(spec.raster.empty() != !spec.synthetic,
           "terrain: needs either raster or synthetic (one of them). Name a raster file.");
   if (spec.synthetic) return load_synthetic(loading);
-  RasterRequest request;
-  request.path = spec.raster;
-  request.directory = loading.scenario.directory;
-  request.crs = spec.crs;
-  request.cell_size_m = spec.cell_size_m;
-  RasterRead read = read_elevation(request);
-  loading.take(read);
-  loading.inputs.elevation = std::make_shared<const Raster<double>>(std::move(read.raster));
+  open_raster(loading);
+}
+
+/// Elevations of a window, read or cut out.
+Raster<double> ground_of(Loading& loading, const Window& w) {
+  if (loading.raster) return loading.raster->look(w);
+  const Raster<double>& all = *loading.inputs.elevation;
+  Raster<double> part(grid_of(w, all.grid));
+  for (int r = 0; r < w.n_rows; ++r)
+    std::copy_n(&all.at(w.row0 + r, w.col0), w.n_cols, &part.at(r, 0));
+  return part;
+}
+
+/// Reads the part of the terrain that members start with.
+void load_ground(Loading& loading) {
+  SceneInputs& in = loading.inputs;
+  const FirstGround first = first_ground(
+      loading.scenario, in, [&](const Window& w) { return ground_of(loading, w); },
+      loading.release_label);
+  in.reach = first.reach;
+  in.first_window = first.window;
+  if (!loading.raster) return;
+  RasterRead read = loading.raster->read(first.window);
+  take_ground(loading, read);
 }
 
 /// Two numbers that a reader can hold against each other: the source's and the raster's.
@@ -115,7 +161,8 @@ void note_rasterised(Loading& loading, double exact_m2) {
   std::string text =
       fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
                   loading.release_label, exact_m2, laid, 100 * (laid / exact_m2 - 1));
-  if (release.thickness_m && release.thickness_m->is_fixed())
+  const bool vertical = release.thickness == ThicknessDirection::vertical;
+  if (vertical && release.thickness_m && release.thickness_m->is_fixed())
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
                         exact_m2 * release.thickness_m->value, laid * release.thickness_m->value);
   loading.inputs.notes.push_back(text);
@@ -222,24 +269,6 @@ void load_release(Loading& loading) {
   load_synthetic_source(loading);
 }
 
-/// A mass cannot start where the ground is not known.
-void require_known_ground(const Loading& loading) {
-  const Grid& g = loading.grid();
-  const auto &ground = loading.inputs.elevation->values, &release = loading.inputs.release->values;
-  std::size_t count = 0, first = 0;
-  for (std::size_t i = 0; i < ground.size(); ++i)
-    if (release[i] > 0 && std::isnan(ground[i]) && count++ == 0) first = i;
-  if (count == 0) return;
-  const int row = static_cast<int>(first / static_cast<std::size_t>(g.n_cols));
-  const int col = static_cast<int>(first % static_cast<std::size_t>(g.n_cols));
-  throw SetupError(
-      fmt::format("{}: lies on {} nodata cells of terrain.raster = {}, the first at row {}, column "
-                  "{} (x {:.10g},"
-                  " y {:.10g}). Fill the terrain there or move the release.",
-                  loading.release_label, count, loading.scenario.terrain.raster, row, col,
-                  g.x_center(col), g.y_center(row)));
-}
-
 PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
   const BasalZone& zone = scenario.basal.zones[i];
   const std::string name = fmt::format("basal.zones[{}]", i);
@@ -257,23 +286,34 @@ PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
 
 void load_zone(Loading& loading, std::size_t i, Raster<std::uint8_t>& numbers) {
   const Grid& grid = loading.grid();
-  ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid);
+  ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid, loading.inputs.held());
   loading.take(read);
   for (const std::size_t cell : read.cells) numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
   const auto n = static_cast<double>(read.cells.size());
-  loading.inputs.notes.push_back(fmt::format("basal.zones[{}] {}: {} cells, {:.9g} m2", i,
-                                             loading.scenario.basal.zones[i].polygon,
-                                             read.cells.size(), n * grid.cell_m * grid.cell_m));
+  loading.inputs.notes.push_back(fmt::format(
+      "basal.zones[{}] {}: {} cells, {:.9g} m2{}", i, loading.scenario.basal.zones[i].polygon,
+      read.cells.size(), n * grid.cell_m * grid.cell_m,
+      read.is_cut ? " of the part of the terrain that is read" : ""));
 }
 
 void load_zones(Loading& loading) {
   const auto& zones = loading.scenario.basal.zones;
   if (zones.empty()) return;
   expect(zones.size() <= most_basal_zones, "a scenario is validated before its files are read");
-  Raster<std::uint8_t> numbers(loading.grid(), 0);
+  Raster<std::uint8_t> numbers(loading.inputs.elevation->grid, 0);
   for (std::size_t i = 0; i < zones.size(); ++i)
     loading.attempt([&] { load_zone(loading, i, numbers); });
   loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
+}
+
+/// What can be said of zones when no ground is known.
+void check_zones(Loading& loading) {
+  for (std::size_t i = 0; i < loading.scenario.basal.zones.size(); ++i)
+    loading.attempt([&] {
+      PolygonRequest request = zone_request(loading.scenario, i);
+      request.without_terrain = true;
+      read_zone_cells(request, {});
+    });
 }
 
 /// What can be said of release and zones when the terrain cannot be read.
@@ -288,25 +328,24 @@ void check_without_terrain(Loading& loading) {
     });
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
-  for (std::size_t i = 0; i < scenario.basal.zones.size(); ++i)
-    loading.attempt([&] {
-      PolygonRequest request = zone_request(scenario, i);
-      request.without_terrain = true;
-      read_zone_cells(request, {});
-    });
+  check_zones(loading);
 }
 
 /// Cells in the order of the grid, each with its place, so that a window's own counting of rows and
 /// columns does not enter.
-std::string hash_of_release(const Raster<double>& ground, const Raster<double>& release) {
-  const Grid& g = ground.grid;
+std::string hash_of_release(const SceneInputs& in) {
+  const Raster<double>&ground = *in.elevation, &release = *in.release;
+  const Window at = window_of(release.grid, in.whole), held = in.held();
+  const Grid& g = in.whole;
   Sha256 hash;
-  for (int row = 0; row < g.n_rows; ++row)
-    for (int col = 0; col < g.n_cols; ++col) {
-      if (!(release.at(row, col) > 0)) continue;
+  for (int r = 0; r < at.n_rows; ++r)
+    for (int c = 0; c < at.n_cols; ++c) {
+      if (!(release.at(r, c) > 0)) continue;
+      const int row = at.row0 + r, col = at.col0 + c;
       const std::array<double, 4> cell{std::round((g.x_center(col)) / g.cell_m * 1024),
                                        std::round((g.y_center(row)) / g.cell_m * 1024),
-                                       ground.at(row, col), release.at(row, col)};
+                                       ground.at(row - held.row0, col - held.col0),
+                                       release.at(r, c)};
       hash.add_values(std::span<const double>(cell));
     }
   return "sha256:" + hash.hex();
@@ -328,21 +367,54 @@ Grid hazard_grid(const Scenario& scenario, const Grid& terrain) {
 }  // namespace
 
 SceneInputs load_scene_inputs(const Scenario& scenario) {
-  Loading loading{scenario, {}, {}, {}, {}};
+  Loading loading{scenario, {}, {}, {}, {}, {}};
   loading.attempt([&] { load_terrain(loading); });
-  if (!loading.inputs.elevation) {
+  SceneInputs& inputs = loading.inputs;
+  if (inputs.whole.n_cols == 0) {
     check_without_terrain(loading);
     loading.refuse_problems();
   }
   loading.attempt([&] { load_release(loading); });
-  load_zones(loading);
+  if (inputs.release)
+    loading.attempt([&] {
+      load_ground(loading);
+      shape_release(scenario, inputs);
+    });
+  if (inputs.elevation)
+    load_zones(loading);
+  else
+    check_zones(loading);
   loading.refuse_problems();
-  require_known_ground(loading);
-  SceneInputs& inputs = loading.inputs;
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
   if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
-  inputs.release_hash = hash_of_release(*inputs.elevation, *inputs.release);
+  inputs.release_hash = hash_of_release(inputs);
   inputs.hazard_grid = hazard_grid(scenario, loading.grid());
+  prepare_grounds(scenario, inputs);
+  return std::move(inputs);
+}
+
+SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& first, int level) {
+  Loading loading{scenario, {}, {}, {}, {}, {}};
+  SceneInputs& inputs = loading.inputs;
+  open_raster(loading);
+  require(inputs.whole.same_place(first.whole),
+          fmt::format("terrain.raster = {}: has another grid than before (it was changed while "
+                      "members were computed). Take the file back and go on.",
+                      scenario.terrain.raster));
+  RasterRead read = loading.raster->read(larger_window(first.first_window, level, inputs.whole));
+  inputs.release = first.release;
+  inputs.pattern = first.pattern;
+  inputs.hazard_grid = first.hazard_grid;
+  inputs.source_area_m2 = first.source_area_m2;
+  inputs.source_volume_m3 = first.source_volume_m3;
+  inputs.normal_over_vertical = first.normal_over_vertical;
+  inputs.reach = first.reach;
+  inputs.first_window = first.first_window;
+  inputs.level = level;
+  take_ground(loading, read);
+  load_zones(loading);
+  loading.refuse_problems();
+  inputs.release_hash = hash_of_release(inputs);
   prepare_grounds(scenario, inputs);
   return std::move(inputs);
 }

@@ -13,4 +13,8 @@ namespace sturz {
 ///   nodata cells of the terrain
 SceneInputs load_scene_inputs(const Scenario& scenario);
 
+/// The same scene with more of its raster: the window of a higher level, see larger_window. Only
+/// elevation, zones and what is said of them are read anew. \pre the terrain is a raster
+SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& first, int level);
+
 }  // namespace sturz

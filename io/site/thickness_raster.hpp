@@ -12,9 +12,10 @@
 namespace sturz {
 
 struct ThicknessRead {
-  Raster<double> thickness;  ///< on the terrain's grid, vertical [m], 0 where there is none
-  double volume_m3 = 0;      ///< of the source raster; the result holds exactly this
-  double area_m2 = 0;        ///< of source cells with thickness
+  /// On the terrain's cells around the source, vertical [m]; nothing lies beyond.
+  Raster<double> thickness;
+  double volume_m3 = 0;  ///< of the source raster; the result holds exactly this
+  double area_m2 = 0;    ///< of source cells with thickness
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   InputIdentity identity;  ///< of what was read, before the factor
