@@ -25,7 +25,6 @@ constexpr double own_share = 0.4;
 /// Width of a particle's spread [cells]: rounded alike wherever room for its weights is counted.
 double cells_wide(double width_m, double cell_m) { return std::max(1.0, width_m / cell_m); }
 
-
 /// Rows row0..row1 and columns col0..col1 that lie on the grid.
 Window clipped(double row0, double row1, double col0, double col1, const Grid& g) {
   if (!(row0 <= row1 && col0 <= col1)) return {};
