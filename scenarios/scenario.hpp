@@ -60,15 +60,17 @@ struct ReleaseSpec {
   std::string polygon;              ///< any OGR polygon layer
   std::string layer;                ///< layer name inside `polygon`; empty: the first
   std::string thickness_attribute;  ///< field of `polygon` with a thickness in metres
-  std::string thickness_raster;     ///< metres, vertical; nodata means zero
+  std::string thickness_raster;     ///< metres; nodata means zero
   double thickness_factor = 1;      ///< of `thickness_raster`: -1 where depths count downward
   std::string crs;                  ///< where the release file has none
   std::optional<ReleaseBox> box;
   std::optional<ReleaseParaboloid> paraboloid;
   std::optional<ReleaseCylinder> cylinder;
-  std::optional<Uncertain> thickness_m;          ///< vertical thickness of polygon, box, ...
+  std::optional<Uncertain> thickness_m;          ///< thickness of polygon, box, ...
   std::optional<Uncertain> volume_m3;            ///< bulk; scales the thickness
   ReleaseSurface surface = ReleaseSurface::bed;  ///< pre_failure: bed = terrain - thickness
+  ThicknessDirection thickness = ThicknessDirection::vertical;  ///< how thicknesses were measured
+  ReleaseFloor floor = ReleaseFloor::uniform;                   ///< of a pre_failure release
   std::array<double, 3> velocity_m_s{0, 0, 0};
   bool operator==(const ReleaseSpec&) const = default;
 };

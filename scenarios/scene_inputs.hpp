@@ -18,7 +18,8 @@ namespace sturz {
 enum class ReleasePattern {
   cover,  ///< share of each cell that the source covers, 0..1; times release.thickness_m or scaled
           ///< to volume_m3
-  thickness,  ///< vertical thickness [m]; scaled when release.volume_m3 is given
+  thickness,  ///< vertical thickness [m]; scaled when release.volume_m3 is given (once
+              ///< shape_release has seen it: before, as release.thickness says)
 };
 
 struct SceneInputs {
@@ -37,6 +38,9 @@ struct SceneInputs {
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =
       0;  ///< exact volume of the source before resampling; 0: follows from thickness_m
+  /// Volume of the source with its thickness normal to the slope, over that with the same numbers
+  /// read vertically: at least 1. See scenarios/assembly/release_pattern.hpp.
+  double normal_over_vertical = 1;
   std::vector<std::string> notes;     ///< what was reprojected, resampled, corrected, by how much
   std::vector<std::string> warnings;  ///< what was guessed, and what cannot be right
   std::vector<InputIdentity> identities;  ///< of every file, in the order of the scenario's blocks

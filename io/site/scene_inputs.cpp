@@ -13,6 +13,7 @@
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
@@ -160,7 +161,8 @@ void note_rasterised(Loading& loading, double exact_m2) {
   std::string text =
       fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
                   loading.release_label, exact_m2, laid, 100 * (laid / exact_m2 - 1));
-  if (release.thickness_m && release.thickness_m->is_fixed())
+  const bool vertical = release.thickness == ThicknessDirection::vertical;
+  if (vertical && release.thickness_m && release.thickness_m->is_fixed())
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
                         exact_m2 * release.thickness_m->value, laid * release.thickness_m->value);
   loading.inputs.notes.push_back(text);
@@ -373,7 +375,11 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     loading.refuse_problems();
   }
   loading.attempt([&] { load_release(loading); });
-  if (inputs.release) loading.attempt([&] { load_ground(loading); });
+  if (inputs.release)
+    loading.attempt([&] {
+      load_ground(loading);
+      shape_release(scenario, inputs);
+    });
   if (inputs.elevation)
     load_zones(loading);
   else
@@ -401,6 +407,7 @@ SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& firs
   inputs.hazard_grid = first.hazard_grid;
   inputs.source_area_m2 = first.source_area_m2;
   inputs.source_volume_m3 = first.source_volume_m3;
+  inputs.normal_over_vertical = first.normal_over_vertical;
   inputs.reach = first.reach;
   inputs.first_window = first.first_window;
   inputs.level = level;

@@ -10,6 +10,7 @@
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/schema.hpp"
 
@@ -144,6 +145,15 @@ ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
   return facts;
 }
 
+/// See SceneDescription::other_formulation_cost.
+double other_cost(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
+  if (!has_both_formulations(s)) return 0;
+  const CostEstimate cost =
+      estimate_cost(s, release_thickness(s.release, inputs), plan.bed, expected_time(s, plan));
+  return plan.formulation.depth_averaged ? cost.full_stress / cost.depth_averaged
+                                         : cost.depth_averaged / cost.full_stress;
+}
+
 /// Which effects there are and why, and what each brings: its row is added to a scene of its own
 /// only where the scene calls for it.
 std::vector<EffectNote> effect_notes(const Scenario& s, SceneParts& parts) {
@@ -205,7 +215,9 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
                    static_cast<std::size_t>(touched_cells(inputs)) * bytes_per_hazard_cell;
   d.spacing_m = s.numerics.spacing_m;
   d.release_volume_m3 = plan.release.volume_m3;
-  d.release_area_m2 = plan.release.area_m2;
+  d.release_area_m2 = inputs.source_area_m2 > 0 ? inputs.source_area_m2 : plan.release.area_m2;
+  d.normal_over_vertical = inputs.normal_over_vertical;
+  d.bulk_density_kg_m3 = plan.bulk_density_kg_m3;
   d.layers = plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
   d.sound_speed_m_s = plan.formulation.depth_averaged ? 0 : plan.stress.sound_speed;
@@ -219,9 +231,11 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.end_time_reason = plan.end.reason;
   d.ground = ground_line(s, inputs);
   d.warnings = ground_warnings(s, inputs);
-  const auto warnings = plan_warnings(s, plan);
+  const auto warnings = scene_warnings(s, inputs, plan);
   d.warnings.insert(d.warnings.end(), warnings.begin(), warnings.end());
   d.needs_more_ground = state.terrain.needs_more() || plan.bed.needs_more();
+  d.narrow_side_m = plan.release_narrow_side_m;
+  d.other_formulation_cost = other_cost(s, inputs, plan);
   return d;
 }
 

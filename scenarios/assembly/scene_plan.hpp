@@ -24,6 +24,7 @@ struct ScenePlan {
   Domain domain;
   FormulationChoice formulation;
   Release release;
+  double release_narrow_side_m = 0;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
   GrainStressSettings stress;                                ///< full_stress
@@ -41,7 +42,10 @@ struct ScenePlan {
 /// \throws SetupError naming the key
 ScenePlan plan_scene(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member);
 
-/// What a reader of the result has to know: thin release, coarse grains, coarse maps.
+/// What a reader of a member's result has to know: thin release, coarse grains, coarse maps.
 std::vector<std::string> plan_warnings(const Scenario& numbers, const ScenePlan& plan);
+/// The same, and what is true of all members alike: how the release lies in the terrain.
+std::vector<std::string> scene_warnings(const Scenario& numbers, const SceneInputs& inputs,
+                                        const ScenePlan& plan);
 
 }  // namespace sturz

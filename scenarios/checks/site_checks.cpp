@@ -102,6 +102,10 @@ void check_source(const Scenario& s, Problems& problems) {
                         std::string("release.thickness_m (") +
                             (own ? "the synthetic terrain brings" : "release.thickness_raster is") +
                             " the thickness). Remove it; release.volume_m3 scales the source."});
+  if (own && r.thickness == ThicknessDirection::normal)
+    problems.push_back({"release.thickness",
+                        "release.thickness = normal (the synthetic terrain brings vertical "
+                        "thicknesses). Remove it."});
   if (own && r.surface == ReleaseSurface::pre_failure)
     problems.push_back({"release.surface",
                         "release.surface = pre_failure (the synthetic terrain "
@@ -133,12 +137,30 @@ void check_companions(const ReleaseSpec& r, Problems& problems) {
   }
 }
 
+/// A floor of its own needs a release that is dug out and says no floor yet.
+void check_floor(const Scenario& s, Problems& problems) {
+  const auto& r = s.release;
+  if (r.floor != ReleaseFloor::tapered) return;
+  const auto refuse = [&](const std::string& why) {
+    problems.push_back({"release.floor", "release.floor = tapered (" + why});
+  };
+  if (r.surface == ReleaseSurface::bed)
+    refuse(
+        "surface is bed: the terrain is the floor). Set release.surface: pre_failure, or remove "
+        "it.");
+  else if (!r.thickness_raster.empty())
+    refuse("release.thickness_raster says the floor already). Remove it.");
+  else if (r.paraboloid)
+    refuse("a paraboloid tapers already). Remove it.");
+}
+
 }  // namespace
 
 void check_terrain_and_release(const Scenario& s, Problems& problems) {
   check_terrain(s.terrain, problems);
   check_source(s, problems);
   check_companions(s.release, problems);
+  check_floor(s, problems);
 }
 
 }  // namespace sturz

@@ -86,8 +86,7 @@ void add_release(std::vector<KeyInfo>& keys) {
                           "Field of release.polygon that holds each polygon's thickness in "
                           "metres."));
   keys.push_back(text_key(release, &ReleaseSpec::thickness_raster, "release.thickness_raster", path,
-                          "Raster of the vertical source thickness in metres; nodata means "
-                          "zero."));
+                          "Raster of the source thickness in metres; nodata means zero."));
   keys.push_back(key(release, &ReleaseSpec::thickness_factor,
                      {"release.thickness_factor", number, "1", -1000, 1000,
                       "Multiplies the values of thickness_raster: -1 where depths count "
@@ -97,8 +96,8 @@ void add_release(std::vector<KeyInfo>& keys) {
   add_shapes(keys);
   keys.push_back(above_min(key(release, &ReleaseSpec::thickness_m,
                                {"release.thickness_m", uncertain, "m", 0, 2000,
-                                "Vertical thickness of a polygon, box, cylinder, or of the cap's "
-                                "thickest point."})));
+                                "Thickness of a polygon, box, cylinder, or of the cap's thickest "
+                                "point."})));
   keys.push_back(above_min(key(release, &ReleaseSpec::volume_m3,
                                {"release.volume_m3", uncertain, "m3", 0, no_limit,
                                 "Bulk volume of the source; scales its thickness."})));
@@ -106,6 +105,14 @@ void add_release(std::vector<KeyInfo>& keys) {
       choice_key(release, &ReleaseSpec::surface, "release.surface",
                  "What the terrain shows: the bed under the source, or the surface before failure "
                  "from which the source is dug."));
+  keys.push_back(
+      choice_key(release, &ReleaseSpec::thickness, "release.thickness",
+                 "How thicknesses were measured: vertical, or normal to the slope as snow and many "
+                 "landslide surveys do; then each is divided by the cosine of the slope."));
+  keys.push_back(choice_key(
+      release, &ReleaseSpec::floor, "release.floor",
+      "Floor of a pre_failure source: at the depth of its thickness everywhere, or "
+      "tapered so that it comes out at the lower edge and the flanks; the volume stays."));
   keys.push_back(with_size(key(release, &ReleaseSpec::velocity_m_s,
                                {"release.velocity_m_s", number_list, "m s-1", -500, 500,
                                 "Velocity of the source at the start: east, north, up. Columns "

@@ -45,6 +45,31 @@ TEST_F(LoadSceneInputs, BoxesCoverExactly) {
                                        HasSubstr("x 4 m = 6984 m3, laid out 6984 m3"))));
 }
 
+TEST_F(LoadSceneInputs, ThicknessNormalToTheSlopeHoldsForFieldsRastersAndShapes) {
+  Raster<double> steep(Grid{40, 40, 500000, 4600400, 10, utm33_wkt()});
+  for (int r = 0; r < 40; ++r)
+    for (int c = 0; c < 40; ++c) steep.at(r, c) = 10.0 * r;  // 45 degrees, down to the north
+  write_geotiff(path("bed.tif"), steep, {});
+  write("src.geojson", collection(feature("Polygon", square(100, 100, 100), R"({"h": 1})")));
+  Raster<double> h(Grid{20, 20, 500100, 4600200, 5, utm33_wkt()}, 1.0);
+  write_geotiff(path("h.tif"), h, {});
+  scene.release.thickness = ThicknessDirection::normal;
+  Scenario field = scene, raster = scene, box = scene;
+  field.release.thickness_m.reset();
+  field.release.polygon = "src.geojson";
+  field.release.thickness_attribute = "h";
+  raster.release.thickness_m.reset();
+  raster.release.thickness_raster = "h.tif";
+  box.release.thickness_m = Uncertain(1);
+  box.release.box = ReleaseBox{{500100, 500200}, {4600100, 4600200}};
+  for (const Scenario& s : {field, raster, box}) {
+    const SceneInputs in = load_scene_inputs(s);
+    EXPECT_NEAR(integral(*in.release), 1e4 * std::numbers::sqrt2, 1e-3);
+    EXPECT_THAT(in.notes, Contains(HasSubstr("10000 m3 with vertical thicknesses, 14142 m3 with")));
+  }
+  EXPECT_NEAR(load_scene_inputs(field).source_volume_m3, 1e4 * std::numbers::sqrt2, 1e-3);
+}
+
 TEST_F(LoadSceneInputs, CylindersCoverExactly) {
   scene.release.cylinder = ReleaseCylinder{{500203.3, 4600188.8}, 33.3};
   const SceneInputs in = load_scene_inputs(scene);

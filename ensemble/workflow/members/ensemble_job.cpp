@@ -3,8 +3,10 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/members/shards.hpp"
+#include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
 #include "io/members/member_store.hpp"
@@ -69,7 +71,12 @@ void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer
 void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
   const int cores = available_cores();
   const auto n = static_cast<int>(std::clamp<std::size_t>(job.to_do.size(), 1, 1 << 20));
-  job.workers = std::min(wanted_workers > 0 ? wanted_workers : cores, n);
+  if (wanted_workers > cores)
+    observer.warning(
+        fmt::format("--workers {} on {} cores: {} members at a time, more would only wait for each "
+                    "other.",
+                    wanted_workers, cores, cores));
+  job.workers = std::min({wanted_workers > 0 ? wanted_workers : cores, cores, n});
   const double memory = static_cast<double>(job.scene.description.memory_bytes);
   const double free = available_memory_bytes();
   if (memory > 0 && free > 0 && memory * job.workers > 0.9 * free) {
@@ -97,6 +104,8 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   // With a user's table the number of rows is the number of members.
   job.scene.scenario.ensemble.members = static_cast<int>(job.design.n_members());
   job.folder.root = request.folder;
+  for (std::string& warning : ensemble_warnings(job.scene, job.design))
+    job.scene.description.warnings.push_back(std::move(warning));
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
 
   if (holds_results(job.folder, "ensemble")) {
@@ -112,6 +121,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   observer.folder_ready(job.folder);
   find_work(job, shard, request.retry_failed, observer);
   share_machine(job, request.workers, observer);
+  const auto to_do = static_cast<std::int64_t>(job.to_do.size());
+  for (const std::string& warning : cost_warnings(job.scene, to_do, job.workers * job.threads))
+    observer.warning(warning);
   return job;
 }
 

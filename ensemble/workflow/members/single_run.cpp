@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/members/single_run.hpp"
 
+#include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -45,6 +46,7 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
   observer.folder_ready(run.folder);
+  for (const std::string& warning : cost_warnings(run.scene, 1, 1)) observer.warning(warning);
   return run;
 }
 
