@@ -67,15 +67,12 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   w.thickness = p.find(fields::thickness);
   w.ground = p.find(fields::ground);
   w.volume_per_mass = 1 / p.bulk_density;
-  double width_m = p.spacing, least_m = p.spacing;
+  double width_m = p.spacing;
   if (support_radius && p.size() > 0) {
     const auto& all = support_radius->component[0];
-    const auto [least, most] = std::minmax_element(all.begin(), all.end());
-    width_m = settings_.width_per_radius * *most;
-    least_m = settings_.width_per_radius * *least;
+    width_m = settings_.width_per_radius * *std::max_element(all.begin(), all.end());
   }
   w.cells = cells_wide(width_m, settings_.grid.cell_m);
-  w.least_cells = cells_wide(least_m, settings_.grid.cell_m);
   w.n_weights = static_cast<int>(std::ceil(3 * w.cells));
   return w;
 }
@@ -264,9 +261,6 @@ void PeakMaps::record(std::span<const MovingSet> sets, double time_s) {
   const Window w = bounds_of(sets);
   if (w.n_cells() == 0) return;
   tiles_.cover(w);
-  double narrowest = widths_.front().least_cells;
-  for (const Width& width : widths_) narrowest = std::min(narrowest, width.least_cells);
-  record_distance_m_ = 0.5 * narrowest * settings_.grid.cell_m;
   scatter<true>(sets);
   keep_peaks(sets, static_cast<float>(time_s));
 }

@@ -52,10 +52,6 @@ class PeakMaps {
   /// Cells that the deposit covers, after `finish`; in no order that means anything.
   std::vector<Cell> deposit_cells() const;
   const PeakMapSettings& settings() const { return settings_; }
-  /// How far a particle may move from one record to the next [m]: half the width of the narrowest
-  /// spread at the last one, and so no less than half a cell. Nothing on the map is finer; a lone
-  /// particle's peak between two records is at most 8 % lower there.
-  double record_distance_m() const { return record_distance_m_; }
   /// Layers across the thickness at the last instant.
   const LayerCount& layers() const { return layers_; }
 
@@ -69,7 +65,6 @@ class PeakMaps {
   /// How wide the particles of a set are spread.
   struct Width {
     double cells = 1;                        ///< of the B-spline; the largest where it varies
-    double least_cells = 1;                  ///< the smallest
     int n_weights = 3;                       ///< cells that one particle can touch per direction
     const double* support_radius = nullptr;  ///< of columns, each its own
     const Field* thickness = nullptr;        ///< of columns, normal to the ground
@@ -109,7 +104,6 @@ class PeakMaps {
   std::vector<double> weights_x_, weights_y_;  ///< scratch of one particle
   LayerHistogram histogram_;
   LayerCount layers_;
-  double record_distance_m_ = 0;
 };
 
 }  // namespace sturz

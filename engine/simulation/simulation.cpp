@@ -116,7 +116,8 @@ class Run {
             std::max(result_.scalars.max_mach, set.motion.max_speed / set.sound_speed);
     }
     travelled_ += s.max_speed() * s.previous_dt;
-    if (travelled_ >= parts_.peaks.record_distance_m()) record();
+    const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
+    if (travelled_ >= half_cell) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
     if (s.time - sampled_at_ > sample_interval(parts_.facts.spacing_m) &&
         s.n_steps - sampled_step_ >= 4)
@@ -125,7 +126,7 @@ class Run {
     if (s.n_steps % 16 == 0) watch();
   }
 
-  /// Peak maps, whenever the fastest particle may have moved by half of what it is spread over.
+  /// Peak maps, whenever the fastest particle may have crossed half a cell.
   void record() {
     const double now = parts_.state.time;
     parts_.peaks.record(parts_.state.sets, now);

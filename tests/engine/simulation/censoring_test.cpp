@@ -148,6 +148,7 @@ TEST(CrownToToe, OfABlockThatHardlyMovesIsThatOfItsSource) {
   Scenario s = block_on_plane(2);  // sticks
   s.formulation = Formulation::depth_averaged;
   s.numerics.spacing_m = 1;
+  s.numerics.end_time_s = 30;
   const MemberResult r = run(s);
   ASSERT_EQ(r.censoring, Censoring::none);
   const double slope = std::tan(std::asin(1.0) / 3);
