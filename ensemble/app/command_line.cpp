@@ -60,10 +60,8 @@ int guarded(const std::function<int(Console&)>& action, Console& console) {
 /// `sturz help` and `sturz help run`, as many other programs have it.
 bool wants_help(const Grammar& grammar, int argc, char** argv) {
   if (argc < 2 || std::string_view(argv[1]) != "help") return false;
-  const CLI::App* about = &grammar.program;
-  if (argc > 2)
-    if (const CLI::App* named = command_named(grammar.program, argv[2])) about = named;
-  fmt::print("{}", about->help());
+  const CLI::App* one = argc > 2 ? command_named(grammar.program, argv[2]) : nullptr;
+  fmt::print("{}", one ? one->help(grammar.program.get_name()) : grammar.program.help());
   return true;
 }
 
