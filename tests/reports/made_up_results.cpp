@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/reports/made_up_results.hpp"
 
-#include "engine/simulation/member_parts.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
 
 #include <fmt/format.h>
