@@ -18,7 +18,7 @@ struct Reach {
   bool whole = true;
 };
 
-Reach reach_of(int block, int window_from, int window_n, int file_n) {
+Reach part_of_block(int block, int window_from, int window_n, int file_n) {
   const int first = block * identity_block, last = std::min(first + identity_block, file_n);
   const Reach r{std::max(first, window_from), std::min(last, window_from + window_n), true};
   return {r.from, r.end, r.from == first && r.end == last};
@@ -42,8 +42,8 @@ std::map<std::string, std::string> block_hashes(std::span<const double> values,
   for (int br = window.row0 / identity_block; br <= last_block(window.row0, window.n_rows); ++br)
     for (int bc = window.col0 / identity_block; bc <= last_block(window.col0, window.n_cols);
          ++bc) {
-      const Reach rows = reach_of(br, window.row0, window.n_rows, file_rows);
-      const Reach cols = reach_of(bc, window.col0, window.n_cols, file_cols);
+      const Reach rows = part_of_block(br, window.row0, window.n_rows, file_rows);
+      const Reach cols = part_of_block(bc, window.col0, window.n_cols, file_cols);
       Sha256 hash;
       for (int row = rows.from; row < rows.end; ++row)
         hash.add_values(values.subspan(static_cast<std::size_t>(row - window.row0) * window.n_cols +
