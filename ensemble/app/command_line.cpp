@@ -3,13 +3,18 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/version.hpp"
 
 #include <fmt/core.h>
 
+#include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <new>
 
 namespace sturz::app {
@@ -37,15 +42,45 @@ void build(Grammar& grammar) {
 int guarded(const std::function<int(Console&)>& action, Console& console) {
   try {
     return action(console);
+  } catch (const workflow::MembersMissing& problem) {
+    console.error(problem.what());
+    return interrupted;
   } catch (const SetupError& problem) {
     console.error(problem.what());
   } catch (const std::bad_alloc&) {
-    console.error("Out of memory. A coarser spacing, fewer workers or a larger cell needs less.");
+    console.error(
+        "Out of memory. What is finished is kept: the same command goes on where more memory is "
+        "free. A new folder with a coarser spacing or a larger cell, and fewer workers, need "
+        "less.");
+  } catch (const std::filesystem::filesystem_error& problem) {
+    console.error(fmt::format("{}: {}. Check the name and who may read and write there.",
+                              problem.path1().string(), problem.code().message()));
   } catch (const std::exception& problem) {
     console.error(
         fmt::format("{} (this should not have happened; please report it)", problem.what()));
   }
   return usage_or_scenario_error;
+}
+
+/// A signal that came too late to stop anything is still no plain success: who sent it waits for
+/// that code.
+int after_signals(int code, Console& console) {
+  if (!interrupt_flag().load() || code != ok) return code;
+  console.warn("a signal to stop came when all was done: the results are whole.");
+  interruption_told();
+  return interrupted;
+}
+
+/// Full disks and closed streams show themselves at the latest here.
+int after_output(int code) {
+  std::cout.flush();
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  if (!failed) return code;
+  fmt::print(stderr,
+             "error: the output could not be written (is standard output closed, or its disk "
+             "full?).{}\n",
+             code == ok ? " Files in the results folder are whole." : "");
+  return code == ok ? usage_or_scenario_error : code;
 }
 
 }  // namespace
@@ -56,10 +91,12 @@ int command_line(int argc, char** argv) {
   try {
     grammar.program.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return grammar.program.exit(problem) == 0 ? ok : usage_or_scenario_error;
+    return after_output(grammar.program.exit(problem) == 0 ? ok : usage_or_scenario_error);
   }
+  watch_for_interrupts(grammar.json);
   Console console(grammar.json);
-  return guarded(grammar.action, console);
+  const int code = guarded(grammar.action, console);
+  return after_output(after_signals(code, console));
 }
 
 }  // namespace sturz::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz describe: what a scene is and what it will cost, before anything is computed.
 #include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
@@ -54,7 +55,7 @@ std::string as_json(const Scene& scene) {
                                       {"uncertain", uncertain},
                                       {"notes", scene.inputs.notes},
                                       {"warnings", d.warnings}};
-  return all.dump();
+  return json_text(all);
 }
 
 void print_uncertain(const Scene& scene, Console& console) {

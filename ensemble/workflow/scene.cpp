@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/scene.hpp"
 
+#include "engine/core/error.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/readable.hpp"
+#include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
@@ -71,7 +73,14 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
 }
 
 void save_scenario(const OutputFolder& folder, const Scenario& scenario) {
-  write_text_atomic(folder.scenario(), write_scenario(scenario, folder.root));
+  const std::string text = write_scenario(scenario, folder.root);
+  if (const auto byte = first_unreadable(text))
+    throw SetupError(
+        fmt::format("{}: a name of a file or folder that the scene needs holds {} (scenario files "
+                    "are UTF-8 and "
+                    "cannot name it). Rename it, or choose another place.",
+                    folder.root.string(), byte->what));
+  write_text_atomic(folder.scenario(), text);
 }
 
 }  // namespace sturz::workflow

@@ -2,6 +2,7 @@
 #include "ensemble/app/console/console.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/app/console/json_text.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,17 @@
 #include <cstdio>
 
 namespace sturz::app {
+namespace {
+
+/// What cannot be written is remembered by the stream; command_line() looks at the end. The work
+/// goes on meanwhile: hours of members are worth more than a line.
+void print_line(std::string_view line) {
+  std::fwrite(line.data(), 1, line.size(), stdout);
+  std::fputc('\n', stdout);
+  std::fflush(stdout);
+}
+
+}  // namespace
 
 struct Console::LogFile {
   std::shared_ptr<spdlog::logger> logger;
@@ -40,8 +52,7 @@ void Console::say(std::string_view line) {
   note(line);
   if (json_) return;
   clear_progress();
-  fmt::print("{}\n", line);
-  std::fflush(stdout);
+  print_line(line);
 }
 
 void Console::note(std::string_view line) {
@@ -51,21 +62,19 @@ void Console::note(std::string_view line) {
 void Console::warn(std::string_view line) {
   if (log_) log_->logger->warn("{}", line);
   clear_progress();
-  if (json_) return event(nlohmann::json{{"event", "warning"}, {"text", line}}.dump());
+  if (json_) return event(json_text(nlohmann::json{{"event", "warning"}, {"text", line}}));
   fmt::print(stderr, "warning: {}\n", line);
 }
 
 void Console::error(std::string_view line) {
   if (log_) log_->logger->error("{}", line);
   clear_progress();
-  if (json_) event(nlohmann::json{{"event", "error"}, {"text", line}}.dump());
+  if (json_) event(json_text(nlohmann::json{{"event", "error"}, {"text", line}}));
   fmt::print(stderr, "error: {}\n", line);
 }
 
 void Console::event(std::string_view json_object) {
-  if (!json_) return;
-  fmt::print("{}\n", json_object);
-  std::fflush(stdout);
+  if (json_) print_line(json_object);
 }
 
 void Console::progress(std::string_view line) {
