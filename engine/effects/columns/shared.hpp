@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace sturz {
@@ -27,7 +28,8 @@ struct ColumnFlow {
   /// Column i beside a wall.
   ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;
 
-  ColumnFlow(std::size_t set_index, const DepthAveragedSettings& s) : set(set_index), settings(s) {}
+  ColumnFlow(std::size_t set_index, DepthAveragedSettings s)
+      : set(set_index), settings(std::move(s)) {}
 
   ColumnSweepOutput output() {
     return {results[0].data(), results[1].data(), results[2].data(), results[3].data(),
