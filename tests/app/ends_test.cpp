@@ -55,9 +55,10 @@ TEST_F(Ends, AClosedOutputDoesNotGoIntoOtherFiles) {
   const Ended ended = shell("\"$S\" ensemble scene.yaml -o out --json >&-");
   EXPECT_EQ(ended.exit_code, 1);
   for (const auto& entry : fs::recursive_directory_iterator(path("out")))
-    if (entry.is_regular_file())
+    if (entry.is_regular_file()) {
       EXPECT_THAT(read(fs::relative(entry.path(), path("")).string()), Not(HasSubstr("{\"event\"")))
           << entry.path();
+    }
   const Ended silent = shell("\"$S\" ensemble scene.yaml -o two 2>&- <&-");
   EXPECT_EQ(silent.exit_code, 0);
   EXPECT_THAT(silent.out, HasSubstr("6 of 6 members are valid"));

@@ -179,14 +179,14 @@ TEST_F(Lock, OfManyThatFindADeadOneExactlyOneGetsIt) {
       if (child == 0) {
         close(gate[1]);
         char go = 0;
-        if (read(gate[0], &go, 1) > 0) _exit(1);  // ends when the parent opens the gate
+        if (::read(gate[0], &go, 1) > 0) _exit(1);  // ends when the parent opens the gate
         std::shared_ptr<FolderLock> lock;
         try {
           lock = FolderLock::alone(folder(), "test");
         } catch (const SetupError&) {
         }
         const char got = lock ? 'y' : 'n';
-        if (write(result[1], &got, 1) != 1) _exit(1);
+        if (::write(result[1], &got, 1) != 1) _exit(1);
         pause();
       }
       children.push_back(child);
@@ -196,7 +196,7 @@ TEST_F(Lock, OfManyThatFindADeadOneExactlyOneGetsIt) {
     int winners = 0;
     for (std::size_t i = 0; i < children.size(); ++i) {
       char got = 0;
-      ASSERT_EQ(read(result[0], &got, 1), 1);
+      ASSERT_EQ(::read(result[0], &got, 1), 1);
       winners += got == 'y';
     }
     for (const pid_t child : children) {

@@ -230,6 +230,20 @@ TEST_F(Safety, OnlyOurOwnMapsAreRemoved) {
       << "maps of the earlier threshold stayed";
 }
 
+TEST_F(Safety, OnlyOurOwnFramesAreRemoved) {
+  Recorder heard;
+  workflow::RunRequest with_frames{scene(), path("single"), 1, 1.0, "test"};
+  workflow::SingleRun one = workflow::prepare_run(with_frames, heard);
+  workflow::compute_run(one, heard, heard.cancel);
+  ASSERT_TRUE(exists("single/particles/particles_000000.vtp"));
+  write("single/particles/view.pvsm", "mine");
+  with_frames.particles_every_s.reset();
+  workflow::SingleRun two = workflow::prepare_run(with_frames, heard);
+  workflow::compute_run(two, heard, heard.cancel);
+  EXPECT_FALSE(exists("single/particles/particles_000000.vtp"));
+  EXPECT_TRUE(exists("single/particles/view.pvsm"));
+}
+
 TEST_F(Safety, TheWallTimeLimitMayBeRaisedAndTheFailedOnesRetried) {
   workflow::EnsembleRequest short_of_time = request("out");
   short_of_time.scene = scene({"numerics.max_wall_time_s=1e-7"});

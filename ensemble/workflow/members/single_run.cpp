@@ -75,7 +75,7 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
     observer.run_progress(progress);
     return !cancel.load();
   };
-  std::filesystem::remove_all(run.folder.particles());  // of an earlier run
+  remove_particle_frames(run.folder.particles());  // of an earlier run
   std::optional<ParticleFrameWriter> frames;
   if (run.particles_every_s) {
     frames.emplace(run.folder.particles());
