@@ -46,6 +46,7 @@ void Manifest::write(const fs::path& file) {
                     {"notes", notes},
                     {"warnings", warnings},
                     {"compute_s", compute_s},
+                    {"scenario_hash", scenario_hash},
                     {"scene_hash", scene_hash},
                     {"design_hash", design_hash},
                     {"computed_by", builds_json},
@@ -102,6 +103,7 @@ Manifest Manifest::read(const fs::path& file) {
     m.compute_s = all.at("compute_s").get<double>();
     m.hazard_hash = all.at("hazard_hash").get<std::string>();
     // The first versions did not write these.
+    m.scenario_hash = all.value("scenario_hash", "");
     m.scene_hash = all.value("scene_hash", "");
     m.design_hash = all.value("design_hash", "");
     m.maps_of = all.value("maps_of", "");

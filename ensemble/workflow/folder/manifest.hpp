@@ -34,6 +34,7 @@ struct Manifest {
   std::string hazard_hash;  ///< of every value of the maps; empty: none yet, or being made
   std::string maps_of;      ///< hash of the members that the maps were made from, as members_hash()
   std::vector<std::string> map_files;  ///< in hazard/, ours to replace and to remove
+  std::string scenario_hash;           ///< as scenario_hash()
   std::string scene_hash;              ///< as scene_hash(): what the members are computed from
   std::string design_hash;             ///< as design_hash(); empty for a single run
   std::vector<Build> builds;           ///< all that computed members here, the first first

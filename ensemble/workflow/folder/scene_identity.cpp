@@ -79,21 +79,25 @@ void require_same_scene(const OutputFolder& folder, const Scenario& now,
 
 void require_own_scenario(const OutputFolder& folder, const Manifest& manifest,
                           const Scenario& in_folder) {
-  require(
-      manifest.scene_hash.empty() || scene_hash(in_folder, manifest.inputs) == manifest.scene_hash,
-      fmt::format("{} was changed after it was written: a value that the members depend on "
-                  "(they were computed with the earlier one). Take the change back, or run the "
-                  "changed scene in another folder.",
-                  folder.scenario().string()));
+  require(manifest.scenario_hash.empty() || scenario_hash(in_folder) == manifest.scenario_hash,
+          fmt::format("{} was changed after it was written: a value that the members depend on "
+                      "(they were computed with the earlier one). Take the change back, or run the "
+                      "changed scene in another folder.",
+                      folder.scenario().string()));
 }
 
-std::string scene_hash(const Scenario& scenario,
-                       const std::vector<std::pair<std::string, std::string>>& inputs) {
+std::string scenario_hash(const Scenario& scenario) {
   std::string text;
   for (const KeyInfo& key : schema())
     if (changes_members(key))
       text +=
           fmt::format("{}={}\n", key.path, value_text(without_file_names(key, key.get(scenario))));
+  return text_checksum(text);
+}
+
+std::string scene_hash(const Scenario& scenario,
+                       const std::vector<std::pair<std::string, std::string>>& inputs) {
+  std::string text = scenario_hash(scenario) + "\n";
   for (const auto& [name, checksum] : inputs) text += checksum + "\n";
   return text_checksum(text);
 }

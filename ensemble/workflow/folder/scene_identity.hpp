@@ -37,7 +37,10 @@ void require_same_scene(const OutputFolder&, const Scenario& now,
 ///   any more (thresholds, titles and the like may change)
 void require_own_scenario(const OutputFolder&, const Manifest&, const Scenario& in_folder);
 
-/// "sha256:..." of all keys that change members, and of the inputs' checksums.
+/// "sha256:..." of all keys that change members.
+std::string scenario_hash(const Scenario&);
+
+/// "sha256:..." of that and of the inputs' checksums.
 std::string scene_hash(const Scenario&,
                        const std::vector<std::pair<std::string, std::string>>& inputs);
 

@@ -34,6 +34,7 @@ void continue_folder(EnsembleJob& job, Observer& observer) {
   Manifest& now = job.manifest;
   now.started = before.started;
   now.compute_s = before.compute_s;
+  if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
   now.hazard_hash = before.hazard_hash;
   now.maps_of = before.maps_of;
   now.map_files = before.map_files;
@@ -108,6 +109,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   job.scene.scenario.ensemble.members = static_cast<int>(job.design.n_members());
   job.folder.root = request.folder;
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
+  job.manifest.scenario_hash = scenario_hash(job.scene.scenario);
   job.manifest.scene_hash = scene_hash(job.scene.scenario, job.scene.inputs.checksums);
 
   holds_results(job.folder, "ensemble");  // refuses what is not ours before a lock is put there

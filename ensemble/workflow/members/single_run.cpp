@@ -58,6 +58,7 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.manifest = manifest_of(run.scene, "run", request.command);
   run.manifest.members = 1;
   run.manifest.builds = {this_build()};
+  run.manifest.scenario_hash = scenario_hash(run.scene.medians);
   run.manifest.scene_hash = scene_hash(run.scene.medians, inputs);
   make_folder(run.folder.root);
   run.manifest.write(run.folder.manifest());
