@@ -106,6 +106,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   console.event(
       json_text(nlohmann::ordered_json{{"event", "done"},
                                        {"outcome", to_string(r.outcome)},
+                                       {"censored", to_string(r.censoring)},
                                        {"reason", r.reason},
                                        {"state_hash", fmt::format("{:016x}", r.state_hash)},
                                        {"scalars", scalars},

@@ -120,7 +120,7 @@ void MemberStore::read_rows(std::size_t index, PeakLayer layer, int row0, int n_
   std::fill(out.begin(), out.end(), info(layer).untouched);
   const Window& w = members_[index].window;
   const int first = std::max(row0, w.row0), end = std::min(row0 + n_rows, w.row0 + w.n_rows);
-  if (first >= end || w.n_cols == 0) return;
+  if (first >= end || w.n_cols == 0 || !is_kept(layer, members_[index].censoring)) return;
   const auto width = static_cast<std::size_t>(w.n_cols);
   std::vector<float> rows;  // only when memory is full
   Map map;
