@@ -76,10 +76,10 @@ int after_output(int code) {
   std::cout.flush();
   const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
   if (!failed) return code;
-  fmt::print(stderr,
-             "error: the output could not be written (is standard output closed, or its disk "
-             "full?).{}\n",
-             code == ok ? " Files in the results folder are whole." : "");
+  const std::string words = fmt::format(
+      "error: the output could not be written (is standard output closed, or its disk full?).{}\n",
+      code == ok ? " Files in the results folder are whole." : "");
+  std::fwrite(words.data(), 1, words.size(), stderr);
   return code == ok ? usage_or_scenario_error : code;
 }
 

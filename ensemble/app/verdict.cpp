@@ -28,7 +28,7 @@ int verdict(const workflow::MapsMade& made, Console& console) {
   console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
   console.say("  members.csv   one row per member");
   const bool too_many = made.too_many_failed();
-  if (made.failed() > 0 && !too_many)
+  if (made.failed() > 0 && made.valid > 0 && !too_many)
     console.warn(
         fmt::format("{} of {} members failed; their reasons are in members.csv. The maps "
                     "are made from the others.",
@@ -44,7 +44,7 @@ int verdict(const workflow::MapsMade& made, Console& console) {
                     "(ensemble.max_failed_fraction = {}). Their reasons are in "
                     "members.csv; the maps are made from the others.",
                     made.failed(), made.finished, made.max_failed_fraction));
-  return too_many ? too_many_failed : ok;
+  return too_many || made.valid == 0 ? too_many_failed : ok;
 }
 
 }  // namespace sturz::app

@@ -61,7 +61,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   Manifest m;
   m.kind = kind;
   m.started = utc_now();
-  m.command = command;
+  m.command = as_utf8(command);  // names of files in it are bytes
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
   m.inputs = scene.inputs.checksums;

@@ -18,10 +18,9 @@ namespace {
 
 /// What cannot be written is remembered by the stream; command_line() looks at the end. The work
 /// goes on meanwhile: hours of members are worth more than a line.
-void print_line(std::string_view line) {
-  std::fwrite(line.data(), 1, line.size(), stdout);
-  std::fputc('\n', stdout);
-  std::fflush(stdout);
+void put(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+  std::fflush(stream);
 }
 
 }  // namespace
@@ -52,7 +51,7 @@ void Console::say(std::string_view line) {
   note(line);
   if (json_) return;
   clear_progress();
-  print_line(line);
+  put(stdout, fmt::format("{}\n", line));
 }
 
 void Console::note(std::string_view line) {
@@ -63,31 +62,29 @@ void Console::warn(std::string_view line) {
   if (log_) log_->logger->warn("{}", line);
   clear_progress();
   if (json_) return event(json_text(nlohmann::json{{"event", "warning"}, {"text", line}}));
-  fmt::print(stderr, "warning: {}\n", line);
+  put(stderr, fmt::format("warning: {}\n", line));
 }
 
 void Console::error(std::string_view line) {
   if (log_) log_->logger->error("{}", line);
   clear_progress();
   if (json_) event(json_text(nlohmann::json{{"event", "error"}, {"text", line}}));
-  fmt::print(stderr, "error: {}\n", line);
+  put(stderr, fmt::format("error: {}\n", line));
 }
 
 void Console::event(std::string_view json_object) {
-  if (json_) print_line(json_object);
+  if (json_) put(stdout, fmt::format("{}\n", json_object));
 }
 
 void Console::progress(std::string_view line) {
   if (!shows_progress()) return;
-  fmt::print(stderr, "\r\033[2K{}", line);
-  std::fflush(stderr);
+  put(stderr, fmt::format("\r\033[2K{}", line));
   bar_on_screen_ = true;
 }
 
 void Console::clear_progress() {
   if (!bar_on_screen_) return;
-  fmt::print(stderr, "\r\033[2K");
-  std::fflush(stderr);
+  put(stderr, "\r\033[2K");
   bar_on_screen_ = false;
 }
 

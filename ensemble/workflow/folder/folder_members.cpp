@@ -71,10 +71,10 @@ std::string what_is_missing(const MemberStore& store, std::int64_t planned) {
   return fmt::format("{} of {} members are missing ({})", missing, planned, names);
 }
 
-std::string members_hash(const MemberStore& store) {
+std::string members_hash(const MemberStore& store, std::int64_t planned) {
   Hash64 hash;
   for (const MemberSummary& m : store.members()) hash.add(m.member).add(m.state_hash);
-  return fmt::format("{}:{:016x}", store.members().size(), hash.value());
+  return fmt::format("{} of {}: {:016x}", store.members().size(), planned, hash.value());
 }
 
 }  // namespace sturz::workflow

@@ -33,7 +33,8 @@ void warn_of_builds(const Manifest&, Observer&);
 /// "3 of 6 members are missing (1, 3, 5)", at most twenty named; empty when none is.
 std::string what_is_missing(const MemberStore&, std::int64_t planned);
 
-/// Of the numbers and final states of all members: tells whether maps are of these.
-std::string members_hash(const MemberStore&);
+/// Of the numbers and final states of all members, and of how many there will be: tells whether
+/// maps are of these.
+std::string members_hash(const MemberStore&, std::int64_t planned);
 
 }  // namespace sturz::workflow

@@ -82,6 +82,10 @@ std::optional<LockHolder> holder_in(const fs::path& file) {
 bool create_whole(const fs::path& file, const std::string& text) {
   AtomicFile part(file);  // never committed: the link below gives it the name, if that is free
   part.write(std::as_bytes(std::span(text)));
+  if (const int written = ::open(part.part().c_str(), O_RDONLY | O_CLOEXEC); written >= 0) {
+    ::fsync(written);  // a lock without text after a power loss could not be judged
+    ::close(written);
+  }
   if (::link(part.part().c_str(), file.c_str()) == 0) return true;
   const int code = errno;
   struct stat about {};  // NFS may have done it and lost the answer

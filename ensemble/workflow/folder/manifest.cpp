@@ -49,6 +49,7 @@ void Manifest::write(const fs::path& file) {
                     {"scenario_hash", scenario_hash},
                     {"scene_hash", scene_hash},
                     {"design_hash", design_hash},
+                    {"design_hash_before", design_hash_before},
                     {"computed_by", builds_json},
                     {"hazard_hash", hazard_hash},
                     {"maps_of", maps_of},
@@ -106,6 +107,7 @@ Manifest Manifest::read(const fs::path& file) {
     m.scenario_hash = all.value("scenario_hash", "");
     m.scene_hash = all.value("scene_hash", "");
     m.design_hash = all.value("design_hash", "");
+    m.design_hash_before = all.value("design_hash_before", "");
     m.maps_of = all.value("maps_of", "");
     m.map_files = all.value("map_files", std::vector<std::string>{});
     for (const auto& build : all.value("computed_by", json::array()))

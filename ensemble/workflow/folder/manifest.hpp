@@ -36,6 +36,7 @@ struct Manifest {
   std::vector<std::string> map_files;  ///< in hazard/, ours to replace and to remove
   std::string scenario_hash;           ///< as scenario_hash()
   std::string scene_hash;              ///< as scene_hash(): what the members are computed from
+  std::string design_hash_before;      ///< of the table that this one replaces; empty: none
   std::string design_hash;             ///< as design_hash(); empty for a single run
   std::vector<Build> builds;           ///< all that computed members here, the first first
   // Of the program that wrote it; filled in by write().

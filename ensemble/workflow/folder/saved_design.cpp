@@ -62,9 +62,12 @@ DesignTable saved_design(const OutputFolder& folder, const Manifest& manifest,
     throw SetupError(fmt::format("{}: {}", folder.design().string(), problem.what()));
   }
   const Scenario as_drawn = as_many(scenario, saved);
+  const std::string hash = design_hash(saved);
+  const bool known =
+      hash == manifest.design_hash || hash == manifest.design_hash_before;  // killed in growing
   const bool untouched = manifest.design_hash.empty()  // of a version that kept no hash
                              ? first_change(as_drawn, saved).empty()
-                             : design_hash(saved) == manifest.design_hash;
+                             : known;
   require(untouched,
           fmt::format("{} was changed after it was written{} (members and maps go by it). Take the "
                       "change back, or give your own rows as ensemble.table in another folder.",

@@ -32,6 +32,7 @@ void continue_folder(EnsembleJob& job, Observer& observer) {
   const Manifest before = Manifest::read(job.folder.manifest());
   job.design = continued_design(job.folder, before, job.scene.scenario, job.design);
   Manifest& now = job.manifest;
+  now.design_hash_before = design_hash(saved_design(job.folder, before, job.scene.scenario));
   now.started = before.started;
   now.compute_s = before.compute_s;
   if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
@@ -50,12 +51,14 @@ void continue_folder(EnsembleJob& job, Observer& observer) {
   now.builds.push_back(mine);
 }
 
-/// Order matters: scenario.yaml comes last and marks the folder as begun.
+/// Order matters. The manifest comes before the design, whose hash it holds, old and new: killed in
+/// between, the folder can still tell it from an edited one. scenario.yaml comes last and marks the
+/// folder as begun.
 void begin_folder(const EnsembleJob& job) {
   Manifest manifest = job.manifest;
   make_folder(job.folder.root);
-  write_text_atomic(job.folder.design(), to_csv(job.design));
   manifest.write(job.folder.manifest());
+  write_text_atomic(job.folder.design(), to_csv(job.design));
   save_scenario(job.folder, job.scene.scenario);
 }
 

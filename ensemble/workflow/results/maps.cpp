@@ -100,7 +100,7 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
   write_layers(folder.hazard_nc(), hazard);
   write_tifs(folder, hazard, manifest);
   manifest.hazard_hash = fmt::format("{:016x}", hash_of(hazard));
-  manifest.maps_of = members_hash(store);
+  manifest.maps_of = members_hash(store, design.n_members());
   manifest.write(folder.manifest());
 
   PageContent page;

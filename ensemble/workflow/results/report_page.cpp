@@ -53,7 +53,7 @@ NamedSeconds largest_first(NamedSeconds passes) {
 void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const MemberStore& store,
                      const DesignTable& design) {
   const bool whole = !manifest.hazard_hash.empty();
-  require(whole && manifest.maps_of == members_hash(store),
+  require(whole && manifest.maps_of == members_hash(store, design.n_members()),
           fmt::format("{}: {} (the page would show what does not belong together; {} of {} members "
                       "are finished). Run the same `sturz ensemble` again, or make the maps with "
                       "`sturz merge`{}.",
