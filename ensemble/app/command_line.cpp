@@ -6,6 +6,7 @@
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/app/help/hint.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/version.hpp"
 
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string_view>
 
 namespace sturz::app {
 namespace {
@@ -83,15 +85,29 @@ int after_output(int code) {
   return code == ok ? usage_or_scenario_error : code;
 }
 
+/// `sturz help` and `sturz help run`, as many other programs have it.
+bool wants_help(const Grammar& grammar, int argc, char** argv) {
+  if (argc < 2 || std::string_view(argv[1]) != "help") return false;
+  const CLI::App* about = &grammar.program;
+  if (argc > 2)
+    if (const CLI::App* named = command_named(grammar.program, argv[2])) about = named;
+  std::cout << about->help();
+  return true;
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
   Grammar grammar;
   build(grammar);
+  if (wants_help(grammar, argc, argv)) return after_output(ok);
   try {
     grammar.program.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return after_output(grammar.program.exit(problem) == 0 ? ok : usage_or_scenario_error);
+    if (grammar.program.exit(problem) == 0) return after_output(ok);
+    const std::string hint = hint_on_words(grammar.program, {argv + 1, argv + argc});
+    if (!hint.empty()) std::cerr << hint << "\n";
+    return usage_or_scenario_error;
   }
   watch_for_interrupts(grammar.json);
   Console console(grammar.json);

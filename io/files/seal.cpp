@@ -23,7 +23,7 @@ std::string seal_line(Sha256& hash) { return std::string(seal_begin) + hash.hex(
 
 std::string seal_of(std::span<const std::byte> content) {
   Sha256 hash;
-  hash.add({reinterpret_cast<const char*>(content.data()), content.size()});
+  hash.add(std::span(reinterpret_cast<const char*>(content.data()), content.size()));
   return seal_line(hash);
 }
 

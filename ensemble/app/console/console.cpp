@@ -23,6 +23,26 @@ void put(std::FILE* stream, std::string_view text) {
   std::fflush(stream);
 }
 
+/// Text from files and names, without what would command the terminal: control characters are
+/// shown as \x1b. Line ends and tabs stay.
+std::string harmless(std::string_view line) {
+  std::string text;
+  text.reserve(line.size());
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(line[i]);
+    const auto next = i + 1 < line.size() ? static_cast<unsigned char>(line[i + 1]) : 0;
+    if (byte == 0xC2 && next >= 0x80 && next < 0xA0) {  // the same controls, as UTF-8
+      text += fmt::format("\\x{:02x}", next);
+      ++i;
+    } else if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F) {
+      text += fmt::format("\\x{:02x}", byte);
+    } else {
+      text += line[i];
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 struct Console::LogFile {
@@ -51,25 +71,25 @@ void Console::say(std::string_view line) {
   note(line);
   if (json_) return;
   clear_progress();
-  put(stdout, fmt::format("{}\n", line));
+  put(stdout, fmt::format("{}\n", harmless(line)));
 }
 
 void Console::note(std::string_view line) {
-  if (log_) log_->logger->info("{}", line);
+  if (log_) log_->logger->info("{}", harmless(line));
 }
 
 void Console::warn(std::string_view line) {
-  if (log_) log_->logger->warn("{}", line);
+  if (log_) log_->logger->warn("{}", harmless(line));
   clear_progress();
   if (json_) return event(json_text(nlohmann::json{{"event", "warning"}, {"text", line}}));
-  put(stderr, fmt::format("warning: {}\n", line));
+  put(stderr, fmt::format("warning: {}\n", harmless(line)));
 }
 
 void Console::error(std::string_view line) {
-  if (log_) log_->logger->error("{}", line);
+  if (log_) log_->logger->error("{}", harmless(line));
   clear_progress();
   if (json_) event(json_text(nlohmann::json{{"event", "error"}, {"text", line}}));
-  put(stderr, fmt::format("error: {}\n", line));
+  put(stderr, fmt::format("error: {}\n", harmless(line)));
 }
 
 void Console::event(std::string_view json_object) {

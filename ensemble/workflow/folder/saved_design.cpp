@@ -33,18 +33,29 @@ std::string first_change(const Scenario& scenario, const DesignTable& saved) {
   return "";
 }
 
+/// What `use` makes of the rows of the user's table; its errors name the file.
+template <class Use>
+auto with_table(const Scenario& scenario, Use use) {
+  fs::path file = scenario.ensemble.table;
+  if (file.is_relative()) file = fs::path(scenario.directory) / file;
+  try {
+    return use(from_csv(read_text(file)));
+  } catch (const SetupError& problem) {
+    throw SetupError(fmt::format("{}: {}", file.string(), problem.what()));
+  }
+}
+
 }  // namespace
 
 DesignTable new_design(const Scenario& scenario) {
   if (scenario.ensemble.design != Design::table) return draw_design(scenario);
-  fs::path file = scenario.ensemble.table;
-  if (file.is_relative()) file = fs::path(scenario.directory) / file;
-  try {
-    const DesignTable rows = from_csv(read_text(file));
+  return with_table(scenario, [&](const DesignTable& rows) {
     return table_design(scenario, rows.keys, rows.values);
-  } catch (const SetupError& problem) {
-    throw SetupError(fmt::format("{}: {}", file.string(), problem.what()));
-  }
+  });
+}
+
+std::int64_t rows_of_table(const Scenario& scenario) {
+  return with_table(scenario, [](const DesignTable& rows) { return rows.n_members(); });
 }
 
 DesignTable saved_design(const OutputFolder& folder, const Manifest& manifest,

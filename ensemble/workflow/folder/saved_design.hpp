@@ -11,6 +11,9 @@ namespace sturz::workflow {
 /// Draws the design, or reads the user's table when the scenario says `design: table`.
 DesignTable new_design(const Scenario&);
 
+/// Rows of the user's table, whether members use them or not. \throws SetupError
+std::int64_t rows_of_table(const Scenario&);
+
 /// The table of the folder, once it is known to be the one that was saved: its hash stands in the
 /// manifest, its keys and values fit the scenario.
 /// \throws SetupError when it is missing, damaged or was edited, naming row and key

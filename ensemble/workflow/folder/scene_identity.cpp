@@ -29,6 +29,7 @@ bool changes_members(const KeyInfo& key) {
   const bool only_asked = key.path == "title" || key.path == "ensemble.members" ||
                           key.path.starts_with("ensemble.max_") ||
                           key.path == "numerics.max_wall_time_s" ||
+                          key.path.starts_with("terrain.window.") ||
                           (key.path.starts_with("hazard.") && key.path != "hazard.cell_size_m");
   return !only_asked && key.kind != ValueKind::path;
 }
@@ -48,23 +49,8 @@ std::vector<std::string> differences(const Scenario& before, const Scenario& now
   return found;
 }
 
-std::vector<std::string> input_differences(
-    const std::vector<std::pair<std::string, std::string>>& before,
-    const std::vector<std::pair<std::string, std::string>>& now) {
-  std::vector<std::string> found;
-  for (std::size_t i = 0; i < std::max(before.size(), now.size()); ++i) {
-    const std::string difference = i < before.size() && i < now.size()
-                                       ? checksum_difference(before[i].second, now[i].second)
-                                       : "other content than before";
-    if (!difference.empty())
-      found.push_back(
-          fmt::format("input {}: {}", i < now.size() ? now[i].first : before[i].first, difference));
-  }
-  return found;
-}
-
 void require_same_scene(const OutputFolder& folder, const Scenario& now,
-                        const std::vector<std::pair<std::string, std::string>>& inputs) {
+                        const std::vector<InputIdentity>& inputs) {
   std::string what;
   for (const std::string& line : differences(read_scenario(folder.scenario()), now))
     what += "\n  " + line;
@@ -95,10 +81,12 @@ std::string scenario_hash(const Scenario& scenario) {
   return text_checksum(text);
 }
 
-std::string scene_hash(const Scenario& scenario,
-                       const std::vector<std::pair<std::string, std::string>>& inputs) {
+std::string scene_hash(const Scenario& scenario, const std::vector<InputIdentity>& inputs) {
   std::string text = scenario_hash(scenario) + "\n";
-  for (const auto& [name, checksum] : inputs) text += checksum + "\n";
+  for (const InputIdentity& input : inputs) {
+    text += fmt::format("{}: {}\n", input.role, input.shape);
+    for (const auto& [part, hash] : input.parts) text += fmt::format("{}={}\n", part, hash);
+  }
   return text_checksum(text);
 }
 

@@ -5,11 +5,11 @@
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
+#include "scenarios/input_identity.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/schema/schema.hpp"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sturz::workflow {
@@ -17,21 +17,17 @@ namespace sturz::workflow {
 /// False for keys whose value no member depends on, so that a begun ensemble may go on with another
 /// one: title, thresholds and quantiles of the maps, accepted shares, the number of members, the
 /// wall-time limit (a member that ran into it is failed, and `--retry-failed` computes it again),
-/// and the names of files (what was read from them counts instead).
+/// what is read first of a raster, and the names
+/// of files (what was read of them counts instead).
 bool changes_members(const KeyInfo&);
 
 /// Each difference between two scenes that changes what a member computes, as "key: old -> new".
 std::vector<std::string> differences(const Scenario& before, const Scenario& now);
 
-/// The same for input files, as pairs of name and checksum: "input slope.tif: other content ...".
-std::vector<std::string> input_differences(
-    const std::vector<std::pair<std::string, std::string>>& before,
-    const std::vector<std::pair<std::string, std::string>>& now);
-
 /// \throws SetupError with every difference when the folder was begun with another scene or other
 /// input files
 void require_same_scene(const OutputFolder&, const Scenario& now,
-                        const std::vector<std::pair<std::string, std::string>>& inputs);
+                        const std::vector<InputIdentity>& inputs);
 
 /// \throws SetupError when the folder's scenario.yaml is not the one its members are computed from
 ///   any more (thresholds, titles and the like may change)
@@ -40,9 +36,8 @@ void require_own_scenario(const OutputFolder&, const Manifest&, const Scenario& 
 /// "sha256:..." of all keys that change members.
 std::string scenario_hash(const Scenario&);
 
-/// "sha256:..." of that and of the inputs' checksums.
-std::string scene_hash(const Scenario&,
-                       const std::vector<std::pair<std::string, std::string>>& inputs);
+/// "sha256:..." of that and of what was read of the inputs.
+std::string scene_hash(const Scenario&, const std::vector<InputIdentity>& inputs);
 
 /// "sha256:..." of the scene and of what is drawn for one of its members: keys and values of its
 /// row, to the last bit. A run without a design has none.

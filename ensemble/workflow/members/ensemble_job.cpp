@@ -3,10 +3,12 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/members/shards.hpp"
+#include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
 
@@ -28,12 +30,13 @@ SceneRequest scene_of(const EnsembleRequest& request) {
 
 /// Keeps what the folder knows of its past, and says what may surprise.
 void continue_folder(EnsembleJob& job, Observer& observer) {
-  require_same_scene(job.folder, job.scene.scenario, job.scene.inputs.checksums);
+  require_same_scene(job.folder, job.scene.scenario, job.scene.inputs.identities);
   const Manifest before = Manifest::read(job.folder.manifest());
   job.design = continued_design(job.folder, before, job.scene.scenario, job.design);
   Manifest& now = job.manifest;
   now.design_hash_before = design_hash(saved_design(job.folder, before, job.scene.scenario));
   now.started = before.started;
+  now.inputs = with_known_parts(now.inputs, before.inputs);
   now.compute_s = before.compute_s;
   if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
   now.hazard_hash = before.hazard_hash;
@@ -83,7 +86,12 @@ void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer
 void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
   const int cores = available_cores();
   const auto n = static_cast<int>(std::clamp<std::size_t>(job.to_do.size(), 1, 1 << 20));
-  job.workers = std::min(wanted_workers > 0 ? wanted_workers : cores, n);
+  if (wanted_workers > cores)
+    observer.warning(
+        fmt::format("--workers {} on {} cores: {} members at a time, more would only wait for each "
+                    "other.",
+                    wanted_workers, cores, cores));
+  job.workers = std::min({wanted_workers > 0 ? wanted_workers : cores, cores, n});
   const double memory = static_cast<double>(job.scene.description.memory_bytes);
   const double free = available_memory_bytes();
   if (memory > 0 && free > 0 && memory * job.workers > 0.9 * free) {
@@ -111,9 +119,11 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   // With a user's table the number of rows is the number of members.
   job.scene.scenario.ensemble.members = static_cast<int>(job.design.n_members());
   job.folder.root = request.folder;
+  for (std::string& warning : ensemble_warnings(job.scene, job.design))
+    job.scene.description.warnings.push_back(std::move(warning));
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
   job.manifest.scenario_hash = scenario_hash(job.scene.scenario);
-  job.manifest.scene_hash = scene_hash(job.scene.scenario, job.scene.inputs.checksums);
+  job.manifest.scene_hash = scene_hash(job.scene.scenario, job.scene.inputs.identities);
 
   holds_results(job.folder, "ensemble");  // refuses what is not ours before a lock is put there
   job.lock = shard.n > 1 ? FolderLock::shard(job.folder, shard, request.command)
@@ -129,6 +139,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   observer.folder_ready(job.folder);
   find_work(job, shard, request.retry_failed, observer);
   share_machine(job, request.workers, observer);
+  const auto to_do = static_cast<std::int64_t>(job.to_do.size());
+  for (const std::string& warning : cost_warnings(job.scene, to_do, job.workers * job.threads))
+    observer.warning(warning);
   return job;
 }
 

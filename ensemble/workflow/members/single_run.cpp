@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/members/single_run.hpp"
 
+#include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
@@ -46,7 +47,7 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.folder.root = request.folder;
   run.threads = request.threads > 0 ? request.threads : available_cores();
   run.particles_every_s = request.particles_every_s;
-  const auto& inputs = run.scene.inputs.checksums;
+  const auto& inputs = run.scene.inputs.identities;
   holds_results(run.folder, "run");  // refuses what is not ours before a lock is put there
   run.lock = FolderLock::alone(run.folder, request.command);
   if (holds_results(run.folder, "run")) {
@@ -64,26 +65,29 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
   observer.folder_ready(run.folder);
+  for (const std::string& warning : cost_warnings(run.scene, 1, 1)) observer.warning(warning);
   return run;
 }
 
 MemberResult compute_run(const SingleRun& run, Observer& observer,
                          const std::atomic<bool>& cancel) {
-  Simulation simulation = assemble(run.scene.medians, run.scene.inputs, 0, run.threads);
   RunControl control;
   control.max_wall_s = run.scene.medians.numerics.max_wall_time_s;
   control.on_progress = [&](const Progress& progress) {
     observer.run_progress(progress);
     return !cancel.load();
   };
-  remove_particle_frames(run.folder.particles());  // of an earlier run
-  std::optional<ParticleFrameWriter> frames;
-  if (run.particles_every_s) {
-    frames.emplace(run.folder.particles());
-    control.frame_every_s = *run.particles_every_s;
-    control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
-  }
-  return simulation.run(control);
+  return run.scene.ground->computed([&](const SceneInputs& inputs) {
+    Simulation simulation = assemble(run.scene.medians, inputs, 0, run.threads);
+    remove_particle_frames(run.folder.particles());  // of an earlier run, or on less ground
+    std::optional<ParticleFrameWriter> frames;
+    if (run.particles_every_s) {
+      frames.emplace(run.folder.particles());
+      control.frame_every_s = *run.particles_every_s;
+      control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
+    }
+    return simulation.run(control);
+  });
 }
 
 void store_run(SingleRun& run, const MemberResult& result) {
