@@ -219,7 +219,8 @@ TEST_F(Safety, OnlyOurOwnMapsAreRemoved) {
   EXPECT_TRUE(exists("out/hazard/my_own.tif"));
   EXPECT_TRUE(exists("out/hazard/notes.txt"));
   std::size_t ours = 0;
-  for (const auto& name : manifest().at("map_files")) {
+  const nlohmann::json listed = manifest().at("map_files");
+  for (const auto& name : listed) {
     EXPECT_TRUE(exists("out/hazard/" + name.get<std::string>())) << name;
     ++ours;
   }
