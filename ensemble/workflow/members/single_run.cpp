@@ -2,6 +2,7 @@
 #include "ensemble/workflow/members/single_run.hpp"
 
 #include "ensemble/workflow/cost_warnings.hpp"
+#include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -31,6 +32,13 @@ MemberSummary summary_of(const MemberResult& r) {
           r.warnings, r.state_hash, r.scalars,   r.window, r.effect_seconds};
 }
 
+/// So that a run which is stopped does not leave the results of one scene under the name of
+/// another.
+void remove_results(const OutputFolder& folder) {
+  for (const auto& file : {folder.peaks_nc(), folder.report(), folder.members() / "000000.nc"})
+    std::filesystem::remove(file);
+}
+
 }  // namespace
 
 SingleRun prepare_run(const RunRequest& request, Observer& observer) {
@@ -39,9 +47,20 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.folder.root = request.folder;
   run.threads = request.threads > 0 ? request.threads : available_cores();
   run.particles_every_s = request.particles_every_s;
-  holds_results(run.folder, "run");  // refuses a folder of anything else
+  const auto& inputs = run.scene.inputs.identities;
+  holds_results(run.folder, "run");  // refuses what is not ours before a lock is put there
+  run.lock = FolderLock::alone(run.folder, request.command);
+  if (holds_results(run.folder, "run")) {
+    if (!request.replace)
+      require_same_scene(run.folder, run.scene.medians, inputs);
+    else
+      remove_results(run.folder);
+  }
   run.manifest = manifest_of(run.scene, "run", request.command);
   run.manifest.members = 1;
+  run.manifest.builds = {this_build()};
+  run.manifest.scenario_hash = scenario_hash(run.scene.medians);
+  run.manifest.scene_hash = scene_hash(run.scene.medians, inputs);
   make_folder(run.folder.root);
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
@@ -60,7 +79,7 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
   };
   return run.scene.ground->computed([&](const SceneInputs& inputs) {
     Simulation simulation = assemble(run.scene.medians, inputs, 0, run.threads);
-    std::filesystem::remove_all(run.folder.particles());  // of an earlier run, or on less ground
+    remove_particle_frames(run.folder.particles());  // of an earlier run, or on less ground
     std::optional<ParticleFrameWriter> frames;
     if (run.particles_every_s) {
       frames.emplace(run.folder.particles());
@@ -79,7 +98,8 @@ void store_run(SingleRun& run, const MemberResult& result) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
   manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
   manifest.write(folder.manifest());
-  write_member(folder.members(), result);
+  write_member(folder.members(), result,
+               {member_hash(manifest.scene_hash), workflow::version, workflow::git_commit});
   LayerStack peaks = peak_layers(result);
   peaks.attributes = {
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},

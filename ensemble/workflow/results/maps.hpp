@@ -2,6 +2,7 @@
 /// From the members of a folder to its maps, table and page.
 #pragma once
 
+#include "engine/core/error.hpp"
 #include "engine/terrain/raster.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
@@ -27,12 +28,22 @@ struct MapsMade {
   bool too_many_failed() const;
 };
 
+/// Members that were finished are not there (any more). The same command computes them.
+class MembersMissing : public SetupError {
+ public:
+  using SetupError::SetupError;
+};
+
+/// What to do when members of the design are missing.
+enum class Missing { refuse, accept };
+
 /// Reads all member files, writes hazard.nc, hazard/*.tif, members.csv and report.html, and puts
 /// the maps' hash into the manifest, which is saved.
 /// \param elevation for the page's relief; may be null
-/// \throws SetupError; IoError when the disk refuses (members are not touched)
+/// \throws SetupError; MembersMissing before anything is written; IoError when the disk refuses
+///   (members are not touched)
 MapsMade make_maps(const OutputFolder&, Manifest&, const Scenario&, const DesignTable&,
-                   const Raster<double>* elevation, Observer&);
+                   const Raster<double>* elevation, Observer&, Missing = Missing::refuse);
 
 /// The same at the end of an ensemble, whose computing time so far goes into the manifest.
 MapsMade make_maps(EnsembleJob&, Observer&);
