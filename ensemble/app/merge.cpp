@@ -18,7 +18,6 @@ struct Options {
 
 int merge(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  end_on_interrupt();  // until the maps begin
   return verdict(
       workflow::merge_members({options.folder, options.partial}, observer, interrupt_flag()),
       console);

@@ -16,7 +16,6 @@ struct Options {
 
 int report(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  end_on_interrupt();  // until the maps begin
   console.say(workflow::rewrite_page(options.folder, observer, interrupt_flag()).string());
   return ok;
 }

@@ -3,6 +3,7 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/console/interrupt.hpp"
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
@@ -25,6 +26,7 @@ struct Options {
   std::vector<std::string> set;             ///< "key=value"
   int threads = 0;                          ///< 0: all cores available to the process
   std::optional<double> particles_every_s;  ///< frames for ParaView, simulated seconds apart
+  bool replace = false;                     ///< the run of another scene in that folder too
 };
 
 using workflow::duration_text;
@@ -43,6 +45,7 @@ workflow::RunRequest request_of(const Options& o) {
   request.threads = o.threads;
   request.particles_every_s = o.particles_every_s;
   request.command = command_text(o);
+  request.replace = o.replace;
   return request;
 }
 
@@ -101,7 +104,8 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   const MemberScalars& s = r.scalars;
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
   for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
-  console.event(nlohmann::ordered_json{{"event", "done"},
+  console.event(
+      json_text(nlohmann::ordered_json{{"event", "done"},
                                        {"outcome", to_string(r.outcome)},
                                        {"censored", to_string(r.censoring)},
                                        {"reason", r.reason},
@@ -109,8 +113,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                                        {"scalars", scalars},
                                        {"effect_seconds", as_json(r.effect_seconds)},
                                        {"pass_seconds", as_json(r.pass_seconds)},
-                                       {"folder", folder.root.string()}}
-                    .dump());
+                                       {"folder", folder.root.string()}}));
   const auto line = [&console](const char* name, const std::string& value) {
     print_line(name, value, console);
   };
@@ -144,11 +147,11 @@ int run(const Options& options, Console& console) {
   for (const std::string& warning : run.scene.description.warnings) console.warn(warning);
   for (const std::string& note : run.scene.inputs.notes) console.note(note);
 
-  watch_for_interrupts();
   const MemberResult result = workflow::compute_run(run, observer, interrupt_flag());
   console.clear_progress();
   if (result.outcome == Outcome::cancelled) {
     console.warn("interrupted; nothing is kept. Run the same command again.");
+    interruption_told();
     return interrupted;
   }
   workflow::store_run(run, result);
@@ -178,6 +181,8 @@ void add_run(Grammar& grammar) {
         return text +
                " (must be seconds above 0, such as 0.5). Without --particles there are none.";
       });
+  parser.add_flag("--replace", options.replace,
+                  "Put the results in place of another scene's run in the folder");
   add_json(grammar, parser);
 }
 

@@ -124,14 +124,14 @@ void make_hazard_map(const MemberParts& members, const HazardSpec& spec,
     return is_valid(m.outcome) && has_left(m.censoring);
   });
   HazardLayers layers =
-      hazard_layers(grid_of(members.grid(), extent), spec, unresolved_spacing(all, context),
+      hazard_layers(grid_of(extent, members.grid()), spec, unresolved_spacing(all, context),
                     static_cast<std::int64_t>(cells.n_members()), n_censored, any_left);
   layers.stack.attributes.emplace_back("number_of_censored_members", std::to_string(n_censored));
   add_attributes(layers.stack, members.members(), context);
   add_extent(layers.stack, extent, members.grid(), cells.touched().n_cells() > 0);
   to.begin(layers.stack);
   CellStatistics statistics(layers, cells.n_members(), extent,
-                            KnownGround(context.ground, members.grid()), to);
+                            KnownGround(context.ground, context.whole_ground, members.grid()), to);
   cells.visit(extent, read_layers_of(any_left), context.memory_bytes, context.cancel,
               [&](const CellRows& rows) {
                 statistics.add(rows);

@@ -36,6 +36,7 @@ struct HazardContext {
   std::int64_t n_planned = 0;  ///< members of the design; 0 = as many as there are
   std::size_t memory_bytes = MemberCells::default_memory_bytes;  ///< for members' values
   const Raster<double>* ground = nullptr;  ///< elevations; null: the ground is known everywhere
+  Grid whole_ground;                       ///< of which `ground` is a window; empty: it is all
   std::vector<std::pair<std::string, std::string>> attributes;  ///< more global attributes
   ConvergenceCount* convergence = nullptr;                      ///< counts on the way, where wanted
   CancelFlag cancel;

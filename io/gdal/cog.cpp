@@ -6,7 +6,7 @@
 #include "io/files/io_error.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
-#include "io/gdal/plane_dataset.hpp"
+#include "io/gdal/planes/plane_dataset.hpp"
 #include "scenarios/layers/plane_name.hpp"
 
 #include <cpl_string.h>
@@ -93,26 +93,31 @@ CPLStringList cog_options() {
 
 }  // namespace
 
-std::vector<PlaneFile> write_cogs(const fs::path& folder, const LayerSource& maps,
-                                  CancelFlag cancel) {
-  const GdalScope scope;
-  make_folder(folder);
-  std::vector<PlaneFile> written;
-  const LayerStack& about = maps.about();
+std::vector<PlaneFile> cog_files(const fs::path& folder, const LayerStack& about) {
+  std::vector<PlaneFile> files;
   for (std::size_t l = 0; l < about.layers.size(); ++l) {
     const Layer& layer = about.layers[l];
     if (layer.is_count()) continue;
     const fs::path place = layer.meaning.is_bound() ? folder / "bounds" : folder;
-    make_folder(place);
-    for (std::size_t plane = 0; plane < layer.n_planes(); ++plane) {
-      cancel.check();
-      written.push_back({l, plane, place / (plane_name(layer, plane) + ".tif")});
-      PlaneDataset dataset(maps, l, plane);
-      describe(dataset, layer, plane, about);
-      write_encoded(written.back().path, dataset, "COG", cog_options(), cancel);
-    }
+    for (std::size_t plane = 0; plane < layer.n_planes(); ++plane)
+      files.push_back({l, plane, place / (plane_name(layer, plane) + ".tif")});
   }
-  return written;
+  return files;
+}
+
+std::vector<PlaneFile> write_cogs(const fs::path& folder, const LayerSource& maps,
+                                  CancelFlag cancel) {
+  const GdalScope scope;
+  const LayerStack& about = maps.about();
+  std::vector<PlaneFile> files = cog_files(folder, about);
+  for (const PlaneFile& file : files) {
+    cancel.check();
+    make_folder(file.path.parent_path());
+    PlaneDataset dataset(maps, file.layer, file.plane);
+    describe(dataset, about.layers[file.layer], file.plane, about);
+    write_encoded(file.path, dataset, "COG", cog_options(), cancel);
+  }
+  return files;
 }
 
 void write_geotiff(const fs::path& file, const Raster<double>& raster, const TextPairs& metadata) {

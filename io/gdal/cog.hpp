@@ -20,6 +20,9 @@ struct PlaneFile {
   std::filesystem::path path;
 };
 
+/// The files that write_cogs() makes, in the order of the layers.
+std::vector<PlaneFile> cog_files(const std::filesystem::path& folder, const LayerStack& about);
+
 /// One Cloud-Optimised GeoTIFF per plane, plane_name() + ".tif", in `folder`; bounds of
 /// probabilities in its folder `bounds`, so that the maps that people open first stand alone;
 /// counts, the same number everywhere, are left out. float32 with nodata NaN; unit, description and

@@ -4,9 +4,11 @@
 
 #include "engine/core/cancel.hpp"
 #include "engine/simulation/member_parts.hpp"
+#include "io/members/member_origin.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -14,15 +16,18 @@
 
 namespace sturz {
 
-/// How closely a store looks at its files when it is made.
-enum class MemberCheck {
-  open,      ///< opens each and reads its scalars: finds files that are cut short
-  read_all,  ///< also reads every map: finds flipped bits (and fills the memory on the way)
+/// Which members a store is asked for; empty functions: all.
+struct MemberFilter {
+  /// Files of other numbers are not even opened.
+  std::function<bool(std::int64_t member)> wanted;
+  /// Says why a member does not belong to the others; empty: it does.
+  std::function<std::string(const MemberSummary&, const MemberOrigin&)> refusal;
 };
 
 /// Lists members/NNNNNN.nc in ascending order. Unfinished files (*.part) do not count. A damaged
-/// file, or one on another grid than the first, is named in problems() and treated as absent, so
-/// that a resumed run computes it again.
+/// file, one that is refused, or one on another grid than the first, is named in problems() and
+/// treated as absent, so that a resumed run computes it again. Every file is read once as plain
+/// bytes, against its seal (io/files/seal.hpp), before netCDF sees it.
 ///
 /// Maps are read from their files each time, only the rows asked for, and the file of the last
 /// member stays open: who wants several layers of a member asks for them in a row. read_part may be
@@ -31,7 +36,7 @@ class MemberStore final : public MemberParts {
  public:
   /// A folder that does not exist holds no members.
   /// \throws Cancelled
-  explicit MemberStore(std::filesystem::path folder, MemberCheck check = MemberCheck::open,
+  explicit MemberStore(std::filesystem::path folder, const MemberFilter& filter = {},
                        CancelFlag cancel = {});
 
   const std::vector<MemberSummary>& members() const override { return members_; }
@@ -45,7 +50,7 @@ class MemberStore final : public MemberParts {
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  void add(std::int64_t number, MemberCheck check);
+  void add(std::int64_t number, const MemberFilter& filter);
   const NetcdfReader& reader(std::size_t index) const;
 
   std::filesystem::path folder_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The grid on which members keep what they touch, and maps are made.
+/// The grid that the maps of all members share.
 #pragma once
 
 #include "engine/terrain/raster.hpp"
@@ -7,8 +7,8 @@
 
 namespace sturz {
 
-/// The terrain's own, or cells of `hazard.cell_size_m` from its north-west corner.
-/// \throws SetupError for a size that is not positive, or too many cells
-Grid hazard_grid(const Scenario&, const Grid& terrain);
+/// The terrain's whole grid, or one of hazard.cell_size_m that covers it.
+/// \throws SetupError naming the key
+Grid hazard_grid(const Scenario& scenario, const Grid& terrain);
 
 }  // namespace sturz

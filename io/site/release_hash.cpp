@@ -9,6 +9,8 @@
 
 namespace sturz {
 
+/// Cells in the order of the grid, each with its place, so that a window's own counting of rows and
+/// columns does not enter.
 std::string hash_of_release(const SceneInputs& in) {
   const Raster<double>&ground = *in.elevation, &release = *in.release;
   const Window at = window_of(release.grid, in.whole), held = in.held();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a release is known by, whatever window of the terrain was read.
+/// What tells one release from another, whatever part of the terrain was read.
 #pragma once
 
 #include "scenarios/scene_inputs.hpp"
@@ -8,9 +8,7 @@
 
 namespace sturz {
 
-/// Hash of ground and pattern where the release lies, "sha256:..." : cells in the order of the
-/// grid, each with its place, so that a window's own counting of rows and columns does not enter.
-/// \pre elevation and release are loaded
-std::string hash_of_release(const SceneInputs&);
+/// Hash of place, ground and pattern of every cell of the release.
+std::string hash_of_release(const SceneInputs& inputs);
 
 }  // namespace sturz

@@ -184,8 +184,8 @@ EnergyLine energy_line(const Scenario& s, const SceneInputs& in, double surface_
   return line;
 }
 
-Reach reachable_area(const EnergyLine& line, const Grid& whole, const ReadGround& read,
-                     double most_cells) {
+Reach followed(const EnergyLine& line, const Grid& whole, const ReadGround& read,
+               double most_cells) {
   Window w = widened(line.release, first_look, whole);
   for (;;) {
     const Raster<double> ground = read(w);

@@ -33,12 +33,6 @@ class LayerSource {
                     std::span<float> out) const = 0;
 };
 
-/// The cells of a grid inside a window, as a grid.
-inline Grid grid_of(const Grid& g, const Window& w) {
-  return {w.n_cols, w.n_rows, g.west_m + w.col0 * g.cell_m, g.north_m - w.row0 * g.cell_m,
-          g.cell_m, g.crs_wkt};
-}
-
 /// Maps into memory.
 class StackSink final : public LayerSink {
  public:

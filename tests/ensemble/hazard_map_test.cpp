@@ -325,8 +325,9 @@ TEST(HazardMap, IsMissingWhereTheGroundIsNotKnownAndZeroElsewhere) {
       };
       EXPECT_TRUE(std::isnan(value(20, 22))) << layer.name;
       EXPECT_EQ(std::isnan(value(18, 18)), arrival) << layer.name;
-      if (layer.meaning.statistic != Statistic::upper_bound && !arrival)
+      if (layer.meaning.statistic != Statistic::upper_bound && !arrival) {
         EXPECT_EQ(value(18, 18), 0) << layer.name;
+      }
     }
   }
   EXPECT_EQ(at("thickness_mean", 20, 20), 1);

@@ -2,6 +2,7 @@
 #include "ensemble/workflow/members/single_run.hpp"
 
 #include "ensemble/workflow/cost_warnings.hpp"
+#include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -10,6 +11,7 @@
 #include "io/members/member_file.hpp"
 #include "io/members/particle_frames.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
 
 #include <fmt/core.h>
 
@@ -31,6 +33,13 @@ MemberSummary summary_of(const MemberResult& r) {
           r.warnings, r.state_hash, r.scalars,   r.window, r.effect_seconds};
 }
 
+/// So that a run which is stopped does not leave the results of one scene under the name of
+/// another.
+void remove_results(const OutputFolder& folder) {
+  for (const auto& file : {folder.peaks_nc(), folder.report(), folder.members() / "000000.nc"})
+    std::filesystem::remove(file);
+}
+
 }  // namespace
 
 SingleRun prepare_run(const RunRequest& request, Observer& observer) {
@@ -39,9 +48,20 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.folder.root = request.folder;
   run.threads = request.threads > 0 ? request.threads : available_cores();
   run.particles_every_s = request.particles_every_s;
-  holds_results(run.folder, "run");  // refuses a folder of anything else
+  const auto& inputs = run.scene.inputs.identities;
+  holds_results(run.folder, "run");  // refuses what is not ours before a lock is put there
+  run.lock = FolderLock::alone(run.folder, request.command);
+  if (holds_results(run.folder, "run")) {
+    if (!request.replace)
+      require_same_scene(run.folder, run.scene.medians, inputs);
+    else
+      remove_results(run.folder);
+  }
   run.manifest = manifest_of(run.scene, "run", request.command);
   run.manifest.members = 1;
+  run.manifest.builds = {this_build()};
+  run.manifest.scenario_hash = scenario_hash(run.scene.medians);
+  run.manifest.scene_hash = scene_hash(run.scene.medians, inputs);
   make_folder(run.folder.root);
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
@@ -60,7 +80,7 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
   };
   return run.scene.ground->computed([&](const SceneInputs& inputs) {
     Simulation simulation = assemble(run.scene.medians, inputs, 0, run.threads);
-    std::filesystem::remove_all(run.folder.particles());  // of an earlier run, or on less ground
+    remove_particle_frames(run.folder.particles());  // of an earlier run, or on less ground
     std::optional<ParticleFrameWriter> frames;
     if (run.particles_every_s) {
       frames.emplace(run.folder.particles());
@@ -77,9 +97,12 @@ void store_run(SingleRun& run, const MemberResult& result) {
   Manifest& manifest = run.manifest;
   manifest.compute_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
+  manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
   manifest.write(folder.manifest());
-  write_member(folder.members(), result);
-  LayerStack peaks = peak_layers(result, scene.inputs.elevation.get());
+  write_member(folder.members(), result,
+               {member_hash(manifest.scene_hash), workflow::version, workflow::git_commit});
+  const auto ground = ground_of_map(scene.medians, scene.inputs, map_grid(result));
+  LayerStack peaks = peak_layers(result, ground.get(), scene.inputs.terrain_grid());
   peaks.attributes = {
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
@@ -92,7 +115,7 @@ void store_run(SingleRun& run, const MemberResult& result) {
   const MemberSummary summary = summary_of(result);
   PageContent page;
   page.peaks = &peaks;
-  page.elevation = scene.inputs.elevation.get();
+  page.elevation = ground.get();
   page.members = {&summary, 1};
   page.run = &result;
   write_page(folder, manifest, scene.medians, page);

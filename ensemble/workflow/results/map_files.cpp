@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/results/map_files.hpp"
 
+#include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
 #include "io/gdal/cog.hpp"
 #include "reports/figures/qgis_style.hpp"
@@ -46,6 +47,12 @@ std::string line_of(const std::string& name, const Layer& layer, std::size_t pla
       axis ? fmt::format("{:g}", layer.axis.values[plane]) : "", layer.axis.units, layer.long_name);
 }
 
+/// What an earlier list and a list in the making name, so that no file of ours is ever unlisted.
+void list_both(const fs::path& index, const std::string& now) {
+  const std::string before = listed_files(index).empty() ? index_header : read_text(index);
+  write_text_atomic(index, before + now.substr(std::string(index_header).size()));
+}
+
 }  // namespace
 
 void write_map_files(const fs::path& folder, const LayerSource& maps, const LayerStack& coarse,
@@ -53,20 +60,24 @@ void write_map_files(const fs::path& folder, const LayerSource& maps, const Laye
   const fs::path index = folder / "index.csv";
   std::set<std::string> before = listed_files(index);
   std::string list = index_header;
+  for (const PlaneFile& file : cog_files(folder, maps.about())) {
+    const std::string name = file.path.lexically_relative(folder).generic_string();
+    list += line_of(name, maps.about().layers[file.layer], file.plane);
+    before.erase(name);
+  }
+  make_folder(folder);
+  list_both(index, list);
   for (const PlaneFile& file : write_cogs(folder, maps, cancel)) {
     const Layer& layer = maps.about().layers[file.layer];
     const Layer* shown = coarse.find(layer.name);
     write_text_atomic(style_of(file.path), qgis_style(shown != nullptr ? *shown : layer));
-    const std::string name = file.path.lexically_relative(folder).generic_string();
-    list += line_of(name, layer, file.plane);
-    before.erase(name);
   }
-  write_text_atomic(index, list);
   for (const std::string& name : before) {
     if (!is_ours(name)) continue;
     fs::remove(folder / name);
     fs::remove(style_of(folder / name));
   }
+  write_text_atomic(index, list);
 }
 
 }  // namespace sturz::workflow

@@ -4,12 +4,13 @@
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
+#include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/text_files.hpp"
-#include "io/members/member_store.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/core.h>
@@ -41,22 +42,6 @@ HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
   return context;
 }
 
-/// What a killed process left of files that only the making of maps writes.
-void remove_parts(const OutputFolder& folder) {
-  std::error_code failed;
-  const auto remove_in = [&](const fs::path& place, auto is_ours) {
-    for (const auto& entry : fs::directory_iterator(place, failed))
-      if (entry.path().extension() == ".part" && is_ours(entry.path().filename().string()))
-        fs::remove(entry.path(), failed);
-  };
-  remove_in(folder.root, [](const std::string& name) {
-    return name.starts_with("hazard.nc.") || name.starts_with("members.csv.") ||
-           name.starts_with("report.html.");
-  });
-  for (const fs::path& place : {folder.tif_folder(), folder.tif_folder() / "bounds"})
-    remove_in(place, [](const std::string&) { return true; });
-}
-
 /// Writes hazard.nc as the members pass by. \return the maps' hash
 std::string write_hazard(const OutputFolder& folder, const MemberStore& store,
                          const HazardSpec& spec, const HazardContext& context) {
@@ -66,6 +51,18 @@ std::string write_hazard(const OutputFolder& folder, const MemberStore& store,
   context.cancel.check();
   file.commit();
   return fmt::format("{:016x}", hashed.value());
+}
+
+/// A member may be lost or damaged between its computation and the maps.
+void require_complete(const OutputFolder& folder, const MemberStore& store,
+                      const DesignTable& design, Observer& observer) {
+  const std::string what = what_is_missing(store, design.n_members());
+  if (what.empty()) return;
+  warn_of_problems(store, "It counts as missing.", observer);
+  throw MembersMissing(
+      fmt::format("{}: {} though all were computed, so no maps are made. The same "
+                  "command computes them again.",
+                  folder.root.string(), what));
 }
 
 }  // namespace
@@ -79,9 +76,8 @@ bool MapsMade::too_many_failed() const {
 MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observer& observer,
                    CancelFlag cancel) {
   const auto begin = Clock::now();
-  const auto& [folder, manifest, scenario, design, elevation] = request;
+  const auto& [folder, manifest, scenario, design, inputs] = request;
   observer.maps_begin();
-  remove_parts(folder);
   MapsMade made;
   made.folder = folder;
   made.max_failed_fraction = scenario.ensemble.max_failed_fraction;
@@ -89,15 +85,20 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   made.finished = static_cast<std::int64_t>(store.members().size());
   made.valid = std::count_if(store.members().begin(), store.members().end(),
                              [](const MemberSummary& m) { return is_valid(m.outcome); });
-  store.grid();  // no member, no maps: said before anything is written
-  // From here on the folder's files do not belong together until all are there.
+  const Grid& grid = store.grid();  // no member, no maps: said before anything is written
+  const auto ground = ground_of_map(scenario, inputs,
+                                    grid_of(map_extent(MemberCells(store).touched(), grid), grid));
+
+  // Until they are whole, no page is written over half of them.
   manifest.hazard_hash.clear();
+  manifest.maps_of.clear();
   manifest.write(folder.manifest());
 
   write_text_atomic(folder.members_csv(), members_csv(design, store.members()));
   ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
   HazardContext context = context_of(manifest, scenario, design);
-  context.ground = elevation;
+  context.ground = ground.get();
+  context.whole_ground = inputs.terrain_grid();
   context.convergence = &convergence;
   context.cancel = cancel;
   const std::string hash = write_hazard(folder, store, scenario.hazard, context);
@@ -108,14 +109,14 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   PageContent page;
   page.hazard = &coarse;
   page.design = &design;
-  page.elevation = elevation;
+  page.elevation = ground.get();
   page.members = store.members();
-  const double cell_m = store.grid().cell_m;
-  const auto points =
-      made.valid > 0 ? convergence.points(cell_m * cell_m) : std::vector<ConvergencePoint>{};
+  const auto points = made.valid > 0 ? convergence.points(grid.cell_m * grid.cell_m)
+                                     : std::vector<ConvergencePoint>{};
   page.convergence = points;
   page.cancel = cancel;
   manifest.hazard_hash = hash;
+  manifest.maps_of = members_hash(store, design.n_members());
   write_page(folder, manifest, scenario, page);
   manifest.write(folder.manifest());
   made.hazard_hash = hash;
@@ -125,10 +126,12 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
 
 MapsMade make_maps(EnsembleJob& job, Observer& observer, CancelFlag cancel) {
   job.manifest.compute_s += seconds_since(job.begin);
-  const MemberStore store(job.folder.members(), MemberCheck::open, cancel);
-  return make_maps(
-      {job.folder, job.manifest, job.scene.scenario, job.design, job.scene.inputs.elevation.get()},
-      store, observer, cancel);
+  // Members may have read more of the raster than the first look did.
+  job.manifest.inputs = with_known_parts(job.manifest.inputs, job.scene.ground->now()->identities);
+  const MemberStore store = members_of(job.folder, job.manifest, job.design, {}, cancel);
+  require_complete(job.folder, store, job.design, observer);
+  return make_maps({job.folder, job.manifest, job.scene.scenario, job.design, job.scene.inputs},
+                   store, observer, cancel);
 }
 
 }  // namespace sturz::workflow

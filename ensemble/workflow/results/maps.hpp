@@ -3,13 +3,14 @@
 #pragma once
 
 #include "engine/core/cancel.hpp"
-#include "engine/terrain/raster.hpp"
+#include "engine/core/error.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/observer.hpp"
 #include "io/members/member_store.hpp"
+#include "scenarios/scene_inputs.hpp"
 
 #include <cstdint>
 #include <string>
@@ -29,14 +30,19 @@ struct MapsMade {
   bool too_many_failed() const;
 };
 
+/// Members that were finished are not there (any more). The same command computes them.
+class MembersMissing : public SetupError {
+ public:
+  using SetupError::SetupError;
+};
+
 /// Whose maps, and where they go.
 struct MapsRequest {
   const OutputFolder& folder;
   Manifest& manifest;  ///< gets the maps' hash and is saved
   const Scenario& scenario;
   const DesignTable& design;
-  const Raster<double>*
-      elevation;  ///< where the ground is known, and the page's relief; may be null
+  const SceneInputs& inputs;  ///< for where the ground is known, and the page's relief
 };
 
 /// Reads the members' maps, writes members.csv, hazard.nc, hazard/*.tif with their styles and list,
@@ -46,6 +52,7 @@ struct MapsRequest {
 MapsMade make_maps(const MapsRequest&, const MemberStore&, Observer&, CancelFlag cancel = {});
 
 /// The same at the end of an ensemble, whose computing time so far goes into the manifest.
+/// \throws MembersMissing before anything is written
 MapsMade make_maps(EnsembleJob&, Observer&, CancelFlag cancel = {});
 
 }  // namespace sturz::workflow

@@ -36,10 +36,15 @@ std::vector<float> values_of(const MemberResult& result, PeakLayer peak, const W
 
 }  // namespace
 
-LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground) {
+Grid map_grid(const MemberResult& result) {
+  return grid_of(map_extent(result.window, result.grid), result.grid);
+}
+
+LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground,
+                       const Grid& whole_ground) {
   LayerStack stack;
   const Window extent = map_extent(result.window, result.grid);
-  stack.grid = grid_of(result.grid, extent);
+  stack.grid = map_grid(result);
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto peak = static_cast<PeakLayer>(i);
     if (peak == PeakLayer::left && result.layer(peak).empty()) continue;  // nothing left
@@ -51,7 +56,7 @@ LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground)
     layer.comment = peak == PeakLayer::arrival
                         ? "missing where the flow never came"
                         : "0 where the flow never came; missing where the ground is not known";
-    layer.values = values_of(result, peak, extent, KnownGround(ground, result.grid));
+    layer.values = values_of(result, peak, extent, KnownGround(ground, whole_ground, result.grid));
     stack.layers.push_back(std::move(layer));
   }
   return stack;

@@ -3,11 +3,15 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
+#include "ensemble/workflow/folder/folder_lock.hpp"
+#include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "io/files/plain_text.hpp"
+#include "io/files/seal.hpp"
 #include "io/files/text_files.hpp"
 #include "io/members/member_file.hpp"
-#include "io/members/member_store.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
 #include "reports/page/report.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
 
@@ -47,19 +51,21 @@ NamedSeconds largest_first(NamedSeconds passes) {
   return passes;
 }
 
-/// Maps of 8 members beside 10 finished ones, as an interrupted ensemble leaves them, make no page.
-void require_current_maps(const FinishedFolder& finished, const LayerStack& maps,
-                          const MemberStore& store) {
-  std::string in_maps;
-  for (const auto& [name, value] : maps.attributes)
-    if (name == "number_of_finished_members") in_maps = value;
-  require(
-      !finished.manifest.hazard_hash.empty() && in_maps == std::to_string(store.members().size()),
-      fmt::format("{}: the maps are not those of its {} finished members (they show {}, or making "
-                  "them was interrupted). Make them again with `sturz merge`, or `sturz merge "
-                  "--partial` where members are missing.",
-                  finished.folder.root.string(), store.members().size(),
-                  in_maps.empty() ? "an unknown number" : in_maps));
+/// A page of some members over the maps of others would mislead.
+void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const MemberStore& store,
+                     const DesignTable& design) {
+  const bool whole = !manifest.hazard_hash.empty();
+  require(whole && manifest.maps_of == members_hash(store, design.n_members()),
+          fmt::format("{}: {} (the page would show what does not belong together; {} of {} members "
+                      "are finished). Run the same `sturz ensemble` again, or make the maps with "
+                      "`sturz merge`{}.",
+                      folder.root.string(),
+                      whole ? "its maps were made from other members than it holds now"
+                            : "its maps are not finished",
+                      store.members().size(), design.n_members(),
+                      static_cast<std::int64_t>(store.members().size()) < design.n_members()
+                          ? " --partial"
+                          : ""));
 }
 
 }  // namespace
@@ -67,7 +73,7 @@ void require_current_maps(const FinishedFolder& finished, const LayerStack& maps
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
                 const PageContent& content) {
   ReportInput input;
-  input.title = scenario.title.empty() ? folder.root.filename().string() : scenario.title;
+  input.title = scenario.title.empty() ? as_utf8(folder.root.filename().string()) : scenario.title;
   input.scenario_yaml = read_text(folder.scenario());
   input.manifest = manifest.lines();
   input.elevation = content.elevation;
@@ -97,29 +103,39 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
                                    CancelFlag cancel) {
-  const FinishedFolder finished = open_finished(folder, observer);
+  FinishedFolder finished = open_finished(folder, observer);
+  const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
+  finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   const bool one_run = finished.manifest.kind == "run";
   const auto maps = one_run ? finished.folder.peaks_nc() : finished.folder.hazard_nc();
   require(std::filesystem::exists(maps),
           fmt::format("{} does not exist (the page shows its maps). {}", maps.string(),
                       one_run ? "Run the scene again." : "Make it with `sturz merge`."));
-  observer.maps_begin();
-  const LayerStack stack = coarse_layers(LayersFileReader(maps), page_cells, cancel);
-  const MemberStore store(finished.folder.members(), MemberCheck::open, cancel);
-  if (!one_run) require_current_maps(finished, stack, store);
   DesignTable design;
+  if (!one_run) design = saved_design(finished.folder, finished.manifest, finished.scenario);
+  const MemberStore store =
+      one_run ? MemberStore(finished.folder.members(), {}, cancel)
+              : members_of(finished.folder, finished.manifest, design, {}, cancel);
+  warn_of_problems(store, "The page does without it.", observer);
+  if (!one_run) require_maps_of(finished.folder, finished.manifest, store, design);
+  if (seal_state(maps) == SealState::broken) require_sealed(maps);
+  observer.maps_begin();
+  const LayersFileReader reader(maps);
+  const LayerStack stack = coarse_layers(reader, page_cells, cancel);
+  std::shared_ptr<const Raster<double>> ground;
+  if (finished.inputs)
+    ground = ground_of_map(finished.scenario, *finished.inputs, reader.about().grid);
   std::vector<ConvergencePoint> convergence;
   MemberResult run;
   PageContent page;
   page.cancel = cancel;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
-    design = saved_design(finished.folder);
     page.design = &design;
     convergence = probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
     page.convergence = convergence;
   }
-  page.elevation = finished.elevation.get();
+  page.elevation = ground.get();
   page.members = store.members();
   if (one_run && !page.members.empty()) {
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/gdal/plane_dataset.hpp"
+#include "io/gdal/planes/plane_dataset.hpp"
 
 #include "io/gdal/crs.hpp"
 
