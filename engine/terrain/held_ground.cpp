@@ -13,14 +13,14 @@ namespace sturz {
 namespace {
 
 /// Nodes beyond a block's own on which its bounds depend, rounded up.
-constexpr int bound_reach = 2;
+constexpr int bound_stencil = 2;
 
 /// Nodes of the window whose blocks' bounds are those of the whole raster.
 Window usable_nodes(const Window& w, const Grid& g) {
-  const int row0 = w.row0 == 0 ? 0 : w.row0 + bound_reach;
-  const int col0 = w.col0 == 0 ? 0 : w.col0 + bound_reach;
-  const int row1 = w.end_row() == g.n_rows ? g.n_rows : w.end_row() - bound_reach;
-  const int col1 = w.end_col() == g.n_cols ? g.n_cols : w.end_col() - bound_reach;
+  const int row0 = w.row0 == 0 ? 0 : w.row0 + bound_stencil;
+  const int col0 = w.col0 == 0 ? 0 : w.col0 + bound_stencil;
+  const int row1 = w.end_row() == g.n_rows ? g.n_rows : w.end_row() - bound_stencil;
+  const int col1 = w.end_col() == g.n_cols ? g.n_cols : w.end_col() - bound_stencil;
   return {row0, col0, std::max(0, row1 - row0), std::max(0, col1 - col0)};
 }
 

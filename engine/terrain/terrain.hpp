@@ -5,7 +5,7 @@
 /// (the excavation of a pre-failure surface). Never a staircase: steps in the surface change the
 /// apparent friction (Iverson & George 2019).
 ///
-/// Of a large raster only a window may be held. Whoever asks for ground beyond it, where the raster
+/// Of a large raster only a window may be held. A question for ground beyond it, where the raster
 /// goes on, gets an answer as beyond the raster's edge, and needs_more() is true from then on:
 /// nothing that was computed on this terrain holds, and it is to be computed again with a larger
 /// window. As long as needs_more() is false every answer has the bits that the whole raster gives.
@@ -67,7 +67,7 @@ struct NodeChange {
   double z = 0;  ///< [m]
 };
 
-/// A flag that many threads may raise and nobody lowers; a copy starts as its original stands.
+/// A flag that many threads may raise and none lowers; a copy starts as its original stands.
 class RaisedFlag {
  public:
   RaisedFlag() = default;

@@ -127,8 +127,8 @@ std::vector<std::string> description_lines(const Scene& scene) {
   lines.push_back(end_line(scene));
   lines.push_back(fmt::format("time step: {:.2g} s ({}); about {} steps", d.dt_s, d.binding_limit,
                               grouped(d.n_steps)));
-  lines.push_back(fmt::format("predicted: about {} a member on one core",
-                              duration_text(d.predicted_seconds)));
+  lines.push_back(
+      fmt::format("predicted: about {} a member on one core", duration_text(d.predicted_seconds)));
   return lines;
 }
 

@@ -209,8 +209,8 @@ WorkingGrid working_grid(RasterSource& source, const std::optional<double>& want
 constexpr int warp_block = 1024;
 /// Of these are kept while a raster is open.
 constexpr std::size_t most_blocks = 8;
-/// Cells of the source that the kernel needs beyond a block, besides its own width.
-constexpr int kernel_margin = 6;
+/// Cells of the source that bilinear weights need beyond a block, besides its own width.
+constexpr int weight_margin = 6;
 
 }  // namespace
 
@@ -291,7 +291,7 @@ class ElevationRaster::Impl {
     const auto [u1, v1] = in_source(x + cell, y);
     const auto [u2, v2] = in_source(x, y - cell);
     ratio_ = {std::hypot(u1 - u0, u2 - u0), std::hypot(v1 - v0, v2 - v0)};
-    for (double& r : ratio_)  // about one needs no wider kernel
+    for (double& r : ratio_)  // about one needs no wider weights
       if (!(r > 1e-6) || !std::isfinite(r) || std::abs(r - 1) < 0.05) r = 1;
   }
 
@@ -318,8 +318,8 @@ class ElevationRaster::Impl {
       }
     if (!(lo[0] <= hi[0] && lo[1] <= hi[1])) return {};
     // Between the points looked at an outline may bulge.
-    const double mu = kernel_margin + 2 * ratio_[0] + 0.02 * (hi[0] - lo[0]);
-    const double mv = kernel_margin + 2 * ratio_[1] + 0.02 * (hi[1] - lo[1]);
+    const double mu = weight_margin + 2 * ratio_[0] + 0.02 * (hi[0] - lo[0]);
+    const double mv = weight_margin + 2 * ratio_[1] + 0.02 * (hi[1] - lo[1]);
     const auto cell = [](double at, int n) {
       return static_cast<int>(std::floor(std::clamp(at, -1.0, n + 1.0)));
     };

@@ -3,11 +3,12 @@
 
 #include "engine/core/error.hpp"
 #include "io/doubts/release_doubts.hpp"
-#include "io/files/sha256.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_raster.hpp"
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
+#include "io/site/hazard_grid.hpp"
+#include "io/site/release_hash.hpp"
 #include "io/site/release_shapes.hpp"
 #include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
@@ -329,39 +330,6 @@ void check_without_terrain(Loading& loading) {
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
   check_zones(loading);
-}
-
-/// Cells in the order of the grid, each with its place, so that a window's own counting of rows and
-/// columns does not enter.
-std::string hash_of_release(const SceneInputs& in) {
-  const Raster<double>&ground = *in.elevation, &release = *in.release;
-  const Window at = window_of(release.grid, in.whole), held = in.held();
-  const Grid& g = in.whole;
-  Sha256 hash;
-  for (int r = 0; r < at.n_rows; ++r)
-    for (int c = 0; c < at.n_cols; ++c) {
-      if (!(release.at(r, c) > 0)) continue;
-      const int row = at.row0 + r, col = at.col0 + c;
-      const std::array<double, 4> cell{std::round((g.x_center(col)) / g.cell_m * 1024),
-                                       std::round((g.y_center(row)) / g.cell_m * 1024),
-                                       ground.at(row - held.row0, col - held.col0),
-                                       release.at(r, c)};
-      hash.add_values(std::span<const double>(cell));
-    }
-  return "sha256:" + hash.hex();
-}
-
-Grid hazard_grid(const Scenario& scenario, const Grid& terrain) {
-  if (!scenario.hazard.cell_size_m) return terrain;
-  const double cell = *scenario.hazard.cell_size_m;
-  require(cell > 0,
-          fmt::format("hazard.cell_size_m = {:g} (must be positive). Give metres.", cell));
-  // Enough cells to cover the terrain; one that would only hold round-off is not added.
-  const double n_cols = std::ceil((terrain.east_m() - terrain.west_m) / cell - 1e-6);
-  const double n_rows = std::ceil((terrain.north_m - terrain.south_m()) / cell - 1e-6);
-  require_raster_size(n_cols, n_rows, "hazard.cell_size_m");
-  return {static_cast<int>(n_cols), static_cast<int>(n_rows), terrain.west_m, terrain.north_m, cell,
-          terrain.crs_wkt};
 }
 
 }  // namespace

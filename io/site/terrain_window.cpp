@@ -88,7 +88,7 @@ FirstGround first_ground(const Scenario& scenario, const SceneInputs& inputs,
   if (!scenario.domain.periodic.empty()) return first;
   const EnergyLine line = energy_line(scenario, inputs, surface);
   if (line.release.n_cells() == 0) return first;  // refused where its thickness is looked at
-  first.reach = reach_of(line, whole, read);
+  first.reach = followed(line, whole, read);
   const double spacing = scenario.numerics.spacing_m;
   if (scenario.terrain.window)
     first.window =

@@ -184,7 +184,7 @@ EnergyLine energy_line(const Scenario& s, const SceneInputs& in, double surface_
   return line;
 }
 
-Reach reach_of(const EnergyLine& line, const Grid& whole, const ReadGround& read,
+Reach followed(const EnergyLine& line, const Grid& whole, const ReadGround& read,
                double most_cells) {
   Window w = widened(line.release, first_look, whole);
   for (;;) {

@@ -52,7 +52,7 @@ inline constexpr double most_reach_cells = 9e6;
 
 /// Looks at no more of the ground than needed: a window around the release that grows where the
 /// line goes on. The answer depends on raster and line alone.
-Reach reach_of(const EnergyLine&, const Grid& whole, const ReadGround&,
+Reach followed(const EnergyLine&, const Grid& whole, const ReadGround&,
                double most_cells = most_reach_cells);
 
 /// Cells around a reach that a mass may need besides: what spreads beyond the line, stencils.

@@ -49,6 +49,13 @@ Terrain excavate(const Terrain& ground, const Raster<double>& thickness, const G
   return ground.with_patch(dug.row0, dug.col0, dug.n_rows, dug.n_cols, std::move(patch));
 }
 
+/// Makes a terrain say that it needs more, where it does not hold the whole raster: a decision was
+/// taken on another copy of the same ground. Of two opposite corners one is missing then.
+void ask_for_more(const Terrain& ground) {
+  ground.node(0, 0);
+  ground.node(ground.grid().n_rows - 1, ground.grid().n_cols - 1);
+}
+
 /// A direction repeats over the terrain's extent; the ground may rise by a constant per period.
 Period period_of(const Raster<double>& z, bool along_x) {
   const Grid& g = z.grid;
@@ -226,8 +233,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
     contact.bed.push_back({b.friction_coefficient, b.pore_pressure_ratio, b.cohesion_pa});
 }
 
-/// How long a member may last, for a comparison of costs before it is released [s]: its end time, or
-/// the longest way at the slowest speed, of which the limit takes four times.
+/// How long a member may last, for a comparison of costs before it is released [s]: its end time,
+/// or the longest way at the slowest speed, of which the limit takes four times.
 double time_to_weigh(const Scenario& s, const SceneInputs& in, const Raster<double>& thickness) {
   if (s.numerics.end_time_s) return *s.numerics.end_time_s;
   double sum = 0, n = 0;
@@ -250,9 +257,12 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   const bool periodic = domain.x.active || domain.y.active;
   Raster<double> thickness = release_thickness(s.release, in);
   FormulationChoice formulation = choose_formulation(s, thickness);
-  if (s.formulation == Formulation::automatic && !formulation.depth_averaged)
-    weigh_cost(s, thickness, scene_ground(s, in, domain, false), time_to_weigh(s, in, thickness),
-               formulation);
+  bool needs_more_ground = false;
+  if (s.formulation == Formulation::automatic && !formulation.depth_averaged) {
+    const Terrain weighed = scene_ground(s, in, domain, false);
+    weigh_cost(s, thickness, weighed, time_to_weigh(s, in, thickness), formulation);
+    needs_more_ground = weighed.needs_more();
+  }
   const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
 
   require(!periodic || s.release.surface == ReleaseSurface::bed,
@@ -261,6 +271,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   ScenePlan plan(s.release.surface == ReleaseSurface::pre_failure
                      ? excavate(ground, thickness, in.terrain_grid())
                      : ground);
+  if (needs_more_ground) ask_for_more(plan.bed);
   plan.formulation = formulation;
   plan.domain = domain;
 

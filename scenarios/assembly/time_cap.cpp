@@ -33,7 +33,7 @@ double slowest_speed(const Scenario& s, double thickness, double density) {
   return speed;
 }
 
-/// Where nobody looked at the ground: its diagonal.
+/// Where the ground was not looked at: its diagonal.
 double longest_way(const SceneInputs& in) {
   if (in.reach) return in.reach->length_m;
   const Grid& g = in.terrain_grid();

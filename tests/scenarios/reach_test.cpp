@@ -38,7 +38,7 @@ EnergyLine line_from(double top, double friction) {
 }
 
 TEST(Reach, IsTheDropOverTheFriction) {
-  const Reach r = reach_of(line_from(100, 0.2), grid, reader(knoll));
+  const Reach r = followed(line_from(100, 0.2), grid, reader(knoll));
   // Level ground at 0: the line of 0.2 from 100 m meets it after 500 m.
   EXPECT_NEAR(r.length_m, 500, 2 * grid.cell_m);
   EXPECT_EQ(r.lowest_m, 0);
@@ -50,7 +50,7 @@ TEST(Reach, IsTheDropOverTheFriction) {
 
 TEST(Reach, LooksAtNoMoreThanItNeeds) {
   double most = 0;
-  reach_of(line_from(100, 0.2), grid, reader(knoll, &most));
+  followed(line_from(100, 0.2), grid, reader(knoll, &most));
   EXPECT_LT(most, 0.5 * static_cast<double>(grid.n_cells()));
 }
 
@@ -59,14 +59,14 @@ TEST(Reach, DoesNotCrossARidgeAboveTheLine) {
   const auto walled = [](double x, double y) {
     return x > 4650 && x < 4700 ? 300.0 : x >= 4700 ? -500.0 : knoll(x, y);
   };
-  const Reach r = reach_of(line_from(100, 0.2), grid, reader(walled));
+  const Reach r = followed(line_from(100, 0.2), grid, reader(walled));
   EXPECT_EQ(r.lowest_m, 0);
   EXPECT_LE(grid.west_m + r.window.end_col() * grid.cell_m, 4650 + grid.cell_m);
 }
 
 TEST(Reach, MeetsTheEndOfTheRasterAndSaysWhere) {
   const auto slope = [](double x, double) { return -0.4 * (x - 4502.5); };
-  const Reach r = reach_of(line_from(0.1, 0.3), grid, reader(slope));
+  const Reach r = followed(line_from(0.1, 0.3), grid, reader(slope));
   EXPECT_EQ(r.end, "east");
   // At the last column's centre the ground has fallen by 0.4, the line by 0.3 per metre.
   const double way = grid.x_center(999) - 4502.5;
@@ -78,7 +78,7 @@ TEST(Reach, TellsUnknownCellsFromTheEnd) {
   const auto holed = [](double x, double y) {
     return std::hypot(x - 4802.5, y - 7002.5) < 30 ? nan_d : knoll(x, y);
   };
-  const Reach r = reach_of(line_from(100, 0.2), grid, reader(holed));
+  const Reach r = followed(line_from(100, 0.2), grid, reader(holed));
   EXPECT_GT(r.above_unknown_m, 40);  // 100 - 0.2 * 330 = 34 on the far side, 46 on the near one
   EXPECT_LT(r.above_unknown_m, 50);
   EXPECT_EQ(r.above_end_m, 0);
@@ -86,7 +86,7 @@ TEST(Reach, TellsUnknownCellsFromTheEnd) {
 
 TEST(Reach, IsCutWhereItGrowsTooLarge) {
   double most = 0;
-  const Reach r = reach_of(line_from(100, 0), grid, reader(knoll, &most), 200000);
+  const Reach r = followed(line_from(100, 0), grid, reader(knoll, &most), 200000);
   EXPECT_TRUE(r.cut);
   EXPECT_LE(most, 200000);
   EXPECT_NEAR(r.length_m, std::hypot(5000, 4000), 1) << "the raster's diagonal stands in";

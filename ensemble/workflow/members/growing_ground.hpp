@@ -21,7 +21,7 @@ class GrowingGround {
 
   /// What a member starts with. From any thread.
   std::shared_ptr<const SceneInputs> now() const;
-  /// More than `held`, read from the files where nobody did before. From any thread; the others
+  /// More than `held`, read from the files where none did before. From any thread; the others
   /// wait. \pre `held` is not the whole raster \throws SetupError when it cannot be read or held
   std::shared_ptr<const SceneInputs> more_than(const SceneInputs& held);
 

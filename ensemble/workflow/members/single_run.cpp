@@ -77,6 +77,7 @@ void store_run(SingleRun& run, const MemberResult& result) {
   Manifest& manifest = run.manifest;
   manifest.compute_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
+  manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
   manifest.write(folder.manifest());
   write_member(folder.members(), result);
   LayerStack peaks = peak_layers(result);

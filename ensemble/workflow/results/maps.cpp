@@ -93,6 +93,8 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
 
 MapsMade make_maps(EnsembleJob& job, Observer& observer) {
   job.manifest.compute_s += seconds_since(job.begin);
+  // Members may have read more of the raster than the first look did.
+  job.manifest.inputs = with_known_parts(job.manifest.inputs, job.scene.ground->now()->identities);
   return make_maps(job.folder, job.manifest, job.scene.scenario, job.design,
                    job.scene.inputs.elevation.get(), observer);
 }
