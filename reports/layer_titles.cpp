@@ -23,6 +23,8 @@ std::string title(Quantity q) {
       return "Arrival time";
     case Quantity::deposit:
       return "Deposit thickness";
+    case Quantity::left:
+      return "Mass past the terrain's edge";
     case Quantity::intensity:
       return "Intensity";
     case Quantity::members:
@@ -59,6 +61,8 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
   switch (meaning.statistic) {
     case Statistic::probability:
       if (meaning.quantity == Quantity::reached) return "Probability that the flow arrives";
+      if (meaning.quantity == Quantity::left)
+        return "Probability that mass leaves the known terrain";
       if (meaning.quantity == Quantity::intensity)
         return "Probability of " + plane_label(layer, plane) + " intensity";
       if (layer.axis.values.empty()) return "Probability of " + lower;
@@ -70,7 +74,8 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
     case Statistic::mean:
       return what + ", mean of members";
     case Statistic::peak:
-      return meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::deposit
+      return meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::deposit ||
+                     meaning.quantity == Quantity::left
                  ? what
                  : "Peak " + lower;
     default:

@@ -143,8 +143,9 @@ struct NumericsSpec {
   double density_diffusion = 0.1;     ///< delta of B.2
   double jitter = 0.05;               ///< of the release lattice, in spacings
   bool stop_at_rest = true;
-  double max_wall_time_s = 0;      ///< per member; 0 = none
-  bool accept_unresolved = false;  ///< run full_stress although under two layers resolve it
+  double stop_energy_fraction = 0.01;  ///< of the peak kinetic energy
+  double max_wall_time_s = 0;          ///< per member; 0 = none
+  bool accept_unresolved = false;      ///< run full_stress although under two layers resolve it
   bool operator==(const NumericsSpec&) const = default;
 };
 

@@ -54,6 +54,13 @@ struct Arrival {
   double mass = 0;         ///< [kg]
 };
 
+/// A particle that crossed the edge of the known ground.
+struct Departure {
+  std::uint32_t id = 0;
+  double x = 0, y = 0, z = 0;  ///< last place on known ground [m]
+  double mass = 0;             ///< [kg]
+};
+
 struct MovingSet : ParticleSet {
   std::string name = "grains";
   double spacing = 1;             ///< initial particle spacing dx [m]
@@ -70,7 +77,8 @@ struct MovingSet : ParticleSet {
   /// What wrapping into the periods took off each particle's map position, by id [m]; empty where
   /// nothing is periodic.
   std::vector<double> wrapped_x, wrapped_y;
-  bool order_changed = true;  ///< particles were added, removed or moved by force
+  std::vector<Departure> departures;  ///< in the order in which they left
+  bool order_changed = true;          ///< particles were added, removed or moved by force
   /// Particles [0, n_listed) are grains of the continuum, the rest isolated ones in flight. Up to
   /// date from the neighbour stage of a step to its end.
   std::size_t n_listed = 0;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace sturz {
@@ -130,6 +131,19 @@ class ParticleWriter {
   Release& out_;
 };
 
+void find_crown(const Terrain& bed, const Raster<double>& thickness, const CellExtent& cells,
+                Release& out) {
+  const Grid& g = thickness.grid;
+  out.crown_z_m = -std::numeric_limits<double>::infinity();
+  for (int r = cells.row0; r <= cells.row1; ++r)
+    for (int c = cells.col0; c <= cells.col1; ++c) {
+      const double h = thickness.at(r, c);
+      if (!(h >= thinnest_column * out.median_thickness_m)) continue;
+      const double x = g.x_center(c), y = g.y_center(r), z = bed.height(x, y) + h;
+      if (z > out.crown_z_m) out.crown_x_m = x, out.crown_y_m = y, out.crown_z_m = z;
+    }
+}
+
 void scale_to(double total, std::vector<double>& mass) {
   Sum sum;
   for (double m : mass) sum.add(m);
@@ -155,6 +169,7 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
   out.max_thickness_m = columns.max_thickness_m;
   out.median_thickness_m = volume_median(columns.columns);
   out.layers = out.median_thickness_m / s.spacing_m;
+  find_crown(bed, thickness, columns.cells, out);
 
   const double least =
       s.columns ? thinnest_column * out.median_thickness_m : thinnest * s.spacing_m;

@@ -30,6 +30,9 @@ struct Release {
   double layers = 0;     ///< volume-weighted median of vertical thickness / spacing
   double median_thickness_m = 0;  ///< volume-weighted
   double max_thickness_m = 0;
+  /// Highest point of the surface of the mass: cell centre of the thickness raster, bed plus
+  /// thickness. Cells under 1 % of the median thickness do not count.
+  double crown_x_m = 0, crown_y_m = 0, crown_z_m = 0;
   /// Of the volume, in lattice cells too thin for a particle (0.2 dx; columns: 1 % of the median
   /// thickness); given to the others.
   double dropped_fraction = 0;

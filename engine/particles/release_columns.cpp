@@ -30,13 +30,9 @@ struct Overlap {
   std::int64_t last() const { return first + static_cast<std::int64_t>(share.size()) - 1; }
 };
 
-struct Extent {
-  int row0 = 0, row1 = -1, col0 = 0, col1 = -1;
-};
-
-Extent survey(const Raster<double>& thickness, ReleaseColumns& out) {
+CellExtent survey(const Raster<double>& thickness, ReleaseColumns& out) {
   const Grid& g = thickness.grid;
-  Extent e{g.n_rows, -1, g.n_cols, -1};
+  CellExtent e{g.n_rows, -1, g.n_cols, -1};
   Sum sum;
   std::size_t n = 0;
   for (int r = 0; r < g.n_rows; ++r)
@@ -62,7 +58,7 @@ Extent survey(const Raster<double>& thickness, ReleaseColumns& out) {
 ReleaseColumns release_columns(const Raster<double>& thickness, double spacing_m) {
   expect(thickness.values.size() == thickness.grid.n_cells(), "a raster has one value per cell");
   ReleaseColumns out;
-  const Extent e = survey(thickness, out);
+  const CellExtent e = out.cells = survey(thickness, out);
   require(out.volume_m3 > 0,
           "release: there is no mass (no cell of the thickness raster is above zero). Check the "
           "polygon or raster, its place and its nodata value.");

@@ -16,11 +16,17 @@ struct ReleaseColumn {
   double thickness_m = 0;  ///< volume of the raster over the column / spacing^2, vertical
 };
 
+/// Rows and columns of a raster, ends included.
+struct CellExtent {
+  int row0 = 0, row1 = -1, col0 = 0, col1 = -1;
+};
+
 struct ReleaseColumns {
   std::vector<ReleaseColumn> columns;  ///< thickness > 0; rows from the north, west to east
   double volume_m3 = 0;                ///< of the raster
   double area_m2 = 0;                  ///< of its cells with thickness > 0
   double max_thickness_m = 0;
+  CellExtent cells;  ///< of the raster that hold all thickness > 0
 };
 
 /// \param thickness vertical [m]; NaN and <= 0 count as nothing

@@ -18,8 +18,8 @@ namespace sturz {
 
 /// Per-cell results of a member. Peaks are maxima over time of each product at one instant
 /// (never max(h) max(v)^2).
-enum class PeakLayer { thickness, speed, energy, pressure, arrival, deposit };
-inline constexpr int n_peak_layers = 6;
+enum class PeakLayer { thickness, speed, energy, pressure, arrival, deposit, left };
+inline constexpr int n_peak_layers = 7;
 
 struct PeakLayerInfo {
   const char* name;  ///< variable name, e.g. "peak_thickness"
@@ -28,13 +28,30 @@ struct PeakLayerInfo {
   float untouched;    ///< value of a cell that the flow never reached: 0, arrival NaN
 };
 const PeakLayerInfo& info(PeakLayer);
+/// Whether a member so censored has this layer: `left` is kept only where mass left.
+inline bool is_kept(PeakLayer layer, Censoring censoring) {
+  return layer != PeakLayer::left || has_left(censoring);
+}
 
 /// One number per member. Units are in the names; see scalar_table() for descriptions.
 struct MemberScalars {
   double runout_m = 0;  ///< horizontal distance, release's centre of mass to farthest reached cell
-  double front_travel_m = 0;   ///< farthest horizontal displacement of a particle from its start
-  double com_travel_m = 0;     ///< horizontal displacement of the centre of mass
-  double drop_m = 0;           ///< highest release elevation minus lowest deposit elevation
+  double front_travel_m = 0;  ///< farthest horizontal displacement of a particle from its start
+  /// Horizontal displacement of the centre of mass. What left the known ground counts where it was
+  /// last seen, here and in com_drop_m and drop_m.
+  double com_travel_m = 0;
+  double com_drop_m = 0;  ///< vertical fall of the centre of mass
+  double com_ratio = 0;   ///< com_drop_m / com_travel_m, tangent; NaN without travel
+  double drop_m = 0;      ///< highest release elevation minus lowest elevation at the end
+  /// Fahrboeschung (Heim 1932; Scheidegger 1973; Corominas 1996): along the straight line in the
+  /// map from the crown, the highest point of the source's surface before it failed, to the toe,
+  /// the deposit's cell (above the runout limit) farthest from the crown. NaN without a deposit.
+  double crown_to_toe_length_m = 0;  ///< L, horizontal
+  double crown_to_toe_drop_m = 0;    ///< H, surface at the crown minus ground at the toe
+  double crown_to_toe_ratio = 0;     ///< H / L, tangent of the travel angle
+  double deposit_front_m = 0;  ///< as runout_m, to the farthest cell of the deposit; NaN without
+  double deposit_com_x_m = 0;  ///< centre of mass of what is there at the end, on the map
+  double deposit_com_y_m = 0;
   double reached_area_m2 = 0;  ///< cells with smoothed thickness above the runout limit at any time
   double deposit_area_m2 = 0;  ///< the same at the end
   double max_speed_m_s = 0;    ///< fastest particle (99.9 % quantile of mass when > 1000 particles)
@@ -46,6 +63,7 @@ struct MemberScalars {
   double release_volume_m3 = 0;  ///< bulk
   double released_mass_kg = 0;
   double lost_mass_kg = 0;     ///< left through the domain boundary or removed, accounted for
+  double lost_fraction = 0;    ///< share of the mass that left the known ground; 0: not censored so
   double mass_error = 0;       ///< (kept + lost - released) / released; exactly 0 expected
   double energy_residual = 0;  ///< unexplained energy / released energy (see Ledger)
   double release_layers = 0;   ///< volume-weighted median vertical thickness / spacing at release
@@ -55,13 +73,16 @@ struct MemberScalars {
   double layers_p10 = 0;  ///< the same for 90 % of the mass
   double take_off_fraction =
       0;  ///< mass and time on ground that curves away faster than it falls; depth_averaged
-  double max_mach = 0;           ///< fastest particle / sound speed
-  double max_density_error = 0;  ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
-  double end_time_s = 0;         ///< simulated
+  double max_mach = 0;             ///< fastest particle / sound speed
+  double max_density_error = 0;    ///< max |rho/rho_ref - 1| of loaded particles (99 % of mass)
+  double end_time_s = 0;           ///< simulated
+  double end_energy_fraction = 0;  ///< kinetic energy at the end / its peak
+  double end_moving_fraction = 0;  ///< mass share at the end faster than max_mean_speed_m_s / 20
   double n_particles = 0;
   double n_steps = 0;
   double mean_dt_s = 0;
   double wall_s = 0;                ///< computing time; not part of any hash
+  double cpu_s = 0;                 ///< of all threads of the member; not part of any hash
   double parted_fraction = 0;       ///< mass x time under 0.98 of its packing; NaN: depth_averaged
   double transition_fraction = 0;   ///< mass x time in that state; 0 without grains.states
   double dilute_fraction = 0;       ///< the same
@@ -88,6 +109,7 @@ struct Window {
 struct MemberResult {
   std::int64_t member = 0;
   Outcome outcome = Outcome::failed;
+  Censoring censoring = Censoring::none;
   std::string reason;  ///< one sentence for diverged, failed, cancelled, left_terrain
   std::string formulation = "full_stress";
   std::string binding_limit;     ///< the time-step limit that bound most steps
@@ -100,9 +122,10 @@ struct MemberResult {
   NamedSeconds pass_seconds;
   /// The same by effect, in the words of `describe`; the same sum.
   NamedSeconds effect_seconds;
-  Grid grid;                                             ///< the whole hazard grid
-  Window window;                                         ///< the part that was touched
-  std::array<std::vector<float>, n_peak_layers> layers;  ///< each [window.n_rows][window.n_cols]
+  Grid grid;      ///< the whole hazard grid
+  Window window;  ///< the part that was touched
+  /// Each [window.n_rows][window.n_cols]; `left` empty where nothing left (is_kept).
+  std::array<std::vector<float>, n_peak_layers> layers;
 
   std::vector<float>& layer(PeakLayer p) { return layers[static_cast<int>(p)]; }
   const std::vector<float>& layer(PeakLayer p) const { return layers[static_cast<int>(p)]; }
@@ -112,6 +135,7 @@ struct MemberResult {
 struct MemberSummary {
   std::int64_t member = 0;
   Outcome outcome = Outcome::failed;
+  Censoring censoring = Censoring::none;
   std::string reason, formulation, binding_limit, warnings;
   std::uint64_t state_hash = 0;
   MemberScalars scalars;

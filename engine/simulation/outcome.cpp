@@ -16,6 +16,13 @@ constexpr std::array<std::pair<Outcome, std::string_view>, 6> words{{
     {Outcome::cancelled, "cancelled"},
 }};
 
+constexpr std::array<std::pair<Censoring, std::string_view>, 4> censorings{{
+    {Censoring::none, "none"},
+    {Censoring::left_terrain, "left_terrain"},
+    {Censoring::still_moving, "still_moving"},
+    {Censoring::left_and_moving, "left_and_moving"},
+}};
+
 }  // namespace
 
 std::string_view to_string(Outcome outcome) {
@@ -26,6 +33,18 @@ std::string_view to_string(Outcome outcome) {
 
 std::optional<Outcome> outcome_from(std::string_view text) {
   for (const auto& [value, word] : words)
+    if (word == text) return value;
+  return std::nullopt;
+}
+
+std::string_view to_string(Censoring censoring) {
+  for (const auto& [value, word] : censorings)
+    if (value == censoring) return word;
+  return "none";
+}
+
+std::optional<Censoring> censoring_from(std::string_view text) {
+  for (const auto& [value, word] : censorings)
     if (word == text) return value;
   return std::nullopt;
 }

@@ -17,7 +17,9 @@ struct ReleaseFacts {
   double layers = 0;        ///< volume-weighted median thickness over the initial particle spacing
   double volume_m3 = 0;     ///< of the source
   double x_m = 0, y_m = 0;  ///< centre of mass
-  double top_m = 0;         ///< highest elevation
+  double top_m = 0;         ///< highest elevation of a particle
+  /// Highest point of the source's surface before it failed.
+  double crown_x_m = 0, crown_y_m = 0, crown_z_m = 0;
 };
 
 /// What a run has to know besides its state.

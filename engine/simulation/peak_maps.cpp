@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 namespace sturz {
@@ -37,22 +39,30 @@ int spread(double place, double width_cells, int n_cells, double* weight) {
   return static_cast<int>(first);
 }
 
-/// Bins of layers: 24 per factor of ten, one edge exactly at four layers.
-constexpr double bins_per_decade = 24;
-constexpr double first_exponent = -2.5;
+/// Weights of both directions; the usual narrow spreads get loops of known length.
+template <int n_fixed>
+std::pair<int, int> weights(double x, double y, double width, int n, double* wx, double* wy) {
+  const int col = spread<n_fixed>(x, width, n, wx);
+  return {spread<n_fixed>(y, width, n, wy), col};
+}
 
-double layers_at(double bin) { return 4 * std::pow(10, first_exponent + bin / bins_per_decade); }
-
-int layer_bin(double layers) {
-  const double bin = (std::log10(layers / 4) - first_exponent) * bins_per_decade;
-  return std::clamp(static_cast<int>(bin), 0, 127);
+std::pair<int, int> weights(double x, double y, double width, int n, double* wx, double* wy) {
+  switch (n) {
+    case 3:
+      return weights<3>(x, y, width, n, wx, wy);
+    case 4:
+      return weights<4>(x, y, width, n, wx, wy);
+    case 5:
+      return weights<5>(x, y, width, n, wx, wy);
+    case 6:
+      return weights<6>(x, y, width, n, wx, wy);
+    default:
+      return weights<0>(x, y, width, n, wx, wy);
+  }
 }
 
 /// Width of a particle's spread [cells]: rounded alike wherever room for its weights is counted.
 double cells_wide(double width_m, double cell_m) { return std::max(1.0, width_m / cell_m); }
-
-/// Room is added with this margin so that a spreading flow seldom moves the arrays [cells].
-int margin(int n) { return 8 + n / 8; }
 
 Window joined(const Window& a, const Window& b) {
   if (a.n_cells() == 0) return b;
@@ -72,10 +82,22 @@ Window clipped(double row0, double row1, double col0, double col1, const Grid& g
           static_cast<int>(col1 - col0) + 1};
 }
 
-bool inside(const Window& outer, const Window& inner) {
-  return inner.row0 >= outer.row0 && inner.col0 >= outer.col0 &&
-         inner.row0 + inner.n_rows <= outer.row0 + outer.n_rows &&
-         inner.col0 + inner.n_cols <= outer.col0 + outer.n_cols;
+/// The cell of the hazard grid where a particle was last seen; off the grid it is nobody's.
+std::optional<std::pair<int, int>> cell_of(const Departure& gone, const Grid& g) {
+  if (!std::isfinite(gone.x + gone.y)) return std::nullopt;
+  const double row = std::floor((g.north_m - gone.y) / g.cell_m);
+  const double col = std::floor((gone.x - g.west_m) / g.cell_m);
+  if (!(row >= 0 && row < g.n_rows && col >= 0 && col < g.n_cols)) return std::nullopt;
+  return std::pair(static_cast<int>(row), static_cast<int>(col));
+}
+
+/// Window of the cells over whose edge mass left.
+Window window_of_departures(std::span<const MovingSet> sets, const Grid& g) {
+  Window all;
+  for (const MovingSet& set : sets)
+    for (const Departure& gone : set.departures)
+      if (const auto cell = cell_of(gone, g)) all = joined(all, {cell->first, cell->second, 1, 1});
+  return all;
 }
 
 }  // namespace
@@ -101,8 +123,9 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
 
 /// Widths of all sets, and the cells that they can touch.
 Window PeakMaps::bounds_of(std::span<const MovingSet> sets) {
-  expect(!sets.empty() && (mass_.empty() || mass_.size() == sets.size()), "the sets stay the same");
-  mass_.resize(sets.size());
+  expect(!sets.empty() && (tiles_.n_sets() == 0 || tiles_.n_sets() == sets.size()),
+         "the sets stay the same");
+  tiles_.set_n_sets(sets.size());
   widths_.clear();
   Window all;
   for (const MovingSet& set : sets) {
@@ -133,198 +156,172 @@ Window PeakMaps::cover(const ParticleSet& p, const Width& width) const {
                  std::ceil((east - g.west_m) * per_cell + support), g);
 }
 
-void PeakMaps::make_room(const Window& w) {
-  if (w.n_cells() == 0 || inside(room_, w)) return;
-  const Window all = joined(room_, w);
-  const int dr = margin(all.n_rows), dc = margin(all.n_cols);
-  const Window next = clipped(all.row0 - dr, all.row0 + all.n_rows - 1 + dr, all.col0 - dc,
-                              all.col0 + all.n_cols - 1 + dc, settings_.grid);
-  std::vector<Peak> peak(next.n_cells());
-  for (int r = 0; r < room_.n_rows; ++r)
-    std::copy_n(peak_.begin() + static_cast<std::ptrdiff_t>(r) * room_.n_cols, room_.n_cols,
-                peak.begin() +
-                    static_cast<std::ptrdiff_t>(r + room_.row0 - next.row0) * next.n_cols +
-                    (room_.col0 - next.col0));
-  peak_.swap(peak);
-  room_ = next;
-  for (auto& mass : mass_) mass.assign(next.n_cells(), 0.0);
-  motion_.assign(next.n_cells(), Motion::Zero());
-}
-
-/// Adds one particle to the cells of the room that it touches.
-/// \tparam n_fixed number of cells per direction, known to the compiler; 0: `n_cells` says it
-template <bool with_motion, int n_fixed>
-inline void PeakMaps::add_one(const Room& room, double x, double y, double width, int n_cells,
-                              double particle_mass, const Motion& motion) {
-  const int n = n_fixed > 0 ? n_fixed : n_cells;
-  const int col = spread<n_fixed>(x, width, n, room.wx),
-            row = spread<n_fixed>(y, width, n, room.wy);
-  const int j0 = std::max(0, -col), j1 = std::min(n, room.n_cols - col);
-  const int i0 = std::max(0, -row), i1 = std::min(n, room.n_rows - row);
-  for (int k = i0; k < i1; ++k) {
-    const double mass_in_row = particle_mass * room.wy[k];
-    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(row + k) * room.n_cols + col;
-    for (int j = j0; j < j1; ++j) {
-      const double mass = mass_in_row * room.wx[j];
-      room.mass[at + j] += mass;
-      if constexpr (with_motion) room.motion[at + j] += mass * motion;
+/// Adds what falls on the cells of one tile. \param part  rows and columns of the spread
+template <bool with_motion>
+inline void PeakMaps::add_part(std::size_t set, const Spread& p, const Window& part) {
+  constexpr int edge = PeakTiles::edge;
+  const int row0 = p.row + part.row0, col0 = p.col + part.col0;
+  const std::size_t slot = tiles_.slot_at(row0 / edge, col0 / edge);
+  const int in_col = col0 % edge;
+  const auto bits = static_cast<std::uint16_t>(((1U << part.n_cols) - 1U) << in_col);
+  const int first = row0 % edge * edge + in_col;
+  double* mass = tiles_.mass(set, slot) + first;
+  Motion* motion = tiles_.motion(slot) + first;
+  std::uint16_t* touched = tiles_.touched(slot) + row0 % edge;
+  const double* wx = &weights_x_[static_cast<std::size_t>(part.col0)];
+  const double* wy = &weights_y_[static_cast<std::size_t>(part.row0)];
+  for (int k = 0; k < part.n_rows; ++k, mass += edge, motion += edge) {
+    touched[k] |= bits;
+    const double mass_in_row = p.mass * wy[k];
+    for (int j = 0; j < part.n_cols; ++j) {
+      const double m = mass_in_row * wx[j];
+      mass[j] += m;
+      if constexpr (with_motion) motion[j] += m * p.motion;
     }
   }
 }
 
-/// Adds every particle. Narrow spreads, the usual ones, get loops of known length: twice as fast.
+/// Adds one particle to the cells on the grid that it touches, tile by tile.
 template <bool with_motion>
-void PeakMaps::scatter_set(const ParticleSet& p, const Width& spread, std::vector<double>& mass) {
+inline void PeakMaps::add_one(std::size_t set, const Spread& p) {
+  constexpr int edge = PeakTiles::edge;
   const Grid& g = settings_.grid;
-  const double per_cell = 1 / g.cell_m, far = 1.5 * spread.cells + 1;
-  const double width_per_radius = settings_.width_per_radius, cell = g.cell_m;
-  const double* const support_radius = spread.support_radius;
-  // Copies, because the compiler must assume that writing a double may change any member.
-  const Room room{weights_x_.data(), weights_y_.data(), mass.data(),
-                  motion_.data(),    room_.n_rows,      room_.n_cols};
-  const double col0 = room_.col0, row0 = room_.row0;
-  double width = spread.cells;
-  int n = spread.n_weights;
+  const int row1 = std::min(p.row + p.n, g.n_rows), col1 = std::min(p.col + p.n, g.n_cols);
+  const int from_col = std::max(p.col, 0);
+  for (int row = std::max(p.row, 0); row < row1;) {
+    const int next_row = std::min(row1, (row / edge + 1) * edge);
+    for (int col = from_col; col < col1;) {
+      const int next_col = std::min(col1, (col / edge + 1) * edge);
+      add_part<with_motion>(set, p, {row - p.row, col - p.col, next_row - row, next_col - col});
+      col = next_col;
+    }
+    row = next_row;
+  }
+}
+
+template <bool with_motion>
+void PeakMaps::scatter_set(const ParticleSet& p, std::size_t set) {
+  const Grid& g = settings_.grid;
+  const Width& widest = widths_[set];
+  const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
+  double width = widest.cells;
+  Spread one;
+  one.n = widest.n_weights;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double x = (p.x[i] - g.west_m) * per_cell - 0.5 - col0;
-    const double y = (g.north_m - p.y[i]) * per_cell - 0.5 - row0;
+    const double x = (p.x[i] - g.west_m) * per_cell - 0.5;
+    const double y = (g.north_m - p.y[i]) * per_cell - 0.5;
     const double vx = p.vx[i], vy = p.vy[i], vz = p.vz[i];
     const double v2 = vx * vx + vy * vy + vz * vz;
-    if (!(x > -far && x < room.n_cols + far && y > -far && y < room.n_rows + far) ||
-        !std::isfinite(v2))
+    if (!(x > -far && x < g.n_cols + far && y > -far && y < g.n_rows + far) || !std::isfinite(v2))
       continue;
-    const Motion motion(vx, vy, vz, 0.5 * v2);
-    if (support_radius) {
-      width = cells_wide(width_per_radius * support_radius[i], cell);
-      n = static_cast<int>(std::ceil(3 * width));
+    if (widest.support_radius) {
+      width = cells_wide(settings_.width_per_radius * widest.support_radius[i], g.cell_m);
+      one.n = static_cast<int>(std::ceil(3 * width));
     }
-    switch (n) {
-      case 3:
-        add_one<with_motion, 3>(room, x, y, width, n, p.mass[i], motion);
-        break;
-      case 4:
-        add_one<with_motion, 4>(room, x, y, width, n, p.mass[i], motion);
-        break;
-      case 5:
-        add_one<with_motion, 5>(room, x, y, width, n, p.mass[i], motion);
-        break;
-      case 6:
-        add_one<with_motion, 6>(room, x, y, width, n, p.mass[i], motion);
-        break;
-      default:
-        add_one<with_motion, 0>(room, x, y, width, n, p.mass[i], motion);
-    }
+    std::tie(one.row, one.col) = weights(x, y, width, one.n, weights_x_.data(), weights_y_.data());
+    one.mass = p.mass[i];
+    one.motion = Motion(vx, vy, vz, 0.5 * v2);
+    add_one<with_motion>(set, one);
   }
 }
 
 template <bool with_motion>
 void PeakMaps::scatter(std::span<const MovingSet> sets) {
-  for (std::size_t k = 0; k < sets.size(); ++k)
-    scatter_set<with_motion>(sets[k], widths_[k], mass_[k]);
+  for (std::size_t k = 0; k < sets.size(); ++k) scatter_set<with_motion>(sets[k], k);
 }
 
 /// Takes the instant's sums into the peaks and clears them.
-void PeakMaps::keep_peaks(std::span<const MovingSet> sets, const Window& w, float time_s) {
+void PeakMaps::keep_peaks(std::span<const MovingSet> sets, float time_s) {
   const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
   const std::size_t n_sets = sets.size();
-  double total = 0;
-  mass_by_layers_.fill(0);
-  for (int r = w.row0 - room_.row0; r < w.row0 - room_.row0 + w.n_rows; ++r)
-    for (int c = w.col0 - room_.col0; c < w.col0 - room_.col0 + w.n_cols; ++c) {
-      const std::size_t k = static_cast<std::size_t>(r) * room_.n_cols + c;
-      double mass = 0, thickness = 0;
-      for (std::size_t n = 0; n < n_sets; ++n) {
-        mass += mass_[n][k];
-        thickness += mass_[n][k] * (per_area / sets[n].bulk_density);
-      }
-      if (mass == 0) continue;
-      Peak& peak = peak_[k];
-      total += mass;
-      for (std::size_t n = 0; n < n_sets; ++n) {
-        double layers = 0;
-        for (std::size_t m = 0; m < n_sets; ++m)
-          layers += mass_[m][k] * (per_area / sets[m].bulk_density / sets[n].spacing);
-        mass_by_layers_[layer_bin(layers)] += mass_[n][k];
-      }
-      peak.thickness = std::max(peak.thickness, static_cast<float>(thickness));
-      if (thickness > settings_.runout_limit_m) {
-        const double density =
-            n_sets == 1 ? sets[0].bulk_density : mass * per_area / thickness;  // of the mixture
-        const Motion& sums = motion_[k];
-        const double speed = sums.matrix().head<3>().norm() / mass;
-        peak.speed = std::max(peak.speed, static_cast<float>(speed));
-        peak.energy = std::max(peak.energy, static_cast<float>(sums[3] * per_area));
-        peak.pressure = std::max(peak.pressure, static_cast<float>(density * speed * speed));
-        if (std::isnan(peak.arrival)) peak.arrival = time_s;
-      }
-      for (auto& of_set : mass_) of_set[k] = 0;
-      motion_[k].setZero();
-    }
-  count_layers(total);
-}
-
-void PeakMaps::count_layers(double total_mass) {
-  layers_ = {};
-  if (!(total_mass > 0)) return;
-  double below = 0;
-  bool half = false, tenth = false;
-  for (int bin = 0; bin < n_bins; ++bin) {
-    if (layers_at(bin + 1) <= 4 * (1 + 1e-12))
-      layers_.thin_fraction += mass_by_layers_[bin] / total_mass;
-    below += mass_by_layers_[bin];
-    const double middle = layers_at(bin + 0.5);
-    if (!tenth && below >= 0.1 * total_mass) tenth = true, layers_.p10 = middle;
-    if (!half && below >= 0.5 * total_mass) half = true, layers_.median = middle;
+  std::vector<double> thickness_per_mass(n_sets), layers_per_mass(n_sets * n_sets);
+  for (std::size_t m = 0; m < n_sets; ++m) {
+    thickness_per_mass[m] = per_area / sets[m].bulk_density;
+    for (std::size_t n = 0; n < n_sets; ++n)
+      layers_per_mass[n * n_sets + m] = per_area / sets[m].bulk_density / sets[n].spacing;
   }
+  double total = 0;
+  histogram_.clear();
+  tiles_.take_sums([&](CellPeak& peak, std::size_t slot, std::size_t cell) {
+    double mass = 0, thickness = 0;
+    for (std::size_t n = 0; n < n_sets; ++n) {
+      const double of_set = tiles_.mass(n, slot)[cell];
+      mass += of_set;
+      thickness += of_set * thickness_per_mass[n];
+    }
+    if (mass == 0) return;
+    total += mass;
+    for (std::size_t n = 0; n < n_sets; ++n) {
+      double layers = 0;
+      for (std::size_t m = 0; m < n_sets; ++m)
+        layers += tiles_.mass(m, slot)[cell] * layers_per_mass[n * n_sets + m];
+      histogram_.add(layers, tiles_.mass(n, slot)[cell]);
+    }
+    peak.thickness = std::max(peak.thickness, static_cast<float>(thickness));
+    if (!(thickness > settings_.runout_limit_m)) return;
+    const double density =
+        n_sets == 1 ? sets[0].bulk_density : mass * per_area / thickness;  // of the mixture
+    const Motion& sums = tiles_.motion(slot)[cell];
+    const double speed = sums.matrix().head<3>().norm() / mass;
+    peak.speed = std::max(peak.speed, static_cast<float>(speed));
+    peak.energy = std::max(peak.energy, static_cast<float>(sums[3] * per_area));
+    peak.pressure = std::max(peak.pressure, static_cast<float>(density * speed * speed));
+    if (std::isnan(peak.arrival)) peak.arrival = time_s;
+  });
+  layers_ = histogram_.count(total);
 }
 
 void PeakMaps::record(std::span<const MovingSet> sets, double time_s) {
   const Window w = bounds_of(sets);
   if (w.n_cells() == 0) return;
-  make_room(w);
+  tiles_.cover(w);
   scatter<true>(sets);
-  keep_peaks(sets, w, static_cast<float>(time_s));
+  keep_peaks(sets, static_cast<float>(time_s));
 }
 
-void PeakMaps::keep_deposit(std::span<const MovingSet> sets, const Window& w) {
+void PeakMaps::keep_deposit(std::span<const MovingSet> sets) {
   const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
-  for (int r = w.row0 - room_.row0; r < w.row0 - room_.row0 + w.n_rows; ++r)
-    for (int c = w.col0 - room_.col0; c < w.col0 - room_.col0 + w.n_cols; ++c) {
-      const std::size_t k = static_cast<std::size_t>(r) * room_.n_cols + c;
-      double thickness = 0;
-      for (std::size_t n = 0; n < sets.size(); ++n) {
-        thickness += mass_[n][k] * (1 / (sets[n].bulk_density * cell_area));
-        mass_[n][k] = 0;
-      }
-      peak_[k].deposit = static_cast<float>(thickness);
-      peak_[k].thickness = std::max(peak_[k].thickness, peak_[k].deposit);
-    }
+  tiles_.take_sums([&](CellPeak& peak, std::size_t slot, std::size_t cell) {
+    double thickness = 0;
+    for (std::size_t n = 0; n < sets.size(); ++n)
+      thickness += tiles_.mass(n, slot)[cell] * (1 / (sets[n].bulk_density * cell_area));
+    peak.deposit = static_cast<float>(thickness);
+    peak.thickness = std::max(peak.thickness, peak.deposit);
+  });
 }
 
-Window PeakMaps::tight_window() const {
-  int row0 = room_.n_rows, row1 = -1, col0 = room_.n_cols, col1 = -1;
-  for (int r = 0; r < room_.n_rows; ++r)
-    for (int c = 0; c < room_.n_cols; ++c)
-      if (peak_[static_cast<std::size_t>(r) * room_.n_cols + c].thickness > 0) {
-        row0 = std::min(row0, r), row1 = std::max(row1, r);
-        col0 = std::min(col0, c), col1 = std::max(col1, c);
-      }
-  if (row1 < 0) return {};
-  return {room_.row0 + row0, room_.col0 + col0, row1 - row0 + 1, col1 - col0 + 1};
+void PeakMaps::write_left(std::span<const MovingSet> sets, MemberResult& result) const {
+  const Window& w = result.window;
+  auto& left = result.layer(PeakLayer::left);
+  left.clear();
+  if (std::all_of(sets.begin(), sets.end(), [](const auto& s) { return s.departures.empty(); }))
+    return;
+  std::vector<double> mass(w.n_cells());
+  for (const MovingSet& set : sets)
+    for (const Departure& gone : set.departures)
+      if (const auto cell = cell_of(gone, settings_.grid))
+        mass[static_cast<std::size_t>(cell->first - w.row0) * w.n_cols + (cell->second - w.col0)] +=
+            gone.mass;
+  left.resize(w.n_cells());
+  const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
+  for (std::size_t k = 0; k < mass.size(); ++k) left[k] = static_cast<float>(per_area * mass[k]);
 }
 
-/// Writes layers and window; \return cells reached, cells covered at the end, and maxima.
+/// Writes layers; \return cells reached, cells covered at the end, and maxima.
 PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
-  result.grid = settings_.grid;
-  result.window = tight_window();
-  for (auto& layer : result.layers) layer.assign(result.window.n_cells(), 0.0f);
+  constexpr int edge = PeakTiles::edge;
+  const Window& w = result.window;
+  for (int k = 0; k < n_peak_layers; ++k)
+    result.layers[static_cast<std::size_t>(k)].assign(w.n_cells(),
+                                                      info(static_cast<PeakLayer>(k)).untouched);
   Totals totals;
-  std::size_t k = 0;
-  for (int r = 0; r < result.window.n_rows; ++r)
-    for (int c = 0; c < result.window.n_cols; ++c, ++k) {
-      const Peak& p =
-          peak_[static_cast<std::size_t>(result.window.row0 - room_.row0 + r) * room_.n_cols +
-                (result.window.col0 - room_.col0 + c)];
+  CellPeak& most = totals.most;
+  for (const PeakTiles::Tile& tile : tiles_.tiles())
+    for (int cell = 0; cell < PeakTiles::n_cells; ++cell) {
+      const CellPeak& p = tile.peak[static_cast<std::size_t>(cell)];
+      const int row = tile.row0 + cell / edge - w.row0, col = tile.col0 + cell % edge - w.col0;
+      if (row < 0 || row >= w.n_rows || col < 0 || col >= w.n_cols) continue;
+      const std::size_t k = static_cast<std::size_t>(row) * w.n_cols + col;
       result.layer(PeakLayer::thickness)[k] = p.thickness;
       result.layer(PeakLayer::speed)[k] = p.speed;
       result.layer(PeakLayer::energy)[k] = p.energy;
@@ -333,7 +330,6 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
       result.layer(PeakLayer::deposit)[k] = p.deposit;
       totals.reached += !std::isnan(p.arrival);
       totals.covered += p.deposit > settings_.runout_limit_m;
-      Peak& most = totals.most;
       most.thickness = std::max(most.thickness, p.thickness);
       most.deposit = std::max(most.deposit, p.deposit);
       most.energy = std::max(most.energy, p.energy);
@@ -343,14 +339,18 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
 }
 
 void PeakMaps::finish(std::span<const MovingSet> final_state, MemberResult& result) {
-  for (Peak& peak : peak_) peak.deposit = 0;
+  for (PeakTiles::Tile& tile : tiles_.tiles())
+    for (CellPeak& peak : tile.peak) peak.deposit = 0;
   const Window w = bounds_of(final_state);
   if (w.n_cells() > 0) {
-    make_room(w);
+    tiles_.cover(w);
     scatter<false>(final_state);
-    keep_deposit(final_state, w);
+    keep_deposit(final_state);
   }
+  result.grid = settings_.grid;
+  result.window = joined(tiles_.window(), window_of_departures(final_state, settings_.grid));
   const Totals totals = write_layers(result);
+  write_left(final_state, result);
   const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
   MemberScalars& s = result.scalars;
   s.reached_area_m2 = static_cast<double>(totals.reached) * cell_area;

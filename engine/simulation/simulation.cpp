@@ -2,9 +2,11 @@
 #include "engine/simulation/simulation.hpp"
 
 #include "engine/core/constants.hpp"
+#include "engine/core/cpu_time.hpp"
 #include "engine/core/hash.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
@@ -56,6 +58,7 @@ class Run {
       : parts_(parts),
         control_(control),
         start_(Clock::now()),
+        cpu_start_(team_cpu_seconds(parts.state.threads)),
         passes_before_(parts.step.timings()),
         removed_before_(n_created(parts.state) - parts.state.n_particles()),
         history_(sample_interval(parts.facts.spacing_m)) {}
@@ -150,8 +153,10 @@ class Run {
     for (const MovingSet& set : s.sets)
       if (const Field* c = set.find(fields::density_change))
         m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
-    if (parts_.stop.at_rest({s.time, s.ledger().kinetic, now_.front, now_.com}) && !ended_)
-      end(Outcome::settled, "");
+    const double kinetic = s.ledger().kinetic;
+    peak_energy_ = std::max(peak_energy_, kinetic);
+    at_rest_ = parts_.stop.at_rest({s.time, kinetic, now_.front, now_.com});
+    if (at_rest_ && parts_.stop.stops_at_rest() && !ended_) end(Outcome::settled, "");
   }
 
   HistoryRow history_row(const StateShares& shares) {
@@ -234,10 +239,14 @@ class Run {
       history_.add_last(history_row(state_shares(s.sets)));
       frame(true);
     }
+    // The time may have ended a member that rest would have ended, had it been asked to.
+    if (result_.outcome == Outcome::out_of_time && at_rest_) result_.outcome = Outcome::settled;
     result_.member = parts_.facts.member;
     result_.formulation = parts_.facts.formulation;
     result_.warnings = parts_.facts.warnings;
     write_balance();
+    result_.censoring =
+        censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
     write_averages();
     if (sound) write_final_state();
     for (const auto& [name, count] : bound_)
@@ -247,6 +256,7 @@ class Run {
     result_.history.has_states = any_has(s, fields::state);
     result_.history.has_temperature = any_has(s, fields::granular_temperature);
     result_.scalars.wall_s = seconds_since(start_);
+    result_.scalars.cpu_s = team_cpu_seconds(s.threads) - cpu_start_;
     share_out(result_.scalars.wall_s);
     return std::move(result_);
   }
@@ -258,12 +268,16 @@ class Run {
     const Ledger ledger = s.ledger();
     const ReleaseFacts& release = parts_.facts.release;
     const double brought = ledger.brought_mass();
-    m.com_travel_m = now_.com;
-    m.drop_m = release.top_m - now_.lowest;
+    write_travel(s, release, m);
+    m.end_energy_fraction = peak_energy_ > 0 ? ledger.kinetic / peak_energy_ : 0;
     m.release_volume_m3 = release.volume_m3;
     m.release_layers = release.layers;
     m.released_mass_kg = ledger.released_mass;
     m.lost_mass_kg = ledger.lost_mass;
+    double left_mass = 0;
+    for (const MovingSet& set : s.sets)
+      for (const Departure& gone : set.departures) left_mass += gone.mass;
+    m.lost_fraction = left_mass / brought;
     m.mass_error = (mass_on_terrain(s) + ledger.lost_mass + ledger.taken_mass - brought) / brought;
     const double released = ledger.available_energy();
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
@@ -296,6 +310,8 @@ class Run {
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
+    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.settings().runout_limit_m,
+                       result_);
     result_.state_hash = hash_of(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
@@ -343,16 +359,17 @@ class Run {
   SimulationParts& parts_;
   const RunControl& control_;
   Clock::time_point start_;
+  double cpu_start_;
   std::vector<PassTime> passes_before_;  // of steps that were made by hand
   std::size_t removed_before_;           // particles that a set was cut by before its run
   MemberResult result_;
   Displacement now_;
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
-  bool ended_ = false;
+  bool ended_ = false, at_rest_ = false;
   std::size_t sampled_step_ = 0;
   double travelled_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
-         p10_time_ = 0, progress_at_ = 0, next_frame_ = 0;
+         p10_time_ = 0, progress_at_ = 0, next_frame_ = 0, peak_energy_ = 0;
   std::vector<ParticleTravel> each_;
   std::vector<double> loaded_;
   StateTimes state_times_;

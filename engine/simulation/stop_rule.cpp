@@ -15,17 +15,18 @@ StopRule::StopRule(const StopSettings& settings)
       arming_time_s_(5 * std::sqrt(settings.release_height_m / standard_gravity)) {}
 
 bool StopRule::at_rest(const MotionSummary& now) {
-  if (!settings_.stop_at_rest) return false;
   peak_energy_ = std::max(peak_energy_, now.kinetic_energy_j);
   armed_ |=
       now.time_s > arming_time_s_ || now.kinetic_energy_j > 1e-4 * settings_.available_energy_j;
   if (!armed_ ||
-      now.kinetic_energy_j > 1e-3 * std::max(peak_energy_, 1e-4 * settings_.available_energy_j)) {
+      now.kinetic_energy_j >
+          settings_.energy_fraction * std::max(peak_energy_, 1e-4 * settings_.available_energy_j)) {
     window_open_ = false;
     return false;
   }
-  const bool moved = std::abs(now.front_m - window_start_.front_m) > 0.1 * settings_.spacing_m ||
-                     std::abs(now.com_m - window_start_.com_m) > 0.02 * settings_.spacing_m;
+  const double least = 0.1 * settings_.spacing_m;
+  const bool moved = std::abs(now.front_m - window_start_.front_m) > least ||
+                     std::abs(now.com_m - window_start_.com_m) > least;
   if (!window_open_ || moved) {
     window_open_ = true;
     window_start_ = now;

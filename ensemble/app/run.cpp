@@ -102,6 +102,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
   console.event(nlohmann::ordered_json{{"event", "done"},
                                        {"outcome", to_string(r.outcome)},
+                                       {"censored", to_string(r.censoring)},
                                        {"reason", r.reason},
                                        {"state_hash", fmt::format("{:016x}", r.state_hash)},
                                        {"scalars", scalars},

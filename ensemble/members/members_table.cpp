@@ -30,7 +30,7 @@ using Cells = std::vector<std::string>;
 std::string line_of(const Cells& cells) { return fmt::format("{}\n", fmt::join(cells, ",")); }
 
 std::string header(const DesignTable& design) {
-  Cells cells{"member", "outcome", "reason", "formulation"};
+  Cells cells{"member", "outcome", "censored", "reason", "formulation"};
   for (const std::string& key : design.keys) cells.push_back(quoted(key));
   for (const ScalarInfo& scalar : scalar_table()) cells.emplace_back(scalar.name);
   cells.insert(cells.end(), {"binding_limit", "warnings", "state_hash"});
@@ -42,8 +42,8 @@ std::string row(const DesignTable& design, const MemberSummary& m) {
           fmt::format("member {} is not in the design table of {} members (results of another "
                       "ensemble?). Use the directory that the design was written to.",
                       m.member, design.n_members()));
-  Cells cells{std::to_string(m.member), std::string(to_string(m.outcome)), quoted(m.reason),
-              quoted(m.formulation)};
+  Cells cells{std::to_string(m.member), std::string(to_string(m.outcome)),
+              std::string(to_string(m.censoring)), quoted(m.reason), quoted(m.formulation)};
   for (const double value : design.values[static_cast<std::size_t>(m.member)])
     cells.push_back(number(value));
   const bool has_result = m.outcome != Outcome::failed && m.outcome != Outcome::cancelled;

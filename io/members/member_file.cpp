@@ -17,7 +17,7 @@
 namespace sturz {
 namespace {
 
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 /// Few rows to a chunk: the statistics read members in bands of rows.
 constexpr int rows_per_chunk = 64, cols_per_chunk = 512;
 
@@ -42,6 +42,7 @@ void write_facts(NetcdfWriter& file, const MemberResult& m) {
   file.integer(global, "member_format", format_version);
   file.integer(global, "member", m.member);
   file.text(global, "outcome", std::string(to_string(m.outcome)));
+  file.text(global, "censored", std::string(to_string(m.censoring)));
   file.text(global, "reason", m.reason);
   file.text(global, "formulation", m.formulation);
   file.text(global, "binding_limit", m.binding_limit);
@@ -86,6 +87,7 @@ void write_maps(NetcdfWriter& file, const MemberResult& m) {
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);
     const PeakLayerInfo& about = info(layer);
+    if (!is_kept(layer, m.censoring)) continue;
     expect(m.layer(layer).size() == m.window.n_cells(), "a member's maps fill its window");
     const int variable = file.variable(about.name, NcType::float32, {dimensions.y, dimensions.x});
     file.compress(variable, chunk);
@@ -155,6 +157,10 @@ MemberSummary read_member_summary(const NetcdfReader& file) {
   const auto known = outcome_from(outcome);
   if (!known) not_a_member(file, fmt::format("has the unknown outcome '{}'", outcome));
   m.outcome = *known;
+  const std::string censored = need_text(file, "censored");
+  const auto censoring = censoring_from(censored);
+  if (!censoring) not_a_member(file, fmt::format("is censored by the unknown '{}'", censored));
+  m.censoring = *censoring;
   m.reason = need_text(file, "reason");
   m.formulation = need_text(file, "formulation");
   m.binding_limit = need_text(file, "binding_limit");
@@ -196,6 +202,7 @@ MemberResult read_member(const std::filesystem::path& path) {
   MemberResult m;
   m.member = s.member;
   m.outcome = s.outcome;
+  m.censoring = s.censoring;
   m.reason = std::move(s.reason);
   m.formulation = std::move(s.formulation);
   m.binding_limit = std::move(s.binding_limit);
@@ -211,6 +218,7 @@ MemberResult read_member(const std::filesystem::path& path) {
   if (m.window.n_cells() == 0) return m;
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);
+    if (!is_kept(layer, m.censoring)) continue;
     auto& values = m.layers[static_cast<std::size_t>(i)];
     file.require_room(static_cast<double>(m.window.n_cells()), info(layer).name);
     values.resize(m.window.n_cells());

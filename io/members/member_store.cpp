@@ -67,8 +67,8 @@ void MemberStore::add(std::int64_t number, MemberCheck check) {
   if (check == MemberCheck::read_all && summary.window.n_cells() > 0) {
     std::vector<float> values(summary.window.n_cells());
     for (int i = 0; i < n_peak_layers; ++i)
-      read_member_rows(file, summary.window, static_cast<PeakLayer>(i), 0, summary.window.n_rows,
-                       values);
+      if (const auto layer = static_cast<PeakLayer>(i); is_kept(layer, summary.censoring))
+        read_member_rows(file, summary.window, layer, 0, summary.window.n_rows, values);
   }
   members_.push_back(std::move(summary));
 }
@@ -116,7 +116,7 @@ void MemberStore::read_rows(std::size_t index, PeakLayer layer, int row0, int n_
   std::fill(out.begin(), out.end(), info(layer).untouched);
   const Window& w = members_[index].window;
   const int first = std::max(row0, w.row0), end = std::min(row0 + n_rows, w.row0 + w.n_rows);
-  if (first >= end || w.n_cols == 0) return;
+  if (first >= end || w.n_cols == 0 || !is_kept(layer, members_[index].censoring)) return;
   const auto width = static_cast<std::size_t>(w.n_cols);
   std::vector<float> rows;  // only when memory is full
   Map map;

@@ -90,7 +90,8 @@ PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) 
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
   return StopRule({s.numerics.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
-                   plan.release.max_thickness_m, plan.available_energy_j});
+                   plan.release.max_thickness_m, plan.available_energy_j,
+                   s.numerics.stop_energy_fraction});
 }
 
 double least_step(const Scenario& s, const ScenePlan& plan) {
@@ -111,6 +112,7 @@ ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
     facts.x_m += share * r.x[i];
     facts.y_m += share * r.y[i];
   }
+  facts.crown_x_m = r.crown_x_m, facts.crown_y_m = r.crown_y_m, facts.crown_z_m = r.crown_z_m;
   facts.top_m = *std::max_element(r.z.begin(), r.z.end());
   return facts;
 }

@@ -308,7 +308,7 @@ std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan)
                   " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
                   " m: the grains act as a parameter only");
   if (s.grains->states && plan.formulation.depth_averaged)
-    out.push_back(
+    out.emplace_back(
         "grains.states is not used: columns have no states. Use formulation: full_stress "
         "where the grains may disperse");
   const bool collides =

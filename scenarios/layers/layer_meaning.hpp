@@ -15,6 +15,7 @@ enum class Quantity {
   pressure,   ///< dynamic
   arrival,    ///< time until the flow comes
   deposit,    ///< thickness left behind
+  left,       ///< mass that crossed the edge of the known ground
   intensity,  ///< a class of thickness and speed together
   members,    ///< of the ensemble
   other
@@ -37,11 +38,11 @@ enum class IntensityClass { none, medium, high };
 // The words stand in result files and in the page's data.
 constexpr auto words_of(Quantity) {
   using enum Quantity;
-  return std::array{Word{reached, "reached"},   Word{thickness, "thickness"},
-                    Word{speed, "speed"},       Word{energy, "energy"},
-                    Word{pressure, "pressure"}, Word{arrival, "arrival"},
-                    Word{deposit, "deposit"},   Word{intensity, "intensity"},
-                    Word{members, "members"},   Word{other, "other"}};
+  return std::array{
+      Word{reached, "reached"}, Word{thickness, "thickness"}, Word{speed, "speed"},
+      Word{energy, "energy"},   Word{pressure, "pressure"},   Word{arrival, "arrival"},
+      Word{deposit, "deposit"}, Word{left, "left"},           Word{intensity, "intensity"},
+      Word{members, "members"}, Word{other, "other"}};
 }
 constexpr auto words_of(Statistic) {
   using enum Statistic;
@@ -87,6 +88,8 @@ constexpr Quantity quantity_of(PeakLayer layer) {
       return Quantity::arrival;
     case PeakLayer::deposit:
       return Quantity::deposit;
+    case PeakLayer::left:
+      return Quantity::left;
   }
   return Quantity::other;
 }

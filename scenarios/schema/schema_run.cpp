@@ -42,6 +42,10 @@ void add_numerics(std::vector<KeyInfo>& keys) {
   keys.push_back(key(numerics, &NumericsSpec::stop_at_rest,
                      {"numerics.stop_at_rest", flag, "", -no_limit, no_limit,
                       "Stop a member when its mass has come to rest."}));
+  keys.push_back(key(numerics, &NumericsSpec::stop_energy_fraction,
+                     {"numerics.stop_energy_fraction", number, "1", 1e-6, 0.1,
+                      "At rest: the front stands, and no more than this share of the peak kinetic "
+                      "energy is left."}));
   keys.push_back(key(numerics, &NumericsSpec::max_wall_time_s,
                      {"numerics.max_wall_time_s", number, "s", 0, 1e7,
                       "Computing time after which a member counts as failed; 0 sets no limit."}));

@@ -92,7 +92,8 @@ void add_release(std::vector<KeyInfo>& keys) {
                  "from which the source is dug."));
   keys.push_back(with_size(key(release, &ReleaseSpec::velocity_m_s,
                                {"release.velocity_m_s", number_list, "m s-1", -500, 500,
-                                "Velocity of the source at the start: east, north, up."}),
+                                "Velocity of the source at the start: east, north, up. Columns "
+                                "take what points along the slope."}),
                            3));
 }
 

@@ -76,17 +76,18 @@ std::size_t column(const std::vector<std::string>& header, const std::string& na
 TEST(MembersCsv, HasOneLinePerMemberInAscendingOrder) {
   const auto table = lines(members_csv(design(), summaries()));
   ASSERT_EQ(table.size(), 3U);
-  EXPECT_THAT(table[0], StartsWith("member,outcome,reason,formulation,basal.friction_coefficient,"
-                                   "release.volume_m3,"));
-  EXPECT_THAT(table[1], StartsWith("0,settled,,full_stress,0.1,2000000"));
+  EXPECT_THAT(table[0],
+              StartsWith("member,outcome,censored,reason,formulation,basal.friction_coefficient,"
+                         "release.volume_m3,"));
+  EXPECT_THAT(table[1], StartsWith("0,settled,none,,full_stress,0.1,2000000"));
   const std::size_t width = cells(table[0]).size();
-  EXPECT_EQ(width, 6 + scalar_table().size() + 3);
+  EXPECT_EQ(width, 7 + scalar_table().size() + 3);
   for (const std::string& line : table) EXPECT_EQ(cells(line).size(), width);
 }
 
 TEST(MembersCsv, QuotesReasonsWithCommasQuotesAndLineEnds) {
   const auto table = lines(members_csv(design(), summaries()));
-  EXPECT_EQ(cells(table[2])[2], "release.polygon: \"source.gpkg\", layer 2\nis empty");
+  EXPECT_EQ(cells(table[2])[3], "release.polygon: \"source.gpkg\", layer 2\nis empty");
   EXPECT_THAT(table[2], HasSubstr("\"release.polygon: \"\"source.gpkg\"\", layer 2\nis empty\""));
 }
 
@@ -94,8 +95,19 @@ TEST(MembersCsv, WritesNumbersThatReadBackToTheSameBits) {
   const auto table = lines(members_csv(design(), summaries()));
   const auto header = cells(table[0]);
   EXPECT_EQ(std::stod(cells(table[1])[column(header, "runout_m")]), 0.1 + 0.2);
-  EXPECT_EQ(std::stod(cells(table[2])[4]), 1.0 / 3);
+  EXPECT_EQ(std::stod(cells(table[2])[5]), 1.0 / 3);
   EXPECT_EQ(cells(table[1])[column(header, "max_speed_m_s")], "") << "NaN is an empty cell";
+}
+
+TEST(MembersCsv, SaysInAWordWhyAMembersEndWasNotSeen) {
+  std::vector<MemberSummary> members = summaries();
+  members[1].outcome = Outcome::left_terrain;
+  members[1].censoring = Censoring::left_and_moving;
+  members[1].scalars.lost_fraction = 0.25;
+  const auto table = lines(members_csv(design(), members));
+  const auto header = cells(table[0]), row = cells(table[1]);
+  EXPECT_EQ(row[column(header, "censored")], "left_and_moving");
+  EXPECT_EQ(row[column(header, "lost_fraction")], "0.25");
 }
 
 TEST(MembersCsv, GivesAFailedMemberNoResults) {

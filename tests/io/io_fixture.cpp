@@ -122,6 +122,7 @@ MemberResult made_up_member(std::int64_t number) {
   MemberResult m;
   m.member = number;
   m.outcome = Outcome::settled;
+  if (number % 2 == 1) m.censoring = Censoring::left_terrain;
   m.binding_limit = "acoustic";
   m.warnings = "thin flow: 2.7 layers";
   m.state_hash = 0xfedcba9876543210ULL + static_cast<std::uint64_t>(number);
@@ -140,6 +141,7 @@ MemberResult made_up_member(std::int64_t number) {
       m.layers[static_cast<std::size_t>(layer)].push_back(0.1F * static_cast<float>(number + 1) +
                                                           10.0F * static_cast<float>(layer) +
                                                           static_cast<float>(i) / 3);
+  if (!has_left(m.censoring)) m.layer(PeakLayer::left).clear();
   m.layer(PeakLayer::arrival)[0] = nan_f;
   m.layer(PeakLayer::speed)[1] = -0.0F;
   m.layer(PeakLayer::energy)[2] = 1e-42F;  // subnormal

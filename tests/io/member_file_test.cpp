@@ -44,6 +44,7 @@ void expect_same(const MemberHistory& a, const MemberHistory& b) {
 void expect_same(const MemberResult& a, const MemberResult& b) {
   EXPECT_EQ(a.member, b.member);
   EXPECT_EQ(a.outcome, b.outcome);
+  EXPECT_EQ(a.censoring, b.censoring);
   EXPECT_EQ(a.reason, b.reason);
   EXPECT_EQ(a.formulation, b.formulation);
   EXPECT_EQ(a.binding_limit, b.binding_limit);
@@ -167,9 +168,10 @@ class Store : public MemberFile {
               const bool inside = row >= w.row0 && row < w.row0 + w.n_rows && col >= w.col0 &&
                                   col < w.col0 + w.n_cols;
               expected.push_back(
-                  inside ? all[k].layer(layer)[static_cast<std::size_t>(row - w.row0) * w.n_cols +
-                                               (col - w.col0)]
-                         : info(layer).untouched);
+                  inside && !all[k].layer(layer).empty()
+                      ? all[k].layer(layer)[static_cast<std::size_t>(row - w.row0) * w.n_cols +
+                                            (col - w.col0)]
+                      : info(layer).untouched);
             }
           EXPECT_TRUE(same_bits(rows, expected)) << k << " " << i << " " << row0;
         }

@@ -185,8 +185,8 @@ class MadeUpSource : public MemberSource {
     for (int k = 0; k < scene.n_members; ++k) {
       results_.push_back(make_member(k, scene, grid_, design.values[static_cast<std::size_t>(k)]));
       const MemberResult& r = results_.back();
-      summaries_.push_back({r.member, r.outcome, r.reason, r.formulation, "sound", r.warnings,
-                            r.state_hash, r.scalars, r.window, r.effect_seconds});
+      summaries_.push_back({r.member, r.outcome, r.censoring, r.reason, r.formulation, "sound",
+                            r.warnings, r.state_hash, r.scalars, r.window, r.effect_seconds});
     }
   }
   const std::vector<MemberSummary>& members() const override { return summaries_; }

@@ -19,6 +19,7 @@ class MemoryMembers : public MemberSource {
     MemberSummary summary;
     summary.member = result.member;
     summary.outcome = result.outcome;
+    summary.censoring = result.censoring;
     summary.reason = result.reason;
     summary.formulation = result.formulation;
     summary.state_hash = result.state_hash;
@@ -44,6 +45,7 @@ class MemoryMembers : public MemberSource {
     const int y = row - r.window.row0, x = col - r.window.col0;
     if (y < 0 || y >= r.window.n_rows || x < 0 || x >= r.window.n_cols)
       return info(layer).untouched;
+    if (r.layer(layer).empty()) return info(layer).untouched;
     return r.layer(layer)[static_cast<std::size_t>(y) * r.window.n_cols + x];
   }
 
@@ -77,7 +79,7 @@ inline MemberResult random_member(std::int64_t member, const Grid& grid, std::mt
   r.window.col0 = whole(0, grid.n_cols - 1);
   r.window.n_rows = whole(0, grid.n_rows - r.window.row0);
   r.window.n_cols = whole(0, grid.n_cols - r.window.col0);
-  const float scale[n_peak_layers] = {0.25F, 0.5F, 5000, 2000, 1, 0.25F};
+  const float scale[n_peak_layers] = {0.25F, 0.5F, 5000, 2000, 1, 0.25F, 100};
   for (int layer = 0; layer < n_peak_layers; ++layer)
     r.layers[layer].assign(r.window.n_cells(), info(static_cast<PeakLayer>(layer)).untouched);
   for (std::size_t cell = 0; cell < r.window.n_cells(); ++cell) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -91,7 +92,7 @@ class StartVelocity {
 /// Looks up the ground under every particle and what the mirrored halves add to its gradients.
 class BoundaryPass final : public Pass {
  public:
-  BoundaryPass(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {}
+  BoundaryPass(std::size_t set, ContactSettings c) : set_(set), settings_(std::move(c)) {}
   std::string_view name() const override { return "ground and wall support"; }
   std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::boundary; }
@@ -276,7 +277,7 @@ class GroundContact final : public Pass {
 /// The domain's analytic planes, each until it is removed.
 class WallContact final : public Pass {
  public:
-  WallContact(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {}
+  WallContact(std::size_t set, ContactSettings c) : set_(set), settings_(std::move(c)) {}
   std::string_view name() const override { return "wall contact"; }
   std::string_view effect() const override { return EffectName::walls; }
   Stage stage() const override { return Stage::contact; }

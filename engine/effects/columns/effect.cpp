@@ -45,11 +45,11 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
     const EarthPressure& e = set.earth_pressure[zone];
     k->component[0][i] = std::clamp(1.0, e.active, e.passive);
   }
-  const Vec3 v0(p.vx[i], p.vy[i], p.vz[i]);
-  first.rate =
-      std::max(first.rate, set.bed[zone].rate(v0.norm(), thickness, set.density, s.gravity));
+  // The ground takes what points into it at once; what points out of it lifts no column.
+  const Velocity v = Velocity{p.vx[i], p.vy[i], p.vz[i]}.in_plane(ground[i].east, ground[i].north);
+  first.rate = std::max(
+      first.rate, set.bed[zone].rate(std::sqrt(v.norm2()), thickness, set.density, s.gravity));
   first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (support_radius * support_radius));
-  const Velocity v = Velocity{v0.x(), v0.y(), v0.z()}.turned(ground[i].east, ground[i].north);
   p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
 }
 

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace sturz {
@@ -27,7 +28,8 @@ struct ColumnFlow {
   /// Column i beside a wall.
   ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;
 
-  ColumnFlow(std::size_t set_index, const DepthAveragedSettings& s) : set(set_index), settings(s) {}
+  ColumnFlow(std::size_t set_index, DepthAveragedSettings s)
+      : set(set_index), settings(std::move(s)) {}
 
   ColumnSweepOutput output() {
     return {results[0].data(), results[1].data(), results[2].data(), results[3].data(),
@@ -76,13 +78,17 @@ struct Velocity {
   double x, y, z;
 
   double norm2() const { return x * x + y * y + z * z; }
+  /// What lies in the plane with these slopes: v - (v . n) n.
+  Velocity in_plane(double east, double north) const {
+    const double off = (z - east * x - north * y) / (1 + east * east + north * north);
+    return {x + east * off, y + north * off, z - off};
+  }
   /// Turned into the plane with these slopes, its length kept: the ground's reaction does no work.
   Velocity turned(double east, double north) const {
-    const double off = (z - east * x - north * y) / (1 + east * east + north * north);
-    const Velocity in_plane{x + east * off, y + north * off, z - off};
-    const double length2 = in_plane.norm2(), factor = length2 > 0 ? norm2() / length2 : 0;
+    const Velocity along = in_plane(east, north);
+    const double length2 = along.norm2(), factor = length2 > 0 ? norm2() / length2 : 0;
     const double scale = std::sqrt(factor);
-    return {in_plane.x * scale, in_plane.y * scale, in_plane.z * scale};
+    return {along.x * scale, along.y * scale, along.z * scale};
   }
 };
 

@@ -15,6 +15,19 @@ Vec3 start_velocity(const ParticleSet& p, std::size_t i) {
   return {before->component[0][i], before->component[1][i], before->component[2][i]};
 }
 
+/// Where the last step found it. One that was never on known ground is booked where it is.
+Departure departure(const State& s, const MovingSet& p, std::size_t i) {
+  const Vec3 v = start_velocity(p, i);
+  // Its velocity has changed a little since, so one step back may not be quite enough.
+  for (const double steps : {1.0, 2.0, 4.0}) {
+    const double dt = steps * s.previous_dt;
+    double x = p.x[i] - dt * v.x(), y = p.y[i] - dt * v.y(), z = p.z[i] - dt * v.z();
+    s.domain.wrap(x, y, z);
+    if (s.terrain.inside(x, y)) return {p.id[i], x, y, z, p.mass[i]};
+  }
+  return {p.id[i], p.x[i], p.y[i], p.z[i], p.mass[i]};
+}
+
 }  // namespace
 
 void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& keep) {
@@ -27,6 +40,7 @@ void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& kee
     if (keep[i]) continue;
     p.corrupt = p.corrupt || !std::isfinite(p.x[i] + p.y[i] + p.z[i]);
     const bool taken = p.fate[i] == Fate::taken;
+    if (p.fate[i] == Fate::off_terrain) p.departures.push_back(departure(s, p, i));
     const double energy = 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
     (taken ? p.ledger.taken_mass : p.ledger.lost_mass) += p.mass[i];
     (taken ? p.ledger.taken_energy : p.ledger.lost_energy) += energy;

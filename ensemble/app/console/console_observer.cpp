@@ -31,6 +31,7 @@ void ConsoleObserver::member_stored(const MemberResult& result) {
   console_.event(nlohmann::json{{"event", "member"},
                                 {"member", result.member},
                                 {"outcome", to_string(result.outcome)},
+                                {"censored", to_string(result.censoring)},
                                 {"reason", result.reason},
                                 {"wall_s", s.wall_s},
                                 {"front_travel_m", s.front_travel_m}}

@@ -26,8 +26,8 @@ std::string as_text(const NamedSeconds& times) {
 }
 
 MemberSummary summary_of(const MemberResult& r) {
-  return {r.member,   r.outcome,    r.reason,  r.formulation, r.binding_limit,
-          r.warnings, r.state_hash, r.scalars, r.window,      r.effect_seconds};
+  return {r.member,   r.outcome,    r.censoring, r.reason, r.formulation,   r.binding_limit,
+          r.warnings, r.state_hash, r.scalars,   r.window, r.effect_seconds};
 }
 
 }  // namespace
@@ -81,6 +81,7 @@ void store_run(SingleRun& run, const MemberResult& result) {
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
       {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
       {"outcome", std::string(to_string(result.outcome))},
+      {"censored", std::string(to_string(result.censoring))},
       {"formulation", result.formulation},
       {"computing_time_by_effect", as_text(result.effect_seconds)}};
   write_layers(folder.peaks_nc(), peaks, result.history);

@@ -232,7 +232,7 @@ TEST(FusedSweep, WithoutGrainsAboveAWallIsNotMirrored) {
   const auto alone = test::fast_sweep(sheet, constants, fastest()).rates[40];
   EXPECT_NEAR(alone.mirror_weight, 0, 1e-6);
   EXPECT_NEAR(alone.gradient(2, 2), 0, 1e-6);
-  const auto carried = test::fast_sweep(layers, constants, fastest()).rates[40 * 4];
+  const auto carried = test::fast_sweep(layers, constants, fastest()).rates[std::size_t{40} * 4];
   EXPECT_EQ(carried.mirror_weight, 1);
   EXPECT_LT(carried.gradient(2, 2), -0.1);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// docs/physics.md A.5: R = 10 mm, E = 50 GPa, nu = 0.28, rho = 2600, v = 1 m/s.
-constexpr double R = 0.01, speed = 1;
+constexpr double r0 = 0.01, speed = 1;
 const GrainMaterial rock;
 
 double sphere_mass(double radius) { return 4.0 / 3 * pi * radius * radius * radius * rock.density; }
@@ -22,16 +22,16 @@ ContactPair spheres(double restitution, const GrainMaterial& material = rock) {
   ContactPair pair;
   pair.modulus = contact_modulus(material, material);
   pair.shear_modulus = contact_shear_modulus(material, material);
-  pair.radius = R / 2;
-  pair.mass = sphere_mass(R) / 2;
+  pair.radius = r0 / 2;
+  pair.mass = sphere_mass(r0) / 2;
   pair.damping = restitution < 1 ? damping_ratio(restitution) : 0;
   return pair;
 }
 
 ContactPair wall(double restitution, const GrainMaterial& material = rock) {
   ContactPair pair = spheres(restitution, material);
-  pair.radius = R;
-  pair.mass = sphere_mass(R);
+  pair.radius = r0;
+  pair.mass = sphere_mass(r0);
   return pair;
 }
 
@@ -202,22 +202,22 @@ struct Rebound {
 /// A sphere without spin flies against a wall z = 0; velocity Verlet with the damper's velocity
 /// predicted, n steps per impact.
 Rebound bounce(const ContactPair& pair, Vec3 v, int n) {
-  const double m = pair.mass, inertia = 0.4 * m * R * R;
+  const double m = pair.mass, inertia = 0.4 * m * r0 * r0;
   const double dt = impact_duration(pair, -v.z()) / n, before = 0.5 * m * v.squaredNorm();
   const Vec3 up(0, 0, 1);
   Vec3 history(0, 0, 0), acceleration(0, 0, 0);
-  double z = R, spin = 0, spin_rate = 0;
+  double z = r0, spin = 0, spin_rate = 0;
   const auto touching = [&](const Vec3& u, double w, double arm) {
     return Vec3(u.x() - w * arm, u.y(), u.z());  // u + w e_y x (-arm e_z)
   };
-  for (int k = 0; k < 20 * n && (k == 0 || z < R); ++k) {
+  for (int k = 0; k < 20 * n && (k == 0 || z < r0); ++k) {
     v += 0.5 * dt * acceleration;
     spin += 0.5 * dt * spin_rate;
     z += dt * v.z();
     const double arm = z;
     const Vec3 slip = dt * touching(v, spin, arm);
     const Vec3 at = touching(v + 0.5 * dt * acceleration, spin + 0.5 * dt * spin_rate, arm);
-    const ContactForce f = press_contact(pair, R - z, up, at, slip, history);
+    const ContactForce f = press_contact(pair, r0 - z, up, at, slip, history);
     acceleration = f.force / m;
     spin_rate = -arm * f.force.x() / inertia;
     v += 0.5 * dt * acceleration;
@@ -238,7 +238,7 @@ TEST(HertzMindlin, ObliqueImpactSlidesBeyondTheCriticalAngle) {  // V12b
     EXPECT_NEAR(out.velocity.z(), e * vn, 0.002 * vn) << angle;
     EXPECT_LE(out.gained_energy, 0) << angle;
     // Whatever happened, the spin about the point of contact was kept: dw = -(5/2) dv_t/R.
-    EXPECT_NEAR(out.spin, -2.5 * gain / R, 0.03 * std::abs(2.5 * full / R)) << angle;
+    EXPECT_NEAR(out.spin, -2.5 * gain / r0, 0.03 * std::abs(2.5 * full / r0)) << angle;
     if (std::tan(psi) >= critical) {
       ++sliding;
       EXPECT_NEAR(gain, full, 0.03 * std::abs(full)) << angle;
@@ -264,10 +264,10 @@ TEST(HertzMindlin, SoftenedModulusKeepsOverlapsSmall) {
     for (double share : {0.01, 0.05}) {
       const GrainMaterial any = softened(hard, softest_modulus(rock.density, v, share));
       const GrainMaterial equal = softened(hard, softest_modulus(rock.density, v, share, true));
-      EXPECT_LE(collide(wall(1, any), v, 500).overlap, share * R * (1 + 1e-5));
-      EXPECT_LE(collide(spheres(1, any), v, 500).overlap, share * R);
-      EXPECT_NEAR(collide(spheres(1, equal), v, 500).overlap, share * R, 1e-4 * share * R);
-      EXPECT_LE(collide(spheres(0.5, any), v, 500).overlap, share * R);
+      EXPECT_LE(collide(wall(1, any), v, 500).overlap, share * r0 * (1 + 1e-5));
+      EXPECT_LE(collide(spheres(1, any), v, 500).overlap, share * r0);
+      EXPECT_NEAR(collide(spheres(1, equal), v, 500).overlap, share * r0, 1e-4 * share * r0);
+      EXPECT_LE(collide(spheres(0.5, any), v, 500).overlap, share * r0);
       EXPECT_LT(any.youngs_modulus, hard.youngs_modulus);
     }
   EXPECT_EQ(softened(rock, 1e15).youngs_modulus, rock.youngs_modulus);  // never hardened
@@ -275,14 +275,14 @@ TEST(HertzMindlin, SoftenedModulusKeepsOverlapsSmall) {
 
 TEST(HertzMindlin, TimeStepResolvesWavesAndImpacts) {
   // docs/physics.md B.12: 0.2 T_R = 2.5e-6 s at R = 10 mm, E = 50 GPa.
-  EXPECT_NEAR(0.2 * rayleigh_time(rock, R), 2.5e-6, 0.1e-6);
-  EXPECT_NEAR(rayleigh_time(rock, R),
-              pi * R * std::sqrt(2600 * 2 * 1.28 / 5e10) / (0.1631 * 0.28 + 0.8766), 1e-12);
-  EXPECT_EQ(contact_time_step(rock, R, spheres(1), 1e-3), 0.2 * rayleigh_time(rock, R));
+  EXPECT_NEAR(0.2 * rayleigh_time(rock, r0), 2.5e-6, 0.1e-6);
+  EXPECT_NEAR(rayleigh_time(rock, r0),
+              pi * r0 * std::sqrt(2600 * 2 * 1.28 / 5e10) / (0.1631 * 0.28 + 0.8766), 1e-12);
+  EXPECT_EQ(contact_time_step(rock, r0, spheres(1), 1e-3), 0.2 * rayleigh_time(rock, r0));
   const GrainMaterial soft = softened(rock, softest_modulus(rock.density, 40));
-  const double dt = contact_time_step(soft, R, wall(1, soft), 40);
+  const double dt = contact_time_step(soft, r0, wall(1, soft), 40);
   EXPECT_EQ(dt, impact_duration(wall(1, soft), 40) / 20);
-  EXPECT_LT(dt, 0.2 * rayleigh_time(soft, R));
+  EXPECT_LT(dt, 0.2 * rayleigh_time(soft, r0));
 }
 
 }  // namespace

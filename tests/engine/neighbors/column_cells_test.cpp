@@ -108,7 +108,7 @@ class BruteForce {
       const auto seen = found.offsets(record, j);
       std::vector<Vec3> real;
       for (const Vec3& shift : shifts_)
-        real.push_back(Vec3(p.x[j] - p.x[i], p.y[j] - p.y[i], p.z[j] - p.z[i]) + shift);
+        real.emplace_back(Vec3(p.x[j] - p.x[i], p.y[j] - p.y[i], p.z[j] - p.z[i]) + shift);
       for (const Vec3& offset : real) {
         // On the edge of the support a neighbour weighs nothing.
         if (in_plan(offset) >= within * (1 - 1e-7)) continue;
@@ -186,9 +186,9 @@ TEST(ColumnCells, FindEveryPairOfMixedSupportRadii) {
 
 TEST(ColumnCells, FindEveryPairOfADenseClump) {
   Cloud c = random_cloud(300, 0.05, 0.05, 4, 4);
-  expect_all_found(c, 300 * 300);
+  expect_all_found(c, 300L * 300);
   for (int k = 0; k < 100; ++k) c.add(3, 2, 4);  // on one another
-  expect_all_found(c, 400 * 400);
+  expect_all_found(c, 400L * 400);
 }
 
 TEST(ColumnCells, FindEveryPairOfALine) {
@@ -198,7 +198,7 @@ TEST(ColumnCells, FindEveryPairOfALine) {
       const double s = 0.7 * k, along = 1 / std::hypot(1, slope);
       c.add(s * along, s * along * slope, 3);
     }
-    expect_all_found(c, 300 * 8);
+    expect_all_found(c, 300L * 8);
   }
 }
 
@@ -255,10 +255,10 @@ TEST(ColumnCells, FindPeriodicImagesAlongBothAndOverTheCorners) {
   Cloud corner = random_cloud(60, 3, 3, 4, 4);
   for (const double length : {4937.0, 4992.0, 5028.0}) {
     d.x = period(0, length, -1), d.y = period(0, length, 1);
-    expect_all_found(corner, 60 * 40, d);
+    expect_all_found(corner, 60L * 40, d);
   }
   corner.add(5027, 5027, 4), corner.add(5026, 1, 4), corner.add(2, 5025.5, 4);
-  expect_all_found(corner, 60 * 40, d);
+  expect_all_found(corner, 60L * 40, d);
 }
 
 TEST(ColumnCells, FindTheImagesOfANarrowPeriodAsOftenAsTheyRepeat) {

@@ -133,11 +133,15 @@ TEST(StopRule, WindowsShrinkWithTheScale) {
   EXPECT_LT(stop_time(flume, still), armed + 5 * std::sqrt(0.015 / standard_gravity) + 0.1);
 }
 
-TEST(StopRule, CanBeSwitchedOffAndKnowsItsEnd) {
+TEST(StopRule, KnowsRestWhetherItEndsTheRunOrNot) {
   StopSettings s = field_scale();
+  const auto still = [](double) { return MotionSummary{}; };
+  EXPECT_TRUE(StopRule(s).stops_at_rest());
+  const double with = stop_time(s, still);
   s.stop_at_rest = false;
-  EXPECT_EQ(stop_time(s, [](double) { return MotionSummary{}; }), never);
+  EXPECT_EQ(stop_time(s, still), with);
   const StopRule rule(s);
+  EXPECT_FALSE(rule.stops_at_rest());
   EXPECT_FALSE(rule.out_of_time(99.999));
   EXPECT_TRUE(rule.out_of_time(100));
   EXPECT_EQ(rule.end_time_s(), 100);
