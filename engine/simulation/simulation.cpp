@@ -9,6 +9,7 @@
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/parts.hpp"
+#include "engine/simulation/run_warnings.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "engine/simulation/travel.hpp"
 
@@ -243,7 +244,6 @@ class Run {
     if (result_.outcome == Outcome::out_of_time && at_rest_) result_.outcome = Outcome::settled;
     result_.member = parts_.facts.member;
     result_.formulation = parts_.facts.formulation;
-    result_.warnings = parts_.facts.warnings;
     write_balance();
     result_.censoring =
         censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
@@ -256,6 +256,9 @@ class Run {
     result_.history.has_states = any_has(s, fields::state);
     result_.history.has_temperature = any_has(s, fields::granular_temperature);
     result_.scalars.wall_s = seconds_since(start_);
+    result_.warnings = parts_.facts.warnings;
+    if (const std::string own = run_warnings(result_.scalars); sound && !own.empty())
+      result_.warnings += (result_.warnings.empty() ? "" : "; ") + own;
     result_.scalars.cpu_s = team_cpu_seconds(s.threads) - cpu_start_;
     share_out(result_.scalars.wall_s);
     return std::move(result_);

@@ -73,7 +73,7 @@ CensoredEstimate censored_quantile(std::span<const Observation> sample, double f
   std::vector<Observation> known;
   std::vector<double> least, most;
   for (const Observation& o : sample) {
-    if (o.known == Known::not_at_all) {
+    if (o.known == Known::not_at_all || (o.known == Known::at_least && !std::isfinite(o.value))) {
       ++e.n_not_at_all;
       least.push_back(-infinite), most.push_back(infinite);
     } else if (std::isfinite(o.value)) {

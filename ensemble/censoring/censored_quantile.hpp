@@ -45,7 +45,7 @@ struct CensoredEstimate {
 /// holds its confidence however censoring depends on the value. Intervals from the variance of the
 /// Kaplan-Meier curve (Brookmeyer & Crowley 1982) suppose independence and do not hold it where the
 /// longest are lost first (docs/decisions/0021).
-/// Values that are not finite are left out.
+/// Values that are not finite are left out; where they are censored, they are not known at all.
 /// \param fraction, confidence in (0, 1)
 CensoredEstimate censored_quantile(std::span<const Observation> sample, double fraction,
                                    double confidence);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 
 namespace sturz {
 namespace {
@@ -17,6 +18,12 @@ std::string percent(double share) {
 
 std::string of_all(std::int64_t n, const CensoringReport& r) {
   return fmt::format("{} of {}", n, r.valid);
+}
+
+/// A sentence without its numbers.
+std::string shape_of(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+  return text;
 }
 
 }  // namespace
@@ -82,20 +89,22 @@ std::vector<std::string> censoring_sentences(const CensoringReport& r) {
   return lines;
 }
 
-std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> members) {
+std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> members,
+                                           std::span<const std::string> known) {
+  std::set<std::string> left_out;
+  for (const std::string& text : known) left_out.insert(shape_of(text));
   std::map<std::string, std::size_t> place;
   std::vector<MemberWarning> found;
   for (const MemberSummary& m : members) {
     std::size_t start = 0;
     while (start < m.warnings.size()) {
       const std::size_t end = std::min(m.warnings.find("; ", start), m.warnings.size());
-      const std::string text = m.warnings.substr(start, end - start);
-      std::string shape = text;
-      std::erase_if(shape, [](unsigned char c) { return std::isdigit(c) || c == '.'; });
+      const std::string text = m.warnings.substr(start, end - start), shape = shape_of(text);
+      start = end + 2;
+      if (left_out.contains(shape)) continue;
       const auto [it, is_new] = place.try_emplace(shape, found.size());
       if (is_new) found.push_back({text, 0});
       ++found[it->second].count;
-      start = end + 2;
     }
   }
   std::stable_sort(found.begin(), found.end(),

@@ -45,11 +45,12 @@ std::string one_line(const CensoringReport&);
 std::vector<std::string> censoring_sentences(const CensoringReport&);
 
 /// Sentences of the members' warnings with how many members say each (numbers in them differ), the
-/// most frequent first.
+/// most frequent first. Sentences like those in `known` are left out.
 struct MemberWarning {
   std::string example;
   std::int64_t count = 0;
 };
-std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> members);
+std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> members,
+                                           std::span<const std::string> known = {});
 
 }  // namespace sturz

@@ -100,6 +100,15 @@ TEST(CensoredQuantile, LetsUnknownValuesLieAnywhere) {
   EXPECT_EQ(none.lower, -infinite);
 }
 
+TEST(CensoredQuantile, TakesACensoredValueThatIsMissingForUnknown) {
+  // Length of a deposit of which nothing is left on the terrain: not a reason to forget the member.
+  const std::vector<Observation> values{{1}, {2}, {3}, {nan_d, Known::at_least}, {nan_d}};
+  const CensoredEstimate e = censored_quantile(values, 0.5, 0.95);
+  EXPECT_EQ(e.n, 4U);
+  EXPECT_EQ(e.n_not_at_all, 1U);
+  EXPECT_EQ(e.value, 2);
+}
+
 TEST(CensoredQuantile, DoesNotTrustTheLastMemberAtRest) {
   // 36 members lost at the edge, three at rest before it, one that went elsewhere, farther: the
   // survival falls to 0 there, on the word of a single member.

@@ -78,6 +78,8 @@ TEST(MemberWarnings, CountSentencesThatDifferInNumbersOnly) {
   EXPECT_EQ(found[0].count, 2);
   EXPECT_EQ(found[0].example, "5 % of the mass took off");
   EXPECT_EQ(found[1].count, 1);
+  const std::vector<std::string> known{"3 % of the mass took off"};
+  EXPECT_EQ(member_warnings(all, known).size(), 1U) << "said before, with another number";
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ void Manifest::write(const fs::path& file) {
                     {"notes", notes},
                     {"warnings", warnings},
                     {"compute_s", compute_s},
-                    {"hazard_hash", hazard_hash}};
+                    {"hazard_hash", hazard_hash},
+                    {"censored", censored}};
   write_text_atomic(file, all.dump(2) + "\n");
 }
 
@@ -92,6 +93,7 @@ Manifest Manifest::read(const fs::path& file) {
     m.warnings = all.at("warnings").get<std::vector<std::string>>();
     m.compute_s = all.at("compute_s").get<double>();
     m.hazard_hash = all.at("hazard_hash").get<std::string>();
+    m.censored = all.value("censored", "");
   } catch (const json::exception& problem) {
     not_a_manifest(file, problem.what());
   }
@@ -107,6 +109,7 @@ std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
       {"spacing", fmt::format("{} m", spacing_m)}};
   if (kind == "ensemble") {
     out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
+    if (!censored.empty()) out.emplace_back("cut off", censored);
     out.emplace_back("hash of the maps", hazard_hash);
   }
   for (const auto& [name, checksum] : inputs) out.emplace_back("input " + name, checksum);

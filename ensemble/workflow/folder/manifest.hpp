@@ -23,6 +23,7 @@ struct Manifest {
   double spacing_m = 0;
   double compute_s = 0;     ///< wall time of all calls so far
   std::string hazard_hash;  ///< of every value of the maps; empty: no maps yet
+  std::string censored;     ///< which of the maps' members are cut off; empty: no maps yet
   // Of the program that wrote it; filled in by write().
   std::string version, git_commit, compiler, build_type;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/members/single_run.hpp"
 
+#include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -67,15 +68,21 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
   return simulation.run(control);
 }
 
-void store_run(SingleRun& run, const MemberResult& result) {
+RunStored store_run(SingleRun& run, const MemberResult& result) {
   const OutputFolder& folder = run.folder;
   const Scene& scene = run.scene;
   Manifest& manifest = run.manifest;
   manifest.compute_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
+  const MemberSummary summary = summary_of(result);
+  LayerStack peaks = peak_layers(result);
+  RunStored stored{censoring_report({&summary, 1}, 0),
+                   member_warnings({&summary, 1}, manifest.warnings)};
+  if (const auto* ground = scene.inputs.elevation.get())
+    stored.censoring.where = where_mass_left(peaks, ground->grid);
+  manifest.censored = one_line(stored.censoring);
   manifest.write(folder.manifest());
   write_member(folder.members(), result);
-  LayerStack peaks = peak_layers(result);
   peaks.attributes = {
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
@@ -85,13 +92,14 @@ void store_run(SingleRun& run, const MemberResult& result) {
       {"formulation", result.formulation},
       {"computing_time_by_effect", as_text(result.effect_seconds)}};
   write_layers(folder.peaks_nc(), peaks, result.history);
-  const MemberSummary summary = summary_of(result);
   PageContent page;
   page.peaks = &peaks;
   page.elevation = scene.inputs.elevation.get();
   page.members = {&summary, 1};
   page.run = &result;
+  page.where_mass_left = stored.censoring.where;
   write_page(folder, manifest, scene.medians, page);
+  return stored;
 }
 
 }  // namespace sturz::workflow

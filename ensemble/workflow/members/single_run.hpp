@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
+#include "ensemble/censoring/censoring_report.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sturz::workflow {
 
@@ -43,7 +45,13 @@ SingleRun prepare_run(const RunRequest&, Observer&);
 ///   `cancelled`
 MemberResult compute_run(const SingleRun&, Observer&, const std::atomic<bool>& cancel);
 
+/// What is to be said of a run besides its numbers.
+struct RunStored {
+  CensoringReport censoring;
+  std::vector<MemberWarning> warnings;  ///< its own, those that `describe` did not give
+};
+
 /// Writes member, maps, manifest and page. \throws IoError
-void store_run(SingleRun&, const MemberResult&);
+RunStored store_run(SingleRun&, const MemberResult&);
 
 }  // namespace sturz::workflow

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace sturz::workflow {
 
@@ -23,6 +24,7 @@ struct PageContent {
   const Raster<double>* elevation = nullptr;
   std::span<const MemberSummary> members;
   std::span<const ConvergencePoint> convergence;
+  std::string where_mass_left;        ///< in words
   const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 
