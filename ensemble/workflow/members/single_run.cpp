@@ -2,12 +2,14 @@
 #include "ensemble/workflow/members/single_run.hpp"
 
 #include "ensemble/censoring/edge_crossing.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/members/member_file.hpp"
+#include "io/members/member_store.hpp"
 #include "io/members/particle_frames.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 
@@ -98,6 +100,8 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   page.members = {&summary, 1};
   page.run = &result;
   page.where_mass_left = stored.censoring.where;
+  const Raster<std::uint8_t> release = release_footprint(MemberStore(folder.members()));
+  page.release = &release;
   write_page(folder, manifest, scene.medians, page);
   return stored;
 }

@@ -3,6 +3,7 @@
 
 #include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -99,6 +100,8 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
   const auto convergence = probability_convergence(store);
   page.convergence = convergence;
   page.where_mass_left = made.censoring.where;
+  const Raster<std::uint8_t> release = release_footprint(store);
+  page.release = &release;
   write_page(folder, manifest, scenario, page);
   made.hazard_hash = manifest.hazard_hash;
   made.seconds = seconds_since(begin);

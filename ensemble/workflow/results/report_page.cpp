@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/censoring/edge_crossing.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "io/files/text_files.hpp"
@@ -64,6 +65,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.convergence.assign(content.convergence.begin(), content.convergence.end());
   input.max_censored_fraction = scenario.ensemble.max_censored_fraction;
   input.where_mass_left = content.where_mass_left;
+  input.release = content.release;
   input.warnings = manifest.warnings;
   input.notes = manifest.notes;
   input.description = manifest.description;
@@ -102,6 +104,8 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
     page.convergence = convergence;
   }
   page.elevation = finished.elevation.get();
+  const Raster<std::uint8_t> release = release_footprint(store);
+  page.release = &release;
   if (page.elevation != nullptr)
     page.where_mass_left = where_mass_left(stack, page.elevation->grid);
   page.members = store.members();
