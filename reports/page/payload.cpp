@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace sturz {
 namespace {
@@ -91,6 +92,14 @@ Json legend_json(const Legend& legend) {
           {"classes", classes}};
 }
 
+/// Files say "members / valid members"; readers of the page get the number.
+std::string shown_comment(const Layer& layer, int n_valid) {
+  constexpr std::string_view counted = "members / valid members";
+  if (!layer.comment.starts_with(counted)) return layer.comment;
+  return "share of the " + std::to_string(n_valid) + " valid simulations" +
+         layer.comment.substr(counted.size());
+}
+
 Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& layer,
                 const ReportInput& input, int n_valid) {
   const LayerMeaning& meaning = layer.meaning;
@@ -112,7 +121,7 @@ Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& laye
           {"quantityTitle", title(meaning.quantity)},
           {"statistic", to_string(meaning.statistic)},
           {"longName", layer.long_name},
-          {"comment", layer.comment},
+          {"comment", shown_comment(layer, n_valid)},
           {"axisUnit", display_unit(layer.axis.units).label},
           {"legend", legend_json(legend_for(layer))},
           {"planes", std::move(planes)}};

@@ -259,6 +259,7 @@ TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   EXPECT_EQ(data["valid"], 31);
   const auto& layers = data["maps"]["layers"];
   EXPECT_EQ(layers[data["maps"]["start"].get<std::size_t>()]["name"], "probability_reached");
+  EXPECT_TRUE(layers[0]["comment"].get<std::string>().starts_with("share of the 31 valid simulat"));
   bool seen = false;
   for (const auto& layer : layers)
     if (layer["name"] == "probability_of_peak_thickness_above_threshold") {
