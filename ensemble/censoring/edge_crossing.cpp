@@ -52,7 +52,7 @@ std::string where_mass_left(const LayerStack& maps, const Grid& terrain) {
   const Layer* layer = layer_of_what_left(maps);
   if (layer == nullptr) return {};
   const Grid& g = maps.grid;
-  // A particle is booked in the last cell in which it was seen: up to a step before the edge.
+  // A particle counts in the last cell in which it was seen: up to a step before the edge.
   const double reach = 1.5 * g.cell_m + 2 * terrain.cell_m;
   std::array<Crossing, 5> sides;
   for (std::size_t i = 0; i < g.n_cells(); ++i) {

@@ -182,7 +182,7 @@ function paint(canvas, legend, values) {
  * @param {object} maps of the page's data; `heights` are the ground's, null when unknown;
  *   `leftValues` tell where mass left, null when it did nowhere
  * @param {{hover: Function, click: Function, plainWheel: Function}} on hover and click get the map
- *   coordinate, hover also null on leaving; plainWheel: somebody tries to zoom without Ctrl
+ *   coordinate, hover also null on leaving; plainWheel: the wheel turned without Ctrl
  */
 export function createMap(target, maps, heights, leftValues, on) {
   const viewExtent = extentOf(maps.view);
