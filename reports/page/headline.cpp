@@ -2,8 +2,6 @@
 #include "reports/page/headline.hpp"
 
 #include "ensemble/censoring/scalar_censoring.hpp"
-#include "ensemble/hazard/wilson.hpp"
-#include "reports/figures/legend.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,24 +21,12 @@ std::vector<std::pair<Outcome, int>> count_outcomes(const std::vector<MemberSumm
   return counts;
 }
 
-/// Area of cells with P(reached) >= 0.5, and of those whose interval lies above or touches it.
-Estimate likely_area(const LayerStack& maps, int n_valid) {
-  for (const Layer& layer : maps.layers) {
-    const LayerMeaning& m = layer.meaning;
-    if (m.quantity != Quantity::reached || m.statistic != Statistic::probability) continue;
-    const double cell_area = maps.grid.cell_m * maps.grid.cell_m;
-    Estimate area{0, 0, 0};
-    for (const float p : layer.values) {
-      if (!(p > 0)) continue;
-      const auto hits = static_cast<std::int64_t>(std::lround(p * static_cast<double>(n_valid)));
-      const ProbabilityBounds interval = wilson_interval(hits, n_valid);
-      if (p >= 0.5) area.value += cell_area;
-      if (interval.lower >= 0.5) area.lower += cell_area;
-      if (interval.upper >= 0.5) area.upper += cell_area;
-    }
-    return area;
-  }
-  return {};
+/// Area of cells with P(reached) >= 0.5, and of those whose interval lies above or touches it. From
+/// the convergence, which knows every cell: those of the page's maps may be joined ones.
+Estimate likely_area(const ReportInput& input, int n_valid) {
+  if (input.convergence.empty() || input.convergence.back().n_members != n_valid) return {};
+  const ConvergencePoint& all = input.convergence.back();
+  return {all.area_likely_m2, all.area_likely_lower_m2, all.area_likely_upper_m2};
 }
 
 }  // namespace
@@ -75,7 +61,7 @@ Headline headline(const ReportInput& input) {
   h.crown_to_toe_ratio = median(&MemberScalars::crown_to_toe_ratio);
   h.com_travel_m = median(&MemberScalars::com_travel_m);
   if (input.hazard != nullptr && h.n_valid > 0)
-    h.likely_area_m2 = likely_area(*input.hazard, h.n_valid);
+    h.likely_area_m2 = likely_area(input, h.n_valid);
   if (input.elapsed_s > 0) h.members_per_hour = 3600.0 * h.n_members / input.elapsed_s;
   return h;
 }
