@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   write(directory / "single.html", sturz::make_report(results.single_input()));
 
   auto cut_scene = scene;
-  cut_scene.edge = 0.55;
+  cut_scene.edge = 0.45;
   const auto cut = make_up_results(cut_scene);
   write(directory / "cut.html", sturz::make_report(cut.ensemble_input()));
 
