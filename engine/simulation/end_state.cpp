@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/simulation/end_state.hpp"
 
+#include "engine/core/constants.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace sturz {
 namespace {
 
 constexpr double moving_share = 1.0 / 20;  // of the largest mean speed
+
+constexpr double most_take_off = 0.01;
+constexpr double most_energy_residual = 0.05;
+
+/// Three digits at most, as a percentage.
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
+  return text;
+}
 
 /// Sums over what is there and what left.
 struct EndSums {
@@ -46,17 +59,6 @@ void add_set(const MovingSet& p, double fast, EndSums& sums) {
   }
 }
 
-/// Calls use(x, y) for the centre of every cell of the deposit.
-template <class Use>
-void for_deposit_cells(const MemberResult& r, double limit, Use&& use) {
-  const std::vector<float>& deposit = r.layer(PeakLayer::deposit);
-  std::size_t k = 0;
-  for (int row = 0; row < r.window.n_rows; ++row)
-    for (int col = 0; col < r.window.n_cols; ++col, ++k)
-      if (deposit[k] > limit)
-        use(r.grid.x_center(r.window.col0 + col), r.grid.y_center(r.window.row0 + row));
-}
-
 }  // namespace
 
 void write_travel(const State& s, const ReleaseFacts& release, MemberScalars& m) {
@@ -74,17 +76,18 @@ void write_travel(const State& s, const ReleaseFacts& release, MemberScalars& m)
   m.deposit_com_y_m = sums.present > 0 ? sums.my / sums.present : nan_d;
 }
 
-void write_crown_to_toe(const Terrain& ground, const ReleaseFacts& release, double runout_limit_m,
-                        MemberResult& result) {
+void write_crown_to_toe(const Terrain& ground, const ReleaseFacts& release,
+                        std::span<const PeakMaps::Cell> deposit, const Grid& grid,
+                        MemberScalars& m) {
+  const Vec2 centre(release.x_m, release.y_m), crown(release.crown_x_m, release.crown_y_m);
   double front2 = -1, length2 = -1;
   Vec2 toe(0, 0);
-  for_deposit_cells(result, runout_limit_m, [&](double x, double y) {
-    front2 = std::max(front2, (Vec2(x, y) - Vec2(release.x_m, release.y_m)).squaredNorm());
-    const double from_crown =
-        (Vec2(x, y) - Vec2(release.crown_x_m, release.crown_y_m)).squaredNorm();
-    if (from_crown > length2) length2 = from_crown, toe = Vec2(x, y);
-  });
-  MemberScalars& m = result.scalars;
+  for (const PeakMaps::Cell& cell : deposit) {
+    const Vec2 at(grid.x_center(cell.col), grid.y_center(cell.row));
+    front2 = std::max(front2, (at - centre).squaredNorm());
+    const double from_crown = (at - crown).squaredNorm();
+    if (from_crown > length2) length2 = from_crown, toe = at;
+  }
   m.deposit_front_m = m.crown_to_toe_length_m = m.crown_to_toe_drop_m = m.crown_to_toe_ratio =
       nan_d;
   if (length2 < 0) return;
@@ -92,6 +95,22 @@ void write_crown_to_toe(const Terrain& ground, const ReleaseFacts& release, doub
   m.crown_to_toe_length_m = std::sqrt(length2);
   m.crown_to_toe_drop_m = release.crown_z_m - ground.height(toe.x(), toe.y());
   if (length2 > 0) m.crown_to_toe_ratio = m.crown_to_toe_drop_m / m.crown_to_toe_length_m;
+}
+
+std::vector<std::string> doubts(const MemberScalars& m, const Ledger& ledger, double spacing_m) {
+  std::vector<std::string> out;
+  if (m.take_off_fraction > most_take_off)
+    out.push_back("take-off: for " + percent(m.take_off_fraction) +
+                  " of mass and time (over 1 %) the ground curves away faster than the mass falls: "
+                  "it would fly there, columns keep it on the ground");
+  const double unexplained = std::abs(m.energy_residual) * ledger.available_energy();
+  const double least = 0.01 * spacing_m * standard_gravity * ledger.brought_mass();
+  if (std::abs(m.energy_residual) > most_energy_residual && unexplained > least)
+    out.push_back(
+        "energy: " + percent(m.energy_residual) +
+        " of the released energy is not accounted for (more than 5 % either way): speed "
+        "and runout of this member are in doubt. Look for spikes and steps in the terrain");
+  return out;
 }
 
 }  // namespace sturz

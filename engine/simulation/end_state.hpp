@@ -5,6 +5,10 @@
 #include "engine/simulation/member_result.hpp"
 #include "engine/simulation/parts.hpp"
 
+#include <span>
+#include <string>
+#include <vector>
+
 namespace sturz {
 
 /// Travel of front and centre of mass, fall, and what still moves. What left the known ground
@@ -12,15 +16,24 @@ namespace sturz {
 /// To be called after max_mean_speed_m_s and front_travel_m are known; works without maps.
 void write_travel(const State&, const ReleaseFacts&, MemberScalars&);
 
-/// Crown to toe (L, H, H/L) and front of the deposit, from the deposit layer of `result`; NaN where
-/// nothing lies above the runout limit.
+/// Crown to toe (L, H, H/L) and front of the deposit; NaN without a deposit.
 ///
 /// Crown: highest point of the source's surface before it failed (ReleaseFacts). Toe: centre of the
 /// deposit's cell that lies farthest from the crown in the map, on the ground as it is at the end.
 /// L is the straight horizontal distance between them, H the fall, H / L the tangent of Heim's
 /// Fahrboeschung (Heim 1932; Scheidegger 1973, eq. 1; Corominas 1996). It needs no centre of mass,
 /// and is larger than the friction that the mass met where the deposit is long.
-void write_crown_to_toe(const Terrain& ground, const ReleaseFacts&, double runout_limit_m,
-                        MemberResult& result);
+/// \param deposit  cells of `grid` that the deposit covers
+void write_crown_to_toe(const Terrain& ground, const ReleaseFacts&,
+                        std::span<const PeakMaps::Cell> deposit, const Grid& grid, MemberScalars&);
+
+/// What a reader of the member has to doubt, one sentence each:
+/// - Take-off: more than 1 % of mass times time is on ground that curves away faster than the mass
+///   falls. Columns cannot leave the ground, so where they would fly and land is not computed; the
+///   share is the part of the flow that it concerns.
+/// - Energy: more than 5 % of the released energy is in no account, which is as much as friction
+///   wrong by 5 % and above all that the verification cases leave (1e-5). A spike in the terrain is
+///   enough. Not told of a mass that hardly fell: the rest must be worth a hundredth of a spacing.
+std::vector<std::string> doubts(const MemberScalars&, const Ledger&, double spacing_m);
 
 }  // namespace sturz

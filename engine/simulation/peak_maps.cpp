@@ -3,6 +3,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/simulation/maps/spread_weights.hpp"
+#include "engine/terrain/terrain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,52 +16,11 @@
 namespace sturz {
 namespace {
 
-/// Quadratic B-spline of unit width: support 1.5 each side, integral one.
-double b_spline(double t) {
-  const double outer = std::max(0.0, 1.5 - std::abs(t)), inner = std::max(0.0, 0.5 - std::abs(t));
-  return 0.5 * outer * outer - 1.5 * inner * inner;
-}
-
-/// Weights of one particle along one direction, summing to one over the cells on and off the grid.
-/// \tparam n_fixed number of cells known to the compiler, 0: `n_cells` says it
-/// \param place   in cells from the centre of cell 0
-/// \return the first cell
-template <int n_fixed>
-int spread(double place, double width_cells, int n_cells, double* weight) {
-  const int n = n_fixed > 0 ? n_fixed : n_cells;
-  const double first = std::floor(place - 1.5 * width_cells) + 1;
-  const double per_width = 1 / width_cells;
-  double sum = 0;
-  for (int k = 0; k < n; ++k) {
-    weight[k] = b_spline((place - first - k) * per_width);
-    sum += weight[k];
-  }
-  const double scale = 1 / sum;
-  for (int k = 0; k < n; ++k) weight[k] *= scale;
-  return static_cast<int>(first);
-}
-
-/// Weights of both directions; the usual narrow spreads get loops of known length.
-template <int n_fixed>
-std::pair<int, int> weights(double x, double y, double width, int n, double* wx, double* wy) {
-  const int col = spread<n_fixed>(x, width, n, wx);
-  return {spread<n_fixed>(y, width, n, wy), col};
-}
-
-std::pair<int, int> weights(double x, double y, double width, int n, double* wx, double* wy) {
-  switch (n) {
-    case 3:
-      return weights<3>(x, y, width, n, wx, wy);
-    case 4:
-      return weights<4>(x, y, width, n, wx, wy);
-    case 5:
-      return weights<5>(x, y, width, n, wx, wy);
-    case 6:
-      return weights<6>(x, y, width, n, wx, wy);
-    default:
-      return weights<0>(x, y, width, n, wx, wy);
-  }
-}
+/// Where particles cover this much of a cell, it is reached.
+constexpr double enough_cover = 0.75;
+/// Half the width of what a particle surely covers, in mean distances. A little less than a half,
+/// for at an edge columns seem farther apart than they are.
+constexpr double own_share = 0.4;
 
 /// Width of a particle's spread [cells]: rounded alike wherever room for its weights is counted.
 double cells_wide(double width_m, double cell_m) { return std::max(1.0, width_m / cell_m); }
@@ -111,6 +72,9 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   const Field* support_radius = p.find(fields::support_radius);
   Width w;
   w.support_radius = support_radius ? support_radius->component[0].data() : nullptr;
+  w.thickness = p.find(fields::thickness);
+  w.ground = p.find(fields::ground);
+  w.volume_per_mass = 1 / p.bulk_density;
   double width_m = p.spacing;
   if (support_radius && p.size() > 0) {
     const auto& all = support_radius->component[0];
@@ -119,6 +83,14 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   w.cells = cells_wide(width_m, settings_.grid.cell_m);
   w.n_weights = static_cast<int>(std::ceil(3 * w.cells));
   return w;
+}
+
+double PeakMaps::Width::area(std::size_t i, double mass, double distance) const {
+  const double square = distance * distance;
+  if (!thickness || !ground) return square;
+  const double h = thickness->component[0][i];
+  const Vec3 n = upward_normal(ground->component[0][i], ground->component[1][i]);
+  return h > 0 ? std::max(square, mass * volume_per_mass * n.z() / h) : square;
 }
 
 /// Widths of all sets, and the cells that they can touch.
@@ -166,16 +138,18 @@ inline void PeakMaps::add_part(std::size_t set, const Spread& p, const Window& p
   const auto bits = static_cast<std::uint16_t>(((1U << part.n_cols) - 1U) << in_col);
   const int first = row0 % edge * edge + in_col;
   double* mass = tiles_.mass(set, slot) + first;
+  double* coverage = tiles_.coverage(slot) + first;
   Motion* motion = tiles_.motion(slot) + first;
   std::uint16_t* touched = tiles_.touched(slot) + row0 % edge;
   const double* wx = &weights_x_[static_cast<std::size_t>(part.col0)];
   const double* wy = &weights_y_[static_cast<std::size_t>(part.row0)];
-  for (int k = 0; k < part.n_rows; ++k, mass += edge, motion += edge) {
+  for (int k = 0; k < part.n_rows; ++k, mass += edge, coverage += edge, motion += edge) {
     touched[k] |= bits;
-    const double mass_in_row = p.mass * wy[k];
+    const double mass_in_row = p.mass * wy[k], area_in_row = p.area * wy[k];
     for (int j = 0; j < part.n_cols; ++j) {
       const double m = mass_in_row * wx[j];
       mass[j] += m;
+      coverage[j] += area_in_row * wx[j];
       if constexpr (with_motion) motion[j] += m * p.motion;
     }
   }
@@ -199,11 +173,26 @@ inline void PeakMaps::add_one(std::size_t set, const Spread& p) {
   }
 }
 
+/// Covers the cells whose centre lies under the particle itself, and the one that it is in.
+void PeakMaps::cover_own(double x, double y, double half_width) {
+  const Grid& g = settings_.grid;
+  const int row0 = std::max(0, static_cast<int>(std::ceil(y - half_width)));
+  const int col0 = std::max(0, static_cast<int>(std::ceil(x - half_width)));
+  const int row1 = std::min(g.n_rows, static_cast<int>(std::ceil(y + half_width)));
+  const int col1 = std::min(g.n_cols, static_cast<int>(std::ceil(x + half_width)));
+  constexpr int edge = PeakTiles::edge;
+  for (int row = row0; row < row1; ++row)
+    for (int col = col0; col < col1; ++col)
+      tiles_.coverage(tiles_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge] +=
+          enough_cover;
+}
+
 template <bool with_motion>
-void PeakMaps::scatter_set(const ParticleSet& p, std::size_t set) {
+void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
   const Grid& g = settings_.grid;
   const Width& widest = widths_[set];
   const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
+  const double distance_per_radius = settings_.width_per_radius / 1.5, spacing = p.spacing;
   double width = widest.cells;
   Spread one;
   one.n = widest.n_weights;
@@ -220,8 +209,12 @@ void PeakMaps::scatter_set(const ParticleSet& p, std::size_t set) {
     }
     std::tie(one.row, one.col) = weights(x, y, width, one.n, weights_x_.data(), weights_y_.data());
     one.mass = p.mass[i];
+    const double distance =
+        widest.support_radius ? distance_per_radius * widest.support_radius[i] : spacing;
+    one.area = widest.area(i, p.mass[i], distance) * per_cell * per_cell;
     one.motion = Motion(vx, vy, vz, 0.5 * v2);
     add_one<with_motion>(set, one);
+    cover_own(x, y, std::max(0.5, own_share * distance * per_cell));
   }
 }
 
@@ -266,7 +259,8 @@ void PeakMaps::keep_peaks(std::span<const MovingSet> sets, float time_s) {
     peak.speed = std::max(peak.speed, static_cast<float>(speed));
     peak.energy = std::max(peak.energy, static_cast<float>(sums[3] * per_area));
     peak.pressure = std::max(peak.pressure, static_cast<float>(density * speed * speed));
-    if (std::isnan(peak.arrival)) peak.arrival = time_s;
+    if (std::isnan(peak.arrival) && tiles_.coverage(slot)[cell] >= enough_cover)
+      peak.arrival = time_s;
   });
   layers_ = histogram_.count(total);
 }
@@ -286,6 +280,8 @@ void PeakMaps::keep_deposit(std::span<const MovingSet> sets) {
     for (std::size_t n = 0; n < sets.size(); ++n)
       thickness += tiles_.mass(n, slot)[cell] * (1 / (sets[n].bulk_density * cell_area));
     peak.deposit = static_cast<float>(thickness);
+    peak.covered =
+        thickness > settings_.runout_limit_m && tiles_.coverage(slot)[cell] >= enough_cover;
     peak.thickness = std::max(peak.thickness, peak.deposit);
   });
 }
@@ -329,7 +325,7 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
       result.layer(PeakLayer::arrival)[k] = p.arrival;
       result.layer(PeakLayer::deposit)[k] = p.deposit;
       totals.reached += !std::isnan(p.arrival);
-      totals.covered += p.deposit > settings_.runout_limit_m;
+      totals.covered += p.covered;
       most.thickness = std::max(most.thickness, p.thickness);
       most.deposit = std::max(most.deposit, p.deposit);
       most.energy = std::max(most.energy, p.energy);
@@ -338,9 +334,19 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
   return totals;
 }
 
+std::vector<PeakMaps::Cell> PeakMaps::deposit_cells() const {
+  constexpr int edge = PeakTiles::edge;
+  std::vector<Cell> cells;
+  for (const PeakTiles::Tile& tile : tiles_.tiles())
+    for (int k = 0; k < PeakTiles::n_cells; ++k)
+      if (tile.peak[static_cast<std::size_t>(k)].covered)
+        cells.push_back({tile.row0 + k / edge, tile.col0 + k % edge});
+  return cells;
+}
+
 void PeakMaps::finish(std::span<const MovingSet> final_state, MemberResult& result) {
   for (PeakTiles::Tile& tile : tiles_.tiles())
-    for (CellPeak& peak : tile.peak) peak.deposit = 0;
+    for (CellPeak& peak : tile.peak) peak.deposit = 0, peak.covered = false;
   const Window w = bounds_of(final_state);
   if (w.n_cells() > 0) {
     tiles_.cover(w);

@@ -25,6 +25,13 @@ struct PeakMapSettings {
 /// weights for volume, m v and 1/2 m v^2 (docs/physics.md D.3), and keeps maxima over time of each
 /// product at one instant.
 ///
+/// A cell is reached, and covered by the deposit, where the thickness passes the runout limit and
+/// particles cover it: the map areas that they stand for, spread alike, add up to three quarters,
+/// or it lies under one particle. Spreading carries mass two mean distances beyond the last
+/// particle; that counts in the layers, which keep volume, and not in areas, arrival and runout, or
+/// a release that never moved would cover twice its area. Three quarters is what the edge of a
+/// region of columns has, whose smoothing takes the half-empty support there for a thinner flow.
+///
 /// What falls on cells beyond the grid is dropped, not pushed in. Time follows the cells that the
 /// particles touch now, memory those that they ever touched; neither the raster nor the rectangle
 /// around the flow counts.
@@ -39,6 +46,11 @@ class PeakMaps {
   /// Writes window, layers (deposit and mass left from `final_state`) and the map scalars (reached
   /// and deposit area, maxima) into `result`. Record the final state first, as any other instant.
   void finish(std::span<const MovingSet> final_state, MemberResult& result);
+  struct Cell {
+    int row = 0, col = 0;
+  };
+  /// Cells that the deposit covers, after `finish`; in no order that means anything.
+  std::vector<Cell> deposit_cells() const;
   const PeakMapSettings& settings() const { return settings_; }
   /// Layers across the thickness at the last instant.
   const LayerCount& layers() const { return layers_; }
@@ -55,11 +67,18 @@ class PeakMaps {
     double cells = 1;                        ///< of the B-spline; the largest where it varies
     int n_weights = 3;                       ///< cells that one particle can touch per direction
     const double* support_radius = nullptr;  ///< of columns, each its own
+    const Field* thickness = nullptr;        ///< of columns, normal to the ground
+    const Field* ground = nullptr;           ///< slopes below columns
+    double volume_per_mass = 0;              ///< [m^3/kg]
+    /// Map area that particle i stands for: the square of the mean distance, or what its volume
+    /// covers at its thickness where columns lie farther apart than they look [m^2].
+    double area(std::size_t i, double mass, double distance) const;
   };
   /// What falls on the map from one particle.
   struct Spread {
     int row = 0, col = 0, n = 0;  ///< first cell, maybe off the grid, and cells per direction
     double mass = 0;              ///< [kg]
+    double area = 0;              ///< that it stands for [cells]
     Motion motion;                ///< per mass
   };
   Totals write_layers(MemberResult&) const;
@@ -71,10 +90,11 @@ class PeakMaps {
   void add_one(std::size_t set, const Spread&);
   template <bool with_motion>
   void add_part(std::size_t set, const Spread&, const Window& part);
+  void cover_own(double x, double y, double half_width);
   template <bool with_motion>
   void scatter(std::span<const MovingSet>);
   template <bool with_motion>
-  void scatter_set(const ParticleSet&, std::size_t set);
+  void scatter_set(const MovingSet&, std::size_t set);
   void keep_peaks(std::span<const MovingSet>, float time_s);
   void keep_deposit(std::span<const MovingSet>);
 

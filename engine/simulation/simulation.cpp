@@ -9,7 +9,6 @@
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/parts.hpp"
-#include "engine/simulation/run_warnings.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "engine/simulation/travel.hpp"
 
@@ -244,10 +243,13 @@ class Run {
     if (result_.outcome == Outcome::out_of_time && at_rest_) result_.outcome = Outcome::settled;
     result_.member = parts_.facts.member;
     result_.formulation = parts_.facts.formulation;
+    result_.warnings = parts_.facts.warnings;
     write_balance();
     result_.censoring =
         censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
     write_averages();
+    for (const std::string& doubt : doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m))
+      result_.warnings += (result_.warnings.empty() ? "" : "; ") + doubt;
     if (sound) write_final_state();
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
@@ -256,9 +258,6 @@ class Run {
     result_.history.has_states = any_has(s, fields::state);
     result_.history.has_temperature = any_has(s, fields::granular_temperature);
     result_.scalars.wall_s = seconds_since(start_);
-    result_.warnings = parts_.facts.warnings;
-    if (const std::string own = run_warnings(result_.scalars); sound && !own.empty())
-      result_.warnings += (result_.warnings.empty() ? "" : "; ") + own;
     result_.scalars.cpu_s = team_cpu_seconds(s.threads) - cpu_start_;
     share_out(result_.scalars.wall_s);
     return std::move(result_);
@@ -313,8 +312,8 @@ class Run {
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
-    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.settings().runout_limit_m,
-                       result_);
+    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(), result_.grid,
+                       result_.scalars);
     result_.state_hash = hash_of(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;

@@ -24,9 +24,9 @@ bool StopRule::at_rest(const MotionSummary& now) {
     window_open_ = false;
     return false;
   }
-  const double least = 0.1 * settings_.spacing_m;
+  const double least = 0.1 * settings_.spacing_m, com_least = std::max(least, now.com_m / 400);
   const bool moved = std::abs(now.front_m - window_start_.front_m) > least ||
-                     std::abs(now.com_m - window_start_.com_m) > least;
+                     std::abs(now.com_m - window_start_.com_m) > com_least;
   if (!window_open_ || moved) {
     window_open_ = true;
     window_start_ = now;

@@ -22,10 +22,12 @@ struct MotionSummary {
 };
 
 /// At rest: kinetic energy below a share of its peak (1 %, as in the practice of snow avalanches),
-/// and over a window of 5 sqrt(dx/g) (at least 1 s at field scale, dx >= 0.2 m) front and centre of
-/// mass each moved less than dx/10. Particle solvers creep at millimetres per second (F.4), and
-/// tails of masses with turbulent friction drain for minutes at a metre per second behind a front
-/// that stands: neither moves the front or, by mass, the whole, and both are left out.
+/// and over a window of 5 sqrt(dx/g) (at least 1 s at field scale, dx >= 0.2 m) the front moved
+/// less than dx/10 and the centre of mass less than dx/10 or a 400th of its travel. Particle
+/// solvers creep at millimetres per second (F.4), and tails of masses with turbulent friction drain
+/// for minutes behind a front that stands: neither moves the whole by much. The bound on the centre
+/// of mass keeps a main mass that follows a lost boulder at a tenth of the peak speed from being
+/// cut.
 class StopRule {
  public:
   explicit StopRule(const StopSettings&);

@@ -49,6 +49,7 @@ std::size_t PeakTiles::open(int tile_row, int tile_col) {
   tiles_[static_cast<std::size_t>(number)].slot = static_cast<int>(slot);
   if (touched_.size() < (slot + 1) * edge) {
     touched_.resize((slot + 1) * edge, 0);
+    coverage_.resize((slot + 1) * n_cells, 0.0);
     motion_.resize((slot + 1) * n_cells, Motion::Zero());
     for (auto& of_set : mass_) of_set.resize((slot + 1) * n_cells, 0.0);
   }

@@ -17,6 +17,7 @@ namespace sturz {
 /// Largest values of a cell so far.
 struct CellPeak {
   float thickness = 0, speed = 0, energy = 0, pressure = 0, arrival = nan_f, deposit = 0;
+  bool covered = false;  ///< by the deposit
 };
 
 /// Peaks of every tile that was ever touched, and the sums of one instant in those that are touched
@@ -49,6 +50,8 @@ class PeakTiles {
     return open(tile_row, tile_col);
   }
   double* mass(std::size_t set, std::size_t slot) { return &mass_[set][slot * n_cells]; }
+  /// How often the cell is covered by the areas that particles stand for [1].
+  double* coverage(std::size_t slot) { return &coverage_[slot * n_cells]; }
   Motion* motion(std::size_t slot) { return &motion_[slot * n_cells]; }
   /// One bit for every cell of a tile's row that was added to.
   std::uint16_t* touched(std::size_t slot) { return &touched_[slot * edge]; }
@@ -71,6 +74,7 @@ class PeakTiles {
   std::deque<Tile> tiles_;
   std::vector<std::int32_t> open_;         ///< [slot] number of the tile
   std::vector<std::vector<double>> mass_;  ///< [set][slot x cells], zero between instants [kg]
+  std::vector<double> coverage_;           ///< the same
   std::vector<Motion> motion_;             ///< [slot x cells], zero between instants
   std::vector<std::uint16_t> touched_;     ///< [slot x rows]
 };
@@ -86,6 +90,7 @@ void PeakTiles::take_sums(Use&& use) {
         const std::size_t cell = static_cast<std::size_t>(row * edge + std::countr_zero(bits));
         use(tile.peak[cell], slot, cell);
         for (auto& of_set : mass_) of_set[slot * n_cells + cell] = 0;
+        coverage_[slot * n_cells + cell] = 0;
         motion_[slot * n_cells + cell].setZero();
       }
     }

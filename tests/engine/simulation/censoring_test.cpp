@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numeric>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -62,8 +64,9 @@ TEST(Censoring, AMemberWhoseMassIsAllGoneHasComeToTheEdge) {
     // All of it left over the eastern edge.
     for (int row = 0; row < r.window.n_rows; ++row)
       for (int col = 0; col < r.window.n_cols; ++col)
-        if (r.layer(PeakLayer::left)[std::size_t(row) * r.window.n_cols + col] > 0)
+        if (r.layer(PeakLayer::left)[std::size_t(row) * r.window.n_cols + col] > 0) {
           EXPECT_GT(r.grid.x_center(r.window.col0 + col), edge - 3 * r.grid.cell_m);
+        }
   }
 }
 
@@ -104,17 +107,8 @@ TEST(Censoring, AnyMassThatLeftCensors) {
   EXPECT_GT(r.scalars.lost_fraction, 0);
 }
 
-MemberResult deposit_of(const Grid& grid, std::initializer_list<std::array<int, 2>> cells) {
-  MemberResult r;
-  r.grid = grid;
-  r.window = {0, 0, grid.n_rows, grid.n_cols};
-  r.layer(PeakLayer::deposit).assign(grid.n_cells(), 0.04F);
-  for (const auto& [row, col] : cells) r.layer(PeakLayer::deposit)[grid.index(row, col)] = 0.5F;
-  return r;
-}
-
 TEST(CrownToToe, IsMeasuredFromTheHighestSourceToTheFarthestDeposit) {
-  Grid grid{20, 10, 0, 100, 10, ""};
+  const Grid grid{20, 10, 0, 100, 10, ""};
   auto z = std::make_shared<Raster<double>>(grid);
   for (int r = 0; r < grid.n_rows; ++r)
     for (int c = 0; c < grid.n_cols; ++c) z->at(r, c) = 100 - 0.5 * grid.x_center(c);
@@ -122,16 +116,32 @@ TEST(CrownToToe, IsMeasuredFromTheHighestSourceToTheFarthestDeposit) {
   ReleaseFacts release;
   release.x_m = 35, release.y_m = 55;
   release.crown_x_m = 15, release.crown_y_m = 55, release.crown_z_m = 97.5;  // 5 m above the bed
-  MemberResult r = deposit_of(grid, {{4, 8}, {4, 15}, {2, 12}});
-  write_crown_to_toe(ground, release, 0.05, r);
-  EXPECT_DOUBLE_EQ(r.scalars.crown_to_toe_length_m, 140);        // 155 - 15
-  EXPECT_DOUBLE_EQ(r.scalars.crown_to_toe_drop_m, 97.5 - 22.5);  // ground at x = 155
-  EXPECT_DOUBLE_EQ(r.scalars.crown_to_toe_ratio, 75.0 / 140);
-  EXPECT_DOUBLE_EQ(r.scalars.deposit_front_m, 120);
-  MemberResult bare = deposit_of(grid, {});
-  write_crown_to_toe(ground, release, 0.05, bare);
-  EXPECT_TRUE(std::isnan(bare.scalars.crown_to_toe_length_m));
-  EXPECT_TRUE(std::isnan(bare.scalars.deposit_front_m));
+  MemberScalars m;
+  const std::vector<PeakMaps::Cell> deposit{{4, 8}, {4, 15}, {2, 12}};
+  write_crown_to_toe(ground, release, deposit, grid, m);
+  EXPECT_DOUBLE_EQ(m.crown_to_toe_length_m, 140);        // 155 - 15
+  EXPECT_DOUBLE_EQ(m.crown_to_toe_drop_m, 97.5 - 22.5);  // ground at x = 155
+  EXPECT_DOUBLE_EQ(m.crown_to_toe_ratio, 75.0 / 140);
+  EXPECT_DOUBLE_EQ(m.deposit_front_m, 120);
+  write_crown_to_toe(ground, release, {}, grid, m);
+  EXPECT_TRUE(std::isnan(m.crown_to_toe_length_m));
+  EXPECT_TRUE(std::isnan(m.deposit_front_m));
+}
+
+TEST(Doubts, NameTakeOffAndEnergyBeyondTheirBounds) {
+  Ledger ledger;
+  ledger.released_mass = 1e6;
+  ledger.potential = -1e6 * 9.81 * 100;  // fell by 100 m
+  MemberScalars m;
+  m.take_off_fraction = 0.009, m.energy_residual = -0.049;
+  EXPECT_TRUE(doubts(m, ledger, 5).empty());
+  m.take_off_fraction = 0.16, m.energy_residual = -1.1;
+  const auto both = doubts(m, ledger, 5);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].rfind("take-off: for 16 % of mass and time", 0), 0U) << both[0];
+  EXPECT_EQ(both[1].rfind("energy: -110 % of the released energy", 0), 0U) << both[1];
+  ledger.potential = -1e6 * 9.81 * 1e-3;  // a mass that hardly moved: a share of nothing
+  EXPECT_EQ(doubts(m, ledger, 5).size(), 1U);
 }
 
 TEST(CrownToToe, OfABlockThatHardlyMovesIsThatOfItsSource) {
