@@ -60,8 +60,7 @@ Headline headline(const ReportInput& input) {
   h.crown_to_toe_drop_m = median(&MemberScalars::crown_to_toe_drop_m);
   h.crown_to_toe_ratio = median(&MemberScalars::crown_to_toe_ratio);
   h.com_travel_m = median(&MemberScalars::com_travel_m);
-  if (input.hazard != nullptr && h.n_valid > 0)
-    h.likely_area_m2 = likely_area(input, h.n_valid);
+  if (input.hazard != nullptr && h.n_valid > 0) h.likely_area_m2 = likely_area(input, h.n_valid);
   if (input.elapsed_s > 0) h.members_per_hour = 3600.0 * h.n_members / input.elapsed_s;
   return h;
 }
