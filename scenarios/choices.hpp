@@ -28,6 +28,20 @@ constexpr auto words_of(ReleaseSurface) {
   return std::array{Word{bed, "bed"}, Word{pre_failure, "pre_failure"}};
 }
 
+/// How a thickness of the release was measured: straight down, or at right angles to the slope.
+enum class ThicknessDirection { vertical, normal };
+constexpr auto words_of(ThicknessDirection) {
+  using enum ThicknessDirection;
+  return std::array{Word{vertical, "vertical"}, Word{normal, "normal"}};
+}
+
+/// Floor of a release that is dug out of the terrain: at even depth, or rising to its lower edge.
+enum class ReleaseFloor { uniform, tapered };
+constexpr auto words_of(ReleaseFloor) {
+  using enum ReleaseFloor;
+  return std::array{Word{uniform, "uniform"}, Word{tapered, "tapered"}};
+}
+
 /// Lateral earth pressure of columns.
 enum class LateralPressure { isotropic, active_passive };
 constexpr auto words_of(LateralPressure) {

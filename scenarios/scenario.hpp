@@ -22,12 +22,20 @@ struct SyntheticTerrain {
   bool operator==(const SyntheticTerrain&) const = default;
 };
 
+/// The part of a large raster that is read first: a rectangle, or what a polygon layer spans.
+struct TerrainWindow {
+  std::array<double, 2> x_m{}, y_m{};
+  std::string polygon;  ///< any OGR polygon layer
+  bool operator==(const TerrainWindow&) const = default;
+};
+
 struct TerrainSpec {
   std::string raster;  ///< path of any GDAL raster; empty: synthetic
   std::optional<SyntheticTerrain> synthetic;
   std::string crs;  ///< given by the user where the file has none (or a wrong one)
   std::optional<double> cell_size_m;  ///< working grid; default: the raster's own
   TerrainEdge nodata = TerrainEdge::outflow;
+  std::optional<TerrainWindow> window;  ///< absent: from the energy line
   bool operator==(const TerrainSpec&) const = default;
 };
 
@@ -52,15 +60,17 @@ struct ReleaseSpec {
   std::string polygon;              ///< any OGR polygon layer
   std::string layer;                ///< layer name inside `polygon`; empty: the first
   std::string thickness_attribute;  ///< field of `polygon` with a thickness in metres
-  std::string thickness_raster;     ///< metres, vertical; nodata means zero
+  std::string thickness_raster;     ///< metres; nodata means zero
   double thickness_factor = 1;      ///< of `thickness_raster`: -1 where depths count downward
   std::string crs;                  ///< where the release file has none
   std::optional<ReleaseBox> box;
   std::optional<ReleaseParaboloid> paraboloid;
   std::optional<ReleaseCylinder> cylinder;
-  std::optional<Uncertain> thickness_m;          ///< vertical thickness of polygon, box, ...
+  std::optional<Uncertain> thickness_m;          ///< thickness of polygon, box, ...
   std::optional<Uncertain> volume_m3;            ///< bulk; scales the thickness
   ReleaseSurface surface = ReleaseSurface::bed;  ///< pre_failure: bed = terrain - thickness
+  ThicknessDirection thickness = ThicknessDirection::vertical;  ///< how thicknesses were measured
+  ReleaseFloor floor = ReleaseFloor::uniform;                   ///< of a pre_failure release
   std::array<double, 3> velocity_m_s{0, 0, 0};
   bool operator==(const ReleaseSpec&) const = default;
 };
@@ -133,10 +143,10 @@ struct BasalSpec {
 };
 
 struct NumericsSpec {
-  double spacing_m = 0;  ///< initial particle spacing dx; 0 = not given (an error)
-  double end_time_s = 120;
-  double courant = 0.25;           ///< dt <= courant h / (c0 + |v|)
-  double sound_speed_factor = 10;  ///< c0 = factor * expected flow speed
+  double spacing_m = 0;              ///< initial particle spacing dx; 0 = not given (an error)
+  std::optional<double> end_time_s;  ///< absent: to rest, see scenarios/assembly/time_cap.hpp
+  double courant = 0.25;             ///< dt <= courant h / (c0 + |v|)
+  double sound_speed_factor = 10;    ///< c0 = factor * expected flow speed
   bool adaptive_sound_speed =
       true;  ///< c0 follows the flow, see engine/effects/dense/sound_speed.cpp
   double artificial_viscosity = 0.1;  ///< alpha_v of B.4

@@ -3,9 +3,12 @@
 #pragma once
 
 #include "engine/terrain/terrain.hpp"
+#include "scenarios/assembly/reach.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,27 +18,42 @@ namespace sturz {
 enum class ReleasePattern {
   cover,  ///< share of each cell that the source covers, 0..1; times release.thickness_m or scaled
           ///< to volume_m3
-  thickness,  ///< vertical thickness [m]; scaled when release.volume_m3 is given
+  thickness,  ///< vertical thickness [m]; scaled when release.volume_m3 is given (once
+              ///< shape_release has seen it: before, as release.thickness says)
 };
 
 struct SceneInputs {
-  std::shared_ptr<const Raster<double>>
-      elevation;  ///< working grid, as delivered (bed or pre-failure), NaN nodata
-  std::shared_ptr<const Raster<double>>
-      release;  ///< pattern on the same grid, zeros outside the source
+  /// As delivered (bed or pre-failure), NaN nodata: the part of the working grid that is held.
+  std::shared_ptr<const Raster<double>> elevation;
+  Grid whole;  ///< the working grid where only a part is held; empty: all of it is
+  /// Pattern on cells of the working grid, nothing beyond.
+  std::shared_ptr<const Raster<double>> release;
   ReleasePattern pattern = ReleasePattern::cover;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
   /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.
   std::shared_ptr<const Terrain> ground, column_ground;
-  /// Zone of the bed per cell of the same grid: 0 none, k the k-th of basal.zones; null: no zones.
+  /// Zone of the bed per held cell: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;
   Grid hazard_grid;           ///< the maps' common grid
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =
       0;  ///< exact volume of the source before resampling; 0: follows from thickness_m
-  std::vector<std::string> notes;  ///< what was reprojected, resampled, corrected, by how much
-  std::vector<std::pair<std::string, std::string>>
-      checksums;  ///< input file -> hash, for the manifest
+  /// Volume of the source with its thickness normal to the slope, over that with the same numbers
+  /// read vertically: at least 1. See scenarios/assembly/release_pattern.hpp.
+  double normal_over_vertical = 1;
+  std::vector<std::string> notes;     ///< what was reprojected, resampled, corrected, by how much
+  std::vector<std::string> warnings;  ///< what was guessed, and what cannot be right
+  std::vector<InputIdentity> identities;  ///< of every file, in the order of the scenario's blocks
+  /// Hash of ground and pattern where the release lies; the same whatever window of the terrain was
+  /// read.
+  std::string release_hash;
+  /// How far the mass can come, of the whole scene and whatever is held; empty: not looked at.
+  std::optional<Reach> reach;
+  Window first_window;  ///< of level 0, see larger_window
+  int level = 0;        ///< of what is held
+
+  const Grid& terrain_grid() const { return whole.n_cols > 0 ? whole : elevation->grid; }
+  Window held() const { return window_of(elevation->grid, terrain_grid()); }
 };
 
 }  // namespace sturz

@@ -100,12 +100,6 @@ struct ScalarInfo {
 /// Every scalar in file order; the one table that CSV, netCDF and report share.
 std::span<const ScalarInfo> scalar_table();
 
-/// A rectangle of cells inside a grid.
-struct Window {
-  int row0 = 0, col0 = 0, n_rows = 0, n_cols = 0;
-  std::size_t n_cells() const { return static_cast<std::size_t>(n_rows) * n_cols; }
-};
-
 struct MemberResult {
   std::int64_t member = 0;
   Outcome outcome = Outcome::failed;
@@ -115,6 +109,9 @@ struct MemberResult {
   std::string binding_limit;     ///< the time-step limit that bound most steps
   std::string warnings;          ///< '; '-separated, e.g. thin flow
   std::uint64_t state_hash = 0;  ///< of the final particle state, bitwise
+  /// Ground was asked for that was not held: nothing else of this result holds, and the member is
+  /// to be computed again with a larger part of the raster.
+  bool needs_more_ground = false;
   MemberScalars scalars;
   MemberHistory history;  ///< not part of any hash
   /// Computing time of each pass, and of what lies between steps; adds up to wall_s. Not part of

@@ -25,14 +25,6 @@ constexpr double own_share = 0.4;
 /// Width of a particle's spread [cells]: rounded alike wherever room for its weights is counted.
 double cells_wide(double width_m, double cell_m) { return std::max(1.0, width_m / cell_m); }
 
-Window joined(const Window& a, const Window& b) {
-  if (a.n_cells() == 0) return b;
-  if (b.n_cells() == 0) return a;
-  const int row0 = std::min(a.row0, b.row0), col0 = std::min(a.col0, b.col0);
-  return {row0, col0, std::max(a.row0 + a.n_rows, b.row0 + b.n_rows) - row0,
-          std::max(a.col0 + a.n_cols, b.col0 + b.n_cols) - col0};
-}
-
 /// Rows row0..row1 and columns col0..col1 that lie on the grid.
 Window clipped(double row0, double row1, double col0, double col1, const Grid& g) {
   if (!(row0 <= row1 && col0 <= col1)) return {};

@@ -10,7 +10,7 @@ namespace sturz {
 namespace {
 
 constexpr double gravity = standard_gravity;
-constexpr std::size_t most_starts = 48;
+constexpr std::size_t most_starts = 48, few_starts = 6;
 
 /// The ground as a mass point feels it: averaged over one cell, so that slope and curvature are
 /// smooth although the bilinear patches have kinks. All derivatives belong to nearly one surface,
@@ -64,7 +64,7 @@ class MassPoint {
     // Longer than any path that ends; bounds the cost of a frictionless bowl.
     const int most_steps = 2000 + 8 * (grid.n_cols + grid.n_rows);
     double fastest = speed_;
-    double t = 0;
+    double& t = elapsed_;
     for (int n = 0; n < most_steps && t < end_time; ++n) {
       // A quarter of a cell at this speed and at the speed that free fall gives in this step.
       const double fall = std::sqrt(speed_ * speed_ + 0.5 * gravity * cell);
@@ -75,6 +75,8 @@ class MassPoint {
     }
     return fastest;
   }
+  /// Of the way that `fastest` followed [s].
+  double elapsed() const { return elapsed_; }
 
  private:
   /// False at rest and beyond the known ground.
@@ -124,6 +126,7 @@ class MassPoint {
   double friction_;
   double x_, y_, vx_ = 0, vy_ = 0;
   double speed_ = 0;
+  double elapsed_ = 0;
   double energy_ = 0;  ///< per mass, kinetic and potential, less the work of friction
 };
 
@@ -147,6 +150,21 @@ double reference_speed(const Terrain& terrain, const Release& release, double ef
   run(static_cast<std::size_t>(std::max_element(release.z.begin(), release.z.end()) -
                                release.z.begin()));
   return fastest;
+}
+
+double time_to_rest(const Terrain& terrain, const Release& release, double effective_friction,
+                    double initial_speed, double end_time_s) {
+  const std::size_t n = release.x.size();
+  const std::size_t stride = std::max<std::size_t>(1, (n + few_starts - 1) / few_starts);
+  double longest = 0;
+  for (std::size_t i = stride / 2; i < n; i += stride) {
+    if (!terrain.inside(release.x[i], release.y[i])) continue;
+    MassPoint point(terrain, std::max(0.0, effective_friction), release.x[i], release.y[i],
+                    std::max(0.0, initial_speed));
+    point.fastest(end_time_s);
+    longest = std::max(longest, point.elapsed());
+  }
+  return longest;
 }
 
 }  // namespace sturz

@@ -20,4 +20,8 @@ namespace sturz {
 double reference_speed(const Terrain& terrain, const Release& release, double effective_friction,
                        double initial_speed, double end_time_s);
 
+/// Time [s] until the last of a few of these points ends: an estimate of how long a mass moves.
+double time_to_rest(const Terrain& terrain, const Release& release, double effective_friction,
+                    double initial_speed, double end_time_s);
+
 }  // namespace sturz

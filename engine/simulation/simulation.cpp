@@ -90,6 +90,8 @@ class Run {
   bool over() {
     State& s = parts_.state;
     if (ended_) return true;
+    if (s.terrain.needs_more())
+      return end(Outcome::cancelled, "ground beyond the part that was read is needed");
     if (s.n_particles() == 0) return end(Outcome::left_terrain, "all mass left the terrain");
     if (parts_.stop.out_of_time(s.time)) return end(Outcome::out_of_time, "");
     return false;
@@ -241,6 +243,7 @@ class Run {
     }
     // The time may have ended a member that rest would have ended, had it been asked to.
     if (result_.outcome == Outcome::out_of_time && at_rest_) result_.outcome = Outcome::settled;
+    result_.needs_more_ground = s.terrain.needs_more();
     result_.member = parts_.facts.member;
     result_.formulation = parts_.facts.formulation;
     result_.warnings = parts_.facts.warnings;

@@ -54,7 +54,7 @@ void Terrain::refresh_bounds(int row0, int col0, int row1, int col1) {
     for (int c = std::max({col0 - bound_stencil, left, patch_col_}); c <= last_col; ++c) {
       const SurfaceBound b = bounds[static_cast<std::size_t>(r - top) * n_cols + (c - left)];
       patch_bounds_[static_cast<std::size_t>(r - patch_row_) * patch_cols_ + (c - patch_col_)] = b;
-      roughest_ = rougher(roughest_, b);
+      patch_roughest_ = rougher(patch_roughest_, b);
     }
 }
 

@@ -101,6 +101,7 @@ void Terrain::search_blocks(const Vec3& p, double radius, Closest& best) const {
 }
 
 void Terrain::try_block(int row, int col, const Vec3& p, Closest& best) const {
+  if (!holds_block(row, col)) return needs_more_.raise();
   Block b = block_at(row, col);
   const double pu = p.x() - (west_node_m_ + col * cell_m_);
   const double pv = (north_node_m_ - row * cell_m_) - p.y();

@@ -20,17 +20,17 @@ double second(const double* n) { return n[0] - 2 * n[1] + n[2]; }
 
 CurvedSurface Terrain::curved(double x, double y) const {
   const double u = (x - west_node_m_) * per_cell_, v = (north_node_m_ - y) * per_cell_;
-  const Grid& g = base_->grid;
   CurvedSurface out;
-  if (u >= 0.5 && v >= 0.5 && u < g.n_cols - 1.5 && v < g.n_rows - 1.5) {
+  if (u >= first_u_ + 0.5 && v >= first_v_ + 0.5 && u < last_node_u_ - 0.5 &&
+      v < last_node_v_ - 0.5) {
     const int col = static_cast<int>(u + 0.5), row = static_cast<int>(v + 0.5);
     // A patch carries a margin of nodes of the base raster: three rows and columns that are not
     // wholly inside it touch nothing that it changed.
     const int r = row - 1 - patch_row_, c = col - 1 - patch_col_;
     const bool patched = r >= 0 && c >= 0 && r + 2 < patch_rows_ && c + 2 < patch_cols_;
-    const std::ptrdiff_t stride = patched ? patch_cols_ : g.n_cols;
+    const std::ptrdiff_t stride = patched ? patch_cols_ : stride_;
     const double* corner = patched ? &patch_[static_cast<std::size_t>(r) * patch_cols_ + c]
-                                   : &base_->values[g.index(row - 1, col - 1)];
+                                   : nodes_ + ((row - 1) * stride_ + col - 1 - corner_);
     const Weights east(u - col), south(v - row);
     double z[3], rise[3], curvature[3];
     for (int k = 0; k < 3; ++k) {
@@ -47,6 +47,8 @@ CurvedSurface Terrain::curved(double x, double y) const {
       out.curvature_nn = second(z) * per_area;
       return out;
     }
+  } else if (u >= 0.5 && v >= 0.5 && u < n_cols_ - 1.5 && v < n_rows_ - 1.5) {
+    needs_more_.raise();
   }
   Block b;
   if (find(x, y, b)) {

@@ -21,36 +21,61 @@ Vec2 nearest_in_square(int col, int row, double u, double v) {
 
 }  // namespace
 
-Terrain::Terrain(std::shared_ptr<const Raster<double>> elevation, NodataRule rule)
-    : base_(std::move(elevation)), rule_(rule) {
-  expect(base_ != nullptr, "a terrain has an elevation raster");
+Terrain::Terrain(std::shared_ptr<const Raster<double>> elevation, NodataRule rule) : rule_(rule) {
+  expect(elevation != nullptr, "a terrain has an elevation raster");
+  const Grid& whole = elevation->grid;
+  base_ = std::make_shared<const HeldGround>(whole, std::move(elevation));
+  set_out();
+}
+
+Terrain::Terrain(std::shared_ptr<const HeldGround> ground, NodataRule rule)
+    : base_(std::move(ground)), rule_(rule) {
+  expect(base_ != nullptr, "a terrain stands on ground");
+  set_out();
+}
+
+void Terrain::set_out() {
   const Grid& g = base_->grid;
-  expect(base_->values.size() == g.n_cells(), "a raster has one value per cell");
-  require(g.n_cols >= 2 && g.n_rows >= 2,
-          "terrain: the elevation raster has " + std::to_string(g.n_cols) + " x " +
-              std::to_string(g.n_rows) +
-              " cells (a surface needs at least 2 x 2). Use a larger raster.");
-  require(g.cell_m > 0 && std::isfinite(g.cell_m),
-          "terrain: the cell size is not a positive length (surface slopes would be undefined). "
-          "Check the raster's geotransform.");
   cell_m_ = g.cell_m;
   per_cell_ = 1 / g.cell_m;
   west_node_m_ = g.x_center(0);
   north_node_m_ = g.y_center(0);
-  bool found = false;
-  for (int r = 0; r + 1 < g.n_rows && !found; ++r)
-    for (int c = 0; c + 1 < g.n_cols && !found; ++c) found = block_inside(r, c);
-  require(found,
-          "terrain: no 2 x 2 block of cells has known elevations (all or nearly all is nodata). "
-          "Check the raster's nodata value and the area cut out of it.");
-  lowest_m_ = std::numeric_limits<double>::infinity();
-  for (double z : base_->values) {
-    if (std::isfinite(z)) lowest_m_ = std::min(lowest_m_, z);
-    all_known_ = all_known_ && std::isfinite(z);
+  lowest_m_ = base_->lowest_m;
+  n_rows_ = g.n_rows, n_cols_ = g.n_cols;
+  stride_ = base_->window.n_cols;
+  corner_ = base_->window.row0 * stride_ + base_->window.col0;
+  nodes_ = base_->elevation->values.data();
+  bounds_ = base_->bounds.data();
+  const Window& w = base_->usable;
+  first_u_ = w.col0, first_v_ = w.row0;
+  last_node_u_ = w.end_col() - 1, last_node_v_ = w.end_row() - 1;
+  // Where the raster goes on, the last usable nodes belong to the block behind them.
+  last_u_ = w.end_col() == g.n_cols ? last_node_u_ : std::nextafter(last_node_u_, -1);
+  last_v_ = w.end_row() == g.n_rows ? last_node_v_ : std::nextafter(last_node_v_, -1);
+}
+
+/// A place, in cells from the raster's north-west node, where nothing is held.
+void Terrain::note_missing(double u, double v) const {
+  if (u >= 0 && v >= 0 && u <= n_cols_ - 1 && v <= n_rows_ - 1) needs_more_.raise();
+}
+
+/// How rough the ground is within so many cells; empty where too little of it is held.
+std::optional<HeldGround::Tile> Terrain::tiles_around(double u, double v, double cells) const {
+  const auto near = [](double at, int n) {
+    return static_cast<int>(std::clamp(std::floor(at), 0.0, n - 2.0));
+  };
+  const int row0 = near(v - cells, n_rows_), row1 = near(v + cells, n_rows_);
+  const int col0 = near(u - cells, n_cols_), col1 = near(u + cells, n_cols_);
+  std::optional<HeldGround::Tile> tile = base_->around(row0, row1, col0, col1);
+  if (!tile) {
+    needs_more_.raise();
+    return tile;
   }
-  bounds_ = std::make_shared<const std::vector<SurfaceBound>>(
-      surface_bounds(base_->values, g.n_rows, g.n_cols, cell_m_));
-  for (SurfaceBound b : *bounds_) roughest_ = rougher(roughest_, b);
+  const int reach = HeldGround::tile;
+  if (patch_rows_ > 0 && row1 + reach >= patch_row_ && row0 - reach <= patch_row_ + patch_rows_ &&
+      col1 + reach >= patch_col_ && col0 - reach <= patch_col_ + patch_cols_)
+    tile->bound = rougher(tile->bound, patch_roughest_);
+  return tile;
 }
 
 Terrain Terrain::with_patch(int row0, int col0, int n_rows, int n_cols,
@@ -87,13 +112,14 @@ Terrain Terrain::with_patch(int row0, int col0, int n_rows, int n_cols,
       out.lowest_m_ = std::min(out.lowest_m_, z);
     }
   out.patch_bounds_ = surface_bounds(out.patch_, out.patch_rows_, out.patch_cols_, cell_m_);
-  // The window's outer blocks see nodes beyond it: the base's bounds cover those.
+  // The patch's outer blocks see nodes beyond it: the base's bounds cover those.
   for (int r = top; r < bottom; ++r)
     for (int c = left; c < right; ++c) {
       SurfaceBound& b = out.patch_bounds_[at(r, c)];
-      b = rougher(b, (*bounds_)[g.index(r, c)]);
-      out.roughest_ = rougher(out.roughest_, b);
+      if (holds(r, c)) b = rougher(b, bounds_[r * stride_ + c - corner_]);
+      out.patch_roughest_ = rougher(out.patch_roughest_, b);
     }
+  if (needs_more()) out.needs_more_.raise();  // reading the nodes may have told
   return out;
 }
 
@@ -101,7 +127,9 @@ double Terrain::node(int row, int col) const {
   const int r = row - patch_row_, c = col - patch_col_;
   if (r >= 0 && r < patch_rows_ && c >= 0 && c < patch_cols_)
     return patch_[static_cast<std::size_t>(r) * patch_cols_ + c];
-  return base_->at(row, col);
+  if (holds(row, col)) return nodes_[row * stride_ + col - corner_];
+  needs_more_.raise();
+  return nan_d;
 }
 
 bool Terrain::block_inside(int row, int col) const {
@@ -138,8 +166,13 @@ bool Terrain::distance_inside(const Vec3& p, double contact_distance, SurfaceDis
   const Slope s = evaluate(b, per_cell_);
   if (!std::isfinite(s.z)) return false;
   const double above = p.z() - s.z;
-  // The block's bounds hold within one cell; farther away only the whole ground's do.
-  const SurfaceBound& bound = contact_distance <= cell_m_ ? *b.bound : roughest_;
+  SurfaceBound bound = *b.bound;
+  if (contact_distance > cell_m_) {  // a block's bounds hold within one cell
+    const double u = (p.x() - west_node_m_) * per_cell_, v = (north_node_m_ - p.y()) * per_cell_;
+    const auto around = tiles_around(u, v, contact_distance * per_cell_);
+    if (!around) return false;
+    bound = around->bound;
+  }
   if (bound.curvature_per_m * contact_distance <= 0.2 ||
       above * bound.min_normal_z > contact_distance) {
     const Vec3 normal = upward_normal(s.east, s.north);
@@ -159,10 +192,13 @@ SurfaceDistance Terrain::distance(const Vec3& p, double contact_distance) const 
 
 double Terrain::clearance(const Vec3& p) const {
   Block b;
-  if (!all_known_ || !find(p.x(), p.y(), b)) return 0;
-  const double above = (p.z() - evaluate(b, per_cell_).z) * roughest_.min_normal_z;
+  if (!find(p.x(), p.y(), b)) return 0;
+  constexpr double reach = HeldGround::tile;  // in cells
   const double u = (p.x() - west_node_m_) * per_cell_, v = (north_node_m_ - p.y()) * per_cell_;
-  const double boundary = std::min({u, v, grid().n_cols - 1 - u, grid().n_rows - 1 - v}) * cell_m_;
+  const auto around = tiles_around(u, v, reach);
+  if (!around || !around->known) return 0;
+  const double above = (p.z() - evaluate(b, per_cell_).z) * around->bound.min_normal_z;
+  const double boundary = std::min({u, v, n_cols_ - 1 - u, n_rows_ - 1 - v, reach}) * cell_m_;
   return std::max(0.0, std::min(above, boundary));
 }
 
@@ -175,6 +211,10 @@ SurfacePoint Terrain::surface_outside(double x, double y) const {
   // The nearest point may lie on the seam to an unknown block: take it from a known one.
   for (int r : {row, std::max(0, row - 1)})
     for (int c : {col, std::max(0, col - 1)}) {
+      if (!holds_block(r, c)) {
+        needs_more_.raise();
+        continue;
+      }
       Block b = block_at(r, c);
       b.east = edge->x() - c;
       b.south = edge->y() - r;

@@ -4,13 +4,20 @@
 /// The base raster is shared, read-only, by all members; a member may lay a small patch over it
 /// (the excavation of a pre-failure surface). Never a staircase: steps in the surface change the
 /// apparent friction (Iverson & George 2019).
+///
+/// Of a large raster only a window may be held. Whoever asks for ground beyond it, where the raster
+/// goes on, gets an answer as beyond the raster's edge, and needs_more() is true from then on:
+/// nothing that was computed on this terrain holds, and it is to be computed again with a larger
+/// window. As long as needs_more() is false every answer has the bits that the whole raster gives.
 #pragma once
 
 #include "engine/core/vec.hpp"
+#include "engine/terrain/held_ground.hpp"
 #include "engine/terrain/raster.hpp"
 #include "engine/terrain/surface_bounds.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -60,11 +67,29 @@ struct NodeChange {
   double z = 0;  ///< [m]
 };
 
+/// A flag that many threads may raise and nobody lowers; a copy starts as its original stands.
+class RaisedFlag {
+ public:
+  RaisedFlag() = default;
+  RaisedFlag(const RaisedFlag& o) : up_(o.up()) {}
+  RaisedFlag& operator=(const RaisedFlag& o) {
+    up_.store(o.up(), std::memory_order_relaxed);
+    return *this;
+  }
+  void raise() { up_.store(true, std::memory_order_relaxed); }
+  bool up() const { return up_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<bool> up_{false};
+};
+
 class Terrain {
  public:
   /// \param elevation metres above datum, NaN = nodata. At least 2 x 2 cells.
   /// \throws SetupError if the raster is too small or holds no valid 2 x 2 block
   Terrain(std::shared_ptr<const Raster<double>> elevation, NodataRule rule);
+  /// The same where only a part of the raster is held.
+  Terrain(std::shared_ptr<const HeldGround> ground, NodataRule rule);
 
   /// The same ground with `new_elevation` laid over the window that starts at (row0, col0);
   /// the patch holds n_rows x n_cols elevations [m], NaN keeps the value below it. Patches add up.
@@ -84,7 +109,11 @@ class Terrain {
     return patch_.capacity() * sizeof(double) + patch_bounds_.capacity() * sizeof(SurfaceBound);
   }
 
+  /// Of the whole raster, whatever part of it is held.
   const Grid& grid() const { return base_->grid; }
+  const Window& held() const { return base_->window; }
+  /// True once ground was asked for that the raster has and this terrain does not hold.
+  bool needs_more() const { return needs_more_.up(); }
   NodataRule nodata_rule() const { return rule_; }
   /// Elevation of a cell centre with the patch applied [m]; NaN = nodata. In-range indices only.
   double node(int row, int col) const;
@@ -107,13 +136,14 @@ class Terrain {
   /// Newton steps on every patch within the contact distance), so that a cliff beside a particle
   /// counts. The sign is always that of z - z_s. \param contact_distance  [m]; farther up the
   /// tangent plane's distance is returned.
-  ///               Up to one cell costs 20-40 ns; more (or a whole smoothing support) makes nearly
-  ///               all of a mountain count as bent and costs several times as much
+  ///               Up to one cell costs 20-40 ns; more looks at tiles of 16 x 16 cells and costs
+  ///               several times as much where one of them is bent
   SurfaceDistance distance(const Vec3& p, double contact_distance) const;
   /// The same where the ground is known; false off it, and `out` untouched.
   bool distance_inside(const Vec3& p, double contact_distance, SurfaceDistance& out) const;
   /// No point of the ground and no boundary of the known ground is nearer than this [m]: the height
-  /// above ground times the least n_z anywhere. 0 where some of the raster is unknown, or off it.
+  /// above ground times the least n_z in the tiles (16 x 16 cells) around, never more than to their
+  /// edge. 0 where some of them is unknown, or off the raster.
   double clearance(const Vec3& p) const;
 
   static constexpr int search_cells = 64;
@@ -132,6 +162,11 @@ class Terrain {
   };
   struct Closest;
 
+  void set_out();
+  bool holds(int row, int col) const;
+  bool holds_block(int row, int col) const;
+  void note_missing(double u, double v) const;
+  std::optional<HeldGround::Tile> tiles_around(double u, double v, double cells) const;
   void cover(int row0, int col0, int row1, int col1);
   void refresh_bounds(int row0, int col0, int row1, int col1);
   bool find(double x, double y, Block& block) const;
@@ -145,18 +180,26 @@ class Terrain {
   void search_blocks(const Vec3& p, double radius, Closest& best) const;
   void search_compass(const Vec3& p, double contact_distance, Closest& best) const;
 
-  std::shared_ptr<const Raster<double>> base_;
-  std::shared_ptr<const std::vector<SurfaceBound>> bounds_;  ///< per block, at its NW node's index
-  SurfaceBound roughest_;                                    ///< over the whole ground
+  std::shared_ptr<const HeldGround> base_;
   NodataRule rule_;
+  // Of the base, at hand.
+  const double* nodes_ = nullptr;             ///< [held]
+  const SurfaceBound* bounds_ = nullptr;      ///< [held]
+  std::ptrdiff_t stride_ = 0;                 ///< from a node to the one south of it
+  std::ptrdiff_t corner_ = 0;                 ///< index of the first held node, by this stride
+  int n_rows_ = 0, n_cols_ = 0;               ///< of the whole raster
+  double first_u_ = 0, first_v_ = 0;          ///< first usable column and row of nodes
+  double last_u_ = 0, last_v_ = 0;            ///< last place between usable nodes
+  double last_node_u_ = 0, last_node_v_ = 0;  ///< last usable column and row of nodes
   double west_node_m_ = 0, north_node_m_ = 0, cell_m_ = 1, per_cell_ = 1;
   double lowest_m_ = 0;
-  bool all_known_ = true;  ///< no unknown node anywhere
   int patch_row_ = 0, patch_col_ = 0, patch_rows_ = 0,
       patch_cols_ = 0;  ///< with a margin of nodes of the base raster
   std::vector<double> patch_;
   std::vector<SurfaceBound> patch_bounds_;
+  SurfaceBound patch_roughest_;  ///< over the patch
   std::size_t n_changes_ = 0;
+  mutable RaisedFlag needs_more_;
 };
 
 inline Terrain::Block Terrain::block_at(int row, int col) const {
@@ -165,18 +208,25 @@ inline Terrain::Block Terrain::block_at(int row, int col) const {
     const std::size_t i = static_cast<std::size_t>(r) * patch_cols_ + c;
     return {&patch_[i], patch_cols_, &patch_bounds_[i], 0, 0};
   }
-  const std::size_t i = base_->grid.index(row, col);
-  return {&base_->values[i], base_->grid.n_cols, &(*bounds_)[i], 0, 0};
+  const std::ptrdiff_t i = row * stride_ + col - corner_;
+  return {nodes_ + i, stride_, bounds_ + i, 0, 0};
+}
+
+inline bool Terrain::holds(int row, int col) const { return base_->usable.contains(row, col); }
+inline bool Terrain::holds_block(int row, int col) const {
+  return holds(row, col) && holds(row + 1, col + 1);
 }
 
 /// The block below a point; false beyond the outermost nodes and for a NaN point.
 inline bool Terrain::find(double x, double y, Block& block) const {
   const double u = (x - west_node_m_) * per_cell_, v = (north_node_m_ - y) * per_cell_;
-  const Grid& g = base_->grid;
-  if (!(u >= 0 && v >= 0 && u <= g.n_cols - 1 && v <= g.n_rows - 1)) return false;
-  // A point on the last node row or column belongs to the block before it.
-  const int col = std::min(static_cast<int>(u), g.n_cols - 2);
-  const int row = std::min(static_cast<int>(v), g.n_rows - 2);
+  if (!(u >= first_u_ && v >= first_v_ && u <= last_u_ && v <= last_v_)) {
+    note_missing(u, v);
+    return false;
+  }
+  // A point on the raster's last node row or column belongs to the block before it.
+  const int col = std::min(static_cast<int>(u), n_cols_ - 2);
+  const int row = std::min(static_cast<int>(v), n_rows_ - 2);
   block = block_at(row, col);
   block.east = u - col;
   block.south = v - row;

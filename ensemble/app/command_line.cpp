@@ -5,12 +5,14 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/app/help/hint.hpp"
 #include "ensemble/workflow/version.hpp"
 
 #include <fmt/core.h>
 
 #include <exception>
 #include <new>
+#include <string_view>
 
 namespace sturz::app {
 namespace {
@@ -48,15 +50,29 @@ int guarded(const std::function<int(Console&)>& action, Console& console) {
   return usage_or_scenario_error;
 }
 
+/// `sturz help` and `sturz help run`, as many other programs have it.
+bool wants_help(const Grammar& grammar, int argc, char** argv) {
+  if (argc < 2 || std::string_view(argv[1]) != "help") return false;
+  const CLI::App* about = &grammar.program;
+  if (argc > 2)
+    if (const CLI::App* named = command_named(grammar.program, argv[2])) about = named;
+  fmt::print("{}", about->help());
+  return true;
+}
+
 }  // namespace
 
 int command_line(int argc, char** argv) {
   Grammar grammar;
   build(grammar);
+  if (wants_help(grammar, argc, argv)) return ok;
   try {
     grammar.program.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    return grammar.program.exit(problem) == 0 ? ok : usage_or_scenario_error;
+    if (grammar.program.exit(problem) == 0) return ok;
+    const std::string hint = hint_on_words(grammar.program, {argv + 1, argv + argc});
+    if (!hint.empty()) fmt::print(stderr, "{}\n", hint);
+    return usage_or_scenario_error;
   }
   Console console(grammar.json);
   return guarded(grammar.action, console);

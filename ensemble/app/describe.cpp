@@ -5,7 +5,10 @@
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/cost_warnings.hpp"
+#include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "ensemble/workflow/readable.hpp"
 #include "ensemble/workflow/scene.hpp"
 #include "scenarios/schema/schema.hpp"
@@ -25,7 +28,7 @@ struct Options {
 
 using workflow::Scene;
 
-std::string as_json(const Scene& scene) {
+std::string as_json(const Scene& scene, const std::vector<std::string>& warnings) {
   const SceneDescription& d = scene.description;
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectNote& e : d.effects)
@@ -43,6 +46,9 @@ std::string as_json(const Scene& scene) {
                                       {"layers", d.layers},
                                       {"release_volume_m3", d.release_volume_m3},
                                       {"release_area_m2", d.release_area_m2},
+                                      {"normal_over_vertical", d.normal_over_vertical},
+                                      {"bulk_density_kg_m3", d.bulk_density_kg_m3},
+                                      {"narrow_side_m", d.narrow_side_m},
                                       {"memory_bytes", d.memory_bytes},
                                       {"reference_speed_m_s", d.reference_speed_m_s},
                                       {"sound_speed_m_s", d.sound_speed_m_s},
@@ -53,8 +59,8 @@ std::string as_json(const Scene& scene) {
                                       {"members", scene.scenario.ensemble.members},
                                       {"uncertain", uncertain},
                                       {"notes", scene.inputs.notes},
-                                      {"warnings", d.warnings}};
-  return all.dump();
+                                      {"warnings", warnings}};
+  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void print_uncertain(const Scene& scene, Console& console) {
@@ -66,11 +72,29 @@ void print_uncertain(const Scene& scene, Console& console) {
         fmt::format("  {} [{}]: {}", key.path, key.units, distribution_text(key.distribution)));
 }
 
+/// Those of the medians, of the members together, and of the time that all of it takes.
+std::vector<std::string> all_warnings(const Scene& scene) {
+  std::vector<std::string> all = scene.description.warnings;
+  const auto add = [&all](const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  const EnsembleSpec& ensemble = scene.scenario.ensemble;
+  std::int64_t members = 1;
+  if (ensemble.members > 0 || ensemble.design == Design::table) {
+    const DesignTable design = workflow::new_design(scene.scenario);
+    members = design.n_members();
+    add(workflow::ensemble_warnings(scene, design));
+  }
+  add(workflow::cost_warnings(scene, members, workflow::available_cores()));
+  return all;
+}
+
 int describe(const Options& options, Console& console) {
   const Scene scene =
       workflow::load_scene({options.scenario, options.set, speed_cache(options.measure_again)});
+  const std::vector<std::string> warnings = all_warnings(scene);
   if (console.json()) {
-    console.event(as_json(scene));
+    console.event(as_json(scene, warnings));
     return ok;
   }
   if (!scene.scenario.title.empty()) console.say(scene.scenario.title);
@@ -84,7 +108,7 @@ int describe(const Options& options, Console& console) {
         workflow::duration_text(scene.description.predicted_seconds * members / cores)));
   }
   for (const std::string& note : scene.inputs.notes) console.say("note: " + note);
-  for (const std::string& warning : scene.description.warnings) console.warn(warning);
+  for (const std::string& warning : warnings) console.warn(warning);
   return ok;
 }
 

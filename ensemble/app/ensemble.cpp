@@ -85,7 +85,8 @@ void announce(const EnsembleJob& job, const Options& options, Console& console) 
   if (!options.shard.empty()) text += fmt::format(", shard {}", options.shard);
   if (job.finished_before > 0) text += fmt::format(", {} finished before", job.finished_before);
   if (!job.to_do.empty())
-    text += fmt::format(", {} to do on {} workers: at most {}", job.to_do.size(), job.workers,
+    text += fmt::format(", {} to do, {} at a time{}: at most {}", job.to_do.size(), job.workers,
+                        job.threads > 1 ? fmt::format(" with {} threads each", job.threads) : "",
                         workflow::duration_text(total));
   console.say(text);
 }

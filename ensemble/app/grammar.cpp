@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/grammar.hpp"
 
+#include "io/gdal/input_trust.hpp"
+
 namespace sturz::app {
 
 void add_scenario(CLI::App& parser, std::string& scenario, std::vector<std::string>& set) {
   parser.add_option("scenario", scenario, "Scenario file (YAML)")
       ->type_name("SCENARIO")
       ->required();
+  add_remote(parser);
   add_set(parser, set, "key=value: replaces one value of the scenario; may be repeated");
 }
 
@@ -15,6 +18,12 @@ void add_set(CLI::App& parser, std::vector<std::string>& set, const char* help) 
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_remote(CLI::App& parser) {
+  parser.add_flag_callback(
+      "--allow-remote-inputs", [] { allow_remote_inputs(); },
+      "Let inputs lie on the network (/vsicurl/, servers) or be raw virtual rasters");
 }
 
 void add_json(Grammar& grammar, CLI::App& parser, const char* help) {

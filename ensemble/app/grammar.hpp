@@ -44,6 +44,8 @@ SubCommand<Options> add_command(Grammar& grammar, const char* name, const char* 
 // Options that several sub-commands have.
 void add_scenario(CLI::App& parser, std::string& scenario, std::vector<std::string>& set);
 void add_set(CLI::App& parser, std::vector<std::string>& set, const char* help);
+/// --allow-remote-inputs; takes effect while the command line is read.
+void add_remote(CLI::App& parser);
 void add_json(Grammar&, CLI::App& parser, const char* help = "JSON lines instead of words");
 
 }  // namespace sturz::app

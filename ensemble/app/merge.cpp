@@ -29,6 +29,7 @@ void add_merge(Grammar& grammar) {
       ->type_name("DIR")
       ->required();
   parser.add_flag("--partial", options.partial, "Go on although members are missing");
+  add_remote(parser);
   add_json(grammar, parser);
 }
 

@@ -27,6 +27,7 @@ void add_report(Grammar& grammar) {
   parser.add_option("folder", options.folder, "Folder of an ensemble or a run")
       ->type_name("DIR")
       ->required();
+  add_remote(parser);
   add_json(grammar, parser);
 }
 

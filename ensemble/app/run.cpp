@@ -9,6 +9,7 @@
 #include "ensemble/censoring/scalar_censoring.hpp"
 #include "ensemble/workflow/members/single_run.hpp"
 #include "ensemble/workflow/readable.hpp"
+#include "scenarios/schema/number_text.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -212,7 +213,11 @@ void add_run(Grammar& grammar) {
       .add_option("--particles", options.particles_every_s,
                   "Write particle frames for ParaView, this many simulated seconds apart")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) -> std::string {
+        if (parse_number(text).value_or(0) > 0) return {};
+        return text +
+               " (must be seconds above 0, such as 0.5). Without --particles there are none.";
+      });
   add_json(grammar, parser);
 }
 

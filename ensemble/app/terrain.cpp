@@ -64,6 +64,17 @@ void write_shape(const Options& options, Console& console) {
                  console);
 }
 
+/// The release on the cells of the elevation beside it.
+Raster<double> beside(const Raster<double>& elevation, const Raster<double>& release) {
+  Raster<double> out(elevation.grid, 0.0);
+  const Window at = window_of(release.grid, elevation.grid);
+  for (int r = 0; r < at.n_rows; ++r)
+    for (int c = 0; c < at.n_cols; ++c)
+      if (elevation.grid.contains(at.row0 + r, at.col0 + c))
+        out.at(at.row0 + r, at.col0 + c) = release.at(r, c);
+  return out;
+}
+
 void write_scene(const Options& options, Console& console) {
   require(!options.cell_size_m,
           "--cell is for shapes (a scenario says terrain.cell_size_m). Use --set instead.");
@@ -76,10 +87,11 @@ void write_scene(const Options& options, Console& console) {
                "elevation on the working grid [m]", console);
   const bool cover = inputs.pattern == ReleasePattern::cover;
   write_raster(
-      folder / "release.tif", *inputs.release, synthetic,
+      folder / "release.tif", beside(*inputs.elevation, *inputs.release), synthetic,
       cover ? "share of each cell that the source covers [-]" : "thickness of the source [m]",
       console);
   for (const std::string& note : inputs.notes) console.say("note: " + note);
+  for (const std::string& warning : inputs.warnings) console.warn(warning);
 }
 
 int terrain(const Options& options, Console& console) {
@@ -113,6 +125,7 @@ void add_terrain(Grammar& grammar) {
   parser.add_option("--cell", options.cell_size_m, "Cell size of a shape [m]")
       ->check(CLI::PositiveNumber);
   add_set(parser, options.set, "A shape's parameter=value, or a scenario's key=value");
+  add_remote(parser);
   add_json(grammar, parser);
 }
 

@@ -67,8 +67,8 @@ void check_value(const UncertainKey& key, const Marginal& marginal, double value
           fmt::format("{} is not a finite number. Fill in the cell.", where()));
   if (const KeyInfo* info = find_key(key.path))
     require(value >= info->min && value <= info->max,
-            fmt::format("{} = {} (must be in {} .. {} {}). Check the unit of the column.", where(),
-                        value, info->min, info->max, info->units));
+            fmt::format("{} = {} (must be {}{}). Check the unit of the column.", where(), value,
+                        range_text(*info), info->units == "1" ? "" : " " + info->units));
   require(value >= marginal.lower() && value <= marginal.upper(),
           fmt::format("{} = {} (outside {} .. {}, the support of the distribution that the "
                       "scenario gives). Widen the distribution or correct the table.",

@@ -1,27 +1,98 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/scene.hpp"
 
+#include "engine/core/error.hpp"
 #include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/readable.hpp"
 #include "io/files/text_files.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
+#include "scenarios/checks/idle_keys.hpp"
+#include "scenarios/schema/schema.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
 namespace sturz::workflow {
 
+namespace {
+
+/// Inputs and table of a scene, with what is wrong with either of them in one message.
+void load_files(Scene& scene) {
+  std::string wrong;
+  const auto collect = [&](const auto& read) {
+    try {
+      read();
+    } catch (const SetupError& problem) {
+      wrong.append(wrong.empty() ? "" : "\n").append(problem.what());
+    }
+  };
+  // A single run keeps the table's name and has nothing left that it could say.
+  if (scene.scenario.ensemble.design == Design::table && !uncertain_keys(scene.scenario).empty())
+    collect([&] { new_design(scene.scenario); });
+  collect([&] { scene.inputs = load_scene_inputs(scene.scenario); });
+  require(wrong.empty(), wrong);
+}
+
+}  // namespace
+
 Scene load_scene(const SceneRequest& request) {
   Scene scene;
   scene.scenario = read_scenario(request.file, request.overrides);
   scene.medians = median_scenario(scene.scenario);
-  scene.inputs = load_scene_inputs(scene.scenario);
+  load_files(scene);
+  scene.ground = std::make_shared<GrowingGround>(scene.scenario, scene.inputs);
   SceneDescription& d = scene.description;
-  d = describe(scene.medians, scene.inputs);
+  d = scene.ground->computed(
+      [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
+  d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(), scene.inputs.warnings.end());
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;
 }
+
+namespace {
+
+/// When a member is over.
+std::string end_line(const Scene& scene) {
+  const SceneDescription& d = scene.description;
+  return fmt::format(
+      "end: {}{:.6g} s ({})",
+      scene.scenario.numerics.stop_at_rest ? "at rest, at the latest after " : "after ",
+      d.end_time_s, d.end_time_reason);
+}
+
+/// "bulk density: 1 560 kg/m3 (grains of 2600 kg/m3, solid fraction 0.6)".
+std::string bulk_density_line(const Scene& scene) {
+  const GrainsSpec& g = *scene.medians.grains;
+  std::string line = fmt::format("bulk density: {:.0f} kg/m3 (grains of {:.6g} kg/m3",
+                                 scene.description.bulk_density_kg_m3, g.density_kg_m3.value);
+  line += fmt::format(", solid fraction {:.4g}",
+                      scene.description.bulk_density_kg_m3 / g.density_kg_m3.value);
+  // Ice is the lightest grain there is; a lower number mostly was a bulk density.
+  if (g.density_kg_m3.value < 900)
+    line += fmt::format("; grains lighter than ice: if {:.6g} is the bulk density, write {:.5g}",
+                        g.density_kg_m3.value, g.density_kg_m3.value / g.solid_fraction.value);
+  return line + ")";
+}
+
+/// The volume that the other reading of the thicknesses gives, where there is a difference.
+std::string readings_text(const Scene& scene) {
+  const SceneDescription& d = scene.description;
+  const ReleaseSpec& r = scene.scenario.release;
+  const bool own_source =
+      r.polygon.empty() && r.thickness_raster.empty() && !r.box && !r.paraboloid && !r.cylinder;
+  const double ratio = d.normal_over_vertical;
+  if (r.volume_m3 || own_source || ratio < 1.01) return "";
+  if (r.thickness == ThicknessDirection::normal)
+    return fmt::format(", thickness normal to the slope ({} m3 if it were vertical)",
+                       grouped(d.release_volume_m3 / ratio));
+  return fmt::format(", thickness vertical ({} m3 if it were normal to the slope)",
+                     grouped(d.release_volume_m3 * ratio));
+}
+
+}  // namespace
 
 std::vector<std::string> description_lines(const Scene& scene) {
   const SceneDescription& d = scene.description;
@@ -34,7 +105,9 @@ std::vector<std::string> description_lines(const Scene& scene) {
   for (const std::string& pass : d.passes) passes += (passes.empty() ? "" : " > ") + pass;
   lines.push_back("step: " + passes);
   lines.push_back(fmt::format("release: {} m3 on {} m2", grouped(d.release_volume_m3),
-                              grouped(d.release_area_m2)));
+                              grouped(d.release_area_m2)) +
+                  readings_text(scene));
+  lines.push_back(bulk_density_line(scene));
   const bool columns = d.formulation == to_string(Formulation::depth_averaged);
   lines.push_back(fmt::format("{}: {}, {} m apart; {:.1f} spacings thick at release",
                               columns ? "columns" : "particles", d.n_particles, d.spacing_m,
@@ -43,14 +116,18 @@ std::vector<std::string> description_lines(const Scene& scene) {
     lines.emplace_back(
         "not in columns: vertical structure, dilute states, a resolved pore fluid "
         "(pore_pressure_ratio stands for it)");
+  if (const auto idle = idle_keys(scene.scenario, columns); !idle.empty())
+    lines.push_back(fmt::format("without effect in {}: {}", d.formulation, comma_separated(idle)));
   lines.push_back(
       fmt::format("memory: {:.1f} MB a member", static_cast<double>(d.memory_bytes) / 1e6));
   if (d.sound_speed_m_s > 0)
     lines.push_back(fmt::format("expected speed: {:.1f} m/s; numerical sound speed {:.0f} m/s",
                                 d.reference_speed_m_s, d.sound_speed_m_s));
+  lines.push_back(d.ground);
+  lines.push_back(end_line(scene));
   lines.push_back(fmt::format("time step: {:.2g} s ({}); about {} steps", d.dt_s, d.binding_limit,
                               grouped(d.n_steps)));
-  lines.push_back(fmt::format("predicted: at most {} a member on one core",
+  lines.push_back(fmt::format("predicted: about {} a member on one core",
                               duration_text(d.predicted_seconds)));
   return lines;
 }
@@ -62,7 +139,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.command = command;
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
-  m.inputs = scene.inputs.checksums;
+  m.inputs = scene.inputs.identities;
   m.description = description_lines(scene);
   m.notes = scene.inputs.notes;
   m.warnings = scene.description.warnings;

@@ -5,9 +5,11 @@
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/machine/machine_speed.hpp"
+#include "ensemble/workflow/members/growing_ground.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/scene_inputs.hpp"
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,10 +23,11 @@ struct SceneRequest {
 };
 
 struct Scene {
-  Scenario scenario;  ///< with overrides and defaults, distributions in place
-  Scenario medians;   ///< the same with each distribution's median
-  SceneInputs inputs;
-  SceneDescription description;  ///< of the medians
+  Scenario scenario;                      ///< with overrides and defaults, distributions in place
+  Scenario medians;                       ///< the same with each distribution's median
+  SceneInputs inputs;                     ///< with the part of the raster that is read first
+  std::shared_ptr<GrowingGround> ground;  ///< the same for members, and more where they need it
+  SceneDescription description;           ///< of the medians
 };
 
 /// Reads, overrides, validates, loads and describes. Everything that can be wrong with the user's

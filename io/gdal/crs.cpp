@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -33,14 +34,21 @@ std::string place_for(const CrsRequest& request) {
                                       : "`" + request.override_key + ": EPSG:xxxxx`";
 }
 
+/// The other way out, where there is one: a scene without a place on the map.
+std::string or_local(const CrsRequest& request) {
+  return request.override_key == "terrain.crs"
+             ? ", or `terrain.crs: local` if they are metres that lie nowhere on the map"
+             : "";
+}
+
 void refuse_unusable(const OGRSpatialReference& crs, const CrsRequest& request) {
   if (crs.IsProjected() || crs.IsGeographic()) return;
   throw SetupError(fmt::format(
       "{}: its coordinate system '{}' is {} (no map can place it). Add {}, the projected "
-      "system of the coordinates.",
+      "system of the coordinates{}.",
       request.label, crs_name(crs),
       crs.IsLocal() ? "a local one" : (crs.IsGeocentric() ? "geocentric" : "of no usable kind"),
-      place_for(request)));
+      place_for(request), crs.IsLocal() ? or_local(request) : ""));
 }
 
 void refuse_metres_as_degrees(const OGRSpatialReference& crs, const CrsRequest& request,
@@ -95,42 +103,81 @@ OGRSpatialReference crs_from_wkt(const std::string& wkt) {
   return none;
 }
 
-OGRSpatialReference best_metric_crs(double longitude, double latitude) {
+namespace {
+
+int utm_zone(double longitude) {
   const double wrapped = longitude - 360 * std::floor((longitude + 180) / 360);
-  const int zone = std::clamp(static_cast<int>(std::floor((wrapped + 180) / 6)) + 1, 1, 60);
+  return std::clamp(static_cast<int>(std::floor((wrapped + 180) / 6)) + 1, 1, 60);
+}
+
+}  // namespace
+
+OGRSpatialReference best_metric_crs(double longitude, double latitude) {
   const bool north = latitude >= 0;
-  int code = (north ? 32600 : 32700) + zone;
+  int code = (north ? 32600 : 32700) + utm_zone(longitude);
   if (latitude > 84) code = 32661;
   if (latitude < -80) code = 32761;
   return parse_crs(fmt::format("EPSG:{}", code), "working coordinate system");
 }
 
-OGRSpatialReference settle_crs(const OGRSpatialReference* own, const CrsRequest& request,
-                               const SourceExtent& extent, std::string& note) {
+namespace {
+
+void check_local(const OGRSpatialReference* own, const CrsRequest& request, std::string& note) {
+  if (own == nullptr || own->IsEmpty()) return;
+  const char* unit = nullptr;
+  require(own->IsGeographic() || std::abs(own->GetLinearUnits(&unit) - 1) < 1e-9,
+          fmt::format("{}: {} = local, but the unit of its own system {} is {} (local coordinates "
+                      "are metres). Convert it, or leave the key out.",
+                      request.label, request.override_key, crs_name(*own),
+                      unit == nullptr ? "another one" : unit));
+  if (own->IsLocal()) return;
+  require(!own->IsGeographic() && !own->IsGeocentric(),
+          fmt::format("{}: {} = local, but its own system {} counts in degrees (local coordinates "
+                      "are metres). Reproject it, or leave the key out.",
+                      request.label, request.override_key, crs_name(*own)));
+  note = fmt::format("{}: its own system {} is left aside, because {} = local", request.label,
+                     crs_name(*own), request.override_key);
+}
+
+OGRSpatialReference chosen_crs(const OGRSpatialReference* own, const CrsRequest& request,
+                               std::string& note) {
   const bool has_own = own != nullptr && !own->IsEmpty();
-  OGRSpatialReference crs;
   if (!request.override_text.empty()) {
-    crs = parse_crs(request.override_text, request.override_key);
+    OGRSpatialReference crs = parse_crs(request.override_text, request.override_key);
     if (has_own && !own->IsSame(&crs))
       note = fmt::format("{}: its own system {} replaced by {} = {}", request.label, crs_name(*own),
                          request.override_key, crs_name(crs));
-  } else if (has_own) {
-    crs = *own;
-  } else if (!request.fallback_text.empty()) {
-    crs = parse_crs(request.fallback_text, request.fallback_key);
+    return crs;
+  }
+  if (has_own) return *own;
+  if (!request.fallback_text.empty()) {
+    OGRSpatialReference crs = parse_crs(request.fallback_text, request.fallback_key);
     note = fmt::format("{}: has no coordinate system; taken to be in {} = {}", request.label,
                        request.fallback_key, crs_name(crs));
-  } else {
-    throw SetupError(
-        fmt::format("{}: has no coordinate system (so the result could not be put on a map). Add "
-                    "{}, the system of its coordinates.",
-                    request.label, place_for(request)));
+    return crs;
   }
-  crs.StripVertical();
-  crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  refuse_unusable(crs, request);
-  refuse_metres_as_degrees(crs, request, extent);
-  return crs;
+  throw SetupError(
+      fmt::format("{}: has no coordinate system (so the result could not be put on a map). Add "
+                  "{}, the system of its coordinates{}.",
+                  request.label, place_for(request), or_local(request)));
+}
+
+}  // namespace
+
+SettledCrs settle_crs(const OGRSpatialReference* own, const CrsRequest& request,
+                      const SourceExtent& extent, std::string& note) {
+  SettledCrs settled;
+  if (request.override_text == local_crs) {
+    check_local(own, request, note);
+    return settled;
+  }
+  settled.full = chosen_crs(own, request, note);
+  settled.crs = settled.full;
+  settled.crs.StripVertical();
+  settled.crs.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  refuse_unusable(settled.crs, request);
+  refuse_metres_as_degrees(settled.crs, request, extent);
+  return settled;
 }
 
 MapScale map_scale(const OGRSpatialReference& crs, double x, double y, double step) {
@@ -176,13 +223,52 @@ bool is_working_crs(const OGRSpatialReference& crs, double x, double y, double s
   return true;
 }
 
+bool names_a_datum(const OGRSpatialReference& crs) {
+  const char* datum = crs.GetAttrValue("DATUM");
+  std::string name = datum == nullptr ? "" : datum;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return c == '_' ? ' ' : std::tolower(c); });
+  return !name.empty() && name.find("unknown") == std::string::npos &&
+         name.find("not specified") == std::string::npos &&
+         name.find("unnamed") == std::string::npos;
+}
+
+bool is_shift_known(const OGRSpatialReference& from, const OGRSpatialReference& to) {
+  OGRCoordinateTransformationOptions strict;
+  strict.SetBallparkAllowed(false);
+  const TransformPtr known(OGRCreateCoordinateTransformation(&from, &to, strict));
+  return known != nullptr;
+}
+
+OGRSpatialReference utm_on_own_datum(const OGRSpatialReference& crs, double longitude,
+                                     double latitude) {
+  OGRSpatialReference utm;
+  utm.CopyGeogCSFrom(&crs);
+  utm.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  utm.SetUTM(utm_zone(longitude), latitude >= 0 ? 1 : 0);
+  return utm;
+}
+
 TransformPtr transform_between(const OGRSpatialReference& from, const OGRSpatialReference& to,
-                               const std::string& label) {
+                               const std::string& label, std::string* warning) {
   if (from.IsEmpty() || to.IsEmpty() || from.IsSame(&to)) return nullptr;
+  const bool known = is_shift_known(from, to);
+  const bool both_named = names_a_datum(from) && names_a_datum(to);
+  if (!known && (both_named || warning == nullptr))
+    throw SetupError(fmt::format(
+        "{}: cannot be moved from {} to {}: the shift between their datums is not known (places "
+        "would be unsure by some 100 m). Transform it first with the parameters of your survey "
+        "office, or name the system that its coordinates are really in.",
+        label, crs_name(from), crs_name(to)));
   TransformPtr transform(OGRCreateCoordinateTransformation(&from, &to));
   if (!transform)
     throw SetupError(fmt::format("{}: cannot be moved from {} to {} ({}). Reproject it first.",
                                  label, crs_name(from), crs_name(to), gdal_reason()));
+  if (!known)
+    *warning = fmt::format(
+        "{}: one of {} and {} names no datum; both are taken to have the same. If they have not, "
+        "places are off by up to some 100 m",
+        label, crs_name(from), crs_name(to));
   return transform;
 }
 

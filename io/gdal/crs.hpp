@@ -43,12 +43,22 @@ struct CrsRequest {
   std::string fallback_text;
 };
 
-/// The system that a file's coordinates are in: the user's where given, else the file's own.
-/// Vertical parts are dropped. `note` tells of a replaced system, else stays empty.
-/// \throws SetupError for a missing, local, geocentric or invalid system, and for metres that are
-///   tagged as degrees
-OGRSpatialReference settle_crs(const OGRSpatialReference* own, const CrsRequest& request,
-                               const SourceExtent& extent, std::string& note);
+/// The word for coordinates in metres that lie nowhere on the map.
+inline constexpr const char* local_crs = "local";
+
+struct SettledCrs {
+  OGRSpatialReference crs;   ///< of the coordinates; empty for `local`
+  OGRSpatialReference full;  ///< the same with its vertical part, where it has one
+
+  SettledCrs() = default;  // the library's own default is explicit
+};
+
+/// The system that a file's coordinates are in: the user's where given, else the file's own, else
+/// the one that stands in. `note` tells of a replaced system, else stays empty.
+/// \throws SetupError for a missing, local, geocentric or invalid system, for metres that are
+///   tagged as degrees, and for degrees that are called local
+SettledCrs settle_crs(const OGRSpatialReference* own, const CrsRequest& request,
+                      const SourceExtent& extent, std::string& note);
 
 /// Distances on the map divided by distances on the ground, along x and along y at one place.
 struct MapScale {
@@ -63,8 +73,20 @@ bool is_working_crs(const OGRSpatialReference& crs, double x, double y, double s
                     std::string& reason);
 
 using TransformPtr = std::unique_ptr<OGRCoordinateTransformation>;
-/// nullptr when both systems are the same or one is empty. \throws SetupError naming both
+/// nullptr when both systems are the same or one is empty. A shift between two datums that the
+/// library does not know is never passed over: it is some hundred metres.
+/// \param warning where one of them names no datum at all and equal datums are assumed, says so;
+///   nullptr: such a pair is refused, too
+/// \throws SetupError naming both
 TransformPtr transform_between(const OGRSpatialReference& from, const OGRSpatialReference& to,
-                               const std::string& label);
+                               const std::string& label, std::string* warning = nullptr);
+
+/// False where only an unknown shift of datums could lead from one to the other.
+bool is_shift_known(const OGRSpatialReference& from, const OGRSpatialReference& to);
+/// False for "unknown", "not specified" and the like.
+bool names_a_datum(const OGRSpatialReference& crs);
+/// The UTM zone around a place in degrees, on the datum of `crs` itself.
+OGRSpatialReference utm_on_own_datum(const OGRSpatialReference& crs, double longitude,
+                                     double latitude);
 
 }  // namespace sturz

@@ -2,6 +2,7 @@
 #include "io/gdal/gdal_handles.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/gdal/input_trust.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 
 #include <cpl_string.h>
@@ -14,6 +15,10 @@
 namespace sturz {
 namespace {
 
+/// Of raster blocks that are read, in place of a share of the machine's memory: everything is read
+/// once, from one end to the other.
+constexpr long long block_cache_bytes = 128LL << 20;
+
 /// Formats whose drivers call HDF5 or netCDF, which must not run beside our own calls.
 bool rests_on_hdf5(const std::string& driver) {
   for (const char* name : {"netCDF", "HDF5", "HDF5Image", "BAG", "KEA", "S102", "GMT"})
@@ -25,7 +30,11 @@ bool rests_on_hdf5(const std::string& driver) {
 
 GdalScope::GdalScope() : quiet_(CPLQuietErrorHandler) {
   static std::once_flag once;
-  std::call_once(once, [] { GDALAllRegister(); });
+  std::call_once(once, [] {
+    close_network();
+    GDALSetCacheMax64(block_cache_bytes);
+    GDALAllRegister();
+  });
   CPLErrorReset();
 }
 

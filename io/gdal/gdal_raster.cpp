@@ -2,6 +2,7 @@
 #include "io/gdal/gdal_raster.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/doubts/dem_doubts.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/raster_source.hpp"
@@ -14,7 +15,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <memory>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -31,13 +34,12 @@ bool has_square_cells(const RasterSource& s) {
   return s.is_axis_aligned() && same_edge(s.affine[1], -s.affine[5], std::max(s.n_cols, s.n_rows));
 }
 
-Raster<double> taken_as_it_is(RasterSource& source) {
-  Raster<double> raster;
-  raster.grid = {source.n_cols,    source.n_rows,    source.affine[0],
-                 source.affine[3], source.affine[1], crs_wkt2(source.crs)};
-  raster.values = std::move(source.values);
-  return raster;
-}
+/// What the values become: the grid of the whole, and a system to resample into.
+struct WorkingGrid {
+  Grid grid;
+  bool as_it_is = true;    ///< cell by cell; no resampling
+  OGRSpatialReference to;  ///< of the grid, where resampled
+};
 
 struct Extent {
   double west, south, east, north;
@@ -52,7 +54,7 @@ Grid grid_over(const Extent& e, double cell, const OGRSpatialReference& crs,
           fmt::format("{}: cells of {:g} m are larger than the raster ({:g} x {:g} m). Use "
                       "smaller cells.",
                       label, cell, e.east - e.west, e.north - e.south));
-  require_raster_size(n_cols, n_rows, label, source.max_cells);
+  require_raster_size(n_cols, n_rows, label, most_grid_cells);
   return {static_cast<int>(n_cols), static_cast<int>(n_rows), e.west, e.north, cell, crs_wkt2(crs)};
 }
 
@@ -69,7 +71,9 @@ Extent own_extent(const RasterSource& s) {
   return e;
 }
 
-void warp_bilinear(RasterSource& source, const OGRSpatialReference& to, Raster<double>& target) {
+/// \param ratio edge of the target's cells over the source's, along columns and rows
+void warp_bilinear(RasterSource& source, const OGRSpatialReference& to,
+                   const std::array<double, 2>& ratio, Raster<double>& target) {
   const DatasetPtr from = wrap_in_memory(source.values.data(), GDT_Float64, source.n_cols,
                                          source.n_rows, source.affine.data());
   const DatasetPtr into = wrap_in_memory(target.values.data(), GDT_Float64, target.grid.n_cols,
@@ -80,10 +84,15 @@ void warp_bilinear(RasterSource& source, const OGRSpatialReference& to, Raster<d
   into->SetSpatialRef(&to);
   CPLStringList options;
   // A hundredth of a cell is the largest error of the fast approximate transformer; one thread,
-  // because members may be running beside this.
+  // because members may be running beside this. The scale is that of the whole raster: the library
+  // would guess another one for every block.
   for (const char* word :
        {"-r", "bilinear", "-et", "0.01", "-wo", "NUM_THREADS=1", "-wo", "INIT_DEST=nan"})
     options.AddString(word);
+  options.AddString("-wo");
+  options.AddString(fmt::format("XSCALE={:.17g}", 1 / ratio[0]).c_str());
+  options.AddString("-wo");
+  options.AddString(fmt::format("YSCALE={:.17g}", 1 / ratio[1]).c_str());
   const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> settings(
       GDALWarpAppOptionsNew(options.List(), nullptr), &GDALWarpAppOptionsFree);
   GDALDatasetH sources[] = {from.get()};
@@ -95,18 +104,16 @@ void warp_bilinear(RasterSource& source, const OGRSpatialReference& to, Raster<d
   into->FlushCache();
 }
 
-Raster<double> resampled_in_place(RasterSource& source, double cell) {
-  Raster<double> raster(grid_over(own_extent(source), cell, source.crs, source), nan_d);
+WorkingGrid resampled_in_place(RasterSource& source, double cell) {
   const bool square = has_square_cells(source);
   const std::string why =
       !source.is_axis_aligned()
           ? "rotated cells"
           : (square ? fmt::format("{:g} m cells", source.affine[1])
                     : fmt::format("{:g} x {:g} m cells", source.affine[1], -source.affine[5]));
-  warp_bilinear(source, source.crs, raster);
   source.notes.push_back(
       fmt::format("{}: resampled bilinearly from {} to {:g} m squares", source.label, why, cell));
-  return raster;
+  return {grid_over(own_extent(source), cell, source.crs, source), false, source.crs};
 }
 
 /// Edge of the smaller side of the central cell in the target system, to three digits.
@@ -139,63 +146,238 @@ Extent outline(const RasterSource& s, OGRCoordinateTransformation& transform, do
           std::ceil(e.east / cell) * cell, std::ceil(e.north / cell) * cell};
 }
 
-OGRSpatialReference working_crs_for(const RasterSource& s) {
+/// A metric system around the raster's centre: of WGS 84, or on its own datum where nobody knows
+/// how the two lie to each other.
+OGRSpatialReference working_crs_for(RasterSource& s) {
   OGRSpatialReference degrees = parse_crs("EPSG:4326", "working coordinate system");
-  const TransformPtr to_degrees = transform_between(s.crs, degrees, s.label);
+  // Only the zone is sought here: a shift of some 100 m does not matter.
+  const TransformPtr to_degrees(OGRCreateCoordinateTransformation(&s.crs, &degrees));
   double x = s.x_of(s.n_cols / 2.0, s.n_rows / 2.0), y = s.y_of(s.n_cols / 2.0, s.n_rows / 2.0);
-  require(!to_degrees || to_degrees->Transform(1, &x, &y) != 0,
+  require(to_degrees && to_degrees->Transform(1, &x, &y) != 0,
           fmt::format("{}: its centre ({:.10g}, {:.10g}) cannot be found on the globe by {}. Is "
                       "that the right system?",
                       s.label, x, y, crs_name(s.crs)));
   require(std::isfinite(x) && std::isfinite(y),
           s.label + ": its centre is no place on the globe. Georeference it again.");
-  return best_metric_crs(x, y);
+  OGRSpatialReference utm = best_metric_crs(x, y);
+  if (is_shift_known(s.crs, utm) || !names_a_datum(s.crs)) return utm;
+  s.notes.push_back(
+      fmt::format("{}: the shift from its datum to WGS 84 is not known; the work is "
+                  "done on its own datum",
+                  s.label));
+  return utm_on_own_datum(s.crs, x, y);
 }
 
-Raster<double> reprojected(RasterSource& source, const std::optional<double>& wanted,
-                           const std::string& reason) {
+WorkingGrid reprojected(RasterSource& source, const std::optional<double>& wanted,
+                        const std::string& reason) {
   const OGRSpatialReference to = working_crs_for(source);
-  const TransformPtr transform = transform_between(source.crs, to, source.label);
+  std::string warning;
+  const TransformPtr transform = transform_between(source.crs, to, source.label, &warning);
+  if (!warning.empty()) source.warnings.push_back(warning);
   require(transform != nullptr,
           fmt::format("{}: lies in {}, but {} (cells of {:g} x {:g}; a broken geotransform). "
                       "Georeference it again.",
                       source.label, crs_name(to), reason, source.col_step(), source.row_step()));
   const double cell = wanted ? *wanted : natural_cell(source, *transform);
   require(cell > 0, source.label + ": its cells have no size in the working system. Reproject it.");
-  Raster<double> raster(grid_over(outline(source, *transform, cell), cell, to, source), nan_d);
-  warp_bilinear(source, to, raster);
+  const Grid grid = grid_over(outline(source, *transform, cell), cell, to, source);
   source.notes.push_back(
       fmt::format("{}: reprojected from {} to {} because {}; {:g} m cells, bilinear", source.label,
                   crs_name(source.crs), crs_name(to), reason, cell));
-  return raster;
+  return {grid, false, to};
 }
 
-Raster<double> on_working_grid(RasterSource& source, const std::optional<double>& wanted) {
+WorkingGrid working_grid(RasterSource& source, const std::optional<double>& wanted) {
   const double col_step = source.col_step(), row_step = source.row_step();
   std::string reason;
-  if (!is_working_crs(source.crs, source.x_of(source.n_cols / 2.0, source.n_rows / 2.0),
+  if (!source.crs.IsEmpty() &&  // local coordinates are metres already
+      !is_working_crs(source.crs, source.x_of(source.n_cols / 2.0, source.n_rows / 2.0),
                       source.y_of(source.n_cols / 2.0, source.n_rows / 2.0),
                       std::max(col_step, row_step), reason))
     return reprojected(source, wanted, reason);
   const bool own_size = !wanted || same_edge(*wanted, col_step, source.n_cols);
-  if (has_square_cells(source) && own_size) return taken_as_it_is(source);
+  if (has_square_cells(source) && own_size)
+    return {{source.n_cols, source.n_rows, source.affine[0], source.affine[3], source.affine[1],
+             crs_wkt2(source.crs)},
+            true,
+            OGRSpatialReference()};
   return resampled_in_place(source, wanted ? *wanted : std::min(col_step, row_step));
 }
 
+/// Edge of the blocks that are resampled one by one, in cells of the working grid: their lattice
+/// lies on the grid, so that no window changes a bit.
+constexpr int warp_block = 1024;
+/// Of these are kept while a raster is open.
+constexpr std::size_t most_blocks = 8;
+/// Cells of the source that the kernel needs beyond a block, besides its own width.
+constexpr int kernel_margin = 6;
+
 }  // namespace
 
-RasterRead read_elevation(const RasterRequest& request) {
+class ElevationRaster::Impl {
+ public:
+  explicit Impl(const RasterRequest& request)
+      : source_(request, RasterQuantity::elevation), about_(source_.about()) {
+    require(!request.cell_size_m || *request.cell_size_m > 0,
+            fmt::format("terrain.cell_size_m = {:g} (must be positive). Give metres.",
+                        request.cell_size_m.value_or(0)));
+    working_ = working_grid(about_, request.cell_size_m);
+    if (!working_.as_it_is) set_up_warp();
+  }
+
+  const Grid& grid() const { return working_.grid; }
+
+  RasterRead read(const Window& w, bool identified) {
+    expect(whole_of(grid()).contains(w), "a window lies on its grid");
+    require_raster_size(w.n_cols, w.n_rows, about_.label, about_.max_cells);
+    RasterRead result;
+    result.raster = Raster<double>(grid_of(w, grid()), nan_d);
+    result.notes = about_.notes;
+    result.warnings = about_.warnings;
+    result.identity = about_.identity;
+    if (working_.as_it_is) {
+      RasterSource part = source_.read(w, identified);
+      if (identified) doubt(part, w);
+      result.raster.values = std::move(part.values);
+      add_facts(part, result);
+    } else {
+      for (int r = w.row0 / warp_block; r * warp_block < w.end_row(); ++r)
+        for (int c = w.col0 / warp_block; c * warp_block < w.end_col(); ++c)
+          copy_from(block(r, c), w, result);
+    }
+    return result;
+  }
+
+ private:
+  struct Block {
+    Window at;
+    Raster<double> values;
+    RasterSource facts;  ///< of the part of the source below it
+  };
+
+  /// What reading a part has added to what was known of the whole.
+  void add_facts(const RasterSource& part, RasterRead& result) const {
+    const RasterSource& whole = source_.about();
+    for (std::size_t i = whole.notes.size(); i < part.notes.size(); ++i)
+      result.notes.push_back(part.notes[i]);
+    for (std::size_t i = whole.warnings.size(); i < part.warnings.size(); ++i)
+      result.warnings.push_back(part.warnings[i]);
+    result.identity.parts.insert(part.identity.parts.begin(), part.identity.parts.end());
+  }
+
+  static void doubt(RasterSource& part, const Window& at) {
+    std::vector<std::string> doubts = dem_doubts(part, {at.row0, at.col0});
+    std::move(doubts.begin(), doubts.end(), std::back_inserter(part.warnings));
+  }
+
+  void copy_from(const Block& from, const Window& w, RasterRead& result) const {
+    const int row0 = std::max(w.row0, from.at.row0),
+              row1 = std::min(w.end_row(), from.at.end_row());
+    const int col0 = std::max(w.col0, from.at.col0),
+              col1 = std::min(w.end_col(), from.at.end_col());
+    for (int r = row0; r < row1; ++r)
+      std::copy_n(&from.values.at(r - from.at.row0, col0 - from.at.col0), col1 - col0,
+                  &result.raster.at(r - w.row0, col0 - w.col0));
+    add_facts(from.facts, result);
+  }
+
+  void set_up_warp() {
+    to_source_ = transform_between(working_.to, about_.crs, about_.label);
+    const double cell = grid().cell_m;
+    // The ratio at the middle of the raster stands for all of it.
+    const double x = 0.5 * (grid().west_m + grid().east_m());
+    const double y = 0.5 * (grid().south_m() + grid().north_m);
+    const auto [u0, v0] = in_source(x, y);
+    const auto [u1, v1] = in_source(x + cell, y);
+    const auto [u2, v2] = in_source(x, y - cell);
+    ratio_ = {std::hypot(u1 - u0, u2 - u0), std::hypot(v1 - v0, v2 - v0)};
+    for (double& r : ratio_)  // about one needs no wider kernel
+      if (!(r > 1e-6) || !std::isfinite(r) || std::abs(r - 1) < 0.05) r = 1;
+  }
+
+  /// Column and row in the source of a place on the working grid; not finite where there is none.
+  std::array<double, 2> in_source(double x, double y) const {
+    if (to_source_ && to_source_->Transform(1, &x, &y) == 0) return {nan_d, nan_d};
+    const auto& a = about_.affine;
+    const double determinant = a[1] * a[5] - a[2] * a[4];
+    const double dx = x - a[0], dy = y - a[3];
+    return {(a[5] * dx - a[2] * dy) / determinant, (a[1] * dy - a[4] * dx) / determinant};
+  }
+
+  /// The part of the source that a block needs.
+  Window source_window(const Grid& block) const {
+    double lo[2]{INFINITY, INFINITY}, hi[2]{-INFINITY, -INFINITY};
+    constexpr int pieces = 16;
+    for (int i = 0; i <= pieces; ++i)
+      for (int j = 0; j <= pieces; ++j) {
+        const double x = block.west_m + (block.east_m() - block.west_m) * i / pieces;
+        const double y = block.south_m() + (block.north_m - block.south_m()) * j / pieces;
+        const auto at = in_source(x, y);
+        for (std::size_t k = 0; k < 2; ++k)
+          if (std::isfinite(at[k])) lo[k] = std::min(lo[k], at[k]), hi[k] = std::max(hi[k], at[k]);
+      }
+    if (!(lo[0] <= hi[0] && lo[1] <= hi[1])) return {};
+    // Between the points looked at an outline may bulge.
+    const double mu = kernel_margin + 2 * ratio_[0] + 0.02 * (hi[0] - lo[0]);
+    const double mv = kernel_margin + 2 * ratio_[1] + 0.02 * (hi[1] - lo[1]);
+    const auto cell = [](double at, int n) {
+      return static_cast<int>(std::floor(std::clamp(at, -1.0, n + 1.0)));
+    };
+    return window_between(cell(lo[1] - mv, about_.n_rows), cell(hi[1] + mv, about_.n_rows) + 1,
+                          cell(lo[0] - mu, about_.n_cols), cell(hi[0] + mu, about_.n_cols) + 1,
+                          {about_.n_cols, about_.n_rows, 0, 0, 1, ""});
+  }
+
+  const Block& block(int row, int col) {
+    for (const auto& known : blocks_)
+      if (known->at.row0 == row * warp_block && known->at.col0 == col * warp_block) return *known;
+    auto made = std::make_unique<Block>();
+    made->at = window_between(row * warp_block, (row + 1) * warp_block, col * warp_block,
+                              (col + 1) * warp_block, grid());
+    made->values = Raster<double>(grid_of(made->at, grid()), nan_d);
+    const Window below = source_window(made->values.grid);
+    if (below.n_cells() > 0) {
+      made->facts = source_.read(below);
+      doubt(made->facts, below);
+      warp_bilinear(made->facts, working_.to, ratio_, made->values);
+      made->facts.values = {};
+    }
+    if (blocks_.size() >= most_blocks) blocks_.erase(blocks_.begin());
+    blocks_.push_back(std::move(made));
+    return *blocks_.back();
+  }
+
+  OpenRaster source_;
+  RasterSource about_;  ///< with what was decided on the working grid
+  WorkingGrid working_;
+  TransformPtr to_source_;
+  std::array<double, 2> ratio_{1, 1};
+  std::vector<std::unique_ptr<Block>> blocks_;
+};
+
+ElevationRaster::ElevationRaster(const RasterRequest& request) {
   const GdalScope scope;
-  require(!request.cell_size_m || *request.cell_size_m > 0,
-          fmt::format("terrain.cell_size_m = {:g} (must be positive). Give metres.",
-                      request.cell_size_m.value_or(0)));
-  RasterSource source = read_source(request, RasterQuantity::elevation);
-  RasterRead result{on_working_grid(source, request.cell_size_m), std::move(source.notes),
-                    std::move(source.files)};
+  impl_ = std::make_unique<Impl>(request);
+}
+ElevationRaster::~ElevationRaster() = default;
+const Grid& ElevationRaster::grid() const { return impl_->grid(); }
+RasterRead ElevationRaster::read(const Window& w) {
+  const GdalScope scope;
+  return impl_->read(w, true);
+}
+Raster<double> ElevationRaster::look(const Window& w) {
+  const GdalScope scope;
+  return impl_->read(w, false).raster;
+}
+
+RasterRead read_elevation(const RasterRequest& request) {
+  ElevationRaster raster(request);
+  RasterRead result = raster.read(whole_of(raster.grid()));
   const auto& values = result.raster.values;
-  require(
-      std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); }),
-      source.label + ": holds no valid cell (all of it is nodata). Check band and nodata value.");
+  require(std::any_of(values.begin(), values.end(), [](double v) { return !std::isnan(v); }),
+          fmt::format("{} = {}: holds no valid cell (all of it is nodata). Check band and nodata "
+                      "value.",
+                      request.key, request.path));
   return result;
 }
 

@@ -131,8 +131,15 @@ PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& 
   } else {
     merge(reading, sources);
   }
+  if (request.without_terrain) return std::move(reading.result);
   for (const auto& source : sources) require_inside(reading, source, terrain);
-  PolygonCover cover(terrain);
+  OGREnvelope box;
+  for (const auto& source : sources) {
+    OGREnvelope own;
+    source.polygons->getEnvelope(&own);
+    box.Merge(own);
+  }
+  PolygonCover cover(terrain, cells_under(box.MinX, box.MaxX, box.MinY, box.MaxY, terrain));
   for (const auto& source : sources) {
     const double area = lay_down(*source.polygons, source.thickness_m, cover);
     reading.result.area_m2 += area;
@@ -140,7 +147,8 @@ PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& 
   }
   reading.result.pattern = cover.finish();
   reading.result.notes = std::move(reading.layer.notes);
-  reading.result.files = std::move(reading.layer.files);
+  reading.result.warnings = std::move(reading.layer.warnings);
+  reading.result.identity = std::move(reading.layer.identity);
   return std::move(reading.result);
 }
 

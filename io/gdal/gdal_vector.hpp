@@ -4,6 +4,7 @@
 
 #include "engine/terrain/raster.hpp"
 #include "io/site/polygon_request.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ struct PolygonRelease {
   double area_m2 = 0;         ///< exact, of all polygons together
   double volume_m3 = 0;       ///< exact, 0 without a thickness attribute
   std::vector<std::string> notes;
-  std::vector<std::string> files;  ///< the file and its companions, for checksums
+  std::vector<std::string> warnings;
+  InputIdentity identity;  ///< of what was read
 };
 
 /// Polygons and multi-polygons with holes, any number of features. Overlapping features count once

@@ -12,10 +12,15 @@ struct InputFile {
   std::string label;  ///< how errors and notes call it, e.g. "terrain.raster = bed.tif"
 };
 
-/// \param written the key's value; relative paths start at `directory`. Names that GDAL alone
-///   understands (/vsizip/..., NETCDF:file.nc:z) are kept as they are.
-/// \throws SetupError when a plain file is missing, with the nearest name in its folder
+/// \param written the key's value; relative paths start at `directory`, also those inside names
+///   that GDAL alone understands (/vsizip/dem.zip/dem.tif, NETCDF:file.nc:z)
+/// \throws SetupError when a plain file is missing, with the nearest name in its folder; when it is
+///   not trusted, see input_trust.hpp
 InputFile find_input(const std::string& key, const std::string& written,
                      const std::string& directory);
+
+/// A name that GDAL alone understands, with the relative file inside it made absolute; as it is
+/// where there is none.
+std::string anchored_gdal_name(const std::string& written, const std::string& directory);
 
 }  // namespace sturz

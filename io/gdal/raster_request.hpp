@@ -7,8 +7,10 @@
 
 namespace sturz {
 
-/// More cells than this are refused before anything is allocated.
+/// More cells than this are not read at a time; refused before anything is allocated.
 inline constexpr double max_raster_cells = 400e6;
+/// A grid may have more of them than are ever read.
+inline constexpr double most_grid_cells = 1e12;
 
 struct RasterRequest {
   std::string path;                    ///< as written; relative paths start at `directory`

@@ -3,8 +3,11 @@
 
 #include "engine/core/error.hpp"
 #include "engine/terrain/raster.hpp"
+#include "io/gdal/fill_values.hpp"
 #include "io/gdal/gdal_handles.hpp"
+#include "io/gdal/height_unit.hpp"
 #include "io/gdal/input_files.hpp"
+#include "io/gdal/raster_identity.hpp"
 
 #include <cpl_string.h>
 #include <fmt/core.h>
@@ -16,9 +19,6 @@
 namespace sturz {
 namespace {
 
-constexpr double foot = 0.3048, survey_foot = 1200.0 / 3937.0;
-constexpr double deepest_elevation_m = -12000;  // below the deepest sea: a mark, not a place
-constexpr double largest_value = 1e30;
 /// Of the largest coordinate; closer edges fall together in double precision.
 constexpr double smallest_cell_share = 1e-11;
 
@@ -32,11 +32,33 @@ GDALRasterBand& first_band(GDALDataset& dataset, const std::string& label) {
                        : fmt::format("Name one of the rasters inside it, e.g. '{}'.", first)));
 }
 
+/// Colours are no heights, whatever their numbers.
+void refuse_picture(RasterSource& source, GDALDataset& dataset, RasterQuantity quantity) {
+  GDALRasterBand& first = *dataset.GetRasterBand(1);
+  const GDALDataType type = first.GetRasterDataType();
+  if (type != GDT_Byte && type != GDT_UInt16) return;
+  const GDALColorInterp meaning = first.GetColorInterpretation();
+  const bool palette = type == GDT_Byte && first.GetColorTable() != nullptr;
+  const bool colours = meaning == GCI_RedBand || meaning == GCI_HueBand ||
+                       meaning == GCI_CyanBand || meaning == GCI_YCbCr_YBand;
+  if (palette || colours)
+    throw SetupError(
+        fmt::format("{}: is a colour picture ({} bands, the first is {}; no heights "
+                    "or thicknesses). Name the raster that it was made from.",
+                    source.label, dataset.GetRasterCount(),
+                    palette ? "an index into a palette" : GDALGetColorInterpretationName(meaning)));
+  if (type == GDT_Byte && quantity == RasterQuantity::elevation && first.GetScale() == 1)
+    source.warnings.push_back(source.label +
+                              ": holds whole numbers from 0 to 255 only (8 bits), as pictures do; "
+                              "is it a hillshade or a scan instead of heights?");
+}
+
 void read_values(RasterSource& source, GDALRasterBand& band) {
   const int nx = source.n_cols, ny = source.n_rows;
   source.values.resize(static_cast<std::size_t>(nx) * ny);
   const auto read = [&](GDALRasterBand& from, void* to, GDALDataType type) {
-    if (from.RasterIO(GF_Read, 0, 0, nx, ny, to, nx, ny, type, 0, 0, nullptr) != CE_None)
+    if (from.RasterIO(GF_Read, source.col0, source.row0, nx, ny, to, nx, ny, type, 0, 0, nullptr) !=
+        CE_None)
       throw SetupError(fmt::format("{}: cannot be read ({}). Is the file complete?", source.label,
                                    gdal_reason()));
   };
@@ -49,95 +71,59 @@ void read_values(RasterSource& source, GDALRasterBand& band) {
     if (mask[i] == 0) source.values[i] = nan_d;
 }
 
-/// Values that no file means as a height, although it does not say so.
-bool is_unspoken_nodata(double v, RasterQuantity quantity) {
-  if (!(std::abs(v) < largest_value)) return true;
-  if (v == -9999 || v == -99999 || v == -32768 || v == -32767) return true;
-  return quantity == RasterQuantity::elevation && v < deepest_elevation_m;
+/// The step between neighbouring heights of a file that stores whole numbers only.
+double quantum_of(const RasterSource& source, double metres_per_stored) {
+  const bool whole = std::all_of(source.values.begin(), source.values.end(), [](double v) {
+    return std::isnan(v) || (std::abs(v) < 1e9 && v == std::nearbyint(v));
+  });
+  return whole ? std::abs(metres_per_stored) : 0;
 }
 
-void blank_unspoken_nodata(RasterSource& source, RasterQuantity quantity) {
-  std::size_t count = 0;
-  double example = 0;
-  for (double& v : source.values) {
-    if (std::isnan(v) || !is_unspoken_nodata(v, quantity)) continue;
-    if (count++ == 0) example = v;
-    v = nan_d;
-  }
-  if (count > 0)
-    source.notes.push_back(
-        fmt::format("{}: {} cells hold {:g} or the like, which the file does not declare as "
-                    "nodata; they are treated as nodata",
-                    source.label, count, example));
-}
-
-/// Metres per unit of the band's values, 0 for a word that is not known.
-double metres_per_unit(std::string unit) {
-  std::transform(unit.begin(), unit.end(), unit.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  for (const char* word : {"", "m", "metre", "metres", "meter", "meters"})
-    if (unit == word) return 1;
-  for (const char* word : {"ft", "foot", "feet", "international foot"})
-    if (unit == word) return foot;
-  for (const char* word : {"us survey foot", "us-ft", "ftus", "us_survey_foot", "us foot"})
-    if (unit == word) return survey_foot;
-  if (unit == "cm") return 0.01;
-  if (unit == "mm") return 0.001;
-  if (unit == "km") return 1000;
-  return 0;
-}
-
-void apply_scale_and_unit(RasterSource& source, GDALRasterBand& band,
-                          const OGRSpatialReference* own, RasterQuantity quantity) {
+/// Stored values become metres upwards.
+void convert_to_metres(RasterSource& source, GDALRasterBand& band, const HeightUnit& unit) {
   const double scale = band.GetScale(), offset = band.GetOffset();
-  const std::string word = band.GetUnitType();
-  double metres = metres_per_unit(word);
-  std::string unit = word;
-  if (word.empty() && own != nullptr && own->IsVertical()) {
-    const char* name = nullptr;
-    metres = own->GetTargetLinearUnits("VERT_CS", &name);
-    unit = name == nullptr ? "" : name;
-  }
-  if (metres == 0) {
-    source.notes.push_back(
-        fmt::format("{}: unit '{}' is not known; values are taken as metres", source.label, word));
-    metres = 1;
-  }
-  if (metres != 1)
-    source.notes.push_back(fmt::format("{}: values converted from {} to metres (x {:.9g})",
-                                       source.label, unit, metres));
-  else if (quantity == RasterQuantity::elevation && unit.empty() && own != nullptr &&
-           own->IsProjected() && std::abs(own->GetLinearUnits() - 1) > 1e-9)
-    source.notes.push_back(fmt::format(
-        "{}: the map's unit is not the metre and the file names no unit of height; elevations are "
-        "taken as metres",
-        source.label));
+  const double metres = unit.down ? -unit.metres : unit.metres;
+  source.quantum_m = quantum_of(source, scale * metres);
   if (scale == 1 && offset == 0 && metres == 1) return;
   for (double& v : source.values) {
     v = (v * scale + offset) * metres;
-    if (!(std::abs(v) < largest_value)) v = nan_d;  // a scale beyond all sense
+    if (!std::isfinite(v)) v = nan_d;  // a scale beyond all sense
   }
 }
 
+/// Tells which heights came of depths, for a direction is easily tagged wrongly.
+void warn_of_depths(RasterSource& source) {
+  double lowest = INFINITY, highest = -INFINITY;
+  for (const double v : source.values) {
+    if (std::isnan(v)) continue;
+    lowest = std::min(lowest, v);
+    highest = std::max(highest, v);
+  }
+  source.warnings.push_back(fmt::format(
+      "{}: the vertical axis of its coordinate system points down, so its values are depths; "
+      "turned into heights of {:.6g} to {:.6g} m. If they are heights already, name the system "
+      "without its vertical part in terrain.crs",
+      source.label, lowest, highest));
+}
+
+void read_heights(RasterSource& source, GDALRasterBand& band, const HeightUnit& unit,
+                  RasterQuantity quantity) {
+  read_values(source, band);
+  blank_marks(source, band.GetRasterDataType(), band.GetScale() != 1 || band.GetOffset() != 0);
+  convert_to_metres(source, band, unit);
+  if (quantity == RasterQuantity::elevation) blank_beyond_earth(source);
+  if (unit.down) warn_of_depths(source);
+}
+
 /// Makes rows run south and columns east, as everything else here expects.
-void turn_north_up(RasterSource& source) {
-  if (!source.is_axis_aligned()) return;
-  auto& a = source.affine;
+void turn_values(RasterSource& source, bool rows, bool columns) {
   const int nx = source.n_cols, ny = source.n_rows;
   auto row = [&](int r) { return source.values.begin() + static_cast<std::ptrdiff_t>(r) * nx; };
-  if (a[5] > 0) {
+  if (rows)
     for (int top = 0, bottom = ny - 1; top < bottom; ++top, --bottom)
       std::swap_ranges(row(top), row(top) + nx, row(bottom));
-    a[3] += ny * a[5];
-    a[5] = -a[5];
-    source.notes.push_back(source.label + ": stored south-up, turned north-up");
-  }
-  if (a[1] < 0) {
+  if (columns)
     for (int r = 0; r < ny; ++r) std::reverse(row(r), row(r) + nx);
-    a[0] += nx * a[1];
-    a[1] = -a[1];
-    source.notes.push_back(source.label + ": stored east to west, turned west to east");
-  }
 }
 
 SourceExtent extent_of(const RasterSource& s) {
@@ -196,37 +182,95 @@ void require_raster_size(double n_cols, double n_rows, const std::string& label,
                       label, n_cols, n_rows, most / 1e6));
 }
 
-RasterSource read_source(const RasterRequest& request, RasterQuantity quantity, bool crs_optional) {
+namespace {
+
+/// \return the settled system with its vertical part
+OGRSpatialReference settle_source(RasterSource& source, const RasterRequest& request,
+                                  const OGRSpatialReference* own, bool crs_optional) {
+  const bool bare = crs_optional && request.crs.empty() && (own == nullptr || own->IsEmpty());
+  if (bare) return OGRSpatialReference();
+  std::string note;
+  SettledCrs settled = settle_crs(
+      own,
+      {source.label, request.crs_key, request.crs, request.fallback_crs_key, request.fallback_crs},
+      extent_of(source), note);
+  if (!note.empty()) source.notes.push_back(note);
+  source.crs = settled.crs;
+  return settled.full;
+}
+
+}  // namespace
+
+OpenRaster::OpenRaster(const RasterRequest& request, RasterQuantity quantity, bool crs_optional)
+    : quantity_(quantity) {
   const GdalScope scope;
   const InputFile file = find_input(request.key, request.path, request.directory);
-  const OpenDataset dataset = open_dataset(file.path, file.label, GDAL_OF_RASTER);
-  RasterSource source;
+  dataset_ = open_dataset(file.path, file.label, GDAL_OF_RASTER);
+  RasterSource& source = about_;
   source.label = file.label;
-  source.files = files_of(*dataset.dataset);
-  GDALRasterBand& band = first_band(*dataset.dataset, source.label);
-  source.n_cols = dataset->GetRasterXSize();
-  source.n_rows = dataset->GetRasterYSize();
+  GDALDataset& dataset = *dataset_.dataset;
+  GDALRasterBand& band = first_band(dataset, source.label);
+  refuse_picture(source, dataset, quantity);
+  source.n_cols = dataset.GetRasterXSize();
+  source.n_rows = dataset.GetRasterYSize();
   source.max_cells = request.max_cells;
-  require_raster_size(source.n_cols, source.n_rows, source.label, source.max_cells);
-  read_placement(source, *dataset.dataset);
-  const OGRSpatialReference* own = dataset->GetSpatialRef();
-  const bool bare = crs_optional && request.crs.empty() && (own == nullptr || own->IsEmpty());
-  if (!bare) {
-    std::string note;
-    source.crs = settle_crs(own,
-                            {source.label, request.crs_key, request.crs, request.fallback_crs_key,
-                             request.fallback_crs},
-                            extent_of(source), note);
-    if (!note.empty()) source.notes.push_back(note);
-  }
-  if (dataset->GetRasterCount() > 1)
+  read_placement(source, dataset);
+  const OGRSpatialReference* own = dataset.GetSpatialRef();
+  const OGRSpatialReference settled = settle_source(source, request, own, crs_optional);
+  if (dataset.GetRasterCount() > 1)
     source.notes.push_back(
-        fmt::format("{}: band 1 of {} is used", source.label, dataset->GetRasterCount()));
-  read_values(source, band);
-  blank_unspoken_nodata(source, quantity);
-  apply_scale_and_unit(source, band, own, quantity);
-  turn_north_up(source);
+        fmt::format("{}: band 1 of {} is used", source.label, dataset.GetRasterCount()));
+  unit_ = height_unit(settled, own, band.GetUnitType(), source.label);
+  unit_.down = unit_.down && quantity == RasterQuantity::elevation;  // a thickness has no direction
+  if (!unit_.note.empty()) source.notes.push_back(unit_.note);
+  if (!unit_.warning.empty()) source.warnings.push_back(unit_.warning);
+  source.identity = {request.key,
+                     file.path,
+                     raster_shape(source.n_cols, source.n_rows, source.affine, source.crs),
+                     {}};
+  turn_north_up();
+}
+
+/// Placement only: rows run south and columns east, as everything else here expects.
+void OpenRaster::turn_north_up() {
+  if (!about_.is_axis_aligned()) return;
+  auto& a = about_.affine;
+  south_up_ = a[5] > 0;
+  east_to_west_ = a[1] < 0;
+  if (south_up_) {
+    a[3] += about_.n_rows * a[5];
+    a[5] = -a[5];
+    about_.notes.push_back(about_.label + ": stored south-up, turned north-up");
+  }
+  if (east_to_west_) {
+    a[0] += about_.n_cols * a[1];
+    a[1] = -a[1];
+    about_.notes.push_back(about_.label + ": stored east to west, turned west to east");
+  }
+}
+
+RasterSource OpenRaster::read(const Window& w, bool identified) {
+  const GdalScope scope;
+  expect(whole().contains(w), "a window lies on its raster");
+  require_raster_size(w.n_cols, w.n_rows, about_.label, about_.max_cells);
+  RasterSource source = about_;
+  source.n_cols = w.n_cols, source.n_rows = w.n_rows;
+  source.col0 = east_to_west_ ? about_.n_cols - w.end_col() : w.col0;
+  source.row0 = south_up_ ? about_.n_rows - w.end_row() : w.row0;
+  source.affine[0] = about_.x_of(w.col0, w.row0);
+  source.affine[3] = about_.y_of(w.col0, w.row0);
+  read_heights(source, *dataset_->GetRasterBand(1), unit_, quantity_);
+  if (identified)
+    source.identity.parts =
+        block_hashes(source.values, {source.col0, source.row0, w.n_cols, w.n_rows}, about_.n_cols,
+                     about_.n_rows);
+  turn_values(source, south_up_, east_to_west_);
   return source;
+}
+
+RasterSource read_source(const RasterRequest& request, RasterQuantity quantity, bool crs_optional) {
+  OpenRaster raster(request, quantity, crs_optional);
+  return raster.read(raster.whole());
 }
 
 }  // namespace sturz

@@ -55,7 +55,7 @@ Json distribution_parameters(const DistributionForm& form) {
   }
   for (const char* name : form.optional) properties[name] = lists ? numbers(any, 0) : any;
   if (form.kind == Distribution::Kind::table) return numbers(any, 0);
-  const Json named = object(properties, required);
+  Json named = object(properties, required);
   if (form.list.empty()) return named;
   return {{"anyOf", {numbers(any, static_cast<int>(form.list.size())), named}}};
 }
@@ -110,7 +110,7 @@ Json zones() {
 }
 
 Json value_of(const KeyInfo& key) {
-  const Json plain = number(key.min, key.max, key.above_min);
+  Json plain = number(key.min, key.max, key.above_min);
   switch (key.kind) {
     case ValueKind::number:
       return plain;

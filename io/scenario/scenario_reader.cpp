@@ -4,6 +4,7 @@
 #include "io/scenario/scenario_overrides.hpp"
 #include "io/scenario/scenario_values.hpp"
 #include "scenarios/checks/validate.hpp"
+#include "scenarios/schema/foreign_words.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/suggest.hpp"
 
@@ -101,7 +102,9 @@ class Reader {
             {entry.at, path + " (not available in this version: " + later.what + "). Remove it."});
         return;
       }
-    problems_.push_back({entry.at, path + " (unknown key). " + suggestion(block, entry.key)});
+    const std::string advice = advice_on_foreign_word(path);
+    problems_.push_back({entry.at, path + " (unknown key). " +
+                                       (advice.empty() ? suggestion(block, entry.key) : advice)});
   }
 
   /// A sibling with nearly the same name, the same name elsewhere, or what is known here.

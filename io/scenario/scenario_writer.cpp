@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A scenario as YAML text.
+#include "io/gdal/input_files.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/value_text.hpp"
@@ -18,7 +19,8 @@ bool is_plain_relative(const std::string& path) {
 
 /// The same file, seen from another directory.
 std::string moved_path(const std::string& path, const fs::path& from, const fs::path& to) {
-  if (to.empty() || !is_plain_relative(path)) return path;
+  if (to.empty() || path.empty()) return path;
+  if (!is_plain_relative(path)) return anchored_gdal_name(path, from.string());
   const fs::path there = fs::absolute(from.empty() ? fs::path(".") : from) / path;
   return there.lexically_normal().lexically_proximate(fs::absolute(to).lexically_normal()).string();
 }

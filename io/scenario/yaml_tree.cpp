@@ -153,6 +153,16 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Pending> pending_;  ///< one for each of them
 };
 
+/// The YAML reader's own words, and what is behind those that users meet most.
+std::string unreadable_text(const std::string& message) {
+  const std::string text = "not readable as YAML (" + one_line(message, 120) + "). ";
+  if (message.find("illegal map value") != std::string::npos)
+    return text +
+           "A text with a colon and a blank in it must stand in quotes: title: \"North: second "
+           "try\". Or is the indentation of this line wrong?";
+  return text + "Check indentation, brackets and quotes.";
+}
+
 void append_shown(const YamlNode& node, std::string& text) {
   constexpr std::size_t enough = 60;
   if (text.size() > enough) return;
@@ -235,9 +245,7 @@ std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& sou
   } catch (const Stop&) {
     return std::nullopt;  // its problem is noted
   } catch (const YAML::Exception& e) {
-    problems.push_back({{source, e.mark.line + 1, e.mark.column + 1},
-                        "not readable as YAML (" + one_line(e.msg, 120) +
-                            "). Check indentation, brackets and quotes."});
+    problems.push_back({{source, e.mark.line + 1, e.mark.column + 1}, unreadable_text(e.msg)});
     return std::nullopt;
   }
   return builder.take_root();

@@ -6,8 +6,7 @@
 
 namespace sturz {
 
-PolygonCells::PolygonCells(const Grid& grid)
-    : grid_(grid), crossings_(static_cast<std::size_t>(grid.n_rows)) {}
+PolygonCells::PolygonCells(const Grid& grid, const Window& window) : grid_(grid), window_(window) {}
 
 void PolygonCells::add_ring(std::span<const Vec2> ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -31,8 +30,7 @@ void PolygonCells::add_edge(const Vec2& south, const Vec2& north) {
     const double y = grid_.y_center(row);
     if (!(south.y() <= y && y < north.y())) continue;
     const double share = (y - south.y()) / (north.y() - south.y());
-    crossings_[static_cast<std::size_t>(row)].push_back(south.x() +
-                                                        share * (north.x() - south.x()));
+    crossings_[row].push_back(south.x() + share * (north.x() - south.x()));
   }
 }
 
@@ -43,12 +41,18 @@ int PolygonCells::first_column(double x) const {
 
 std::vector<std::size_t> PolygonCells::finish() {
   std::vector<std::size_t> cells;
-  for (int row = 0; row < grid_.n_rows; ++row) {
-    auto& crossings = crossings_[static_cast<std::size_t>(row)];
+  const auto width = static_cast<std::size_t>(window_.n_cols);
+  for (auto& [row, crossings] : crossings_) {
     std::sort(crossings.begin(), crossings.end());
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
-      for (int col = first_column(crossings[i]); col < first_column(crossings[i + 1]); ++col)
-        cells.push_back(grid_.index(row, col));
+    const bool listed = row >= window_.row0 && row < window_.end_row();
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+      const int from = first_column(crossings[i]), end = first_column(crossings[i + 1]);
+      count_ += static_cast<std::size_t>(std::max(0, end - from));
+      if (!listed) continue;
+      for (int col = std::max(from, window_.col0); col < std::min(end, window_.end_col()); ++col)
+        cells.push_back(static_cast<std::size_t>(row - window_.row0) * width +
+                        static_cast<std::size_t>(col - window_.col0));
+    }
   }
   return cells;
 }

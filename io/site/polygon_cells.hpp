@@ -7,6 +7,7 @@
 #include "engine/terrain/raster.hpp"
 
 #include <cstddef>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -16,14 +17,18 @@ namespace sturz {
 /// that share an edge exactly one has a centre that lies on it.
 class PolygonCells {
  public:
-  explicit PolygonCells(const Grid& grid);
+  explicit PolygonCells(const Grid& grid) : PolygonCells(grid, whole_of(grid)) {}
+  /// Lists the cells of a window only; all are counted.
+  PolygonCells(const Grid& grid, const Window& window);
 
   /// Outer rings and holes alike, in any orientation: inside is where an odd number of them lies
   /// around the centre. What lies outside the grid is left out.
   void add_ring(std::span<const Vec2> ring);
 
-  /// Indices of the cells inside, rising.
+  /// Indices on the window's grid of the cells inside, rising.
   std::vector<std::size_t> finish();
+  /// Cells inside on the whole grid; known after finish().
+  std::size_t count() const { return count_; }
 
  private:
   void add_edge(const Vec2& south, const Vec2& north);
@@ -31,7 +36,9 @@ class PolygonCells {
   int first_column(double x) const;
 
   Grid grid_;
-  std::vector<std::vector<double>> crossings_;  ///< per row, x in metres
+  Window window_;
+  std::map<int, std::vector<double>> crossings_;  ///< per row that has any, x in metres
+  std::size_t count_ = 0;
 };
 
 }  // namespace sturz

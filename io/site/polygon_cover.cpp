@@ -17,8 +17,20 @@ double ring_area(std::span<const Vec2> ring) {
   return twice / 2;
 }
 
-PolygonCover::PolygonCover(const Grid& grid)
-    : grid_(grid), steps_(static_cast<std::size_t>(grid.n_cols + 1) * grid.n_rows, 0.0) {}
+Window cells_under(double west, double east, double south, double north, const Grid& g) {
+  const auto cell = [](double at, int n) {
+    return static_cast<int>(std::clamp(std::floor(at), -2.0, n + 2.0));
+  };
+  return window_between(cell((g.north_m - north) / g.cell_m, g.n_rows) - 1,
+                        cell((g.north_m - south) / g.cell_m, g.n_rows) + 2,
+                        cell((west - g.west_m) / g.cell_m, g.n_cols) - 1,
+                        cell((east - g.west_m) / g.cell_m, g.n_cols) + 2, g);
+}
+
+PolygonCover::PolygonCover(const Grid& grid, const Window& window)
+    : grid_(grid),
+      window_(window),
+      steps_(static_cast<std::size_t>(window.n_cols + 1) * window.n_rows, 0.0) {}
 
 void PolygonCover::add_ring(std::span<const Vec2> ring, double weight) {
   if (ring.size() < 3) return;
@@ -58,8 +70,11 @@ void PolygonCover::add_edge(double u0, double v0, double u1, double v1, double w
 }
 
 void PolygonCover::add_in_row(int row, double u0, double u1, double dv) {
-  double* steps = &steps_[static_cast<std::size_t>(row) * (grid_.n_cols + 1)];
-  const auto add = [&](int col, double mean_offset, double part) {
+  if (row < window_.row0 || row >= window_.end_row()) return;
+  double* steps = &steps_[static_cast<std::size_t>(row - window_.row0) * (window_.n_cols + 1)];
+  const auto add = [&](int col_of_grid, double mean_offset, double part) {
+    const int col = col_of_grid - window_.col0;
+    if (col < 0 || col >= window_.n_cols) return;
     steps[col] += part * (1 - mean_offset);
     steps[col + 1] += part * mean_offset;
   };
@@ -75,11 +90,11 @@ void PolygonCover::add_in_row(int row, double u0, double u1, double dv) {
 Raster<double> PolygonCover::finish() const {
   // Sums along a row leave dust of this order where nothing lies.
   const double dust = 1e-11 * largest_weight_;
-  Raster<double> cover(grid_, 0.0);
-  for (int r = 0; r < grid_.n_rows; ++r) {
-    const double* steps = &steps_[static_cast<std::size_t>(r) * (grid_.n_cols + 1)];
+  Raster<double> cover(grid_of(window_, grid_), 0.0);
+  for (int r = 0; r < window_.n_rows; ++r) {
+    const double* steps = &steps_[static_cast<std::size_t>(r) * (window_.n_cols + 1)];
     double sum = 0;
-    for (int c = 0; c < grid_.n_cols; ++c) {
+    for (int c = 0; c < window_.n_cols; ++c) {
       sum += steps[c];
       cover.at(r, c) = sum > dust ? sum : 0;
     }

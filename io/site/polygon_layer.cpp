@@ -2,13 +2,17 @@
 #include "io/site/polygon_layer.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/files/sha256.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/input_files.hpp"
+#include "io/gdal/raster_identity.hpp"
 #include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
 #include <memory>
+#include <span>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -35,26 +39,45 @@ OGRLayer& choose_layer(PolygonLayer& layer, const PolygonRequest& request) {
   return *chosen;
 }
 
+/// Before anything is asked of its fields: a layer of lines has mostly other fields, too.
+void refuse_other_shapes(const PolygonLayer& layer, const PolygonRequest& request) {
+  const OGRwkbGeometryType type = wkbFlatten(layer.layer->GetGeomType());
+  const bool other = type == wkbPoint || type == wkbMultiPoint || type == wkbLineString ||
+                     type == wkbMultiLineString || type == wkbCircularString ||
+                     type == wkbCompoundCurve || type == wkbMultiCurve;
+  if (!other) return;
+  throw SetupError(
+      fmt::format("{}: layer '{}' holds features of type {}, not polygons. Draw the "
+                  "{} as polygons.",
+                  layer.label, layer.layer->GetName(), OGRGeometryTypeToName(type), request.what));
+}
+
 /// nullptr where the coordinates stay as they are.
 TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request,
                               const Grid& terrain) {
   OGREnvelope box;
   if (layer.layer->GetExtent(&box, true) != OGRERR_NONE) box = {};  // an empty layer has none
   const OGRSpatialReference* own = layer.layer->GetSpatialRef();
-  if (terrain.crs_wkt.empty()) {
+  if (terrain.crs_wkt.empty() && !request.without_terrain) {
+    layer.identity.shape = crs_identity(OGRSpatialReference());
     if (own != nullptr || !request.crs.empty())
       layer.notes.push_back(layer.label +
                             ": its coordinates are taken as they are, because the terrain "
                             "has no coordinate system");
     return nullptr;
   }
-  std::string note;
-  const OGRSpatialReference from =
-      settle_crs(own, {layer.label, request.crs_key, request.crs, "", ""},
-                 {box.MinX, box.MaxX, box.MinY, box.MaxY, 0}, note);
+  std::string note, warning;
+  const OGRSpatialReference from = settle_crs(own,
+                                              {layer.label, request.crs_key, request.crs,
+                                               request.fallback_crs_key, request.fallback_crs},
+                                              {box.MinX, box.MaxX, box.MinY, box.MaxY, 0}, note)
+                                       .crs;
+  layer.identity.shape = crs_identity(from);
   if (!note.empty()) layer.notes.push_back(note);
+  if (request.without_terrain) return nullptr;
   const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
-  TransformPtr to_terrain = transform_between(from, to, layer.label);
+  TransformPtr to_terrain = transform_between(from, to, layer.label, &warning);
+  if (!warning.empty()) layer.warnings.push_back(warning);
   if (to_terrain)
     layer.notes.push_back(
         fmt::format("{}: reprojected from {} to {}", layer.label, crs_name(from), crs_name(to)));
@@ -66,7 +89,19 @@ struct Reading {
   PolygonLayer& layer;
   const PolygonRequest& request;
   TransformPtr to_terrain;
+  Sha256 hash;  ///< of corners and values as the file has them
 };
+
+/// Corners in the file's own system: where they come to lie is another matter.
+void add_corners(Sha256& hash, const OGRMultiPolygon& polygons) {
+  std::vector<double> numbers;
+  for (const OGRPolygon* polygon : polygons)
+    for (const OGRLinearRing* ring : *polygon) {
+      numbers.push_back(ring->getNumPoints());
+      for (const Vec2& p : points_of(*ring)) numbers.insert(numbers.end(), {p.x(), p.y()});
+    }
+  hash.add_values(std::span<const double>(numbers));
+}
 
 PolygonsPtr mended(PolygonLayer& layer, const OGRMultiPolygon& polygons, const std::string& name) {
   const std::string reason = gdal_reason("it crosses itself");
@@ -90,6 +125,7 @@ PolygonsPtr polygons_of(Reading& reading, const OGRGeometry& geometry, const std
   if (!other.empty())
     throw SetupError(fmt::format("{}: {} is a {}, not a polygon. Draw the {} as polygons.",
                                  layer.label, name, other, reading.request.what));
+  add_corners(reading.hash, *polygons);
   if (reading.to_terrain && polygons->transform(reading.to_terrain.get()) != OGRERR_NONE)
     throw SetupError(fmt::format(
         "{}: {} cannot be moved to the terrain's system ({}). Check {}.", layer.label, name,
@@ -111,15 +147,17 @@ PolygonLayer open_polygon_layer(const PolygonRequest& request) {
   PolygonLayer layer;
   layer.label = file.label;
   layer.dataset = open_dataset(file.path, file.label, GDAL_OF_VECTOR);
-  layer.files = files_of(*layer.dataset.dataset);
+  layer.identity.role = request.key;
+  layer.identity.file = file.path;
   layer.layer = &choose_layer(layer, request);
+  if (!request.thickness_attribute.empty()) refuse_other_shapes(layer, request);
   return layer;
 }
 
 std::vector<PolygonFeature> read_features(
     PolygonLayer& layer, const PolygonRequest& request, const Grid& terrain,
     const std::function<void(OGRFeature&, PolygonFeature&)>& read_fields) {
-  Reading reading{layer, request, settle_transform(layer, request, terrain)};
+  Reading reading{layer, request, settle_transform(layer, request, terrain), {}};
   std::vector<PolygonFeature> features;
   layer.layer->ResetReading();
   while (const auto read = OGRFeatureUniquePtr(layer.layer->GetNextFeature())) {
@@ -133,12 +171,15 @@ std::vector<PolygonFeature> read_features(
     require(feature.polygons->get_Area() > 0,
             fmt::format("{}: {} has no area. Draw it again.", layer.label, feature.name));
     if (read_fields) read_fields(*read, feature);
+    reading.hash.add_values(std::span<const double>(&feature.thickness_m, 1));
     features.push_back(std::move(feature));
   }
   require(!features.empty(),
           fmt::format("{}: layer '{}' has no features (an empty {}). Draw the "
                       "{} polygon.",
                       layer.label, layer.layer->GetName(), request.what, request.what));
+  layer.identity.shape = fmt::format("{} features, {}", features.size(), layer.identity.shape);
+  layer.identity.parts["features"] = reading.hash.hex();
   return features;
 }
 

@@ -6,6 +6,7 @@
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/ogr_polygons.hpp"
 #include "io/site/polygon_request.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <ogrsf_frmts.h>
 
@@ -19,7 +20,8 @@ namespace sturz {
 struct PolygonLayer {
   std::string label;  ///< for messages: "release.polygon = source.gpkg"
   std::vector<std::string> notes;
-  std::vector<std::string> files;  ///< the file and its companions, for checksums
+  std::vector<std::string> warnings;
+  InputIdentity identity;  ///< complete after read_features()
   OpenDataset dataset;
   OGRLayer* layer = nullptr;
 };

@@ -14,7 +14,11 @@ struct PolygonRequest {
   std::string directory;
   std::string crs;                      ///< replaces the layer's own system; empty: not given
   std::string crs_key = "release.crs";  ///< empty: no key could give it
+  std::string fallback_crs;             ///< stands in only when the layer has none; empty: refuse
+  std::string fallback_crs_key;
   std::string layer_key = "release.layer";
+  /// The terrain could not be read: everything is checked but what needs its place.
+  bool without_terrain = false;
   std::string what = "release";  ///< what the polygons outline, for messages
 };
 

@@ -27,7 +27,12 @@ void require_on_terrain(const std::string& key, double west, double east, double
 }
 
 ShapeCover cover_of_ring(const std::vector<Vec2>& ring, double area, const Grid& terrain) {
-  PolygonCover cover(terrain);
+  double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
+  for (const Vec2& p : ring) {
+    west = std::min(west, p.x()), east = std::max(east, p.x());
+    south = std::min(south, p.y()), north = std::max(north, p.y());
+  }
+  PolygonCover cover(terrain, cells_under(west, east, south, north, terrain));
   cover.add_ring(ring, 1);
   return {cover.finish(), area, area};
 }
@@ -93,14 +98,11 @@ ShapeCover cover_of(const ReleaseParaboloid& p, const Grid& terrain) {
                                       a, b));
   require_on_terrain("release.paraboloid", x - a, x + a, y - b, y + b, terrain);
   const double area = std::numbers::pi * a * b, volume = area / 2;
-  ShapeCover result{Raster<double>(terrain, 0.0), area, volume};
-  const int row0 = std::clamp(terrain.row_of(y + b), 0, terrain.n_rows - 1);
-  const int row1 = std::clamp(terrain.row_of(y - b), 0, terrain.n_rows - 1);
-  const int col0 = std::clamp(terrain.col_of(x - a), 0, terrain.n_cols - 1);
-  const int col1 = std::clamp(terrain.col_of(x + a), 0, terrain.n_cols - 1);
-  for (int row = row0; row <= row1; ++row)
-    for (int col = col0; col <= col1; ++col)
-      result.cover.at(row, col) =
+  const Window w = cells_under(x - a, x + a, y - b, y + b, terrain);
+  ShapeCover result{Raster<double>(grid_of(w, terrain), 0.0), area, volume};
+  for (int row = w.row0; row < w.end_row(); ++row)
+    for (int col = w.col0; col < w.end_col(); ++col)
+      result.cover.at(row - w.row0, col - w.col0) =
           mean_height_share(p, terrain.x_center(col), terrain.y_center(row), terrain.cell_m);
   auto& values = result.cover.values;
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);

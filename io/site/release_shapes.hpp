@@ -8,7 +8,8 @@
 namespace sturz {
 
 struct ShapeCover {
-  Raster<double> cover;       ///< thickness / release.thickness_m averaged over the cell, 0..1
+  /// Thickness / release.thickness_m averaged over the cell, 0..1; on the cells around the source.
+  Raster<double> cover;
   double area_m2 = 0;         ///< exact plan area
   double unit_volume_m3 = 0;  ///< exact integral of the cover; the raster's sum equals it
 };

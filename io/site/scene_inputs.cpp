@@ -2,25 +2,30 @@
 #include "io/site/scene_inputs.hpp"
 
 #include "engine/core/error.hpp"
-#include "io/files/checksum.hpp"
+#include "io/doubts/release_doubts.hpp"
+#include "io/files/sha256.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_raster.hpp"
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
 #include "io/site/release_shapes.hpp"
+#include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
+#include <span>
 
 namespace sturz {
 namespace {
@@ -32,21 +37,54 @@ struct Loading {
   std::string release_label;  ///< for messages about the release
   std::optional<Raster<double>> synthetic_source;
 
-  void take(std::vector<std::string>& notes, const std::vector<std::string>& files) {
-    std::move(notes.begin(), notes.end(), std::back_inserter(inputs.notes));
-    for (const auto& file : files) {
-      std::error_code error;
-      const auto name = std::filesystem::proximate(file, scenario.directory, error);
-      const std::string known = scenario.directory.empty() || error ? file : name.string();
-      inputs.checksums.emplace_back(known, file_checksum(file));
+  std::unique_ptr<ElevationRaster> raster;  ///< of terrain.raster
+  std::vector<std::string> problems;        ///< of files that cannot be used
+
+  /// Notes, warnings and identity of a file that was read.
+  template <class Read>
+  void take(Read& read) {
+    std::move(read.notes.begin(), read.notes.end(), std::back_inserter(inputs.notes));
+    std::move(read.warnings.begin(), read.warnings.end(), std::back_inserter(inputs.warnings));
+    std::error_code error;
+    const auto name = std::filesystem::proximate(read.identity.file, scenario.directory, error);
+    const bool inside_file = read.identity.file.starts_with("/vsi");
+    if (!scenario.directory.empty() && !error && !inside_file) read.identity.file = name.string();
+    inputs.identities.push_back(std::move(read.identity));
+  }
+  /// Goes on after a problem, so that all files are looked at in one round.
+  template <class Call>
+  void attempt(Call call) {
+    try {
+      call();
+    } catch (const SetupError& problem) {
+      problems.emplace_back(problem.what());
     }
+  }
+  void refuse_problems() const {
+    std::string all;
+    for (const std::string& problem : problems) all += (all.empty() ? "" : "\n") + problem;
+    require(all.empty(), all);
   }
   void set_release(Raster<double> pattern, ReleasePattern kind) {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
     inputs.pattern = kind;
   }
-  const Grid& grid() const { return inputs.elevation->grid; }
+  const Grid& grid() const { return inputs.whole; }
 };
+
+/// What is said of the terrain comes before what is said of release and zones.
+void take_ground(Loading& loading, RasterRead& read) {
+  SceneInputs& in = loading.inputs;
+  SceneInputs others;
+  std::swap(others.notes, in.notes);
+  std::swap(others.warnings, in.warnings);
+  std::swap(others.identities, in.identities);
+  loading.take(read);
+  std::move(others.notes.begin(), others.notes.end(), std::back_inserter(in.notes));
+  std::move(others.warnings.begin(), others.warnings.end(), std::back_inserter(in.warnings));
+  std::move(others.identities.begin(), others.identities.end(), std::back_inserter(in.identities));
+  in.elevation = std::make_shared<const Raster<double>>(std::move(read.raster));
+}
 
 double raster_sum(const Raster<double>& raster) {
   return std::accumulate(raster.values.begin(), raster.values.end(), 0.0) * raster.grid.cell_m *
@@ -59,17 +97,30 @@ void load_synthetic(Loading& loading) {
           "terrain.cell_size_m: is for rasters (a synthetic terrain has its own "
           "cell_size_m). Give it inside terrain.synthetic.");
   SyntheticScene scene = make_synthetic(*spec.synthetic);
-  if (!spec.crs.empty()) {
+  if (!spec.crs.empty() && spec.crs != local_crs) {
     const OGRSpatialReference crs = parse_crs(spec.crs, "terrain.crs");
     require(crs.IsProjected() && std::abs(crs.GetLinearUnits() - 1) < 1e-9,
             fmt::format("terrain.crs = {}: a synthetic terrain needs a projected system in metres, "
-                        "like EPSG:32633.",
+                        "like EPSG:32633, or the word local.",
                         spec.crs));
     scene.bed.grid.crs_wkt = crs_wkt2(crs);
   }
   if (scene.thickness) scene.thickness->grid = scene.bed.grid;
   loading.synthetic_source = std::move(scene.thickness);
+  loading.inputs.whole = scene.bed.grid;
   loading.inputs.elevation = std::make_shared<const Raster<double>>(std::move(scene.bed));
+}
+
+/// Opens it; what is read of it follows from the release.
+void open_raster(Loading& loading) {
+  const TerrainSpec& spec = loading.scenario.terrain;
+  RasterRequest request;
+  request.path = spec.raster;
+  request.directory = loading.scenario.directory;
+  request.crs = spec.crs;
+  request.cell_size_m = spec.cell_size_m;
+  loading.raster = std::make_unique<ElevationRaster>(request);
+  loading.inputs.whole = loading.raster->grid();
 }
 
 void load_terrain(Loading& loading) {
@@ -77,14 +128,30 @@ void load_terrain(Loading& loading) {
   require(spec.raster.empty() != !spec.synthetic,
           "terrain: needs either raster or synthetic (one of them). Name a raster file.");
   if (spec.synthetic) return load_synthetic(loading);
-  RasterRequest request;
-  request.path = spec.raster;
-  request.directory = loading.scenario.directory;
-  request.crs = spec.crs;
-  request.cell_size_m = spec.cell_size_m;
-  RasterRead read = read_elevation(request);
-  loading.take(read.notes, read.files);
-  loading.inputs.elevation = std::make_shared<const Raster<double>>(std::move(read.raster));
+  open_raster(loading);
+}
+
+/// Elevations of a window, read or cut out.
+Raster<double> ground_of(Loading& loading, const Window& w) {
+  if (loading.raster) return loading.raster->look(w);
+  const Raster<double>& all = *loading.inputs.elevation;
+  Raster<double> part(grid_of(w, all.grid));
+  for (int r = 0; r < w.n_rows; ++r)
+    std::copy_n(&all.at(w.row0 + r, w.col0), w.n_cols, &part.at(r, 0));
+  return part;
+}
+
+/// Reads the part of the terrain that members start with.
+void load_ground(Loading& loading) {
+  SceneInputs& in = loading.inputs;
+  const FirstGround first = first_ground(
+      loading.scenario, in, [&](const Window& w) { return ground_of(loading, w); },
+      loading.release_label);
+  in.reach = first.reach;
+  in.first_window = first.window;
+  if (!loading.raster) return;
+  RasterRead read = loading.raster->read(first.window);
+  take_ground(loading, read);
 }
 
 /// Two numbers that a reader can hold against each other: the source's and the raster's.
@@ -94,23 +161,40 @@ void note_rasterised(Loading& loading, double exact_m2) {
   std::string text =
       fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
                   loading.release_label, exact_m2, laid, 100 * (laid / exact_m2 - 1));
-  if (release.thickness_m && release.thickness_m->is_fixed())
+  const bool vertical = release.thickness == ThicknessDirection::vertical;
+  if (vertical && release.thickness_m && release.thickness_m->is_fixed())
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
                         exact_m2 * release.thickness_m->value, laid * release.thickness_m->value);
   loading.inputs.notes.push_back(text);
 }
 
-void load_polygon(Loading& loading) {
-  const ReleaseSpec& spec = loading.scenario.release;
-  loading.release_label = "release.polygon = " + spec.polygon;
+/// Where the terrain's file had no system, the files beside it mostly share the lack, and the user
+/// has named the system once.
+template <class Request>
+void stand_in_with_terrain(Request& request, const TerrainSpec& terrain) {
+  if (terrain.crs == local_crs) return;
+  request.fallback_crs = terrain.crs;
+  request.fallback_crs_key = "terrain.crs";
+}
+
+PolygonRequest polygon_request(const Scenario& scenario) {
+  const ReleaseSpec& spec = scenario.release;
   PolygonRequest request;
   request.path = spec.polygon;
   request.layer = spec.layer;
   request.thickness_attribute = spec.thickness_attribute;
-  request.directory = loading.scenario.directory;
+  request.directory = scenario.directory;
   request.crs = spec.crs;
+  stand_in_with_terrain(request, scenario.terrain);
+  return request;
+}
+
+void load_polygon(Loading& loading) {
+  const ReleaseSpec& spec = loading.scenario.release;
+  loading.release_label = "release.polygon = " + spec.polygon;
+  const PolygonRequest request = polygon_request(loading.scenario);
   PolygonRelease read = read_release_polygons(request, loading.grid());
-  loading.take(read.notes, read.files);
+  loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
   loading.set_release(std::move(read.pattern),
@@ -122,22 +206,25 @@ void load_polygon(Loading& loading) {
                   raster_sum(*loading.inputs.release)));
 }
 
-void load_thickness_raster(Loading& loading) {
-  const ReleaseSpec& spec = loading.scenario.release;
-  loading.release_label = "release.thickness_raster = " + spec.thickness_raster;
+RasterRequest thickness_request(const Scenario& scenario) {
+  const ReleaseSpec& spec = scenario.release;
   RasterRequest request;
   request.path = spec.thickness_raster;
   request.key = "release.thickness_raster";
-  request.directory = loading.scenario.directory;
+  request.directory = scenario.directory;
   request.crs = spec.crs;
   request.crs_key = "release.crs";
   request.factor = spec.thickness_factor;
-  // Where the terrain's file had no system, the thickness beside it mostly shares the lack, and
-  // the user has named the system once.
-  request.fallback_crs = loading.scenario.terrain.crs;
-  request.fallback_crs_key = "terrain.crs";
+  stand_in_with_terrain(request, scenario.terrain);
+  return request;
+}
+
+void load_thickness_raster(Loading& loading) {
+  const ReleaseSpec& spec = loading.scenario.release;
+  loading.release_label = "release.thickness_raster = " + spec.thickness_raster;
+  const RasterRequest request = thickness_request(loading.scenario);
   ThicknessRead read = read_thickness(request, loading.grid());
-  loading.take(read.notes, read.files);
+  loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
   loading.set_release(std::move(read.thickness), ReleasePattern::thickness);
@@ -182,24 +269,6 @@ void load_release(Loading& loading) {
   load_synthetic_source(loading);
 }
 
-/// A mass cannot start where the ground is not known.
-void require_known_ground(const Loading& loading) {
-  const Grid& g = loading.grid();
-  const auto &ground = loading.inputs.elevation->values, &release = loading.inputs.release->values;
-  std::size_t count = 0, first = 0;
-  for (std::size_t i = 0; i < ground.size(); ++i)
-    if (release[i] > 0 && std::isnan(ground[i]) && count++ == 0) first = i;
-  if (count == 0) return;
-  const int row = static_cast<int>(first / static_cast<std::size_t>(g.n_cols));
-  const int col = static_cast<int>(first % static_cast<std::size_t>(g.n_cols));
-  throw SetupError(
-      fmt::format("{}: lies on {} nodata cells of terrain.raster = {}, the first at row {}, column "
-                  "{} (x {:.10g},"
-                  " y {:.10g}). Fill the terrain there or move the release.",
-                  loading.release_label, count, loading.scenario.terrain.raster, row, col,
-                  g.x_center(col), g.y_center(row)));
-}
-
 PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
   const BasalZone& zone = scenario.basal.zones[i];
   const std::string name = fmt::format("basal.zones[{}]", i);
@@ -208,29 +277,78 @@ PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
   request.layer = zone.layer;
   request.key = name + ".polygon";
   request.directory = scenario.directory;
-  request.crs_key.clear();  // the file itself has to say it
+  request.crs_key.clear();  // no key of its own
+  stand_in_with_terrain(request, scenario.terrain);
   request.layer_key = name + ".layer";
   request.what = "zone";
   return request;
+}
+
+void load_zone(Loading& loading, std::size_t i, Raster<std::uint8_t>& numbers) {
+  const Grid& grid = loading.grid();
+  ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid, loading.inputs.held());
+  loading.take(read);
+  for (const std::size_t cell : read.cells) numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
+  const auto n = static_cast<double>(read.cells.size());
+  loading.inputs.notes.push_back(fmt::format(
+      "basal.zones[{}] {}: {} cells, {:.9g} m2{}", i, loading.scenario.basal.zones[i].polygon,
+      read.cells.size(), n * grid.cell_m * grid.cell_m,
+      read.is_cut ? " of the part of the terrain that is read" : ""));
 }
 
 void load_zones(Loading& loading) {
   const auto& zones = loading.scenario.basal.zones;
   if (zones.empty()) return;
   expect(zones.size() <= most_basal_zones, "a scenario is validated before its files are read");
-  const Grid& grid = loading.grid();
-  Raster<std::uint8_t> numbers(grid, 0);
-  for (std::size_t i = 0; i < zones.size(); ++i) {
-    ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid);
-    loading.take(read.notes, read.files);
-    for (const std::size_t cell : read.cells)
-      numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
-    const auto n = static_cast<double>(read.cells.size());
-    loading.inputs.notes.push_back(fmt::format("basal.zones[{}] {}: {} cells, {:.9g} m2", i,
-                                               zones[i].polygon, read.cells.size(),
-                                               n * grid.cell_m * grid.cell_m));
-  }
+  Raster<std::uint8_t> numbers(loading.inputs.elevation->grid, 0);
+  for (std::size_t i = 0; i < zones.size(); ++i)
+    loading.attempt([&] { load_zone(loading, i, numbers); });
   loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
+}
+
+/// What can be said of zones when no ground is known.
+void check_zones(Loading& loading) {
+  for (std::size_t i = 0; i < loading.scenario.basal.zones.size(); ++i)
+    loading.attempt([&] {
+      PolygonRequest request = zone_request(loading.scenario, i);
+      request.without_terrain = true;
+      read_zone_cells(request, {});
+    });
+}
+
+/// What can be said of release and zones when the terrain cannot be read.
+void check_without_terrain(Loading& loading) {
+  const Scenario& scenario = loading.scenario;
+  const bool local = scenario.terrain.crs == local_crs;
+  if (!scenario.release.polygon.empty())
+    loading.attempt([&] {
+      PolygonRequest request = polygon_request(scenario);
+      request.without_terrain = true;
+      read_release_polygons(request, {});
+    });
+  if (!scenario.release.thickness_raster.empty())
+    loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
+  check_zones(loading);
+}
+
+/// Cells in the order of the grid, each with its place, so that a window's own counting of rows and
+/// columns does not enter.
+std::string hash_of_release(const SceneInputs& in) {
+  const Raster<double>&ground = *in.elevation, &release = *in.release;
+  const Window at = window_of(release.grid, in.whole), held = in.held();
+  const Grid& g = in.whole;
+  Sha256 hash;
+  for (int r = 0; r < at.n_rows; ++r)
+    for (int c = 0; c < at.n_cols; ++c) {
+      if (!(release.at(r, c) > 0)) continue;
+      const int row = at.row0 + r, col = at.col0 + c;
+      const std::array<double, 4> cell{std::round((g.x_center(col)) / g.cell_m * 1024),
+                                       std::round((g.y_center(row)) / g.cell_m * 1024),
+                                       ground.at(row - held.row0, col - held.col0),
+                                       release.at(r, c)};
+      hash.add_values(std::span<const double>(cell));
+    }
+  return "sha256:" + hash.hex();
 }
 
 Grid hazard_grid(const Scenario& scenario, const Grid& terrain) {
@@ -249,14 +367,56 @@ Grid hazard_grid(const Scenario& scenario, const Grid& terrain) {
 }  // namespace
 
 SceneInputs load_scene_inputs(const Scenario& scenario) {
-  Loading loading{scenario, {}, {}, {}};
-  load_terrain(loading);
-  load_release(loading);
-  require_known_ground(loading);
+  Loading loading{scenario, {}, {}, {}, {}, {}};
+  loading.attempt([&] { load_terrain(loading); });
+  SceneInputs& inputs = loading.inputs;
+  if (inputs.whole.n_cols == 0) {
+    check_without_terrain(loading);
+    loading.refuse_problems();
+  }
+  loading.attempt([&] { load_release(loading); });
+  if (inputs.release)
+    loading.attempt([&] {
+      load_ground(loading);
+      shape_release(scenario, inputs);
+    });
+  if (inputs.elevation)
+    load_zones(loading);
+  else
+    check_zones(loading);
+  loading.refuse_problems();
+  std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
+  if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
+  inputs.release_hash = hash_of_release(inputs);
+  inputs.hazard_grid = hazard_grid(scenario, loading.grid());
+  prepare_grounds(scenario, inputs);
+  return std::move(inputs);
+}
+
+SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& first, int level) {
+  Loading loading{scenario, {}, {}, {}, {}, {}};
+  SceneInputs& inputs = loading.inputs;
+  open_raster(loading);
+  require(inputs.whole.same_place(first.whole),
+          fmt::format("terrain.raster = {}: has another grid than before (it was changed while "
+                      "members were computed). Take the file back and go on.",
+                      scenario.terrain.raster));
+  RasterRead read = loading.raster->read(larger_window(first.first_window, level, inputs.whole));
+  inputs.release = first.release;
+  inputs.pattern = first.pattern;
+  inputs.hazard_grid = first.hazard_grid;
+  inputs.source_area_m2 = first.source_area_m2;
+  inputs.source_volume_m3 = first.source_volume_m3;
+  inputs.normal_over_vertical = first.normal_over_vertical;
+  inputs.reach = first.reach;
+  inputs.first_window = first.first_window;
+  inputs.level = level;
+  take_ground(loading, read);
   load_zones(loading);
-  loading.inputs.hazard_grid = hazard_grid(scenario, loading.grid());
-  prepare_grounds(scenario, loading.inputs);
-  return std::move(loading.inputs);
+  loading.refuse_problems();
+  inputs.release_hash = hash_of_release(inputs);
+  prepare_grounds(scenario, inputs);
+  return std::move(inputs);
 }
 
 }  // namespace sturz

@@ -7,9 +7,14 @@
 
 namespace sturz {
 
-/// Terrain (raster or formula), release pattern on the terrain's grid, hazard grid, notes and
-/// checksums ("sha256:..." per file, named as in the scenario's folder).
-/// \throws SetupError naming key and file, also for a release on nodata cells of the terrain
+/// Terrain (raster or formula), release pattern on the terrain's grid, hazard grid, notes, warnings
+/// and the identity of every file (named as in the scenario's folder).
+/// \throws SetupError naming key and file, for all files at once, one a line; also for a release on
+///   nodata cells of the terrain
 SceneInputs load_scene_inputs(const Scenario& scenario);
+
+/// The same scene with more of its raster: the window of a higher level, see larger_window. Only
+/// elevation, zones and what is said of them are read anew. \pre the terrain is a raster
+SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& first, int level);
 
 }  // namespace sturz

@@ -12,11 +12,13 @@
 namespace sturz {
 
 struct ThicknessRead {
-  Raster<double> thickness;  ///< on the terrain's grid, vertical [m], 0 where there is none
-  double volume_m3 = 0;      ///< of the source raster; the result holds exactly this
-  double area_m2 = 0;        ///< of source cells with thickness
+  /// On the terrain's cells around the source, vertical [m]; nothing lies beyond.
+  Raster<double> thickness;
+  double volume_m3 = 0;  ///< of the source raster; the result holds exactly this
+  double area_m2 = 0;    ///< of source cells with thickness
   std::vector<std::string> notes;
-  std::vector<std::string> files;
+  std::vector<std::string> warnings;
+  InputIdentity identity;  ///< of what was read, before the factor
 };
 
 /// Nodata and NaN mean zero. Volume and area are those of the source cells in metres of their own
@@ -27,5 +29,8 @@ struct ThicknessRead {
 /// \throws SetupError naming key and file: as read_elevation; negative thickness (with the cell);
 ///   no thickness at all; thickness outside the terrain (how much and where)
 ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain);
+
+/// What can be said of it without a terrain. \throws SetupError as read_thickness
+void check_thickness(const RasterRequest& request, bool terrain_is_local);
 
 }  // namespace sturz

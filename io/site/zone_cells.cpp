@@ -13,36 +13,44 @@ namespace sturz {
 namespace {
 
 /// Feature by feature: where two of them overlap, both would count as a hole of the other.
-std::vector<std::size_t> cells_of(const OGRMultiPolygon& polygons, const Grid& terrain) {
-  PolygonCells cells(terrain);
+/// \return how many there are, beyond the window too
+std::size_t add_cells(const OGRMultiPolygon& polygons, const Grid& terrain, const Window& held,
+                      std::vector<std::size_t>& all) {
+  PolygonCells cells(terrain, held);
   for (const OGRPolygon* polygon : polygons)
     for (const OGRLinearRing* ring : *polygon) cells.add_ring(points_of(*ring));
-  return cells.finish();
+  const std::vector<std::size_t> listed = cells.finish();
+  all.insert(all.end(), listed.begin(), listed.end());
+  return cells.count();
 }
 
 }  // namespace
 
-ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain) {
+ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain, const Window& held) {
   const GdalScope scope;
   PolygonLayer layer = open_polygon_layer(request);
   ZoneCells zone;
   OGREnvelope extent;
-  for (const auto& feature : read_features(layer, request, terrain)) {
+  std::size_t count = 0;
+  const auto features = read_features(layer, request, terrain);
+  if (request.without_terrain) return zone;
+  for (const auto& feature : features) {
     OGREnvelope own;
     feature.polygons->getEnvelope(&own);
     extent.Merge(own);
-    const auto cells = cells_of(*feature.polygons, terrain);
-    zone.cells.insert(zone.cells.end(), cells.begin(), cells.end());
+    count += add_cells(*feature.polygons, terrain, held, zone.cells);
   }
+  zone.is_cut = zone.cells.size() < count;
   std::sort(zone.cells.begin(), zone.cells.end());
   zone.cells.erase(std::unique(zone.cells.begin(), zone.cells.end()), zone.cells.end());
-  if (zone.cells.empty())
+  if (count == 0)
     throw SetupError(
         fmt::format("{}: holds the centre of no cell of the terrain ({}; cells of {:g} m). Is its "
                     "coordinate system right?",
                     layer.label, places_text(extent, terrain), terrain.cell_m));
   zone.notes = std::move(layer.notes);
-  zone.files = std::move(layer.files);
+  zone.warnings = std::move(layer.warnings);
+  zone.identity = std::move(layer.identity);
   return zone;
 }
 

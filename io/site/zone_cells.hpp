@@ -4,6 +4,7 @@
 
 #include "engine/terrain/raster.hpp"
 #include "io/site/polygon_request.hpp"
+#include "scenarios/input_identity.hpp"
 
 #include <cstddef>
 #include <string>
@@ -12,9 +13,11 @@
 namespace sturz {
 
 struct ZoneCells {
-  std::vector<std::size_t> cells;  ///< indices on the terrain's grid, rising, each once
+  std::vector<std::size_t> cells;  ///< indices on the window's grid, rising, each once
+  bool is_cut = false;             ///< the terrain has more of them beyond the window
   std::vector<std::string> notes;
-  std::vector<std::string> files;  ///< the file and its companions, for checksums
+  std::vector<std::string> warnings;
+  InputIdentity identity;  ///< of what was read
 };
 
 /// All features of the layer together; what lies beyond the terrain is left out.
@@ -22,6 +25,10 @@ struct ZoneCells {
 /// \param terrain without a system of its own the coordinates are taken as they are
 /// \throws SetupError naming key and file: missing file or layer; empty layer or polygon; points or
 ///   lines; no coordinate system; no cell covered
-ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain);
+/// \param held the window whose cells are listed
+ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain, const Window& held);
+inline ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain) {
+  return read_zone_cells(request, terrain, whole_of(terrain));
+}
 
 }  // namespace sturz

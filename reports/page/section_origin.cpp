@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace sturz {
 namespace {
@@ -57,14 +58,19 @@ std::string computation_html(const ReportInput& input, const Headline&) {
   return html + "</div></section>";
 }
 
+namespace {
+/// "input elev_12_5m.tif": the name of a file keeps its underscores.
+bool is_file(std::string_view key) { return key.starts_with("input "); }
+}  // namespace
+
 std::string provenance_html(const ReportInput& input) {
   if (input.manifest.empty() && input.scenario_yaml.empty()) return {};
   std::string html = "<section id=\"origin\"><h2>Where this comes from</h2>";
   if (!input.manifest.empty()) {
     html += "<dl class=\"manifest\">";
     for (const auto& [key, value] : input.manifest)
-      html +=
-          "<div><dt>" + html_escape(words(key)) + "</dt><dd>" + html_escape(value) + "</dd></div>";
+      html += "<div><dt>" + html_escape(is_file(key) ? key : words(key)) + "</dt><dd>" +
+              html_escape(value) + "</dd></div>";
     html += "</dl>";
   }
   if (!input.scenario_yaml.empty())

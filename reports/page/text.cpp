@@ -53,7 +53,7 @@ std::string html_escape(std::string_view text) {
   return out;
 }
 
-std::string script_safe(std::string json) {
+std::string script_safe(const std::string& json) {
   std::string out;
   out.reserve(json.size());
   for (const char c : json)

@@ -10,7 +10,7 @@ namespace sturz {
 /// Text made safe for HTML content and double-quoted attributes.
 std::string html_escape(std::string_view text);
 /// JSON made safe inside a script element: no '<' is left, so no `</script` or `<!--` either.
-std::string script_safe(std::string json);
+std::string script_safe(const std::string& json);
 
 /// `value` rounded to `digits` significant digits, thousands separated by narrow spaces from 10 000
 /// on, real minus sign; an en dash for NaN. Whole numbers keep all their digits.

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/assemble.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/arrivals.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
+#include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/effect_table.hpp"
+#include "scenarios/assembly/ground_words.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/schema.hpp"
 
@@ -78,6 +82,15 @@ const std::size_t bare_bytes_per_particle = ParticleSet().bytes_per_particle() +
 /// Of the peak maps, where the whole grid is touched.
 constexpr std::size_t bytes_per_hazard_cell = 60;
 
+/// Cells of the maps that one member may touch: a quarter of what lies within the energy line's
+/// bounds, because hardly a flow goes every way at once.
+double touched_cells(const SceneInputs& in) {
+  const auto all = static_cast<double>(in.hazard_grid.n_cells());
+  if (!in.reach) return all;
+  const double shorter = in.terrain_grid().cell_m / in.hazard_grid.cell_m;
+  return std::min(all, 0.25 * static_cast<double>(in.reach->window.n_cells()) * shorter * shorter);
+}
+
 std::string joined(const std::vector<std::string>& parts) {
   std::string out;
   for (const auto& p : parts) out += (out.empty() ? "" : "; ") + p;
@@ -89,9 +102,24 @@ PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) 
 }
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
-  return StopRule({s.numerics.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
+  return StopRule({plan.end.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
                    plan.release.max_thickness_m, plan.available_energy_j,
                    s.numerics.stop_energy_fraction});
+}
+
+/// Masses spread and settle while a point is long at rest.
+constexpr double settling = 1.5;
+
+/// How long a member will probably move [s]; its own end time where it gives one.
+double expected_time(const Scenario& s, const ScenePlan& plan) {
+  if (s.numerics.end_time_s || !s.domain.periodic.empty()) return plan.end.end_time_s;
+  const auto& v0 = s.release.velocity_m_s;
+  const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
+  const double friction =
+      s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  const double moving = time_to_rest(plan.bed, plan.release, friction, start, plan.end.end_time_s);
+  const double spreading = 5 * std::sqrt(plan.release.max_thickness_m / standard_gravity);
+  return std::min(plan.end.end_time_s, settling * (moving + spreading));
 }
 
 double least_step(const Scenario& s, const ScenePlan& plan) {
@@ -115,6 +143,15 @@ ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
   facts.crown_x_m = r.crown_x_m, facts.crown_y_m = r.crown_y_m, facts.crown_z_m = r.crown_z_m;
   facts.top_m = *std::max_element(r.z.begin(), r.z.end());
   return facts;
+}
+
+/// See SceneDescription::other_formulation_cost.
+double other_cost(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
+  if (!has_both_formulations(s)) return 0;
+  const CostEstimate cost =
+      estimate_cost(s, release_thickness(s.release, inputs), plan.bed, expected_time(s, plan));
+  return plan.formulation.depth_averaged ? cost.full_stress / cost.depth_averaged
+                                         : cost.depth_averaged / cost.full_stress;
 }
 
 /// Which effects there are and why, and what each brings: its row is added to a scene of its own
@@ -174,10 +211,13 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.n_particles = state.n_particles();
   std::size_t bytes = bare_bytes_per_particle;
   for (const EffectNote& note : d.effects) bytes += note.bytes_per_particle;
-  d.memory_bytes = d.n_particles * bytes + inputs.hazard_grid.n_cells() * bytes_per_hazard_cell;
+  d.memory_bytes = d.n_particles * bytes +
+                   static_cast<std::size_t>(touched_cells(inputs)) * bytes_per_hazard_cell;
   d.spacing_m = s.numerics.spacing_m;
   d.release_volume_m3 = plan.release.volume_m3;
-  d.release_area_m2 = plan.release.area_m2;
+  d.release_area_m2 = inputs.source_area_m2 > 0 ? inputs.source_area_m2 : plan.release.area_m2;
+  d.normal_over_vertical = inputs.normal_over_vertical;
+  d.bulk_density_kg_m3 = plan.bulk_density_kg_m3;
   d.layers = plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
   d.sound_speed_m_s = plan.formulation.depth_averaged ? 0 : plan.stress.sound_speed;
@@ -186,8 +226,16 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;
-  d.n_steps = std::ceil(s.numerics.end_time_s / limit.dt);
-  d.warnings = plan_warnings(s, plan);
+  d.n_steps = std::ceil(expected_time(s, plan) / limit.dt);
+  d.end_time_s = plan.end.end_time_s;
+  d.end_time_reason = plan.end.reason;
+  d.ground = ground_line(s, inputs);
+  d.warnings = ground_warnings(s, inputs);
+  const auto warnings = scene_warnings(s, inputs, plan);
+  d.warnings.insert(d.warnings.end(), warnings.begin(), warnings.end());
+  d.needs_more_ground = state.terrain.needs_more() || plan.bed.needs_more();
+  d.narrow_side_m = plan.release_narrow_side_m;
+  d.other_formulation_cost = other_cost(s, inputs, plan);
   return d;
 }
 

@@ -37,11 +37,21 @@ struct SceneDescription {
   std::string formulation, formulation_reason;
   std::size_t n_particles = 0;
   std::size_t memory_bytes = 0;  ///< of one member while it runs
-  double spacing_m = 0, release_volume_m3 = 0, release_area_m2 = 0;
-  double layers = 0;  ///< volume-weighted median vertical thickness / spacing
+  double spacing_m = 0, release_volume_m3 = 0, release_area_m2 = 0;  ///< area: of the outline
+  double normal_over_vertical = 1;  ///< volume, if thicknesses count normal to the slope
+  double bulk_density_kg_m3 = 0;    ///< of the mass as it is set down
+  double layers = 0;                ///< volume-weighted median vertical thickness / spacing
+  double narrow_side_m = 0;         ///< of the release, see scenarios/assembly/start_checks.hpp
+  /// Cost of a member in the other formulation over that in this one, roughly; 0 where the scene
+  /// cannot have the other.
+  double other_formulation_cost = 0;
   double reference_speed_m_s = 0, sound_speed_m_s = 0;
   double dt_s = 0, n_steps = 0;  ///< estimates
   std::string binding_limit;
+  double end_time_s = 0;              ///< when a member is stopped at the latest
+  std::string end_time_reason;        ///< where that comes from
+  std::string ground;                 ///< which part of it is read, and why
+  bool needs_more_ground = false;     ///< describe again with a larger part of the raster
   double predicted_seconds = 0;       ///< n_particles * n_steps / updates per second; by the caller
   std::vector<std::string> warnings;  ///< thin flow, grain larger than particle, ...
 };

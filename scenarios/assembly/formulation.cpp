@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/formulation.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
+#include "engine/simulation/reference_speed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -55,6 +57,45 @@ void count_layers(const Scenario& s, const Raster<double>& thickness, Formulatio
   c.layers = std::min(c.release_layers, c.deposit_layers);
 }
 
+/// What lies on the ground, and some points of it.
+struct Mass {
+  double volume = 0, area = 0;  ///< [m3], [m2]
+  Release starts;               ///< without masses
+};
+
+Mass mass_on(const Raster<double>& thickness, const Terrain& ground) {
+  constexpr std::size_t enough = 400;
+  const Grid& g = thickness.grid;
+  std::vector<std::size_t> cells;
+  Mass mass;
+  for (std::size_t i = 0; i < thickness.values.size(); ++i) {
+    const double h = thickness.values[i];
+    if (!(h > 0)) continue;
+    cells.push_back(i);
+    mass.volume += h * g.cell_m * g.cell_m;
+    mass.starts.max_thickness_m = std::max(mass.starts.max_thickness_m, h);
+  }
+  mass.area = static_cast<double>(cells.size()) * g.cell_m * g.cell_m;
+  const std::size_t stride = cells.size() / enough + 1;
+  for (std::size_t k = 0; k < cells.size(); k += stride) {
+    const double x = g.x_center(static_cast<int>(cells[k] % g.n_cols));
+    const double y = g.y_center(static_cast<int>(cells[k] / g.n_cols));
+    if (!ground.inside(x, y)) continue;
+    mass.starts.x.push_back(x);
+    mass.starts.y.push_back(y);
+    mass.starts.z.push_back(ground.height(x, y));
+  }
+  return mass;
+}
+
+/// Of so many particle updates, at 3 million a second: "40 s", "12 min", "27 h".
+std::string time_text(double updates) {
+  const double seconds = updates / 3e6;
+  if (seconds < 90) return short_number(std::max(0.1, seconds)) + " s";
+  if (seconds < 5400) return short_number(seconds / 60) + " min";
+  return short_number(seconds / 3600) + " h";
+}
+
 }  // namespace
 
 FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& thickness) {
@@ -76,12 +117,54 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
   } else if (const std::string key = column_key(s); !key.empty()) {
     c.depth_averaged = true;
     c.reason = "`formulation: auto`: `" + key + "` acts on columns";
+  } else if (s.grains && !s.grains->friction && !s.grains->friction_angle_deg) {
+    c.depth_averaged = true;
+    c.reason = "`formulation: auto`: no internal friction is given, which full_stress needs; " +
+               layers_text(c);
   } else {
     c.depth_averaged = c.layers < resolved_layers;
     c.reason = "`formulation: auto`: " + layers_text(c) + (c.depth_averaged ? " (" : " (not ") +
                "fewer than 4)";
   }
   return c;
+}
+
+bool has_both_formulations(const Scenario& s) {
+  return s.grains && (s.grains->friction || s.grains->friction_angle_deg) && !s.grains->states &&
+         column_key(s).empty();
+}
+
+CostEstimate estimate_cost(const Scenario& s, const Raster<double>& thickness,
+                           const Terrain& ground, double end_time_s) {
+  const Mass mass = mass_on(thickness, ground);
+  const double dx = s.numerics.spacing_m, step = s.numerics.courant * smoothing_ratio * dx;
+  double friction = s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  for (const BasalZone& zone : s.basal.zones)
+    friction = std::min(
+        friction, zone.friction_coefficient.value_or(s.basal.friction_coefficient.value) *
+                      (1 - zone.pore_pressure_ratio.value_or(s.basal.pore_pressure_ratio.value)));
+  const auto& v0 = s.release.velocity_m_s;
+  const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
+  const double speed = reference_speed(ground, mass.starts, friction, start, end_time_s);
+  const double wave = std::sqrt(standard_gravity * mass.starts.max_thickness_m);
+  const double sound = s.numerics.sound_speed_factor * std::max({speed, wave, start});
+  CostEstimate cost;
+  cost.full_stress = mass.volume / (dx * dx * dx) * end_time_s * 1.1 * sound / step;
+  cost.depth_averaged = mass.area / (dx * dx) * end_time_s * (0.5 * speed + wave) / step;
+  return cost;
+}
+
+void weigh_cost(const Scenario& s, const Raster<double>& thickness, const Terrain& ground,
+                double end_time_s, FormulationChoice& c) {
+  const CostEstimate cost = estimate_cost(s, thickness, ground, end_time_s);
+  const std::string full = time_text(cost.full_stress), columns = time_text(cost.depth_averaged);
+  c.depth_averaged = cost.full_stress > affordable_updates;
+  if (c.depth_averaged)
+    c.reason = "`formulation: auto`: " + layers_text(c) +
+               ", which full_stress would resolve in about " + full + " a member, columns in " +
+               columns + "; more than 10 min have to be asked for (formulation: full_stress)";
+  else
+    c.reason += "; about " + full + " a member, columns " + columns;
 }
 
 }  // namespace sturz

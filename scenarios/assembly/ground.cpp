@@ -12,7 +12,7 @@ NodataRule rule_of(const Scenario& s) {
 }
 
 /// A margin of repeated ground, so that the surface exists up to the period's edge.
-std::shared_ptr<const Raster<double>> with_margin(const Raster<double>& z, const Domain& d) {
+std::shared_ptr<const Raster<double>> with_repeats(const Raster<double>& z, const Domain& d) {
   const int mx = d.x.active ? 2 : 0, my = d.y.active ? 2 : 0;
   Grid g = z.grid;
   g.west_m -= mx * g.cell_m;
@@ -35,32 +35,60 @@ std::shared_ptr<const Raster<double>> with_margin(const Raster<double>& z, const
   return out;
 }
 
+/// Also the lowest elevation is one of the scene, not of the part that is held.
+std::shared_ptr<const HeldGround> held_ground(const SceneInputs& in, const Grid& whole,
+                                              std::shared_ptr<const Raster<double>> part) {
+  std::optional<double> lowest;
+  if (in.reach) lowest = in.reach->lowest_m;
+  return std::make_shared<const HeldGround>(whole, std::move(part), lowest);
+}
+
+Terrain fine(const Scenario& s, const SceneInputs& in) {
+  return {held_ground(in, in.terrain_grid(), in.elevation), rule_of(s)};
+}
+
 Terrain averaged(const Scenario& s, const SceneInputs& in, int factor) {
-  return {std::make_shared<const Raster<double>>(coarsened(*in.elevation, factor)), rule_of(s)};
+  const Grid& whole = in.terrain_grid();
+  auto part = std::make_shared<const Raster<double>>(coarsened(*in.elevation, whole, factor));
+  return {held_ground(in, coarse_grid(whole, factor), std::move(part)), rule_of(s)};
 }
 
 }  // namespace
 
 int column_ground_factor(const Scenario& s, const SceneInputs& in) {
   if (!s.domain.periodic.empty()) return 1;
-  const Grid& g = in.elevation->grid;
+  const Grid& g = in.terrain_grid();
   // At least 8 x 8 cells are left of a small ground.
   const int most = std::max(1, std::min(g.n_cols, g.n_rows) / 8);
   // A hair more than the quotient: 0.6/0.2 is under three.
   return std::clamp(static_cast<int>(s.numerics.spacing_m / g.cell_m * (1 + 1e-9)), 1, most);
 }
 
-Raster<double> coarsened(const Raster<double>& z, int factor) {
-  Grid g = z.grid;
+Grid coarse_grid(const Grid& whole, int factor) {
+  Grid g = whole;
   g.n_cols /= factor;
   g.n_rows /= factor;
   g.cell_m *= factor;
-  Raster<double> out(g);
-  for (int r = 0; r < g.n_rows; ++r)
-    for (int c = 0; c < g.n_cols; ++c) {
+  return g;
+}
+
+Raster<double> coarsened(const Raster<double>& z, int factor) {
+  return coarsened(z, z.grid, factor);
+}
+
+Raster<double> coarsened(const Raster<double>& part, const Grid& whole, int factor) {
+  const Grid coarse = coarse_grid(whole, factor);
+  const Window held = window_of(part.grid, whole);
+  const auto up = [&](int n) { return (n + factor - 1) / factor; };
+  const Window w = window_between(up(held.row0), held.end_row() / factor, up(held.col0),
+                                  held.end_col() / factor, coarse);
+  Raster<double> out(grid_of(w, coarse));
+  for (int r = 0; r < w.n_rows; ++r)
+    for (int c = 0; c < w.n_cols; ++c) {
+      const int row = (w.row0 + r) * factor - held.row0, col = (w.col0 + c) * factor - held.col0;
       double sum = 0;
       for (int j = 0; j < factor; ++j)
-        for (int i = 0; i < factor; ++i) sum += z.at(r * factor + j, c * factor + i);
+        for (int i = 0; i < factor; ++i) sum += part.at(row + j, col + i);
       out.at(r, c) = sum / (factor * factor);
     }
   return out;
@@ -73,12 +101,13 @@ Terrain scene_ground(const Scenario& s, const SceneInputs& in, const Domain& dom
   if (prepared && prepared->grid().cell_m == factor * in.elevation->grid.cell_m) return *prepared;
   if (factor > 1) return averaged(s, in, factor);
   const bool periodic = domain.x.active || domain.y.active;
-  return {periodic ? with_margin(*in.elevation, domain) : in.elevation, rule_of(s)};
+  if (!periodic) return fine(s, in);
+  return {with_repeats(*in.elevation, domain), rule_of(s)};
 }
 
 void prepare_grounds(const Scenario& s, SceneInputs& in) {
   if (!s.domain.periodic.empty()) return;
-  in.ground = std::make_shared<const Terrain>(in.elevation, rule_of(s));
+  in.ground = std::make_shared<const Terrain>(fine(s, in));
   const int factor = column_ground_factor(s, in);
   if (factor > 1) in.column_ground = std::make_shared<const Terrain>(averaged(s, in, factor));
 }

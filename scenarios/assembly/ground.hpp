@@ -17,6 +17,12 @@ int column_ground_factor(const Scenario&, const SceneInputs&);
 /// block at the eastern and southern edge are left out.
 Raster<double> coarsened(const Raster<double>&, int factor);
 
+/// The same of the part of a grid that is held: every block that lies wholly in it, on the grid of
+/// these blocks alone. Blocks are counted from the corner of the whole grid.
+Raster<double> coarsened(const Raster<double>& part, const Grid& whole, int factor);
+/// The grid of all blocks.
+Grid coarse_grid(const Grid& whole, int factor);
+
 /// The ground at the working grid, or averaged for columns; taken from the inputs where
 /// prepare_grounds put it there.
 Terrain scene_ground(const Scenario&, const SceneInputs&, const Domain&, bool for_columns);

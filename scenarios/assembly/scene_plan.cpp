@@ -6,6 +6,8 @@
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/release_pattern.hpp"
+#include "scenarios/assembly/start_checks.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -15,45 +17,36 @@
 namespace sturz {
 namespace {
 
-constexpr double smoothing_ratio = 1.3;  // h/dx, docs/physics.md B.1
-
-/// The member's release thickness [m] on the working grid.
-Raster<double> release_thickness(const ReleaseSpec& spec, const SceneInputs& in) {
-  Raster<double> thickness = *in.release;
-  double scale = 1;
-  if (in.pattern == ReleasePattern::cover && spec.thickness_m) scale = spec.thickness_m->value;
-  if (spec.volume_m3) {
-    double sum = 0;
-    for (double h : thickness.values)
-      if (h > 0) sum += h;
-    const double volume = sum * thickness.grid.cell_m * thickness.grid.cell_m;
-    require(volume > 0, "release: the source covers no cell. Check that it lies on the terrain.");
-    scale = spec.volume_m3->value / volume;
-  }
-  for (double& h : thickness.values) h = h > 0 ? h * scale : 0;
-  return thickness;
-}
-
 /// bed = pre-failure surface - thickness, as a patch over the shared raster.
-Terrain excavate(const Terrain& ground, const Raster<double>& fine_thickness) {
+/// \param whole the working grid, of which the thickness covers a part
+Terrain excavate(const Terrain& ground, const Raster<double>& thickness, const Grid& whole) {
   const Grid& g = ground.grid();
-  const int factor = static_cast<int>(std::lround(g.cell_m / fine_thickness.grid.cell_m));
-  const Raster<double> thickness = factor > 1 ? coarsened(fine_thickness, factor) : fine_thickness;
-  int r0 = g.n_rows, r1 = -1, c0 = g.n_cols, c1 = -1;
-  for (int r = 0; r < g.n_rows; ++r)
-    for (int c = 0; c < g.n_cols; ++c)
-      if (thickness.at(r, c) > 0) {
-        r0 = std::min(r0, r), r1 = std::max(r1, r);
-        c0 = std::min(c0, c), c1 = std::max(c1, c);
-      }
-  if (r1 < 0) return ground;
+  const int factor = static_cast<int>(std::lround(g.cell_m / thickness.grid.cell_m));
+  const Window at = window_of(thickness.grid, whole);
+  /// Mean over a cell of the ground.
+  const auto mean = [&](int row, int col) {
+    if (factor <= 1) return thickness.at(row - at.row0, col - at.col0);
+    double sum = 0;
+    for (int r = row * factor; r < (row + 1) * factor; ++r)
+      for (int c = col * factor; c < (col + 1) * factor; ++c)
+        if (at.contains(r, c)) sum += thickness.at(r - at.row0, c - at.col0);
+    return sum / (factor * factor);
+  };
+  const int f = std::max(factor, 1);
+  const Window near = window_between(at.row0 / f, (at.end_row() - 1) / f + 1, at.col0 / f,
+                                     (at.end_col() - 1) / f + 1, g);
+  Window dug;
+  for (int r = near.row0; r < near.end_row(); ++r)
+    for (int c = near.col0; c < near.end_col(); ++c)
+      if (mean(r, c) > 0) dug = joined(dug, {r, c, 1, 1});
+  if (dug.n_cells() == 0) return ground;
   std::vector<double> patch;
-  for (int r = r0; r <= r1; ++r)
-    for (int c = c0; c <= c1; ++c) {
-      const double h = thickness.at(r, c);
+  for (int r = dug.row0; r < dug.end_row(); ++r)
+    for (int c = dug.col0; c < dug.end_col(); ++c) {
+      const double h = mean(r, c);
       patch.push_back(h > 0 ? ground.node(r, c) - h : nan_d);
     }
-  return ground.with_patch(r0, c0, r1 - r0 + 1, c1 - c0 + 1, std::move(patch));
+  return ground.with_patch(dug.row0, dug.col0, dug.n_rows, dug.n_cols, std::move(patch));
 }
 
 /// A direction repeats over the terrain's extent; the ground may rise by a constant per period.
@@ -186,7 +179,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
   const double deepest = plan.release.max_thickness_m;
   plan.reference_speed_m_s =
-      reference_speed(plan.bed, plan.release, least_friction, start, s.numerics.end_time_s);
+      reference_speed(plan.bed, plan.release, least_friction, start, plan.end.end_time_s);
 
   GrainStressSettings& stress = plan.stress;
   stress.law = make_law(*s.grains);
@@ -233,15 +226,15 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
     contact.bed.push_back({b.friction_coefficient, b.pore_pressure_ratio, b.cohesion_pa});
 }
 
-/// Four layers or more on the whole, or a reader has to be told what is not resolved.
-void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, std::vector<std::string>& out) {
-  const FormulationChoice& f = plan.formulation;
-  if (f.depth_averaged || f.layers >= resolved_layers) return;
-  out.push_back("thin flow: " + short_number(f.layers) + " layers of particles resolve the " +
-                (f.release_layers <= f.deposit_layers ? "release" : "expected deposit") +
-                " (fewer than 4). Centre of mass and speed hold, the footprint may be wrong by "
-                "15-100 %. Use formulation: auto or a spacing below " +
-                short_number(s.numerics.spacing_m * f.layers / resolved_layers) + " m");
+/// How long a member may last, for a comparison of costs before it is released [s]: its end time, or
+/// the longest way at the slowest speed, of which the limit takes four times.
+double time_to_weigh(const Scenario& s, const SceneInputs& in, const Raster<double>& thickness) {
+  if (s.numerics.end_time_s) return *s.numerics.end_time_s;
+  double sum = 0, n = 0;
+  for (const double h : thickness.values)
+    if (h > 0) sum += h, n += 1;
+  const double density = s.grains->density_kg_m3.value * s.grains->solid_fraction.value;
+  return 0.25 * time_cap(s, in, n > 0 ? sum / n : 0, density).end_time_s;
 }
 
 }  // namespace
@@ -249,19 +242,25 @@ void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, std::vector<std
 ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
   require(s.grains.has_value(),
           "grains: the block is missing (nothing would move). Add `grains:`.");
+  expect(s.domain.periodic.empty() || in.held() == whole_of(in.terrain_grid()),
+         "ground that repeats itself is held whole");
   const Domain domain = make_domain(s.domain, *in.elevation);
   require_room(domain.x, "x", s.numerics.spacing_m);
   require_room(domain.y, "y", s.numerics.spacing_m);
   const bool periodic = domain.x.active || domain.y.active;
   Raster<double> thickness = release_thickness(s.release, in);
-  const FormulationChoice formulation = choose_formulation(s, thickness);
+  FormulationChoice formulation = choose_formulation(s, thickness);
+  if (s.formulation == Formulation::automatic && !formulation.depth_averaged)
+    weigh_cost(s, thickness, scene_ground(s, in, domain, false), time_to_weigh(s, in, thickness),
+               formulation);
   const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
 
   require(!periodic || s.release.surface == ReleaseSurface::bed,
           "release.surface = pre_failure cannot be used with domain.periodic (the excavation would "
           "not repeat). Use `surface: bed`.");
-  ScenePlan plan(s.release.surface == ReleaseSurface::pre_failure ? excavate(ground, thickness)
-                                                                  : ground);
+  ScenePlan plan(s.release.surface == ReleaseSurface::pre_failure
+                     ? excavate(ground, thickness, in.terrain_grid())
+                     : ground);
   plan.formulation = formulation;
   plan.domain = domain;
 
@@ -276,7 +275,11 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
       release_particles(plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
                          s.ensemble.seed, member, plan.formulation.depth_averaged});
-  plan.zones = {in.zones};
+  plan.end = time_cap(s, in, plan.release.median_thickness_m, plan.bulk_density_kg_m3);
+  const Window held = in.held();
+  plan.zones = {in.zones, in.whole, held.row0, held.col0};
+  plan.release_narrow_side_m = narrow_side(thickness, in.source_area_m2);
+  require_before_walls(plan.release, domain, formulation.depth_averaged);
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
   if (plan.formulation.depth_averaged)
     plan_columns(s, bed, plan);
@@ -290,45 +293,15 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     mass += plan.release.mass[i];
     height += plan.release.mass[i] * plan.release.z[i];
   }
-  for (double z : in.elevation->values)
-    if (std::isfinite(z)) lowest = std::min(lowest, z);
+  if (in.reach) {  // whatever part of the raster is held
+    lowest = in.reach->lowest_m;
+  } else {
+    for (double z : in.elevation->values)
+      if (std::isfinite(z)) lowest = std::min(lowest, z);
+  }
   plan.available_energy_j =
       standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
   return plan;
-}
-
-std::vector<std::string> plan_warnings(const Scenario& s, const ScenePlan& plan) {
-  std::vector<std::string> out;
-  const double dx = s.numerics.spacing_m;
-  warn_of_thin_flow(s, plan, out);
-  if (!plan.formulation.depth_averaged &&
-      2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
-    out.push_back("coarse grains: the smoothing length of " +
-                  short_number(plan.stress.smoothing_length) +
-                  " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
-                  " m: the grains act as a parameter only");
-  if (s.grains->states && plan.formulation.depth_averaged)
-    out.emplace_back(
-        "grains.states is not used: columns have no states. Use formulation: full_stress "
-        "where the grains may disperse");
-  const bool collides =
-      s.grains->states && s.grains->states->dilute && !plan.formulation.depth_averaged;
-  if (collides && s.grains->states->dilute->restitution.value < 0.7)
-    out.push_back("grains.states.dilute.restitution = " +
-                  short_number(s.grains->states->dilute->restitution.value) +
-                  " lies under 0.7, where kinetic theory was not made for");
-  if (plan.release.dropped_fraction > 0.01)
-    out.push_back(
-        "thin edge: " + short_number(100 * plan.release.dropped_fraction) +
-        " % of the release lies where it is too thin for a particle and was given to the others");
-  // Columns thin out continuously; particles do not.
-  for (double threshold : s.hazard.thickness_m)
-    if (!plan.formulation.depth_averaged && threshold < 0.5 * dx) {
-      out.push_back("thickness thresholds under " + short_number(0.5 * dx) +
-                    " m (half a spacing) are not resolved");
-      break;
-    }
-  return out;
 }
 
 }  // namespace sturz

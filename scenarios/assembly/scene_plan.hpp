@@ -10,6 +10,7 @@
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/particles/release.hpp"
 #include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/time_cap.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
 
@@ -23,6 +24,7 @@ struct ScenePlan {
   Domain domain;
   FormulationChoice formulation;
   Release release;
+  double release_narrow_side_m = 0;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
   GrainStressSettings stress;                                ///< full_stress
@@ -31,6 +33,7 @@ struct ScenePlan {
   double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;    ///< depth_averaged
   double reference_speed_m_s = 0;   ///< v_ref of the fastest expected mass point; full_stress
+  TimeCap end;                      ///< when it is stopped at the latest
   double available_energy_j = 0;    ///< release mass falling to the lowest ground within runout
 
   explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
@@ -39,7 +42,10 @@ struct ScenePlan {
 /// \throws SetupError naming the key
 ScenePlan plan_scene(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member);
 
-/// What a reader of the result has to know: thin release, coarse grains, coarse maps.
+/// What a reader of a member's result has to know: thin release, coarse grains, coarse maps.
 std::vector<std::string> plan_warnings(const Scenario& numbers, const ScenePlan& plan);
+/// The same, and what is true of all members alike: how the release lies in the terrain.
+std::vector<std::string> scene_warnings(const Scenario& numbers, const SceneInputs& inputs,
+                                        const ScenePlan& plan);
 
 }  // namespace sturz

@@ -12,6 +12,12 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
+/// Isotropic columns slide on the bed and know no friction inside.
+bool needs_internal_friction(const Scenario& s) {
+  return s.formulation == Formulation::full_stress ||
+         s.grains->earth_pressure == LateralPressure::active_passive;
+}
+
 void check_grains(const Scenario& s, Problems& problems) {
   if (!s.grains) {
     problems.push_back({"grains", "grains (missing: nothing would move). Add a grains block."});
@@ -22,10 +28,13 @@ void check_grains(const Scenario& s, Problems& problems) {
     problems.push_back({"grains.friction_angle_deg",
                         "grains.friction_angle_deg (grains.friction is there too). Keep one of "
                         "them."});
-  if (!g.friction && !g.friction_angle_deg)
-    problems.push_back({"grains",
-                        "grains (no internal friction). Add grains.friction or "
-                        "grains.friction_angle_deg."});
+  if (!g.friction && !g.friction_angle_deg && needs_internal_friction(s))
+    problems.push_back(
+        {"grains", "grains (no internal friction, which " +
+                       std::string(s.formulation == Formulation::full_stress
+                                       ? "full_stress needs). "
+                                       : "grains.earth_pressure: active_passive needs). ") +
+                       "Add grains.friction or grains.friction_angle_deg."});
   if (!g.friction) return;
   const double most_static = support(g.friction->static_coefficient).second;
   const double least_dynamic = support(g.friction->dynamic_coefficient).first;

@@ -11,7 +11,25 @@ namespace {
 
 using Problems = std::vector<Problem>;
 
+/// Results do not depend on the window; one that cannot be meant is refused all the same.
+void check_window(const TerrainSpec& t, Problems& problems) {
+  const TerrainWindow& w = *t.window;
+  if (t.synthetic)
+    problems.push_back(
+        {"terrain.window", "terrain.window (a synthetic terrain is made whole). Remove it."});
+  const bool box = w.x_m[1] > w.x_m[0] && w.y_m[1] > w.y_m[0];
+  const bool none = w.x_m == std::array<double, 2>{} && w.y_m == std::array<double, 2>{};
+  if (!w.polygon.empty() && !none)
+    problems.push_back({"terrain.window",
+                        "terrain.window (polygon and x_m, y_m both say where). Keep one of them."});
+  if (w.polygon.empty() && !box)
+    problems.push_back({"terrain.window",
+                        "terrain.window (no area). Give x_m: [west, east] and y_m: [south, "
+                        "north], the smaller number first, or a polygon."});
+}
+
 void check_terrain(const TerrainSpec& t, Problems& problems) {
+  if (t.window) check_window(t, problems);
   const bool raster = !t.raster.empty();
   if (!raster && !t.synthetic)
     problems.push_back({"terrain",
@@ -84,6 +102,10 @@ void check_source(const Scenario& s, Problems& problems) {
                         std::string("release.thickness_m (") +
                             (own ? "the synthetic terrain brings" : "release.thickness_raster is") +
                             " the thickness). Remove it; release.volume_m3 scales the source."});
+  if (own && r.thickness == ThicknessDirection::normal)
+    problems.push_back({"release.thickness",
+                        "release.thickness = normal (the synthetic terrain brings vertical "
+                        "thicknesses). Remove it."});
   if (own && r.surface == ReleaseSurface::pre_failure)
     problems.push_back({"release.surface",
                         "release.surface = pre_failure (the synthetic terrain "
@@ -115,12 +137,30 @@ void check_companions(const ReleaseSpec& r, Problems& problems) {
   }
 }
 
+/// A floor of its own needs a release that is dug out and says no floor yet.
+void check_floor(const Scenario& s, Problems& problems) {
+  const auto& r = s.release;
+  if (r.floor != ReleaseFloor::tapered) return;
+  const auto refuse = [&](const std::string& why) {
+    problems.push_back({"release.floor", "release.floor = tapered (" + why});
+  };
+  if (r.surface == ReleaseSurface::bed)
+    refuse(
+        "surface is bed: the terrain is the floor). Set release.surface: pre_failure, or remove "
+        "it.");
+  else if (!r.thickness_raster.empty())
+    refuse("release.thickness_raster says the floor already). Remove it.");
+  else if (r.paraboloid)
+    refuse("a paraboloid tapers already). Remove it.");
+}
+
 }  // namespace
 
 void check_terrain_and_release(const Scenario& s, Problems& problems) {
   check_terrain(s.terrain, problems);
   check_source(s, problems);
   check_companions(s.release, problems);
+  check_floor(s, problems);
 }
 
 }  // namespace sturz

@@ -18,7 +18,8 @@ void add_numerics(std::vector<KeyInfo>& keys) {
            "Initial particle spacing; at least three should fit the source's thickness."})))));
   keys.push_back(above_min(key(numerics, &NumericsSpec::end_time_s,
                                {"numerics.end_time_s", number, "s", 0, 1e5,
-                                "Simulated time after which a member is stopped."})));
+                                "Simulated time after which a member is stopped. When absent it "
+                                "runs to rest, at most for a time from the energy line."})));
   keys.push_back(key(numerics, &NumericsSpec::courant,
                      {"numerics.courant", number, "1", 0.01, 0.5,
                       "Time step over smoothing length / (sound speed + speed)."}));

@@ -7,12 +7,27 @@ namespace {
 
 constexpr auto scene = blocks::scene;
 constexpr auto terrain = blocks::at<&Scenario::terrain>;
+constexpr auto terrain_window = blocks::at<&Scenario::terrain, &TerrainSpec::window>;
 constexpr auto release = blocks::at<&Scenario::release>;
 constexpr auto release_box = blocks::at<&Scenario::release, &ReleaseSpec::box>;
 constexpr auto release_paraboloid = blocks::at<&Scenario::release, &ReleaseSpec::paraboloid>;
 constexpr auto release_cylinder = blocks::at<&Scenario::release, &ReleaseSpec::cylinder>;
 
 constexpr double map_limit = 1e8;  // metres; no projected coordinate is larger
+
+void add_window(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(with_size(key(terrain_window, &TerrainWindow::x_m,
+                               {"terrain.window.x_m", number_list, "m", -map_limit, map_limit,
+                                "West and east edge of what is read first of the raster."}),
+                           2));
+  keys.push_back(with_size(key(terrain_window, &TerrainWindow::y_m,
+                               {"terrain.window.y_m", number_list, "m", -map_limit, map_limit,
+                                "South and north edge of it."}),
+                           2));
+  keys.push_back(text_key(terrain_window, &TerrainWindow::polygon, "terrain.window.polygon", path,
+                          "Polygon layer whose extent is read first, instead of x_m and y_m."));
+}
 
 void add_terrain(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
@@ -23,13 +38,14 @@ void add_terrain(std::vector<KeyInfo>& keys) {
                       "Ground written as a formula: one shape with its own numbers."}));
   keys.push_back(text_key(terrain, &TerrainSpec::crs, "terrain.crs", text,
                           "Coordinate system of the raster, e.g. EPSG:32648, where the file has "
-                          "none or a wrong one."));
+                          "none or a wrong one; local: metres that lie nowhere on the map."));
   keys.push_back(key(terrain, &TerrainSpec::cell_size_m,
                      {"terrain.cell_size_m", number, "m", 1e-3, 1e4,
                       "Cell of the working grid; the raster's own when absent."}));
   keys.push_back(
       choice_key(terrain, &TerrainSpec::nodata, "terrain.nodata",
                  "What the edge of the known ground does to the mass: lets it out or holds it."));
+  add_window(keys);
 }
 
 void add_shapes(std::vector<KeyInfo>& keys) {
@@ -70,8 +86,7 @@ void add_release(std::vector<KeyInfo>& keys) {
                           "Field of release.polygon that holds each polygon's thickness in "
                           "metres."));
   keys.push_back(text_key(release, &ReleaseSpec::thickness_raster, "release.thickness_raster", path,
-                          "Raster of the vertical source thickness in metres; nodata means "
-                          "zero."));
+                          "Raster of the source thickness in metres; nodata means zero."));
   keys.push_back(key(release, &ReleaseSpec::thickness_factor,
                      {"release.thickness_factor", number, "1", -1000, 1000,
                       "Multiplies the values of thickness_raster: -1 where depths count "
@@ -81,8 +96,8 @@ void add_release(std::vector<KeyInfo>& keys) {
   add_shapes(keys);
   keys.push_back(above_min(key(release, &ReleaseSpec::thickness_m,
                                {"release.thickness_m", uncertain, "m", 0, 2000,
-                                "Vertical thickness of a polygon, box, cylinder, or of the cap's "
-                                "thickest point."})));
+                                "Thickness of a polygon, box, cylinder, or of the cap's thickest "
+                                "point."})));
   keys.push_back(above_min(key(release, &ReleaseSpec::volume_m3,
                                {"release.volume_m3", uncertain, "m3", 0, no_limit,
                                 "Bulk volume of the source; scales its thickness."})));
@@ -90,6 +105,14 @@ void add_release(std::vector<KeyInfo>& keys) {
       choice_key(release, &ReleaseSpec::surface, "release.surface",
                  "What the terrain shows: the bed under the source, or the surface before failure "
                  "from which the source is dug."));
+  keys.push_back(
+      choice_key(release, &ReleaseSpec::thickness, "release.thickness",
+                 "How thicknesses were measured: vertical, or normal to the slope as snow and many "
+                 "landslide surveys do; then each is divided by the cosine of the slope."));
+  keys.push_back(choice_key(
+      release, &ReleaseSpec::floor, "release.floor",
+      "Floor of a pre_failure source: at the depth of its thickness everywhere, or "
+      "tapered so that it comes out at the lower edge and the flanks; the volume stays."));
   keys.push_back(with_size(key(release, &ReleaseSpec::velocity_m_s,
                                {"release.velocity_m_s", number_list, "m s-1", -500, 500,
                                 "Velocity of the source at the start: east, north, up. Columns "
@@ -107,6 +130,8 @@ void add_site_keys(std::vector<KeyInfo>& keys) {
 }
 
 void add_site_blocks(std::vector<BlockInfo>& blocks) {
+  blocks.push_back(optional_block(
+      "terrain.window", "The part of a large raster that is read first.", terrain_window));
   blocks.push_back(optional_block("release.box", "A rectangular source.", release_box));
   blocks.push_back(
       optional_block("release.paraboloid", "A cap-shaped source.", release_paraboloid));

@@ -65,6 +65,29 @@ TEST_F(BadInput, AMissingRasterIsNamedWithItsKey) {
   EXPECT_THAT(text, HasSubstr("no_such_bed.tif"));
 }
 
+TEST_F(BadInput, RawVirtualRastersNeedTheWordOfTheUser) {
+  std::string bytes;  // 60 x 60 bytes that fall from 240 to 3 along x
+  for (int row = 0; row < 60; ++row)
+    for (int col = 0; col < 60; ++col) bytes += static_cast<char>(240 - 4 * col);
+  write("raw.bin", bytes);
+  write("raw.vrt",
+        "<VRTDataset rasterXSize='60' rasterYSize='60'><SRS>EPSG:32633</SRS>"
+        "<GeoTransform>-60,2,0,60,0,-2</GeoTransform>"
+        "<VRTRasterBand dataType='Byte' band='1' subClass='VRTRawRasterBand'>"
+        "<SourceFilename relativetoVRT='1'>raw.bin</SourceFilename><ImageOffset>0</ImageOffset>"
+        "<PixelOffset>1</PixelOffset><LineOffset>60</LineOffset></VRTRasterBand></VRTDataset>");
+  write("raw.yaml", replaced(tiny_scene(),
+                             "synthetic: {plane: {cell_size_m: 2, slope_deg: 30, length_m: 120, "
+                             "width_m: 50}}",
+                             "raster: raw.vrt"));
+  const Ended refused = sturz({"describe", path("raw.yaml")});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("takes the bytes of raw.bin for values"));
+  EXPECT_THAT(refused.err, HasSubstr("--allow-remote-inputs"));
+  const Ended allowed = sturz({"describe", path("raw.yaml"), "--allow-remote-inputs"});
+  EXPECT_EQ(allowed.exit_code, 0) << allowed.err;
+}
+
 TEST_F(BadInput, AReleaseOutsideTheTerrainIsRefused) {
   EXPECT_THAT(message(replaced(tiny_scene(), "x_m: [-50, -40]", "x_m: [-500, -490]")),
               HasSubstr("release"));

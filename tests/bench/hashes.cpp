@@ -74,7 +74,7 @@ Report hashes(const Options&) {
     const SceneInputs inputs = load_scene_inputs(n.scenario);
     const SceneDescription d = describe(n.scenario, inputs);
     Scenario& s = n.scenario;
-    s.numerics.end_time_s = std::min(s.numerics.end_time_s, steps_per_scene * d.dt_s);
+    s.numerics.end_time_s = std::min(d.end_time_s, steps_per_scene * d.dt_s);
     const std::uint64_t first = hash_of(s, inputs, 1, instruction_sets().front());
     bool same = true;
     for (const auto set : instruction_sets())

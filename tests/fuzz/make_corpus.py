@@ -80,7 +80,7 @@ MANIFEST = {
                 "build_type": "Release"},
     "started": "2026-01-31T12:00:00Z", "updated": "2026-01-31T12:00:00Z", "command": "sturz",
     "design": "sobol", "seed": 18446744073709551615, "members": 16, "spacing_m": 2.5,
-    "inputs": [{"file": "bed.tif", "checksum": "fnv1a:0123"}], "description": ["a", "b"],
+    "inputs": [{"role": "terrain.raster", "file": "bed.tif", "shape": "3 x 3 cells", "parts": {"0/0": "01"}}], "description": ["a", "b"],
     "notes": [], "warnings": ["thin"], "compute_s": 1.5, "hazard_hash": "0123456789abcdef"}
 
 

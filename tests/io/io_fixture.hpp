@@ -21,6 +21,8 @@ class IoTest : public ::testing::Test {
  protected:
   IoTest();
   ~IoTest() override;
+  IoTest(const IoTest&) = delete;
+  IoTest& operator=(const IoTest&) = delete;
 
   std::filesystem::path folder() const { return folder_; }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -77,6 +79,8 @@ class SmallDisk {
  public:
   explicit SmallDisk(std::size_t bytes);
   ~SmallDisk();
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
 
  private:
   std::array<unsigned long, 2> before_{};

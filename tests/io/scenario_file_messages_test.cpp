@@ -65,6 +65,21 @@ TEST(ScenarioMessages, UnknownKey) {
                           "periodic, walls."));
 }
 
+TEST(ScenarioMessages, WordsOfOtherProgramsGetAnAnswer) {
+  EXPECT_THAT(problems(scene() + "basal: {mu: 0.2, xi: 2000, tau0_pa: 70}\n"),
+              ElementsAre("scenario.yaml:7:9: basal.mu (unknown key). Use "
+                          "basal.friction_coefficient: the tangent of the bed's friction angle.",
+                          "scenario.yaml:7:18: basal.xi (unknown key). Use "
+                          "basal.turbulent_coefficient_m_s2: Voellmy's xi, in m/s2 (100 to 3000).",
+                          "scenario.yaml:7:28: basal.tau0_pa (unknown key). Use "
+                          "basal.yield_stress_pa with basal.viscosity_pa_s: a Bingham fluid."));
+  EXPECT_THAT(
+      problems(scene() + "entrainment: {polygon: a.shp}\nresistance: {polygon: b.shp}\n"),
+      ElementsAre(HasSubstr("entrainment (unknown key). Not supported: the mass takes up no "
+                            "ground."),
+                  HasSubstr("resistance (unknown key). Not supported.")));
+}
+
 TEST(ScenarioMessages, StatesOfGrains) {
   const auto states = [](const std::string& text) {
     return problems(scene("  friction_angle_deg: 24\n  states: {" + text + "}\n"));

@@ -45,6 +45,31 @@ TEST_F(LoadSceneInputs, BoxesCoverExactly) {
                                        HasSubstr("x 4 m = 6984 m3, laid out 6984 m3"))));
 }
 
+TEST_F(LoadSceneInputs, ThicknessNormalToTheSlopeHoldsForFieldsRastersAndShapes) {
+  Raster<double> steep(Grid{40, 40, 500000, 4600400, 10, utm33_wkt()});
+  for (int r = 0; r < 40; ++r)
+    for (int c = 0; c < 40; ++c) steep.at(r, c) = 10.0 * r;  // 45 degrees, down to the north
+  write_geotiff(path("bed.tif"), steep, {});
+  write("src.geojson", collection(feature("Polygon", square(100, 100, 100), R"({"h": 1})")));
+  Raster<double> h(Grid{20, 20, 500100, 4600200, 5, utm33_wkt()}, 1.0);
+  write_geotiff(path("h.tif"), h, {});
+  scene.release.thickness = ThicknessDirection::normal;
+  Scenario field = scene, raster = scene, box = scene;
+  field.release.thickness_m.reset();
+  field.release.polygon = "src.geojson";
+  field.release.thickness_attribute = "h";
+  raster.release.thickness_m.reset();
+  raster.release.thickness_raster = "h.tif";
+  box.release.thickness_m = Uncertain(1);
+  box.release.box = ReleaseBox{{500100, 500200}, {4600100, 4600200}};
+  for (const Scenario& s : {field, raster, box}) {
+    const SceneInputs in = load_scene_inputs(s);
+    EXPECT_NEAR(integral(*in.release), 1e4 * std::numbers::sqrt2, 1e-3);
+    EXPECT_THAT(in.notes, Contains(HasSubstr("10000 m3 with vertical thicknesses, 14142 m3 with")));
+  }
+  EXPECT_NEAR(load_scene_inputs(field).source_volume_m3, 1e4 * std::numbers::sqrt2, 1e-3);
+}
+
 TEST_F(LoadSceneInputs, CylindersCoverExactly) {
   scene.release.cylinder = ReleaseCylinder{{500203.3, 4600188.8}, 33.3};
   const SceneInputs in = load_scene_inputs(scene);
@@ -96,21 +121,22 @@ TEST_F(LoadSceneInputs, HazardGridsHaveTheTerrainsExtent) {
   EXPECT_THAT(grid.crs_wkt, HasSubstr("UTM zone 33N"));
 }
 
-TEST_F(LoadSceneInputs, ChecksumsNameEveryFileAndFollowItsBytes) {
+TEST_F(LoadSceneInputs, IdentitiesNameEveryFileAndFollowItsValues) {
   Raster<double> h = plane(10, 10, 10, 500100, 4600300);
   write_geotiff(path("h.tif"), h, {});
   scene.release.thickness_raster = "h.tif";
   scene.release.thickness_m.reset();
-  const auto first = load_scene_inputs(scene).checksums;
+  const auto first = load_scene_inputs(scene).identities;
   ASSERT_EQ(first.size(), 2U);
-  EXPECT_EQ(first[0].first, "bed.tif");
-  EXPECT_EQ(first[1].first, "h.tif");
-  EXPECT_THAT(first[0].second, ::testing::MatchesRegex("sha256:[0-9a-f]{64}"));
+  EXPECT_EQ(first[0].file, "bed.tif");
+  EXPECT_EQ(first[0].role, "terrain.raster");
+  EXPECT_EQ(first[1].file, "h.tif");
+  EXPECT_EQ(first[1].role, "release.thickness_raster");
   h.values[0] += 1;
   write_geotiff(path("h.tif"), h, {});
-  const auto second = load_scene_inputs(scene).checksums;
-  EXPECT_EQ(second[0].second, first[0].second);
-  EXPECT_NE(second[1].second, first[1].second);
+  const auto second = load_scene_inputs(scene).identities;
+  EXPECT_EQ(second[0], first[0]);
+  EXPECT_NE(second[1], first[1]);
 }
 
 TEST_F(LoadSceneInputs, ThicknessRastersKeepTheirVolume) {
@@ -141,7 +167,7 @@ TEST_F(LoadSceneInputs, SyntheticTerrainsBringTheirOwnSource) {
   EXPECT_GT(in.source_volume_m3, 1e5);
   EXPECT_NEAR(integral(*in.release), in.source_volume_m3, 1e-6 * in.source_volume_m3);
   EXPECT_TRUE(in.release->grid.same_place(in.elevation->grid));
-  EXPECT_TRUE(in.checksums.empty());
+  EXPECT_TRUE(in.identities.empty());
   synthetic.terrain.crs = "EPSG:32648";
   EXPECT_THAT(load_scene_inputs(synthetic).hazard_grid.crs_wkt, HasSubstr("UTM zone 48N"));
 }
@@ -174,7 +200,7 @@ TEST_F(LoadSceneInputs, RealSceneWithAPolygonLosesNoArea) {
   const SceneInputs in = load_scene_inputs(scene);
   EXPECT_NEAR(in.source_area_m2, 62500, 1e-6);
   EXPECT_NEAR(integral(*in.release), 62500, 62500e-6);
-  EXPECT_EQ(in.checksums[0].first, "marsicano_10m.tif");
+  EXPECT_EQ(in.identities[0].file, "marsicano_10m.tif");
 }
 
 }  // namespace

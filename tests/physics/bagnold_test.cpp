@@ -118,7 +118,7 @@ struct Steady {
 };
 
 Steady flow_steadily(const Scenario& s) {
-  const double end = s.numerics.end_time_s;
+  const double end = s.numerics.end_time_s.value();
   std::vector<Flow> seen;
   Steady out{run(start(s), {0.02 * end, [&](double t, const SimulationParts& p) {
                               if (t > 0.8 * end) seen.push_back(examine(p));

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/formulation.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +17,7 @@ namespace {
 /// A scene that leaves the choice open.
 Scenario scene(double spacing, Formulation formulation = Formulation::automatic) {
   Scenario s;
-  s.grains.emplace();
+  s.grains.emplace().friction.emplace();
   s.formulation = formulation;
   s.numerics.spacing_m = spacing;
   return s;
@@ -111,6 +113,58 @@ TEST(Formulation, AutoTakesColumnsForWhatOnlyColumnsKnow) {
   EXPECT_EQ(c.reason, "`formulation: auto`: `basal.turbulent_coefficient_m_s2` acts on columns");
   EXPECT_TRUE(c.depth_averaged);
   EXPECT_NEAR(c.release_layers, 40, 1e-12) << "counted all the same";
+}
+
+TEST(Formulation, AutoTakesColumnsWhereNoInternalFrictionIsGiven) {
+  Scenario s = scene(0.5);
+  s.grains->friction.reset();
+  const FormulationChoice c = choose_formulation(s, slab(20));
+  EXPECT_TRUE(c.depth_averaged);
+  EXPECT_EQ(
+      c.reason,
+      "`formulation: auto`: no internal friction is given, which full_stress needs; 40 layers "
+      "at release, about 5.85 in the deposit");
+  s.grains->friction_angle_deg = Uncertain(30);
+  EXPECT_FALSE(choose_formulation(s, slab(20)).depth_averaged);
+}
+
+/// Level ground under and around the slab.
+Terrain level_ground() {
+  return {std::make_shared<const Raster<double>>(Grid{30, 30, -100, 200, 10, ""}, 0.0),
+          NodataRule::outflow};
+}
+
+TEST(Formulation, RefinementCostsItsPowerOfTheSpacing) {
+  // Level ground, so that the speed of sqrt(g H) does not depend on the path.
+  const CostEstimate coarse = estimate_cost(scene(2), slab(20), level_ground(), 120);
+  const CostEstimate fine = estimate_cost(scene(1), slab(20), level_ground(), 120);
+  EXPECT_NEAR(fine.full_stress / coarse.full_stress, 16, 1e-9);
+  EXPECT_NEAR(fine.depth_averaged / coarse.depth_averaged, 8, 1e-9);
+  // 200 000 particles of 1 m; c0 = 10 sqrt(g H), a step of 0.25 x 1.3 m / (1.1 c0), 120 s.
+  const double wave = std::sqrt(standard_gravity * 20);
+  EXPECT_NEAR(fine.full_stress, 2e5 * 120 * 1.1 * 10 * wave / (0.25 * 1.3),
+              1e-3 * fine.full_stress);
+}
+
+TEST(Formulation, AutoNeverFlipsToWhatTakesHours) {
+  FormulationChoice c = choose_formulation(scene(0.5), slab(20));
+  ASSERT_FALSE(c.depth_averaged);
+  weigh_cost(scene(0.5), slab(20), level_ground(), 120, c);
+  EXPECT_TRUE(c.depth_averaged);
+  // 1.6 million particles times 120 s x 11 x 14.0 m/s / 0.1625 m at 3 million a second.
+  EXPECT_THAT(c.reason, ::testing::HasSubstr("which full_stress would resolve in about 16.9 h a "
+                                             "member, columns in "));
+  EXPECT_THAT(c.reason, ::testing::HasSubstr("have to be asked for (formulation: full_stress)"));
+}
+
+TEST(Formulation, AutoKeepsFullStressThatIsAffordableAndTellsBothCosts) {
+  const Scenario s = confined(scene(5));
+  FormulationChoice c = choose_formulation(s, slab(20));
+  weigh_cost(s, slab(20), level_ground(), 120, c);
+  EXPECT_FALSE(c.depth_averaged);
+  EXPECT_THAT(c.reason, ::testing::StartsWith(
+                            "`formulation: auto`: 4 layers at release (not fewer than 4); about "));
+  EXPECT_THAT(c.reason, ::testing::HasSubstr(" a member, columns "));
 }
 
 TEST(Formulation, ColumnsAreTakenAtAnyThicknessWhenAskedFor) {

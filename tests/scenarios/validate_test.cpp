@@ -147,7 +147,37 @@ TEST(Validate, InternalFrictionIsGivenOnce) {
   EXPECT_THAT(messages(s), ElementsAre(HasSubstr("grains.friction is there too")));
   s.grains->friction_angle_deg.reset();
   s.grains->friction.reset();
-  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("grains (no internal friction)")));
+  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("grains (no internal friction, which full_stress "
+                                                 "needs)")));
+}
+
+TEST(Validate, InternalFrictionIsOnlyAskedForWhereItActs) {
+  Scenario s = pile();
+  s.grains->friction_angle_deg.reset();
+  for (const Formulation f : {Formulation::depth_averaged, Formulation::automatic}) {
+    s.formulation = f;
+    s.grains->earth_pressure = LateralPressure::isotropic;
+    EXPECT_THAT(messages(s), ::testing::IsEmpty());
+    s.grains->earth_pressure = LateralPressure::active_passive;
+    EXPECT_THAT(messages(s), ElementsAre(HasSubstr("earth_pressure: active_passive needs")));
+  }
+}
+
+TEST(Validate, ATaperedFloorNeedsAReleaseThatIsDugOutAndHasNone) {
+  Scenario s = pile();
+  s.release.paraboloid.reset();
+  s.release.box = ReleaseBox{{-5, 5}, {-5, 5}};
+  s.release.floor = ReleaseFloor::tapered;
+  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("release.floor = tapered (surface is bed")));
+  s.release.surface = ReleaseSurface::pre_failure;
+  EXPECT_THAT(messages(s), ::testing::IsEmpty());
+  s.release.box.reset();
+  s.release.paraboloid = ReleaseParaboloid{{0, 0}, {16, 16}};
+  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("a paraboloid tapers already")));
+  s.release.paraboloid.reset();
+  s.release.thickness_m.reset();
+  s.release.thickness_raster = "h.tif";
+  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("thickness_raster says the floor already")));
 }
 
 TEST(Validate, FrictionMayNotFallWithTheShearRate) {

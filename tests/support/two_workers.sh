@@ -13,7 +13,7 @@ terrain:
   synthetic: {plane: {cell_size_m: 4, slope_deg: 30, length_m: 80, width_m: 40}}
 release:
   box: {x_m: [-30, -22], y_m: [-4, 4]}
-  thickness_m: 3
+  thickness_m: 6
 grains: {density_kg_m3: 2600, solid_fraction: 0.6, friction_angle_deg: 30}
 basal:
   friction_coefficient: {uniform: [0.3, 0.7]}

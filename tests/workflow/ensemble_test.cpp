@@ -40,7 +40,9 @@ TEST_F(EnsembleWorkflow, SharesTheCoresOfTheMachine) {
   many.workers = 4096;
   Recorder silent;
   const workflow::EnsembleJob job = workflow::prepare_ensemble(many, silent);
-  EXPECT_EQ(job.workers, n_tiny);  // never more than there are members
+  // Never more than there are members, nor than there are cores, and it says so.
+  EXPECT_EQ(job.workers, std::min<int>(n_tiny, workflow::available_cores()));
+  EXPECT_THAT(silent.warnings, ElementsAre(::testing::HasSubstr("--workers 4096 on ")));
   EXPECT_GE(job.threads, 1);
   EXPECT_LE(job.threads, std::max(1, workflow::available_cores() / job.workers));
 }

@@ -13,6 +13,35 @@
 #include <cstdio>
 
 namespace sturz::app {
+namespace {
+
+/// Text from files and names, without what would command the terminal: control characters are
+/// shown as \x1b. Line ends and tabs stay.
+std::string harmless(std::string_view line) {
+  std::string text;
+  text.reserve(line.size());
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(line[i]);
+    const auto next = i + 1 < line.size() ? static_cast<unsigned char>(line[i + 1]) : 0;
+    if (byte == 0xC2 && next >= 0x80 && next < 0xA0) {  // the same controls, as UTF-8
+      text += fmt::format("\\x{:02x}", next);
+      ++i;
+    } else if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F) {
+      text += fmt::format("\\x{:02x}", byte);
+    } else {
+      text += line[i];
+    }
+  }
+  return text;
+}
+
+/// Bytes that are no UTF-8 (names of files may hold them) become U+FFFD.
+std::string as_event(const char* kind, std::string_view text) {
+  return nlohmann::json{{"event", kind}, {"text", text}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace
 
 struct Console::LogFile {
   std::shared_ptr<spdlog::logger> logger;
@@ -40,26 +69,26 @@ void Console::say(std::string_view line) {
   note(line);
   if (json_) return;
   clear_progress();
-  fmt::print("{}\n", line);
+  fmt::print("{}\n", harmless(line));
   std::fflush(stdout);
 }
 
 void Console::note(std::string_view line) {
-  if (log_) log_->logger->info("{}", line);
+  if (log_) log_->logger->info("{}", harmless(line));
 }
 
 void Console::warn(std::string_view line) {
-  if (log_) log_->logger->warn("{}", line);
+  if (log_) log_->logger->warn("{}", harmless(line));
   clear_progress();
-  if (json_) return event(nlohmann::json{{"event", "warning"}, {"text", line}}.dump());
-  fmt::print(stderr, "warning: {}\n", line);
+  if (json_) return event(as_event("warning", line));
+  fmt::print(stderr, "warning: {}\n", harmless(line));
 }
 
 void Console::error(std::string_view line) {
-  if (log_) log_->logger->error("{}", line);
+  if (log_) log_->logger->error("{}", harmless(line));
   clear_progress();
-  if (json_) event(nlohmann::json{{"event", "error"}, {"text", line}}.dump());
-  fmt::print(stderr, "error: {}\n", line);
+  if (json_) event(as_event("error", line));
+  fmt::print(stderr, "error: {}\n", harmless(line));
 }
 
 void Console::event(std::string_view json_object) {

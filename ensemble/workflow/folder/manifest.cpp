@@ -22,8 +22,11 @@ void Manifest::write(const fs::path& file) {
   compiler = workflow::compiler;
   build_type = workflow::build_type;
   json inputs_json = json::array();
-  for (const auto& [name, checksum] : inputs)
-    inputs_json.push_back({{"file", name}, {"checksum", checksum}});
+  for (const InputIdentity& input : inputs)
+    inputs_json.push_back({{"role", input.role},
+                           {"file", input.file},
+                           {"shape", input.shape},
+                           {"parts", input.parts}});
   const json all = {{"kind", kind},
                     {"program",
                      {{"name", "sturz"},
@@ -68,6 +71,17 @@ T whole(const fs::path& file, const json& all, const char* key) {
   return value.get<T>();
 }
 
+/// Versions before kept a checksum of the file's bytes: known by name only.
+InputIdentity identity_from(const json& input) {
+  InputIdentity identity;
+  identity.file = input.at("file").get<std::string>();
+  if (input.contains("checksum")) return identity;
+  identity.role = input.at("role").get<std::string>();
+  identity.shape = input.at("shape").get<std::string>();
+  identity.parts = input.at("parts").get<std::map<std::string, std::string>>();
+  return identity;
+}
+
 }  // namespace
 
 Manifest Manifest::read(const fs::path& file) {
@@ -85,9 +99,7 @@ Manifest Manifest::read(const fs::path& file) {
     m.seed = whole<std::uint64_t>(file, all, "seed");
     m.members = whole<std::int64_t>(file, all, "members");
     m.spacing_m = all.at("spacing_m").get<double>();
-    for (const auto& input : all.at("inputs"))
-      m.inputs.emplace_back(input.at("file").get<std::string>(),
-                            input.at("checksum").get<std::string>());
+    for (const auto& input : all.at("inputs")) m.inputs.push_back(identity_from(input));
     m.description = all.at("description").get<std::vector<std::string>>();
     m.notes = all.at("notes").get<std::vector<std::string>>();
     m.warnings = all.at("warnings").get<std::vector<std::string>>();
@@ -112,7 +124,8 @@ std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
     if (!censored.empty()) out.emplace_back("cut off", censored);
     out.emplace_back("hash of the maps", hazard_hash);
   }
-  for (const auto& [name, checksum] : inputs) out.emplace_back("input " + name, checksum);
+  for (const InputIdentity& input : inputs)
+    out.emplace_back("input " + input.file, identity_text(input));
   return out;
 }
 

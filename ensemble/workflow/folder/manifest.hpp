@@ -2,6 +2,8 @@
 /// manifest.json: how the results of a folder came to be.
 #pragma once
 
+#include "scenarios/input_identity.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -17,9 +19,9 @@ struct Manifest {
   std::string command;
   std::string design;
   std::uint64_t seed = 0;
-  std::int64_t members = 0;                                 ///< planned
-  std::vector<std::pair<std::string, std::string>> inputs;  ///< file, checksum
-  std::vector<std::string> description, notes, warnings;    ///< as `describe` says them
+  std::int64_t members = 0;                               ///< planned
+  std::vector<InputIdentity> inputs;                      ///< what was read of each file
+  std::vector<std::string> description, notes, warnings;  ///< as `describe` says them
   double spacing_m = 0;
   double compute_s = 0;     ///< wall time of all calls so far
   std::string hazard_hash;  ///< of every value of the maps; empty: no maps yet

@@ -69,6 +69,7 @@ std::vector<std::string> differences(const Scenario& before, const Scenario& now
     const bool only_asked = key.path == "title" || key.path == "ensemble.members" ||
                             key.path == "ensemble.max_failed_fraction" ||
                             key.path == "ensemble.max_censored_fraction" ||
+                            key.path.starts_with("terrain.window.") ||
                             (key.path.starts_with("hazard.") && key.path != "hazard.cell_size_m");
     if (only_asked || key.kind == ValueKind::path) continue;
     const KeyValue was = key.get(before), is = key.get(now);

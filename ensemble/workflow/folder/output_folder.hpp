@@ -33,7 +33,7 @@ bool holds_results(const OutputFolder&, const std::string& kind);
 
 /// Each difference between two scenes that changes what a member computes, as "key: old -> new".
 /// Left out: titles, thresholds, quantiles, the accepted share of failures, the number of members,
-/// and the names of files (their checksums count instead).
+/// what is read first of a raster, and the names of files (what was read of them counts instead).
 std::vector<std::string> differences(const Scenario& before, const Scenario& now);
 
 /// Results folder for a scenario file that was given none: out/<its name or its folder's name>.

@@ -11,16 +11,31 @@
 namespace sturz::workflow {
 namespace fs = std::filesystem;
 
-DesignTable new_design(const Scenario& scenario) {
-  if (scenario.ensemble.design != Design::table) return draw_design(scenario);
+namespace {
+
+/// What `use` makes of the rows of the user's table; its errors name the file.
+template <class Use>
+auto with_table(const Scenario& scenario, Use use) {
   fs::path file = scenario.ensemble.table;
   if (file.is_relative()) file = fs::path(scenario.directory) / file;
   try {
-    const DesignTable rows = from_csv(read_text(file));
-    return table_design(scenario, rows.keys, rows.values);
+    return use(from_csv(read_text(file)));
   } catch (const SetupError& problem) {
     throw SetupError(fmt::format("{}: {}", file.string(), problem.what()));
   }
+}
+
+}  // namespace
+
+DesignTable new_design(const Scenario& scenario) {
+  if (scenario.ensemble.design != Design::table) return draw_design(scenario);
+  return with_table(scenario, [&](const DesignTable& rows) {
+    return table_design(scenario, rows.keys, rows.values);
+  });
+}
+
+std::int64_t rows_of_table(const Scenario& scenario) {
+  return with_table(scenario, [](const DesignTable& rows) { return rows.n_members(); });
 }
 
 DesignTable saved_design(const OutputFolder& folder) {

@@ -10,6 +10,9 @@ namespace sturz::workflow {
 /// Draws the design, or reads the user's table when the scenario says `design: table`.
 DesignTable new_design(const Scenario&);
 
+/// Rows of the user's table, whether members use them or not. \throws SetupError
+std::int64_t rows_of_table(const Scenario&);
+
 /// The table of the folder. \throws SetupError when it is missing or damaged
 DesignTable saved_design(const OutputFolder&);
 

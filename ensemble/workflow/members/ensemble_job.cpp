@@ -3,10 +3,11 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/members/shards.hpp"
+#include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/files/checksum.hpp"
 #include "io/files/text_files.hpp"
 #include "io/members/member_store.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -32,16 +33,9 @@ void require_same_scene(const OutputFolder& folder, const Scene& scene) {
   std::string what;
   for (const std::string& line : differences(read_scenario(folder.scenario()), scene.scenario))
     what += "\n  " + line;
-  const auto& was = Manifest::read(folder.manifest()).inputs;
-  const auto& is = scene.inputs.checksums;
-  for (std::size_t i = 0; i < std::max(was.size(), is.size()); ++i) {
-    const std::string difference = i < was.size() && i < is.size()
-                                       ? checksum_difference(was[i].second, is[i].second)
-                                       : "other content than before";
-    if (!difference.empty())
-      what +=
-          fmt::format("\n  input {}: {}", i < is.size() ? is[i].first : was[i].first, difference);
-  }
+  for (const std::string& line :
+       input_differences(Manifest::read(folder.manifest()).inputs, scene.inputs.identities))
+    what += "\n  " + line;
   require(what.empty(),
           fmt::format("{} was begun with another scene (members of two scenes make no map). "
                       "Choose another folder with --out, or take these changes back:{}",
@@ -77,7 +71,12 @@ void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer
 void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
   const int cores = available_cores();
   const auto n = static_cast<int>(std::clamp<std::size_t>(job.to_do.size(), 1, 1 << 20));
-  job.workers = std::min(wanted_workers > 0 ? wanted_workers : cores, n);
+  if (wanted_workers > cores)
+    observer.warning(
+        fmt::format("--workers {} on {} cores: {} members at a time, more would only wait for each "
+                    "other.",
+                    wanted_workers, cores, cores));
+  job.workers = std::min({wanted_workers > 0 ? wanted_workers : cores, cores, n});
   const double memory = static_cast<double>(job.scene.description.memory_bytes);
   const double free = available_memory_bytes();
   if (memory > 0 && free > 0 && memory * job.workers > 0.9 * free) {
@@ -105,6 +104,8 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   // With a user's table the number of rows is the number of members.
   job.scene.scenario.ensemble.members = static_cast<int>(job.design.n_members());
   job.folder.root = request.folder;
+  for (std::string& warning : ensemble_warnings(job.scene, job.design))
+    job.scene.description.warnings.push_back(std::move(warning));
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
 
   if (holds_results(job.folder, "ensemble")) {
@@ -112,6 +113,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
     job.design = continued_design(job.folder, job.design);
     const Manifest before = Manifest::read(job.folder.manifest());
     job.manifest.started = before.started;
+    job.manifest.inputs = with_known_parts(job.manifest.inputs, before.inputs);
     job.manifest.compute_s = before.compute_s;
   }
   job.manifest.members = job.design.n_members();
@@ -119,6 +121,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   observer.folder_ready(job.folder);
   find_work(job, shard, request.retry_failed, observer);
   share_machine(job, request.workers, observer);
+  const auto to_do = static_cast<std::int64_t>(job.to_do.size());
+  for (const std::string& warning : cost_warnings(job.scene, to_do, job.workers * job.threads))
+    observer.warning(warning);
   return job;
 }
 

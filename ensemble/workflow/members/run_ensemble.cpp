@@ -14,7 +14,9 @@ MemberResult run_member(const EnsembleJob& job, std::int64_t member,
   RunControl control;
   control.on_progress = [&cancel](const Progress&) { return !cancel.load(); };
   control.max_wall_s = numbers.numerics.max_wall_time_s;
-  return assemble(numbers, job.scene.inputs, member, job.threads).run(control);
+  return job.scene.ground->computed([&](const SceneInputs& inputs) {
+    return assemble(numbers, inputs, member, job.threads).run(control);
+  });
 }
 
 void store_member(const EnsembleJob& job, const MemberResult& result) {

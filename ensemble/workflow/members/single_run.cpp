@@ -3,6 +3,7 @@
 
 #include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
+#include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -48,26 +49,29 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
   observer.folder_ready(run.folder);
+  for (const std::string& warning : cost_warnings(run.scene, 1, 1)) observer.warning(warning);
   return run;
 }
 
 MemberResult compute_run(const SingleRun& run, Observer& observer,
                          const std::atomic<bool>& cancel) {
-  Simulation simulation = assemble(run.scene.medians, run.scene.inputs, 0, run.threads);
   RunControl control;
   control.max_wall_s = run.scene.medians.numerics.max_wall_time_s;
   control.on_progress = [&](const Progress& progress) {
     observer.run_progress(progress);
     return !cancel.load();
   };
-  std::filesystem::remove_all(run.folder.particles());  // of an earlier run
-  std::optional<ParticleFrameWriter> frames;
-  if (run.particles_every_s) {
-    frames.emplace(run.folder.particles());
-    control.frame_every_s = *run.particles_every_s;
-    control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
-  }
-  return simulation.run(control);
+  return run.scene.ground->computed([&](const SceneInputs& inputs) {
+    Simulation simulation = assemble(run.scene.medians, inputs, 0, run.threads);
+    std::filesystem::remove_all(run.folder.particles());  // of an earlier run, or on less ground
+    std::optional<ParticleFrameWriter> frames;
+    if (run.particles_every_s) {
+      frames.emplace(run.folder.particles());
+      control.frame_every_s = *run.particles_every_s;
+      control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
+    }
+    return simulation.run(control);
+  });
 }
 
 RunStored store_run(SingleRun& run, const MemberResult& result) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double support = 2.6, skin = 0.195, search_radius = support + skin;
 
 NeighborLists make_lists() {
-  return NeighborLists(support, skin, sweeps(best_instruction_set()).tight_list);
+  return {support, skin, sweeps(best_instruction_set()).tight_list};
 }
 
 ParticleSet set_of(const std::vector<Vec3>& points) {
@@ -115,7 +115,7 @@ std::vector<Vec3> box(std::size_t n, const Vec3& from, const Vec3& to, unsigned 
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3 s(u(random), u(random), u(random));
-    points.push_back(from + s.cwiseProduct(to - from));
+    points.emplace_back(from + s.cwiseProduct(to - from));
   }
   return points;
 }
@@ -147,9 +147,9 @@ TEST(NeighborLists, HoldParticlesInOnePlace) {
 
 TEST(NeighborLists, StandOutliersFarAway) {
   auto points = box(300, {412000, 5123000, 900}, {412012, 5123009, 907});
-  points.push_back({412000 + 3e4, 5123000, 900});
-  points.push_back({412000 + 3e4, 5123001, 900});
-  points.push_back({412000, 5123000 - 2e4, 4000});
+  points.emplace_back(412000 + 3e4, 5123000, 900);
+  points.emplace_back(412000 + 3e4, 5123001, 900);
+  points.emplace_back(412000, 5123000 - 2e4, 4000);
   build_and_check(points);
 }
 

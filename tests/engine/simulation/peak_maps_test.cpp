@@ -96,7 +96,7 @@ TEST(PeakMaps, MoveWithTheParticles) {
 TEST(PeakMaps, PlugFlowHasItsSpeedEnergyAndPressure) {
   const Grid g{60, 60, 0, 300, 5, ""};
   ParticleSet p;
-  p.grow(40 * 40);
+  p.grow(std::size_t{40} * 40);
   for (int i = 0; i < 1600; ++i) {  // 2 m of flow on 100 x 100 m
     p.x[i] = 100 + 2.5 * (i % 40 + 0.5), p.y[i] = 100 + 2.5 * (i / 40 + 0.5);
     p.vx[i] = 6, p.vz[i] = -8;

@@ -169,9 +169,10 @@ const double* seconds_of(const NamedSeconds& times, std::string_view name) {
 void expect_effects_of(const Scenario& s, const MemberResult& r) {
   double sum = 0;
   const auto effects = describe(s, load_scene_inputs(s)).effects;
-  for (const auto& [name, seconds] : r.effect_seconds) {
-    EXPECT_GE(seconds, 0) << name;
-    sum += seconds;
+  for (const auto& effect : r.effect_seconds) {
+    const auto& name = effect.first;
+    EXPECT_GE(effect.second, 0) << name;
+    sum += effect.second;
     if (name == EffectName::bookkeeping) continue;
     const auto note = std::find_if(effects.begin(), effects.end(),
                                    [&](const EffectNote& e) { return e.name == name; });

@@ -57,7 +57,7 @@ Fall let_go(double height, double times, States states) {
     at[start.id[i]] = Vec3(start.x[i], start.y[i], start.z[i]);
   double closest = 2;
   Finished f = run(std::move(simulation),
-                   {0.05 * s.numerics.end_time_s, [&](double, const SimulationParts& p) {
+                   {0.05 * s.numerics.end_time_s.value(), [&](double, const SimulationParts& p) {
                       closest = std::min(closest, closest_pair(p));
                     }});
   const ParticleSet& p = f.simulation.parts().state.grains();

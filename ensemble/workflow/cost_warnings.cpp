@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/cost_warnings.hpp"
+
+#include "ensemble/workflow/readable.hpp"
+#include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/start_checks.hpp"
+#include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/suggest.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz::workflow {
+namespace {
+
+constexpr double long_time_s = 600;
+
+/// The coarsest spacing that still resolves the scene [m].
+double coarsest(const SceneDescription& d, bool columns) {
+  const double across = d.narrow_side_m / resolved_across;
+  return columns ? across : std::min(across, d.spacing_m * d.layers / resolved_layers);
+}
+
+}  // namespace
+
+std::vector<std::string> cost_warnings(const Scene& scene, std::int64_t members, int cores) {
+  const SceneDescription& d = scene.description;
+  const double seconds = d.predicted_seconds * static_cast<double>(members) /
+                         static_cast<double>(std::min<std::int64_t>(std::max(cores, 1), members));
+  if (!(seconds > long_time_s)) return {};
+  const bool columns = d.formulation == to_string(Formulation::depth_averaged);
+  const double power = columns ? 3 : 4;
+  std::vector<std::string> cheaper;
+  const double wanted = d.spacing_m * std::pow(seconds / long_time_s, 1 / power);
+  const double spacing = std::min(wanted, coarsest(d, columns));
+  if (spacing > 1.1 * d.spacing_m)
+    cheaper.push_back(
+        fmt::format("numerics.spacing_m: {} ({}{})", short_number(spacing),
+                    duration_text(seconds * std::pow(d.spacing_m / spacing, power)),
+                    spacing < wanted ? ", the coarsest that resolves the release" : ""));
+  if (d.other_formulation_cost > 0 && d.other_formulation_cost < 0.5)
+    cheaper.push_back(
+        fmt::format("formulation: {} (about {})",
+                    to_string(columns ? Formulation::full_stress : Formulation::depth_averaged),
+                    duration_text(seconds * d.other_formulation_cost)));
+  const std::string what =
+      members > 1 ? fmt::format("{} members on {} cores", members, cores) : "this member";
+  return {fmt::format("{} may take {}, more than ten minutes. {}", what, duration_text(seconds),
+                      cheaper.empty() ? "Nothing cheaper resolves the release."
+                                      : "Cheaper: " + comma_separated(cheaper) + ".")};
+}
+
+}  // namespace sturz::workflow

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/checks/idle_keys.hpp"
+
+#include "scenarios/schema/schema.hpp"
+
+#include <algorithm>
+
+namespace sturz {
+namespace {
+
+std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged) {
+  if (!depth_averaged) {
+    // Without rate dependence the inertial number, and with it the diameter, has no say; collisions
+    // and contacts have.
+    if (s.grains && s.grains->friction_angle_deg && !s.grains->states) return {"grains.diameter_m"};
+    return {};
+  }
+  std::vector<std::string> paths{"grains.diameter_m",           "grains.cohesion_pa",
+                                 "grains.poisson_ratio",        "basal.restitution",
+                                 "numerics.sound_speed_factor", "numerics.adaptive_sound_speed",
+                                 "numerics.density_diffusion",  "numerics.artificial_viscosity"};
+  // Lateral pressure takes the slow internal friction only.
+  paths.emplace_back("grains.friction.dynamic");
+  paths.emplace_back("grains.friction.inertial_number_scale");
+  if (s.grains && s.grains->earth_pressure == LateralPressure::isotropic) {
+    paths.emplace_back("grains.friction.static");
+    paths.emplace_back("grains.friction_angle_deg");
+  }
+  return paths;
+}
+
+}  // namespace
+
+std::vector<std::string> idle_keys(const Scenario& s, bool depth_averaged) {
+  const std::vector<std::string> paths = idle_paths(s, depth_averaged);
+  Scenario bare;
+  bare.grains.emplace().friction.emplace();
+  std::vector<std::string> given;
+  for (const KeyInfo& key : schema()) {
+    if (std::find(paths.begin(), paths.end(), key.path) == paths.end()) continue;
+    const KeyValue value = key.get(s);
+    if (!std::holds_alternative<std::monostate>(value) && value != key.get(bare))
+      given.push_back(key.path);
+  }
+  return given;
+}
+
+}  // namespace sturz

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Keys that a scene gives and that change nothing in its formulation.
+#pragma once
+
+#include "scenarios/scenario.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// Paths of the schema whose value differs from the default (or is there at all, for those without
+/// one) and is read by nothing in columns, or in full stress. In the order of the schema.
+std::vector<std::string> idle_keys(const Scenario&, bool depth_averaged);
+
+}  // namespace sturz
