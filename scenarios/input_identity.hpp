@@ -15,7 +15,7 @@ struct InputIdentity {
   std::string file;   ///< as the scenario's folder calls it; not compared
   std::string shape;  ///< grid or features and the coordinate system, in words; never changes
   /// Hash of each part that was read: for a raster, blocks "row/column" of 256 x 256 cells, and
-  /// parts of such blocks at the rim of a window "row/column rows a-b columns c-d"; for polygons
+  /// parts of such blocks at the edge of a window "row/column rows a-b columns c-d"; for polygons
   /// the one part "features". A window that grows adds parts and changes none.
   std::map<std::string, std::string> parts;
   bool operator==(const InputIdentity&) const = default;

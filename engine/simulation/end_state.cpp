@@ -4,8 +4,9 @@
 #include "engine/core/constants.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace sturz {
@@ -16,11 +17,12 @@ constexpr double moving_share = 1.0 / 20;  // of the largest mean speed
 constexpr double most_take_off = 0.01;
 constexpr double most_energy_residual = 0.05;
 
-/// Three digits at most, as a percentage.
+/// Three digits, as a percentage.
 std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
-  return text;
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), 100 * share,
+                                 std::chars_format::general, 3);
+  return std::string(text.data(), end.ptr) + " %";
 }
 
 /// Sums over what is there and what left.
@@ -100,9 +102,9 @@ void write_crown_to_toe(const Terrain& ground, const ReleaseFacts& release,
 std::vector<std::string> doubts(const MemberScalars& m, const Ledger& ledger, double spacing_m) {
   std::vector<std::string> out;
   if (m.take_off_fraction > most_take_off)
-    out.push_back("take-off: for " + percent(m.take_off_fraction) +
-                  " of mass and time (over 1 %) the ground curves away faster than the mass falls: "
-                  "it would fly there, columns keep it on the ground");
+    out.push_back("detachment: for " + percent(m.take_off_fraction) +
+                  " of mass and time (take_off_fraction, over 1 %) the ground curves away faster "
+                  "than the mass falls: it would fly there, columns stay on the ground");
   const double unexplained = std::abs(m.energy_residual) * ledger.available_energy();
   const double least = 0.01 * spacing_m * standard_gravity * ledger.brought_mass();
   if (std::abs(m.energy_residual) > most_energy_residual && unexplained > least)

@@ -28,7 +28,8 @@ void write_crown_to_toe(const Terrain& ground, const ReleaseFacts&,
                         std::span<const PeakMaps::Cell> deposit, const Grid& grid, MemberScalars&);
 
 /// What a reader of the member has to doubt, one sentence each:
-/// - Take-off: more than 1 % of mass times time is on ground that curves away faster than the mass
+/// - Detachment: more than 1 % of mass times time is on ground that curves away faster than the
+/// mass
 ///   falls. Columns cannot leave the ground, so where they would fly and land is not computed; the
 ///   share is the part of the flow that it concerns.
 /// - Energy: more than 5 % of the released energy is in no account, which is as much as friction

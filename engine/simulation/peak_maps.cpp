@@ -35,7 +35,7 @@ Window clipped(double row0, double row1, double col0, double col1, const Grid& g
           static_cast<int>(col1 - col0) + 1};
 }
 
-/// The cell of the hazard grid where a particle was last seen; off the grid it is nobody's.
+/// The cell of the hazard grid where a particle was last seen; off the grid there is none.
 std::optional<std::pair<int, int>> cell_of(const Departure& gone, const Grid& g) {
   if (!std::isfinite(gone.x + gone.y)) return std::nullopt;
   const double row = std::floor((g.north_m - gone.y) / g.cell_m);

@@ -31,9 +31,9 @@ bool rests_on_hdf5(const std::string& driver) {
 GdalScope::GdalScope() : quiet_(CPLQuietErrorHandler) {
   static std::once_flag once;
   std::call_once(once, [] {
-    close_network();
     GDALSetCacheMax64(block_cache_bytes);
     GDALAllRegister();
+    close_network();
   });
   CPLErrorReset();
 }

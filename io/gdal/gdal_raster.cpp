@@ -146,8 +146,8 @@ Extent outline(const RasterSource& s, OGRCoordinateTransformation& transform, do
           std::ceil(e.east / cell) * cell, std::ceil(e.north / cell) * cell};
 }
 
-/// A metric system around the raster's centre: of WGS 84, or on its own datum where nobody knows
-/// how the two lie to each other.
+/// A metric system around the raster's centre: of WGS 84, or on its own datum where the shift
+/// between the two is not known.
 OGRSpatialReference working_crs_for(RasterSource& s) {
   OGRSpatialReference degrees = parse_crs("EPSG:4326", "working coordinate system");
   // Only the zone is sought here: a shift of some 100 m does not matter.

@@ -10,6 +10,7 @@
 #include <cpl_vsi.h>
 #include <cpl_vsi_virtual.h>
 #include <fmt/core.h>
+#include <gdal_priv.h>
 
 #include <algorithm>
 #include <array>
@@ -28,11 +29,12 @@ constexpr std::array network_systems{"vsicurl", "vsis3",    "vsigs",   "vsiaz", 
                                      "vsioss",  "vsiswift", "vsihdfs", "vsiwebhdfs"};
 
 /// Drivers whose data lie behind a server or a database, as GDAL names them.
-constexpr const char* network_drivers =
-    "WMS,WMTS,WCS,WFS,OAPIF,OGCAPI,HTTP,PLMOSAIC,PLSCENES,NGW,EEDA,EEDAI,DAAS,STACTA,STACIT,"
-    "Elasticsearch,Carto,CouchDB,Cloudant,AmigoCloud,GMLAS,CSW,DODS,JPIPKAK,"
-    "PostgreSQL,PostGISRaster,MySQL,MSSQLSpatial,OCI,GeoRaster,ODBC,MongoDBv3,HANA,RDA,"
-    "GNMDatabase";
+constexpr std::array network_drivers{
+    "WMS",      "WMTS",      "WCS",     "WFS",      "OAPIF",        "OGCAPI",        "HTTP",
+    "PLMOSAIC", "PLSCENES",  "NGW",     "EEDA",     "EEDAI",        "DAAS",          "STACTA",
+    "STACIT",   "Carto",     "CouchDB", "Cloudant", "AmigoCloud",   "Elasticsearch", "GMLAS",
+    "CSW",      "DODS",      "JPIPKAK", "RDA",      "PostgreSQL",   "PostGISRaster", "MySQL",
+    "OCI",      "GeoRaster", "ODBC",    "HANA",     "MSSQLSpatial", "MongoDBv3",     "GNMDatabase"};
 
 constexpr int deepest_nesting = 16;
 constexpr std::size_t largest_virtual_file = 64U << 20;
@@ -162,10 +164,19 @@ void require_trusted(const InputFile& file) {
 
 void close_network() {
   if (remote_allowed) return;
-  const std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
-  CPLSetConfigOption(
-      "GDAL_SKIP",
-      (skipped.empty() ? std::string(network_drivers) : skipped + "," + network_drivers).c_str());
+  std::string gone;
+  for (const char* name : network_drivers) {
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(name);
+    if (driver == nullptr) continue;
+    GetGDALDriverManager()->DeregisterDriver(driver);
+    delete driver;
+    gone += std::string(gone.empty() ? "" : ",") + name;
+  }
+  // For a later call that registers all drivers again.
+  std::string skipped = CPLGetConfigOption("GDAL_SKIP", "");
+  if (skipped.find(',') == std::string::npos)
+    std::replace(skipped.begin(), skipped.end(), ' ', ',');
+  CPLSetConfigOption("GDAL_SKIP", (skipped.empty() ? gone : skipped + "," + gone).c_str());
   for (const char* system : network_systems)
     for (const char* kind : {"", "_streaming"})
       // The library keeps it to its end.

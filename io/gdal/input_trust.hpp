@@ -21,7 +21,7 @@ void require_trusted(const InputFile& file);
 
 /// Takes the network away from the library, whatever a file inside a file asks for: drivers of
 /// servers and databases, file systems over the network, and plain requests. Does nothing when
-/// remote inputs are allowed. Called once, before the drivers are registered.
+/// remote inputs are allowed. Called once, when the drivers are registered.
 void close_network();
 
 }  // namespace sturz

@@ -13,18 +13,18 @@ namespace {
 constexpr std::size_t hash_digits = 16;  // 64 bits a block: a change does not hide behind them
 
 /// The part of a block along one axis, in cells of the file.
-struct Reach {
+struct Span {
   int from = 0, end = 0;
   bool whole = true;
 };
 
-Reach reach_of(int block, int window_from, int window_n, int file_n) {
+Span span_of(int block, int window_from, int window_n, int file_n) {
   const int first = block * identity_block, last = std::min(first + identity_block, file_n);
-  const Reach r{std::max(first, window_from), std::min(last, window_from + window_n), true};
+  const Span r{std::max(first, window_from), std::min(last, window_from + window_n), true};
   return {r.from, r.end, r.from == first && r.end == last};
 }
 
-std::string part_name(int row, int col, const Reach& rows, const Reach& cols) {
+std::string part_name(int row, int col, const Span& rows, const Span& cols) {
   std::string name = fmt::format("{}/{}", row, col);
   if (!rows.whole || !cols.whole)
     name +=
@@ -42,8 +42,8 @@ std::map<std::string, std::string> block_hashes(std::span<const double> values,
   for (int br = window.row0 / identity_block; br <= last_block(window.row0, window.n_rows); ++br)
     for (int bc = window.col0 / identity_block; bc <= last_block(window.col0, window.n_cols);
          ++bc) {
-      const Reach rows = reach_of(br, window.row0, window.n_rows, file_rows);
-      const Reach cols = reach_of(bc, window.col0, window.n_cols, file_cols);
+      const Span rows = span_of(br, window.row0, window.n_rows, file_rows);
+      const Span cols = span_of(bc, window.col0, window.n_cols, file_cols);
       Sha256 hash;
       for (int row = rows.from; row < rows.end; ++row)
         hash.add_values(values.subspan(static_cast<std::size_t>(row - window.row0) * window.n_cols +

@@ -205,9 +205,11 @@ TEST_F(GdalRaster, AMissingSystemIsRefusedUnlessGiven) {
   RasterFile file = five_by_five();
   file.crs = "";
   write_raster(path("bed.tif"), file);
-  EXPECT_EQ(refusal(request("bed.tif")),
-            "terrain.raster = bed.tif: has no coordinate system (so the result could not be put on "
-            "a map). Add `terrain.crs: EPSG:xxxxx`, the system of its coordinates.");
+  EXPECT_EQ(
+      refusal(request("bed.tif")),
+      "terrain.raster = bed.tif: has no coordinate system (so the result could not be put on "
+      "a map). Add `terrain.crs: EPSG:xxxxx`, the system of its coordinates, or `terrain.crs: "
+      "local` if they are metres that lie nowhere on the map.");
   RasterRequest r = request("bed.tif");
   r.crs = "EPSG:32633";
   EXPECT_THAT(read_elevation(r).raster.grid.crs_wkt, HasSubstr("32633"));

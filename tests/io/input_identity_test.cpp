@@ -6,6 +6,7 @@
 #include "io/site/scene_inputs.hpp"
 #include "tests/io/typed_raster.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_vsi.h>
 
 #include <cmath>
@@ -102,9 +103,7 @@ TEST_F(Identity, ARasterInAnArchiveHasOne) {
   const auto zipped = [&](const std::string& zip) {
     write_typed(path("dem.tif"), r);
     const std::string inside = "/vsizip/" + path(zip) + "/dem.tif";
-    EXPECT_EQ(
-        VSICopyFile(path("dem.tif").c_str(), inside.c_str(), nullptr, 0, nullptr, nullptr, nullptr),
-        0);
+    EXPECT_EQ(CPLCopyFile(inside.c_str(), path("dem.tif").c_str()), 0);
     return terrain("/vsizip/" + zip + "/dem.tif");  // beside the scenario
   };
   const InputIdentity before = zipped("a.zip");

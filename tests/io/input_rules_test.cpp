@@ -6,6 +6,7 @@
 #include "io/site/scene_inputs.hpp"
 #include "tests/io/typed_raster.hpp"
 
+#include <cpl_conv.h>
 #include <cpl_vsi.h>
 
 #include <cmath>
@@ -113,7 +114,7 @@ TEST_F(InputRules, LocalCoordinatesNeedTheWord) {
   EXPECT_THAT(refusal(), HasSubstr("counts in degrees (local coordinates are metres)"));
 }
 
-TEST_F(InputRules, AShiftOfDatumsThatNobodyKnowsIsRefused) {
+TEST_F(InputRules, AnUnknownShiftOfDatumsIsRefused) {
   // Beijing 1954 and CGCS2000, both in the same projection: the numbers fit, the places do not.
   ground("EPSG:4547", 500000, 3500000);
   source("EPSG:2435", 500000, 3500000);
@@ -140,9 +141,7 @@ TEST_F(InputRules, ShiftsThatAreKnownAreMadeAndMissingDatumsAreTold) {
 TEST_F(InputRules, NamesInsideArchivesStartAtTheScenario) {
   ground("EPSG:32633");
   const std::string inside = "/vsizip/" + path("dem.zip") + "/bed.tif";
-  ASSERT_EQ(
-      VSICopyFile(path("bed.tif").c_str(), inside.c_str(), nullptr, 0, nullptr, nullptr, nullptr),
-      0);
+  ASSERT_EQ(CPLCopyFile(inside.c_str(), path("bed.tif").c_str()), 0);
   scene.release.box = ReleaseBox{{500200, 500250}, {4599700, 4599750}};
   scene.terrain.raster = "/vsizip/dem.zip/bed.tif";
   EXPECT_EQ(load_scene_inputs(scene).elevation->grid.n_cols, 60);

@@ -193,7 +193,8 @@ TEST_F(Store, ListsFinishedMembersInOrderAndReadsTheirRows) {
   EXPECT_EQ(store.members()[1].state_hash, all[1].state_hash);
   EXPECT_THAT(store.problems(), IsEmpty());
   expect_rows(store, all);
-  EXPECT_EQ(store.memory_in_use(), (12U + 120U + 12U) * 6 * sizeof(float));
+  // Six layers each, and the mass that left of the one that is censored so.
+  EXPECT_EQ(store.memory_in_use(), ((12U + 120U + 12U) * 6 + 120U) * sizeof(float));
   expect_rows(store, all);  // now from memory
 }
 
@@ -243,7 +244,8 @@ TEST_F(Store, AFlippedBitInAMapIsFoundWhenAllIsRead) {
   write_member(members(), m);
   const std::string file = (members() / "000000.nc").string();
   std::string damaged = read_text(file);
-  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 4);
+  char& flipped = damaged[damaged.size() / 3];  // inside a map, between HDF5's own tables
+  flipped = static_cast<char>(flipped ^ 4);
   write_text_atomic(file, damaged);
   EXPECT_THAT(MemberStore(members()).problems(), IsEmpty());  // opening alone does not see it
   const MemberStore careful(members(), MemberCheck::read_all);

@@ -15,7 +15,7 @@ Vec3 start_velocity(const ParticleSet& p, std::size_t i) {
   return {before->component[0][i], before->component[1][i], before->component[2][i]};
 }
 
-/// Where the last step found it. One that was never on known ground is booked where it is.
+/// Where the last step found it. One that was never on known ground is accounted for where it is.
 Departure departure(const State& s, const MovingSet& p, std::size_t i) {
   const Vec3 v = start_velocity(p, i);
   // Its velocity has changed a little since, so one step back may not be quite enough.

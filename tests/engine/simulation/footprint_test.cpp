@@ -30,7 +30,7 @@ Scenario held(double spacing_m, double cell_m) {
 MemberResult run(const Scenario& s) { return assemble(s, load_scene_inputs(s), 0, 1).run(); }
 
 TEST(Footprint, OfColumnsThatNeverMovedIsThatOfTheirRelease) {
-  for (const double spacing : {4.0, 2.0})
+  for (const double spacing : {1.5, 1.0})  // twenty columns across and more
     for (const double cell : {1.0, 2.5}) {
       const MemberResult r = run(held(spacing, cell));
       ASSERT_LT(r.scalars.front_travel_m, spacing);
@@ -39,8 +39,14 @@ TEST(Footprint, OfColumnsThatNeverMovedIsThatOfTheirRelease) {
     }
 }
 
+TEST(Footprint, OfNineColumnsAcrossIsLargerByAQuarterAtMost) {
+  const MemberResult r = run(held(4, 2.5));
+  EXPECT_GT(r.scalars.deposit_area_m2, 1225);
+  EXPECT_LT(r.scalars.deposit_area_m2, 1.25 * 1225);
+}
+
 TEST(Footprint, OfARoundReleaseToo) {
-  Scenario s = held(2, 2);
+  Scenario s = held(1.25, 2);
   s.release.box.reset();
   s.release.cylinder = ReleaseCylinder{{0, 0}, 25};
   const double area = std::numbers::pi * 25 * 25;
