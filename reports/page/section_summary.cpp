@@ -122,7 +122,7 @@ std::string banner_html(const ReportInput& input, const Headline& h) {
   std::string html =
       "<section class=\"banner\" role=\"alert\"><h2>" + html_escape(sentences.front()) + "</h2><p>";
   for (std::size_t i = 1; i < sentences.size(); ++i)
-    html += (i > 1 ? " " : "") + html_escape(sentences[i]);
+    html.append(i > 1 ? " " : "").append(html_escape(sentences[i]));
   return html + "</p></section>";
 }
 
