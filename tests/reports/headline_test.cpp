@@ -17,11 +17,11 @@ TEST(ReportEstimate, IsWrittenAsFarAsItIsKnown) {
   CensoredEstimate e;
   e.n = 40, e.value = 2440, e.lower = 2435, e.upper = 2446;
   EXPECT_EQ(value_text(e, metres), "2440 m");
-  EXPECT_EQ(interval_text(e, metres), "95\u00A0% interval 2440 m \u2013 2450 m");
+  EXPECT_EQ(interval_text(e, metres), "95\u00A0% interval 2435 m \u2013 2446 m");
   EXPECT_EQ(cut_text(e), "");
   e.at_least = true, e.upper = INFINITY, e.n_at_least = 36;
   EXPECT_EQ(value_text(e, metres), "\u2265\u00A02440 m");
-  EXPECT_EQ(interval_text(e, metres), "95\u00A0% interval from 2440 m, upper end not known");
+  EXPECT_EQ(interval_text(e, metres), "95\u00A0% interval from 2435 m, upper end not known");
   EXPECT_EQ(cut_text(e), "36 of 40 cut off");
   e.value = nan_d, e.lower = -INFINITY;
   EXPECT_EQ(value_text(e, metres), "not known");
