@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/results/maps.hpp"
 
+#include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
@@ -27,6 +29,16 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// What the members say about themselves beyond what `describe` said before.
+void add_members(MapsMade& made, const MemberStore& store, const Manifest& manifest,
+                 const Scenario& scenario) {
+  made.censoring = censoring_report(store.members(), scenario.ensemble.max_censored_fraction);
+  made.valid = made.censoring.valid;
+  made.warnings = member_warnings(store.members(), manifest.warnings);
+  made.warned_members = std::count_if(store.members().begin(), store.members().end(),
+                                      [](const MemberSummary& m) { return !m.warnings.empty(); });
+}
+
 LayerStack hazard_of(const MemberStore& store, const Manifest& manifest, const Scenario& scenario,
                      const DesignTable& design) {
   HazardContext context;
@@ -35,6 +47,7 @@ LayerStack hazard_of(const MemberStore& store, const Manifest& manifest, const S
   context.attributes = {{"title", scenario.title.empty() ? "Landslide hazard" : scenario.title},
                         {"source", fmt::format("sturz {} ({})", version, git_commit)},
                         {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+                        {"censored_members", manifest.censored},
                         {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
                                                design.n_members(), design.seed)}};
   return make_hazard_map(store, scenario.hazard, context);
@@ -88,8 +101,8 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
   made.max_failed_fraction = scenario.ensemble.max_failed_fraction;
   made.planned = design.n_members();
   made.finished = static_cast<std::int64_t>(store.members().size());
-  made.valid = std::count_if(store.members().begin(), store.members().end(),
-                             [](const MemberSummary& m) { return is_valid(m.outcome); });
+  add_members(made, store, manifest, scenario);
+  manifest.censored = one_line(made.censoring);
 
   // Until they are whole, no page is written over half of them.
   manifest.hazard_hash.clear();
@@ -101,6 +114,7 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
   write_tifs(folder, hazard, manifest);
   manifest.hazard_hash = fmt::format("{:016x}", hash_of(hazard));
   manifest.maps_of = members_hash(store, design.n_members());
+  if (elevation != nullptr) made.censoring.where = where_mass_left(hazard, elevation->grid);
   manifest.write(folder.manifest());
 
   PageContent page;
@@ -110,6 +124,9 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
   page.members = store.members();
   const auto convergence = probability_convergence(store);
   page.convergence = convergence;
+  page.where_mass_left = made.censoring.where;
+  const Raster<std::uint8_t> release = release_footprint(store);
+  page.release = &release;
   write_page(folder, manifest, scenario, page);
   made.hazard_hash = manifest.hazard_hash;
   made.seconds = seconds_since(begin);
