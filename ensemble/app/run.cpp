@@ -7,6 +7,7 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
+#include "ensemble/censoring/scalar_censoring.hpp"
 #include "ensemble/workflow/members/single_run.hpp"
 #include "ensemble/workflow/readable.hpp"
 #include "scenarios/schema/number_text.hpp"
@@ -16,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sturz::app {
 namespace {
@@ -100,6 +102,31 @@ void print_effects(const MemberResult& r, Console& console) {
   print_line("where the time went", text, console);
 }
 
+using M = MemberScalars;
+
+/// ">= 812 m" of a member that is cut off, "812 m so far" where the end may lie either way.
+std::string as_known(const MemberResult& r, double MemberScalars::*field, const std::string& text) {
+  if (std::isnan(r.scalars.*field)) return "none";
+  switch (known(field, r.censoring)) {
+    case Known::exactly:
+      return text;
+    case Known::at_least:
+      return ">= " + text;
+    case Known::not_at_all:
+      break;
+  }
+  return text + " so far";
+}
+
+/// What is cut off of the run, and what it warns of itself.
+void warn_of_run(const workflow::RunStored& stored, Console& console) {
+  std::string cut;
+  for (const std::string& sentence : censoring_sentences(stored.censoring))
+    cut += (cut.empty() ? "" : " ") + sentence;
+  if (!cut.empty()) console.warn(cut);
+  for (const MemberWarning& w : stored.warnings) console.warn(w.example);
+}
+
 void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, Console& console) {
   const MemberScalars& s = r.scalars;
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
@@ -119,10 +146,22 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   };
   console.say(fmt::format("{}{}{} after {:.1f} s of flow", to_string(r.outcome),
                           r.reason.empty() ? "" : ": ", r.reason, s.end_time_s));
-  line("runout", fmt::format("{:.1f} m (front {:.1f} m, centre of mass {:.1f} m, drop {:.1f} m)",
-                             s.runout_m, s.front_travel_m, s.com_travel_m, s.drop_m));
-  line("area", fmt::format("{} m2 reached, {} m2 deposit", grouped(s.reached_area_m2),
-                           grouped(s.deposit_area_m2)));
+  const auto far = [&r](double MemberScalars::*field) {
+    return as_known(r, field, fmt::format("{:.1f} m", r.scalars.*field));
+  };
+  const auto area = [&r](double MemberScalars::*field) {
+    return as_known(r, field, grouped(r.scalars.*field) + " m2");
+  };
+  line("runout", fmt::format("{} (front {}, centre of mass {}, drop {})", far(&M::runout_m),
+                             far(&M::front_travel_m), far(&M::com_travel_m), far(&M::drop_m)));
+  line("crown to toe",
+       fmt::format(
+           "L {}, H {}, H/L {}", far(&M::crown_to_toe_length_m), far(&M::crown_to_toe_drop_m),
+           as_known(r, &M::crown_to_toe_ratio,
+                    fmt::format("{:.3f} ({:.1f} degrees)", s.crown_to_toe_ratio,
+                                std::atan(s.crown_to_toe_ratio) * 180 / std::numbers::pi))));
+  line("area",
+       fmt::format("{} reached, {} deposit", area(&M::reached_area_m2), area(&M::deposit_area_m2)));
   line("largest speed", fmt::format("{:.1f} m/s (mean of the mass {:.1f} m/s)", s.max_speed_m_s,
                                     s.max_mean_speed_m_s));
   line("largest thickness",
@@ -134,8 +173,8 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,
                                    s.energy_residual));
-  line("computing", fmt::format("{} steps in {} ({:.2g} M particle updates/s)", grouped(s.n_steps),
-                                duration_text(s.wall_s),
+  line("computing", fmt::format("{} steps in {}, {} of CPU ({:.2g} M particle updates/s)",
+                                grouped(s.n_steps), duration_text(s.wall_s), duration_text(s.cpu_s),
                                 s.n_steps * s.n_particles / (1e6 * std::max(s.wall_s, 1e-9))));
   print_effects(r, console);
   console.say(fmt::format("Results are in {}: report.html, peaks.nc", folder.root.string()));
@@ -154,8 +193,9 @@ int run(const Options& options, Console& console) {
     interruption_told();
     return interrupted;
   }
-  workflow::store_run(run, result);
+  const workflow::RunStored stored = workflow::store_run(run, result);
   print_summary(result, run.folder, console);
+  warn_of_run(stored, console);
   if (is_valid(result.outcome)) return ok;
   console.error(fmt::format("the member is not valid: {}", result.reason));
   return too_many_failed;

@@ -9,6 +9,33 @@
 #include <nlohmann/json.hpp>
 
 namespace sturz::app {
+namespace {
+
+nlohmann::json censoring_json(const CensoringReport& r) {
+  return {{"members", r.censored()},
+          {"fraction", r.fraction()},
+          {"settled", r.settled},
+          {"out_of_time", r.still_moving},
+          {"left_terrain", r.left_terrain},
+          {"left_and_moving", r.left_and_moving},
+          {"largest_lost_fraction", r.largest_lost_fraction},
+          {"where", r.where},
+          {"max_censored_fraction", r.accepted_fraction},
+          {"too_many", r.too_many()}};
+}
+
+/// What is cut off, and what the members themselves warn of: most of it once, with counts.
+void warn_of_members(const workflow::MapsMade& made, Console& console) {
+  std::string cut;
+  for (const std::string& sentence : censoring_sentences(made.censoring))
+    cut += (cut.empty() ? "" : " ") + sentence;
+  if (!cut.empty() && made.censoring.too_many()) console.warn(cut);
+  if (!cut.empty() && !made.censoring.too_many()) console.note(cut);
+  for (const MemberWarning& w : made.warnings)
+    console.warn(fmt::format("{} of {} members: {}", w.count, made.finished, w.example));
+}
+
+}  // namespace
 
 int verdict(const workflow::MapsMade& made, Console& console) {
   const std::string folder = made.folder.root.string();
@@ -20,13 +47,17 @@ int verdict(const workflow::MapsMade& made, Console& console) {
                                          {"finished", made.finished},
                                          {"valid", made.valid},
                                          {"failed", made.failed()},
+                                         {"censoring", censoring_json(made.censoring)},
+                                         {"members_with_warnings", made.warned_members},
                                          {"hazard_hash", made.hazard_hash},
                                          {"folder", folder}}));
-  console.say(fmt::format("{} of {} members are valid. Results are in {}:", made.valid,
-                          made.planned, folder));
+  console.say(fmt::format("{} of {} members are valid{}. Results are in {}:", made.valid,
+                          made.planned, made.valid > 0 ? ": " + counts_text(made.censoring) : "",
+                          folder));
   console.say("  report.html   look here first");
   console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
   console.say("  members.csv   one row per member");
+  warn_of_members(made, console);
   const bool too_many = made.too_many_failed();
   if (made.failed() > 0 && made.valid > 0 && !too_many)
     console.warn(

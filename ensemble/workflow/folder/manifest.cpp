@@ -55,7 +55,8 @@ void Manifest::write(const fs::path& file) {
                     {"design_hash_before", design_hash_before},
                     {"computed_by", builds_json},
                     {"hazard_hash", hazard_hash},
-                    {"maps_of", maps_of}};
+                    {"maps_of", maps_of},
+                    {"censored", censored}};
   // Names of files are bytes, and JSON is UTF-8: what is not is replaced.
   write_text_atomic(file, all.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
@@ -123,6 +124,7 @@ Manifest Manifest::read(const fs::path& file) {
     for (const auto& build : all.value("computed_by", json::array()))
       m.builds.push_back(
           {build.at("version").get<std::string>(), build.at("git_commit").get<std::string>()});
+    m.censored = all.value("censored", "");
   } catch (const json::exception& problem) {
     not_a_manifest(file, problem.what());
   }
@@ -143,6 +145,7 @@ std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
   }
   if (kind == "ensemble") {
     out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
+    if (!censored.empty()) out.emplace_back("cut off", censored);
     out.emplace_back("hash of the maps", hazard_hash);
   }
   for (const InputIdentity& input : inputs)

@@ -40,6 +40,7 @@ struct Manifest {
   std::string design_hash_before;  ///< of the table that this one replaces; empty: none
   std::string design_hash;         ///< as design_hash(); empty for a single run
   std::vector<Build> builds;       ///< all that computed members here, the first first
+  std::string censored;            ///< which of the maps' members are cut off; empty: no maps yet
   // Of the program that wrote it; filled in by write().
   std::string version, git_commit, compiler, build_type;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/members/single_run.hpp"
 
+#include "ensemble/censoring/edge_crossing.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
@@ -9,6 +11,7 @@
 #include "ensemble/workflow/version.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/members/member_file.hpp"
+#include "io/members/member_store.hpp"
 #include "io/members/particle_frames.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
@@ -91,18 +94,23 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
   });
 }
 
-void store_run(SingleRun& run, const MemberResult& result) {
+RunStored store_run(SingleRun& run, const MemberResult& result) {
   const OutputFolder& folder = run.folder;
   const Scene& scene = run.scene;
   Manifest& manifest = run.manifest;
   manifest.compute_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
   manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
+  const MemberSummary summary = summary_of(result);
+  const auto ground = ground_of_map(scene.medians, scene.inputs, map_grid(result));
+  LayerStack peaks = peak_layers(result, ground.get(), scene.inputs.terrain_grid());
+  RunStored stored{censoring_report({&summary, 1}, 0),
+                   member_warnings({&summary, 1}, manifest.warnings)};
+  stored.censoring.where = where_mass_left(peaks, scene.inputs.terrain_grid());
+  manifest.censored = one_line(stored.censoring);
   manifest.write(folder.manifest());
   write_member(folder.members(), result,
                {member_hash(manifest.scene_hash), workflow::version, workflow::git_commit});
-  const auto ground = ground_of_map(scene.medians, scene.inputs, map_grid(result));
-  LayerStack peaks = peak_layers(result, ground.get(), scene.inputs.terrain_grid());
   peaks.attributes = {
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
@@ -112,13 +120,16 @@ void store_run(SingleRun& run, const MemberResult& result) {
       {"formulation", result.formulation},
       {"computing_time_by_effect", as_text(result.effect_seconds)}};
   write_layers(folder.peaks_nc(), peaks, result.history);
-  const MemberSummary summary = summary_of(result);
   PageContent page;
   page.peaks = &peaks;
   page.elevation = ground.get();
   page.members = {&summary, 1};
   page.run = &result;
+  page.where_mass_left = stored.censoring.where;
+  const Raster<std::uint8_t> release = release_footprint(MemberStore(folder.members()));
+  page.release = &release;
   write_page(folder, manifest, scene.medians, page);
+  return stored;
 }
 
 }  // namespace sturz::workflow

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
+#include "ensemble/censoring/censoring_report.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
@@ -15,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace sturz::workflow {
 
@@ -48,7 +50,13 @@ SingleRun prepare_run(const RunRequest&, Observer&);
 ///   `cancelled`
 MemberResult compute_run(const SingleRun&, Observer&, const std::atomic<bool>& cancel);
 
+/// What is to be said of a run besides its numbers.
+struct RunStored {
+  CensoringReport censoring;
+  std::vector<MemberWarning> warnings;  ///< its own, those that `describe` did not give
+};
+
 /// Writes member, maps, manifest and page. \throws IoError
-void store_run(SingleRun&, const MemberResult&);
+RunStored store_run(SingleRun&, const MemberResult&);
 
 }  // namespace sturz::workflow

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/results/maps.hpp"
 
+#include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
@@ -29,6 +31,16 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+/// What the members say about themselves beyond what `describe` said before.
+void add_members(MapsMade& made, const MemberStore& store, const Manifest& manifest,
+                 const Scenario& scenario) {
+  made.censoring = censoring_report(store.members(), scenario.ensemble.max_censored_fraction);
+  made.valid = made.censoring.valid;
+  made.warnings = member_warnings(store.members(), manifest.warnings);
+  made.warned_members = std::count_if(store.members().begin(), store.members().end(),
+                                      [](const MemberSummary& m) { return !m.warnings.empty(); });
+}
+
 HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
                          const DesignTable& design) {
   HazardContext context;
@@ -37,6 +49,7 @@ HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
   context.attributes = {{"title", scenario.title.empty() ? "Landslide hazard" : scenario.title},
                         {"source", fmt::format("sturz {} ({})", version, git_commit)},
                         {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+                        {"censored_members", manifest.censored},
                         {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
                                                design.n_members(), design.seed)}};
   return context;
@@ -83,8 +96,8 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   made.max_failed_fraction = scenario.ensemble.max_failed_fraction;
   made.planned = design.n_members();
   made.finished = static_cast<std::int64_t>(store.members().size());
-  made.valid = std::count_if(store.members().begin(), store.members().end(),
-                             [](const MemberSummary& m) { return is_valid(m.outcome); });
+  add_members(made, store, manifest, scenario);
+  manifest.censored = one_line(made.censoring);
   const Grid& grid = store.grid();  // no member, no maps: said before anything is written
   const auto ground = ground_of_map(scenario, inputs,
                                     grid_of(map_extent(MemberCells(store).touched(), grid), grid));
@@ -105,6 +118,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const LayersFileReader maps(folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
   write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  made.censoring.where = where_mass_left(coarse, inputs.terrain_grid());
 
   PageContent page;
   page.hazard = &coarse;
@@ -115,6 +129,9 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
                                      : std::vector<ConvergencePoint>{};
   page.convergence = points;
   page.cancel = cancel;
+  page.where_mass_left = made.censoring.where;
+  const Raster<std::uint8_t> release = release_footprint(store);
+  page.release = &release;
   manifest.hazard_hash = hash;
   manifest.maps_of = members_hash(store, design.n_members());
   write_page(folder, manifest, scenario, page);

@@ -4,6 +4,7 @@
 
 #include "engine/core/cancel.hpp"
 #include "engine/core/error.hpp"
+#include "ensemble/censoring/censoring_report.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
@@ -14,6 +15,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sturz::workflow {
 
@@ -21,9 +23,12 @@ namespace sturz::workflow {
 struct MapsMade {
   OutputFolder folder;
   std::int64_t planned = 0, finished = 0, valid = 0;
-  double max_failed_fraction = 0;  ///< ensemble.max_failed_fraction of the scenario
-  double seconds = 0;              ///< of making them
-  std::string hazard_hash;         ///< of every value of the maps
+  CensoringReport censoring;            ///< which members are cut off
+  std::vector<MemberWarning> warnings;  ///< of the members' own, those that `describe` did not give
+  std::int64_t warned_members = 0;      ///< members with a warning of their own
+  double max_failed_fraction = 0;       ///< ensemble.max_failed_fraction of the scenario
+  double seconds = 0;                   ///< of making them
+  std::string hazard_hash;              ///< of every value of the maps
 
   std::int64_t failed() const { return finished - valid; }
   /// More of the finished members failed than the scenario accepts, or there are none.

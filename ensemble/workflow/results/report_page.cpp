@@ -2,6 +2,8 @@
 #include "ensemble/workflow/results/report_page.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/censoring/edge_crossing.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
@@ -83,6 +85,9 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);
   input.convergence.assign(content.convergence.begin(), content.convergence.end());
+  input.max_censored_fraction = scenario.ensemble.max_censored_fraction;
+  input.where_mass_left = content.where_mass_left;
+  input.release = content.release;
   input.warnings = manifest.warnings;
   input.notes = manifest.notes;
   input.cancel = content.cancel;
@@ -136,6 +141,10 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
     page.convergence = convergence;
   }
   page.elevation = ground.get();
+  const Raster<std::uint8_t> release = release_footprint(store);
+  page.release = &release;
+  if (finished.inputs)
+    page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
   page.members = store.members();
   if (one_run && !page.members.empty()) {
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));
