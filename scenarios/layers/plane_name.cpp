@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/layers/plane_name.hpp"
 
-#include <fmt/format.h>
-
+#include <array>
+#include <charconv>
 #include <string_view>
 
 namespace sturz {
@@ -21,6 +21,14 @@ std::string suffix_of(std::string_view udunits) {
   return text;
 }
 
+/// Six significant digits at most: 0.5, 95, 1500.
+std::string digits(double value) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6);
+  return {text.data(), end.ptr};
+}
+
 /// Takes an ending away where it is there.
 bool cut(std::string& text, std::string_view end) {
   if (!text.ends_with(end)) return false;
@@ -36,12 +44,12 @@ std::string plane_name(const Layer& layer, std::size_t plane) {
   const double value = layer.axis.values[plane];
   if (layer.meaning.statistic == Statistic::quantile) {
     cut(stem, "_quantile");
-    return fmt::format("{}_p{:g}{}", stem, 100 * value, suffix_of(layer.units));
+    return stem + "_p" + digits(100 * value) + suffix_of(layer.units);
   }
   if (layer.meaning.is_bound())
     for (const char* bound : {"_lower", "_upper"})
       if (cut(stem, bound)) end = bound;
-  return fmt::format("{}_{:g}{}{}", stem, value, suffix_of(layer.axis.units), end);
+  return stem + "_" + digits(value) + suffix_of(layer.axis.units) + end;
 }
 
 }  // namespace sturz
