@@ -179,6 +179,7 @@ struct EnsembleSpec {
   std::uint64_t seed = 1;
   std::map<std::string, double> correlation;  ///< "path/path" -> Gaussian copula correlation
   double max_failed_fraction = 0.05;
+  double max_censored_fraction = 0.05;
   bool operator==(const EnsembleSpec&) const = default;
 };
 

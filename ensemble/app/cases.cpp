@@ -2,6 +2,7 @@
 // sturz cases: list the shipped cases, or copy one to where it can be run and changed.
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "io/files/atomic_file.hpp"
@@ -58,7 +59,7 @@ void list_cases(const fs::path& folder, Console& console) {
     // Two leading spaces tell the completion which lines are cases.
     console.say("  " + name + std::string(width - name.size() + 2, ' ') + title);
     const nlohmann::ordered_json event = {{"event", "case"}, {"name", name}, {"title", title}};
-    console.event(event.dump());
+    console.event(json_text(event));
   }
   console.say("Copy one into a folder of yours: sturz cases NAME -o DIR");
 }
@@ -81,7 +82,7 @@ void copy_case(const fs::path& source, const fs::path& target, Console& console)
   const std::string scenario = (target / "scenario.yaml").string();
   console.say(fmt::format("{}\nNext: sturz describe {}", scenario, scenario));
   const nlohmann::ordered_json event = {{"event", "done"}, {"scenario", scenario}};
-  console.event(event.dump());
+  console.event(json_text(event));
 }
 
 int cases(const Options& options, Console& console) {

@@ -3,14 +3,19 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/help/hint.hpp"
+#include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/version.hpp"
 
 #include <fmt/core.h>
 
+#include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <iostream>
 #include <new>
 #include <string_view>
 
@@ -39,10 +44,19 @@ void build(Grammar& grammar) {
 int guarded(const std::function<int(Console&)>& action, Console& console) {
   try {
     return action(console);
+  } catch (const workflow::MembersMissing& problem) {
+    console.error(problem.what());
+    return interrupted;
   } catch (const SetupError& problem) {
     console.error(problem.what());
   } catch (const std::bad_alloc&) {
-    console.error("Out of memory. A coarser spacing, fewer workers or a larger cell needs less.");
+    console.error(
+        "Out of memory. What is finished is kept: the same command goes on where more memory is "
+        "free. A new folder with a coarser spacing or a larger cell, and fewer workers, need "
+        "less.");
+  } catch (const std::filesystem::filesystem_error& problem) {
+    console.error(fmt::format("{}: {}. Check the name and who may read and write there.",
+                              problem.path1().string(), problem.code().message()));
   } catch (const std::exception& problem) {
     console.error(
         fmt::format("{} (this should not have happened; please report it)", problem.what()));
@@ -50,13 +64,32 @@ int guarded(const std::function<int(Console&)>& action, Console& console) {
   return usage_or_scenario_error;
 }
 
+/// A signal that came too late to stop anything is still no plain success: who sent it waits for
+/// that code.
+int after_signals(int code, Console& console) {
+  if (!interrupt_flag().load() || code != ok) return code;
+  console.warn("a signal to stop came when all was done: the results are whole.");
+  interruption_told();
+  return interrupted;
+}
+
+/// Full disks and closed streams show themselves at the latest here.
+int after_output(int code) {
+  std::cout.flush();
+  const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  if (!failed) return code;
+  const std::string words = fmt::format(
+      "error: the output could not be written (is standard output closed, or its disk full?).{}\n",
+      code == ok ? " Files in the results folder are whole." : "");
+  std::fwrite(words.data(), 1, words.size(), stderr);
+  return code == ok ? usage_or_scenario_error : code;
+}
+
 /// `sturz help` and `sturz help run`, as many other programs have it.
 bool wants_help(const Grammar& grammar, int argc, char** argv) {
   if (argc < 2 || std::string_view(argv[1]) != "help") return false;
-  const CLI::App* about = &grammar.program;
-  if (argc > 2)
-    if (const CLI::App* named = command_named(grammar.program, argv[2])) about = named;
-  fmt::print("{}", about->help());
+  const CLI::App* one = argc > 2 ? command_named(grammar.program, argv[2]) : nullptr;
+  std::cout << (one ? one->help(grammar.program.get_name()) : grammar.program.help());
   return true;
 }
 
@@ -65,17 +98,19 @@ bool wants_help(const Grammar& grammar, int argc, char** argv) {
 int command_line(int argc, char** argv) {
   Grammar grammar;
   build(grammar);
-  if (wants_help(grammar, argc, argv)) return ok;
+  if (wants_help(grammar, argc, argv)) return after_output(ok);
   try {
     grammar.program.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    if (grammar.program.exit(problem) == 0) return ok;
+    if (grammar.program.exit(problem) == 0) return after_output(ok);
     const std::string hint = hint_on_words(grammar.program, {argv + 1, argv + argc});
-    if (!hint.empty()) fmt::print(stderr, "{}\n", hint);
+    if (!hint.empty()) std::cerr << hint << "\n";
     return usage_or_scenario_error;
   }
+  watch_for_interrupts(grammar.json);
   Console console(grammar.json);
-  return guarded(grammar.action, console);
+  const int code = guarded(grammar.action, console);
+  return after_output(after_signals(code, console));
 }
 
 }  // namespace sturz::app

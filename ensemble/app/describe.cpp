@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz describe: what a scene is and what it will cost, before anything is computed.
 #include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
@@ -60,7 +61,7 @@ std::string as_json(const Scene& scene, const std::vector<std::string>& warnings
                                       {"uncertain", uncertain},
                                       {"notes", scene.inputs.notes},
                                       {"warnings", warnings}};
-  return all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(all);
 }
 
 void print_uncertain(const Scene& scene, Console& console) {

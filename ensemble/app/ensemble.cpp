@@ -4,6 +4,7 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/console/interrupt.hpp"
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
@@ -68,16 +69,14 @@ void announce(const EnsembleJob& job, const Options& options, Console& console) 
   const double seconds = job.scene.description.predicted_seconds;
   const double total =
       seconds * static_cast<double>(job.to_do.size()) / (job.workers * job.threads);
-  console.event(nlohmann::json{
-      {"event", "start"},
-      {"folder", job.folder.root.string()},
-      {"members", job.design.n_members()},
-      {"finished_before", job.finished_before},
-      {"to_do", job.to_do.size()},
-      {"workers", job.workers},
-      {"threads_per_member", job.threads},
-      {"predicted_seconds",
-       total}}.dump());
+  console.event(json_text(nlohmann::json{{"event", "start"},
+                                         {"folder", job.folder.root.string()},
+                                         {"members", job.design.n_members()},
+                                         {"finished_before", job.finished_before},
+                                         {"to_do", job.to_do.size()},
+                                         {"workers", job.workers},
+                                         {"threads_per_member", job.threads},
+                                         {"predicted_seconds", total}}));
   for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
   for (const std::string& note : job.scene.inputs.notes) console.note(note);
   console.note(command_text(options));
@@ -99,11 +98,12 @@ int how_it_ended(const workflow::MembersRun& run, Console& console) {
     return usage_or_scenario_error;
   }
   if (run.interrupted) {
-    console.event(nlohmann::json{{"event", "interrupted"}, {"finished", run.finished}}.dump());
+    console.event(json_text(nlohmann::json{{"event", "interrupted"}, {"finished", run.finished}}));
     console.warn(
         fmt::format("interrupted with {} of {} members finished. Resume with the same "
                     "command.",
                     run.finished, run.total));
+    interruption_told();
     return interrupted;
   }
   return ok;
@@ -113,12 +113,12 @@ int ensemble(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request_of(options), observer);
   announce(job, options, console);
-  watch_for_interrupts();
   const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
   console.clear_progress();
   if (const int code = how_it_ended(run, console); code != ok) return code;
   if (!options.shard.empty()) {
-    console.event(nlohmann::json{{"event", "shard_done"}, {"failed", run.failed.size()}}.dump());
+    console.event(
+        json_text(nlohmann::json{{"event", "shard_done"}, {"failed", run.failed.size()}}));
     console.say(fmt::format("Shard {} is finished. When all are: sturz merge {}", options.shard,
                             job.folder.root.string()));
     return ok;

@@ -3,9 +3,11 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/console/interrupt.hpp"
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
+#include "ensemble/censoring/scalar_censoring.hpp"
 #include "ensemble/workflow/members/single_run.hpp"
 #include "ensemble/workflow/readable.hpp"
 #include "scenarios/schema/number_text.hpp"
@@ -15,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sturz::app {
 namespace {
@@ -25,6 +28,7 @@ struct Options {
   std::vector<std::string> set;             ///< "key=value"
   int threads = 0;                          ///< 0: all cores available to the process
   std::optional<double> particles_every_s;  ///< frames for ParaView, simulated seconds apart
+  bool replace = false;                     ///< the run of another scene in that folder too
 };
 
 using workflow::duration_text;
@@ -43,6 +47,7 @@ workflow::RunRequest request_of(const Options& o) {
   request.threads = o.threads;
   request.particles_every_s = o.particles_every_s;
   request.command = command_text(o);
+  request.replace = o.replace;
   return request;
 }
 
@@ -97,11 +102,37 @@ void print_effects(const MemberResult& r, Console& console) {
   print_line("where the time went", text, console);
 }
 
+using M = MemberScalars;
+
+/// ">= 812 m" of a member that is cut off, "812 m so far" where the end may lie either way.
+std::string as_known(const MemberResult& r, double MemberScalars::*field, const std::string& text) {
+  if (std::isnan(r.scalars.*field)) return "none";
+  switch (known(field, r.censoring)) {
+    case Known::exactly:
+      return text;
+    case Known::at_least:
+      return ">= " + text;
+    case Known::not_at_all:
+      break;
+  }
+  return text + " so far";
+}
+
+/// What is cut off of the run, and what it warns of itself.
+void warn_of_run(const workflow::RunStored& stored, Console& console) {
+  std::string cut;
+  for (const std::string& sentence : censoring_sentences(stored.censoring))
+    cut += (cut.empty() ? "" : " ") + sentence;
+  if (!cut.empty()) console.warn(cut);
+  for (const MemberWarning& w : stored.warnings) console.warn(w.example);
+}
+
 void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, Console& console) {
   const MemberScalars& s = r.scalars;
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
   for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
-  console.event(nlohmann::ordered_json{{"event", "done"},
+  console.event(
+      json_text(nlohmann::ordered_json{{"event", "done"},
                                        {"outcome", to_string(r.outcome)},
                                        {"censored", to_string(r.censoring)},
                                        {"reason", r.reason},
@@ -109,17 +140,28 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                                        {"scalars", scalars},
                                        {"effect_seconds", as_json(r.effect_seconds)},
                                        {"pass_seconds", as_json(r.pass_seconds)},
-                                       {"folder", folder.root.string()}}
-                    .dump());
+                                       {"folder", folder.root.string()}}));
   const auto line = [&console](const char* name, const std::string& value) {
     print_line(name, value, console);
   };
   console.say(fmt::format("{}{}{} after {:.1f} s of flow", to_string(r.outcome),
                           r.reason.empty() ? "" : ": ", r.reason, s.end_time_s));
-  line("runout", fmt::format("{:.1f} m (front {:.1f} m, centre of mass {:.1f} m, drop {:.1f} m)",
-                             s.runout_m, s.front_travel_m, s.com_travel_m, s.drop_m));
-  line("area", fmt::format("{} m2 reached, {} m2 deposit", grouped(s.reached_area_m2),
-                           grouped(s.deposit_area_m2)));
+  const auto far = [&r](double MemberScalars::*field) {
+    return as_known(r, field, fmt::format("{:.1f} m", r.scalars.*field));
+  };
+  const auto area = [&r](double MemberScalars::*field) {
+    return as_known(r, field, grouped(r.scalars.*field) + " m2");
+  };
+  line("runout", fmt::format("{} (front {}, centre of mass {}, drop {})", far(&M::runout_m),
+                             far(&M::front_travel_m), far(&M::com_travel_m), far(&M::drop_m)));
+  line("crown to toe",
+       fmt::format(
+           "L {}, H {}, H/L {}", far(&M::crown_to_toe_length_m), far(&M::crown_to_toe_drop_m),
+           as_known(r, &M::crown_to_toe_ratio,
+                    fmt::format("{:.3f} ({:.1f} degrees)", s.crown_to_toe_ratio,
+                                std::atan(s.crown_to_toe_ratio) * 180 / std::numbers::pi))));
+  line("area",
+       fmt::format("{} reached, {} deposit", area(&M::reached_area_m2), area(&M::deposit_area_m2)));
   line("largest speed", fmt::format("{:.1f} m/s (mean of the mass {:.1f} m/s)", s.max_speed_m_s,
                                     s.max_mean_speed_m_s));
   line("largest thickness",
@@ -131,8 +173,8 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,
                                    s.energy_residual));
-  line("computing", fmt::format("{} steps in {} ({:.2g} M particle updates/s)", grouped(s.n_steps),
-                                duration_text(s.wall_s),
+  line("computing", fmt::format("{} steps in {}, {} of CPU ({:.2g} M particle updates/s)",
+                                grouped(s.n_steps), duration_text(s.wall_s), duration_text(s.cpu_s),
                                 s.n_steps * s.n_particles / (1e6 * std::max(s.wall_s, 1e-9))));
   print_effects(r, console);
   console.say(fmt::format("Results are in {}: report.html, peaks.nc", folder.root.string()));
@@ -144,15 +186,16 @@ int run(const Options& options, Console& console) {
   for (const std::string& warning : run.scene.description.warnings) console.warn(warning);
   for (const std::string& note : run.scene.inputs.notes) console.note(note);
 
-  watch_for_interrupts();
   const MemberResult result = workflow::compute_run(run, observer, interrupt_flag());
   console.clear_progress();
   if (result.outcome == Outcome::cancelled) {
     console.warn("interrupted; nothing is kept. Run the same command again.");
+    interruption_told();
     return interrupted;
   }
-  workflow::store_run(run, result);
+  const workflow::RunStored stored = workflow::store_run(run, result);
   print_summary(result, run.folder, console);
+  warn_of_run(stored, console);
   if (is_valid(result.outcome)) return ok;
   console.error(fmt::format("the member is not valid: {}", result.reason));
   return too_many_failed;
@@ -178,6 +221,8 @@ void add_run(Grammar& grammar) {
         return text +
                " (must be seconds above 0, such as 0.5). Without --particles there are none.";
       });
+  parser.add_flag("--replace", options.replace,
+                  "Put the results in place of another scene's run in the folder");
   add_json(grammar, parser);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/verdict.hpp"
 
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/workflow/readable.hpp"
 
@@ -8,39 +9,73 @@
 #include <nlohmann/json.hpp>
 
 namespace sturz::app {
+namespace {
+
+nlohmann::json censoring_json(const CensoringReport& r) {
+  return {{"members", r.censored()},
+          {"fraction", r.fraction()},
+          {"settled", r.settled},
+          {"out_of_time", r.still_moving},
+          {"left_terrain", r.left_terrain},
+          {"left_and_moving", r.left_and_moving},
+          {"largest_lost_fraction", r.largest_lost_fraction},
+          {"where", r.where},
+          {"max_censored_fraction", r.accepted_fraction},
+          {"too_many", r.too_many()}};
+}
+
+/// What is cut off, and what the members themselves warn of: most of it once, with counts.
+void warn_of_members(const workflow::MapsMade& made, Console& console) {
+  std::string cut;
+  for (const std::string& sentence : censoring_sentences(made.censoring))
+    cut += (cut.empty() ? "" : " ") + sentence;
+  if (!cut.empty() && made.censoring.too_many()) console.warn(cut);
+  if (!cut.empty() && !made.censoring.too_many()) console.note(cut);
+  for (const MemberWarning& w : made.warnings)
+    console.warn(fmt::format("{} of {} members: {}", w.count, made.finished, w.example));
+}
+
+}  // namespace
 
 int verdict(const workflow::MapsMade& made, Console& console) {
   const std::string folder = made.folder.root.string();
   console.clear_progress();
   console.note(fmt::format("maps of {} valid members in {}, hash {}", made.valid,
                            workflow::duration_text(made.seconds), made.hazard_hash));
-  console.event(nlohmann::json{
-      {"event", "done"},
-      {"planned", made.planned},
-      {"finished", made.finished},
-      {"valid", made.valid},
-      {"failed", made.failed()},
-      {"hazard_hash", made.hazard_hash},
-      {"folder",
-       folder}}.dump());
-  console.say(fmt::format("{} of {} members are valid. Results are in {}:", made.valid,
-                          made.planned, folder));
+  console.event(json_text(nlohmann::json{{"event", "done"},
+                                         {"planned", made.planned},
+                                         {"finished", made.finished},
+                                         {"valid", made.valid},
+                                         {"failed", made.failed()},
+                                         {"censoring", censoring_json(made.censoring)},
+                                         {"members_with_warnings", made.warned_members},
+                                         {"hazard_hash", made.hazard_hash},
+                                         {"folder", folder}}));
+  console.say(fmt::format("{} of {} members are valid{}. Results are in {}:", made.valid,
+                          made.planned, made.valid > 0 ? ": " + counts_text(made.censoring) : "",
+                          folder));
   console.say("  report.html   look here first");
   console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
   console.say("  members.csv   one row per member");
+  warn_of_members(made, console);
   const bool too_many = made.too_many_failed();
-  if (made.failed() > 0 && !too_many)
+  if (made.failed() > 0 && made.valid > 0 && !too_many)
     console.warn(
         fmt::format("{} of {} members failed; their reasons are in members.csv. The maps "
                     "are made from the others.",
                     made.failed(), made.finished));
-  if (too_many)
+  if (made.valid == 0)
+    console.error(
+        fmt::format("no member is valid, so the maps are empty: {} of {} failed. Their reasons are "
+                    "in members.csv; --retry-failed computes them again once the cause is mended.",
+                    made.failed(), made.finished));
+  else if (too_many)
     console.error(
         fmt::format("{} of {} members failed, more than the accepted share "
                     "(ensemble.max_failed_fraction = {}). Their reasons are in "
                     "members.csv; the maps are made from the others.",
                     made.failed(), made.finished, made.max_failed_fraction));
-  return too_many ? too_many_failed : ok;
+  return too_many || made.valid == 0 ? too_many_failed : ok;
 }
 
 }  // namespace sturz::app

@@ -48,6 +48,7 @@ ConvergencePoint summary(const Histogram& cells, std::int64_t n, double cell_are
   ConvergencePoint point;
   point.n_members = n;
   std::int64_t n_cells = 0, n_likely = 0, n_possible = 0, hits_in_all = 0;
+  std::int64_t n_lower = 0, n_upper = 0;
   double half_widths = 0;
   for (std::int64_t hits = 0; hits <= n; ++hits) {
     const std::int64_t count = cells[static_cast<std::size_t>(hits)];
@@ -56,6 +57,8 @@ ConvergencePoint summary(const Histogram& cells, std::int64_t n, double cell_are
     n_cells += count;
     hits_in_all += count * hits;
     n_likely += probability >= likely ? count : 0;
+    n_lower += bounds.lower >= likely ? count : 0;
+    n_upper += hits > 0 && bounds.upper >= likely ? count : 0;
     n_possible += probability >= possible ? count : 0;
     half_widths += static_cast<double>(count) * (bounds.upper - bounds.lower) / 2;
   }
@@ -64,6 +67,8 @@ ConvergencePoint summary(const Histogram& cells, std::int64_t n, double cell_are
   point.mean_probability_reached =
       static_cast<double>(hits_in_all) / (all * static_cast<double>(n));
   point.area_likely_m2 = static_cast<double>(n_likely) * cell_area_m2;
+  point.area_likely_lower_m2 = static_cast<double>(n_lower) * cell_area_m2;
+  point.area_likely_upper_m2 = static_cast<double>(n_upper) * cell_area_m2;
   point.area_possible_m2 = static_cast<double>(n_possible) * cell_area_m2;
   point.mean_half_width = half_widths / all;
   return point;

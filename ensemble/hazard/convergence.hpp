@@ -14,7 +14,9 @@ namespace sturz {
 struct ConvergencePoint {
   std::int64_t n_members = 0;
   double mean_probability_reached = 0;
-  double area_likely_m2 = 0;    ///< where P(reached) >= 0.5
+  double area_likely_m2 = 0;  ///< where P(reached) >= 0.5
+  /// Where the 95 % interval of P(reached) lies above 0.5, and where it does so or touches it.
+  double area_likely_lower_m2 = 0, area_likely_upper_m2 = 0;
   double area_possible_m2 = 0;  ///< where P(reached) >= 0.05
   double mean_half_width = 0;   ///< half of the 95 % Wilson interval of P(reached)
 };

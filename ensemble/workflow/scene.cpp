@@ -5,6 +5,7 @@
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/readable.hpp"
+#include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
@@ -136,7 +137,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   Manifest m;
   m.kind = kind;
   m.started = utc_now();
-  m.command = command;
+  m.command = as_utf8(command);  // names of files in it are bytes
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
   m.inputs = scene.inputs.identities;
@@ -148,7 +149,14 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
 }
 
 void save_scenario(const OutputFolder& folder, const Scenario& scenario) {
-  write_text_atomic(folder.scenario(), write_scenario(scenario, folder.root));
+  const std::string text = write_scenario(scenario, folder.root);
+  if (const auto byte = first_unreadable(text))
+    throw SetupError(
+        fmt::format("{}: a name of a file or folder that the scene needs holds {} (scenario files "
+                    "are UTF-8 and "
+                    "cannot name it). Rename it, or choose another place.",
+                    folder.root.string(), byte->what));
+  write_text_atomic(folder.scenario(), text);
 }
 
 }  // namespace sturz::workflow

@@ -3,6 +3,7 @@
 
 #include "engine/core/hash.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/unfinished.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>
@@ -13,7 +14,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <regex>
 #include <string>
+#include <vector>
 
 namespace sturz {
 namespace fs = std::filesystem;
@@ -41,6 +44,39 @@ fs::path follow_links(const fs::path& target) {
   return ignored ? target : resolved;
 }
 
+/// Names of 255 bytes are the most that file systems take: a long one gives way to the suffix.
+fs::path part_of(const fs::path& target) {
+  constexpr std::size_t longest_name = 255;
+  const std::string suffix = unique_part_suffix();
+  const std::string name = target.filename().string();
+  return target.parent_path() /
+         (name.size() + suffix.size() > longest_name ? suffix : name + suffix);
+}
+
+bool is_part(const std::string& name) {
+  static const std::regex made_here(R"(.*\.[0-9a-f]{16}\.part)");
+  return std::regex_match(name, made_here);
+}
+
+/// What the user can do about it.
+const char* cure_of(int code) {
+  switch (code) {
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "Give yourself the right to write there, or choose another folder";
+    case ENAMETOOLONG:
+      return "Choose a shorter name";
+    case ELOOP:
+      return "Its links lead in a circle: choose another name";
+    case EFBIG:
+      return "A limit on the size of files is set (ulimit -f), or the disk's format has one: lift "
+             "it, or choose another folder";
+    default:
+      return "Make room or choose another folder";
+  }
+}
+
 std::string free_space_text(const fs::path& folder) {
   std::error_code error;
   const auto space = fs::space(folder, error);
@@ -57,16 +93,21 @@ AtomicFile::AtomicFile(fs::path target) : target_(follow_links(target)) {
     throw IoError(
         fmt::format("cannot write {} (a folder or device has this name). Choose another name.",
                     target_.string()));
-  part_ = target_;
-  part_ += unique_part_suffix();
+  part_ = part_of(target_);
+  remember_unfinished(part_);
   descriptor_ = ::open(part_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) fail("cannot create", errno);
+  if (descriptor_ < 0) {
+    const int code = errno;
+    forget_unfinished(part_);
+    fail("cannot create", code);
+  }
 }
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ < 0) return;
   ::close(descriptor_);
   ::unlink(part_.c_str());
+  forget_unfinished(part_);
 }
 
 void AtomicFile::write(std::span<const std::byte> bytes) {
@@ -82,6 +123,7 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
 void AtomicFile::commit() {
   if (::fsync(descriptor_) != 0) fail("cannot write", errno);
   if (::rename(part_.c_str(), target_.c_str()) != 0) fail("cannot rename the part file to", errno);
+  forget_unfinished(part_);
   // A late error of close() would come too late to matter: fsync has passed.
   ::close(descriptor_);
   descriptor_ = -1;
@@ -96,9 +138,10 @@ void AtomicFile::fail(const char* what, int code) const {
   if (code == ENOENT)
     throw IoError(fmt::format("{} {} (there is no folder {}). Make it first.", what,
                               target_.string(), folder.string()));
-  throw IoError(fmt::format(
-      "{} {} ({}{}). Make room or choose another folder; files already there are unharmed.", what,
-      target_.string(), std::strerror(code), free_space_text(folder)));
+  const bool about_space = code == ENOSPC || code == EDQUOT || code == EIO;
+  throw IoError(fmt::format("{} {} ({}{}). {}; files already there are unharmed.", what,
+                            target_.string(), std::strerror(code),
+                            about_space ? free_space_text(folder) : "", cure_of(code)));
 }
 
 void write_bytes_atomic(const fs::path& target, std::span<const std::byte> bytes) {
@@ -108,11 +151,20 @@ void write_bytes_atomic(const fs::path& target, std::span<const std::byte> bytes
 }
 
 void make_folder(const fs::path& folder) {
-  std::error_code error;
+  std::error_code error, ignored;
   fs::create_directories(folder, error);
-  if (error && !fs::is_directory(folder))
-    throw IoError(fmt::format("cannot make the folder {} ({}). Choose another output folder.",
-                              folder.string(), error.message()));
+  if (!error || fs::is_directory(folder, ignored)) return;
+  throw IoError(fmt::format("cannot make the folder {} ({}). Choose another output folder.",
+                            folder.string(), error.message()));
+}
+
+void remove_part_files(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (is_part(entry->path().filename().string())) found.push_back(entry->path());
+  for (const fs::path& part : found) ::unlink(part.c_str());  // never a folder
 }
 
 }  // namespace sturz

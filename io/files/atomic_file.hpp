@@ -43,4 +43,8 @@ void write_bytes_atomic(const std::filesystem::path& target, std::span<const std
 /// Makes a folder with its parents; one that exists is fine. \throws IoError
 void make_folder(const std::filesystem::path& folder);
 
+/// Removes what writers that were killed have left in a folder (not in folders below it). To be
+/// called only while no process writes there.
+void remove_part_files(const std::filesystem::path& folder);
+
 }  // namespace sturz

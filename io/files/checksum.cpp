@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/files/checksum.hpp"
 
-#include "engine/core/error.hpp"
 #include "io/files/io_error.hpp"
 #include "io/files/sha256.hpp"
 
@@ -30,6 +29,12 @@ std::string file_checksum(const std::filesystem::path& file) {
   if (!stream.eof())
     throw IoError(
         fmt::format("cannot read {} for its checksum. Check its permissions.", file.string()));
+  return "sha256:" + hash.hex();
+}
+
+std::string text_checksum(std::string_view text) {
+  Sha256 hash;
+  hash.add(std::span(text.data(), text.size()));
   return "sha256:" + hash.hex();
 }
 

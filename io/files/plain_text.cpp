@@ -41,6 +41,8 @@ std::optional<UnreadableByte> first_unreadable(std::string_view text) {
   return std::nullopt;
 }
 
+std::string as_utf8(std::string_view text) { return utf8::replace_invalid(text); }
+
 std::string one_line(std::string_view text, std::size_t max_bytes) {
   const bool cut = text.size() > max_bytes;
   if (cut) {

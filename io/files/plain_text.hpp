@@ -18,6 +18,9 @@ struct UnreadableByte {
 /// First byte that is neither valid UTF-8 nor a printable character, tab or line end.
 std::optional<UnreadableByte> first_unreadable(std::string_view text);
 
+/// `text` with every byte that is not UTF-8 replaced: names of files are bytes, pages are not.
+std::string as_utf8(std::string_view text);
+
 /// `text` on one line, cut after `max_bytes` (never inside a character) with "..." for the rest.
 std::string one_line(std::string_view text, std::size_t max_bytes);
 

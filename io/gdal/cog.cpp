@@ -110,6 +110,14 @@ void write_plane(const fs::path& target, const LayerStack& stack, const Layer& l
 
 }  // namespace
 
+std::vector<std::string> cog_names(const LayerStack& stack) {
+  std::vector<std::string> names;
+  for (const Layer& layer : stack.layers)
+    for (std::size_t plane = 0; plane < layer.n_planes(); ++plane)
+      names.push_back(plane_name(layer, plane));
+  return names;
+}
+
 std::vector<fs::path> write_cogs(const fs::path& folder, const LayerStack& stack) {
   const GdalScope scope;
   make_folder(folder);

@@ -13,6 +13,9 @@ namespace sturz {
 
 using TextPairs = std::vector<std::pair<std::string, std::string>>;
 
+/// Names of the files that write_cogs() makes of the stack, in their order.
+std::vector<std::string> cog_names(const LayerStack& stack);
+
 /// One Cloud-Optimised GeoTIFF per plane, <layer>.tif or <layer>_<axis value>.tif, in `folder`
 /// (made if needed): float32 with nodata NaN, counts int32; unit, description and the stack's
 /// attributes as metadata. Each file appears whole or not at all.

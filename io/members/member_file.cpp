@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/seal.hpp"
 #include "io/members/member_netcdf.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
 #include "io/netcdf/history_netcdf.hpp"
@@ -56,6 +57,13 @@ void write_facts(NetcdfWriter& file, const MemberResult& m) {
   file.integer(global, "window_n_cols", window.n_cols);
 }
 
+void write_origin(NetcdfWriter& file, const MemberOrigin& origin) {
+  constexpr int global = NetcdfWriter::global;
+  file.text(global, "scene_hash", origin.scene_hash);
+  file.text(global, "engine_version", origin.engine_version);
+  file.text(global, "engine_commit", origin.engine_commit);
+}
+
 void write_scalars(NetcdfWriter& file, const MemberScalars& scalars) {
   for (const ScalarInfo& scalar : scalar_table()) {
     const int variable = file.variable(scalar.name, NcType::float64, {});
@@ -100,8 +108,10 @@ void write_maps(NetcdfWriter& file, const MemberResult& m) {
 }
 
 [[noreturn]] void not_a_member(const NetcdfReader& file, const std::string& what) {
-  throw IoError(fmt::format("{}: {} (not a finished member, or damaged). Delete it and run again.",
-                            file.file().string(), what));
+  throw IoError(
+      fmt::format("{}: {} (not a finished member, or damaged). The command that wrote "
+                  "it computes it again.",
+                  file.file().string(), what));
 }
 
 std::int64_t need_integer(const NetcdfReader& file, const char* name) {
@@ -132,10 +142,12 @@ NamedSeconds read_seconds(const NetcdfReader& file, const char* names_attribute,
 
 std::string member_file_name(std::int64_t member) { return fmt::format("{:06d}.nc", member); }
 
-void write_member(const std::filesystem::path& folder, const MemberResult& m) {
+void write_member(const std::filesystem::path& folder, const MemberResult& m,
+                  const MemberOrigin& origin) {
   make_folder(folder);
   NetcdfWriter file(folder / member_file_name(m.member));
   write_facts(file, m);
+  write_origin(file, origin);
   write_scalars(file, m.scalars);
   write_seconds(file, passes_attribute, seconds_attribute, m.pass_seconds);
   write_seconds(file, effects_attribute, effect_seconds_attribute, m.effect_seconds);
@@ -185,6 +197,11 @@ MemberSummary read_member_summary(const NetcdfReader& file) {
   return m;
 }
 
+MemberOrigin read_member_origin(const NetcdfReader& file) {
+  return {need_text(file, "scene_hash"), need_text(file, "engine_version"),
+          need_text(file, "engine_commit")};
+}
+
 void require_inside(const NetcdfReader& file, const Window& w, const Grid& g) {
   if (w.n_rows <= g.n_rows - w.row0 && w.n_cols <= g.n_cols - w.col0) return;
   not_a_member(file, "has maps that reach beyond its grid");
@@ -197,6 +214,7 @@ void read_member_rows(const NetcdfReader& file, const Window& window, PeakLayer 
 }
 
 MemberResult read_member(const std::filesystem::path& path) {
+  require_sealed(path);
   const NetcdfReader file(path);
   MemberSummary s = read_member_summary(file);
   MemberResult m;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
+#include "io/members/member_origin.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -20,10 +21,13 @@ namespace sturz {
 /// "000017.nc"
 std::string member_file_name(std::int64_t member);
 
-/// Writes `folder`/000017.nc in one stroke; the folder is made if needed. \throws IoError
-void write_member(const std::filesystem::path& folder, const MemberResult& member);
+/// Writes `folder`/000017.nc in one stroke, sealed with a checksum over all of it
+/// (io/files/seal.hpp); the folder is made if needed. \throws IoError
+void write_member(const std::filesystem::path& folder, const MemberResult& member,
+                  const MemberOrigin& origin = {});
 
-/// Reads everything back, bit for bit. \throws IoError naming the file when it is damaged
+/// Reads everything back, bit for bit, after a look at the seal. \throws IoError naming the file
+/// when it is damaged
 MemberResult read_member(const std::filesystem::path& file);
 
 }  // namespace sturz

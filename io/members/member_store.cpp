@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/seal.hpp"
 #include "io/members/member_file.hpp"
 #include "io/members/member_netcdf.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
@@ -42,33 +43,36 @@ std::size_t key_of(std::size_t index, PeakLayer layer) {
 
 }  // namespace
 
-MemberStore::MemberStore(fs::path folder, MemberCheck check, std::size_t memory_bound)
+MemberStore::MemberStore(fs::path folder, const MemberFilter& filter, std::size_t memory_bound)
     : folder_(std::move(folder)), memory_bound_(memory_bound) {
-  for (const std::int64_t number : numbers_in(folder_)) try {
-      add(number, check);
-    } catch (const IoError& error) {
+  for (const std::int64_t number : numbers_in(folder_)) {
+    if (filter.wanted && !filter.wanted(number)) continue;
+    try {
+      add(number, filter);
+    } catch (const SetupError& error) {
       problems_.emplace_back(error.what());
     }
+  }
 }
 
-void MemberStore::add(std::int64_t number, MemberCheck check) {
+void MemberStore::add(std::int64_t number, const MemberFilter& filter) {
+  require_sealed(folder_ / member_file_name(number));
   const NetcdfReader file(folder_ / member_file_name(number));
   MemberSummary summary = read_member_summary(file);
   const Grid grid = read_grid_attributes(file);
   const auto refuse = [&](const std::string& why) {
-    throw IoError(fmt::format("{}: {}. Delete it and run again.", file.file().string(), why));
+    throw IoError(fmt::format("{}: {}. The command that wrote it computes it again.",
+                              file.file().string(), why));
   };
   if (summary.member != number) refuse(fmt::format("holds member {}", summary.member));
+  if (const std::string why =
+          filter.refusal ? filter.refusal(summary, read_member_origin(file)) : "";
+      !why.empty())
+    refuse(why);
   require_inside(file, summary.window, grid);
   if (grid.n_cells() > 0) {
     if (grid_.n_cells() == 0) grid_ = grid;
     if (!grid.same_place(grid_)) refuse("lies on another grid than the members before it");
-  }
-  if (check == MemberCheck::read_all && summary.window.n_cells() > 0) {
-    std::vector<float> values(summary.window.n_cells());
-    for (int i = 0; i < n_peak_layers; ++i)
-      if (const auto layer = static_cast<PeakLayer>(i); is_kept(layer, summary.censoring))
-        read_member_rows(file, summary.window, layer, 0, summary.window.n_rows, values);
   }
   members_.push_back(std::move(summary));
 }

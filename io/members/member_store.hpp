@@ -3,9 +3,11 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
+#include "io/members/member_origin.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -14,15 +16,18 @@
 
 namespace sturz {
 
-/// How closely a store looks at its files when it is made.
-enum class MemberCheck {
-  open,      ///< opens each and reads its scalars: finds files that are cut short
-  read_all,  ///< also reads every map: finds flipped bits (and fills the memory on the way)
+/// Which members a store is asked for; empty functions: all.
+struct MemberFilter {
+  /// Files of other numbers are not even opened.
+  std::function<bool(std::int64_t member)> wanted;
+  /// Says why a member does not belong to the others; empty: it does.
+  std::function<std::string(const MemberSummary&, const MemberOrigin&)> refusal;
 };
 
 /// Lists members/NNNNNN.nc in ascending order. Unfinished files (*.part) do not count. A damaged
-/// file, or one on another grid than the first, is named in problems() and treated as absent, so
-/// that a resumed run computes it again.
+/// file, one that is refused, or one on another grid than the first, is named in problems() and
+/// treated as absent, so that a resumed run computes it again. Every file is read once as plain
+/// bytes, against its seal (io/files/seal.hpp), before netCDF sees it.
 ///
 /// Maps are kept decompressed, whole windows, until `memory_bound` is reached; what comes later is
 /// read from its file each time, only the rows asked for. (Nothing is dropped: statistics pass over
@@ -33,7 +38,7 @@ class MemberStore final : public MemberSource {
   static constexpr std::size_t default_memory_bound = std::size_t{512} << 20;
 
   /// A folder that does not exist holds no members.
-  explicit MemberStore(std::filesystem::path folder, MemberCheck check = MemberCheck::open,
+  explicit MemberStore(std::filesystem::path folder, const MemberFilter& filter = {},
                        std::size_t memory_bound = default_memory_bound);
 
   const std::vector<MemberSummary>& members() const override { return members_; }
@@ -51,7 +56,7 @@ class MemberStore final : public MemberSource {
  private:
   using Map = std::shared_ptr<const std::vector<float>>;
 
-  void add(std::int64_t number, MemberCheck check);
+  void add(std::int64_t number, const MemberFilter& filter);
   Map cached_or_loaded(std::size_t index, PeakLayer layer) const;
   const NetcdfReader& reader(std::size_t index) const;
 

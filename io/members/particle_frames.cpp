@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <regex>
 
 namespace sturz {
 namespace {
@@ -173,6 +174,19 @@ void ParticleFrameWriter::write(const ParticleFrame& frame) {
     pvd += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"{}\" file=\"{}\"/>\n", e.time_s,
                        e.part, e.file);
   write_text_atomic(index_, pvd + "  </Collection>\n</VTKFile>\n");
+}
+
+void remove_particle_frames(const std::filesystem::path& folder, const std::string& name) {
+  namespace fs = std::filesystem;
+  const std::regex ours(name + R"((_.*)?_[0-9]{6,}\.vtp|)" + name + R"(\.pvd)");
+  std::error_code error, ignored;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (std::regex_match(entry->path().filename().string(), ours)) found.push_back(entry->path());
+  for (const fs::path& file : found) fs::remove(file, ignored);
+  if (fs::is_directory(folder, ignored) && fs::is_empty(folder, ignored))
+    fs::remove(folder, ignored);
 }
 
 }  // namespace sturz

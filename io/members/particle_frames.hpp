@@ -36,4 +36,9 @@ class ParticleFrameWriter {
   std::vector<Entry> entries_;
 };
 
+/// Removes the frames and the index that a writer of that name has left, and the folder when
+/// nothing else lies in it.
+void remove_particle_frames(const std::filesystem::path& folder,
+                            const std::string& name = "particles");
+
 }  // namespace sturz

@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/seal.hpp"
 
 #include <fmt/core.h>
 #include <hdf5.h>
@@ -134,7 +135,12 @@ void NetcdfWriter::commit() {
   const std::unique_ptr<void, decltype(&std::free)> memory(image.memory, &std::free);
   lock_.unlock();  // the disk may take its time; other threads may build their files meanwhile
   check(status, "closing the file");
-  write_bytes_atomic(target_, {static_cast<const std::byte*>(memory.get()), image.size});
+  const std::span content(static_cast<const std::byte*>(memory.get()), image.size);
+  const std::string seal = seal_of(content);
+  AtomicFile file(target_);
+  file.write(content);
+  file.write(std::as_bytes(std::span(seal)));
+  file.commit();
 }
 
 }  // namespace sturz

@@ -51,7 +51,8 @@ class NetcdfWriter {
   void put(int variable, std::span<const float> values);
   void put(int variable, std::span<const std::int32_t> values);
 
-  /// Closes the file in memory and writes it in one stroke. \throws IoError
+  /// Closes the file in memory and writes it, sealed (io/files/seal.hpp), in one stroke.
+  /// \throws IoError
   void commit();
 
  private:

@@ -89,6 +89,43 @@ std::string coordinate_ticks(const Frame& frame) {
   return out + "</g>" + labels + "</g>";
 }
 
+std::string north_arrow(const Frame& frame) {
+  const double x = frame.left + map_width - 22, y = frame.top + 10;
+  return fmt::format(
+      "<path d=\"M{0:.1f} {1:.1f}l7 22l-7 -5l-7 5Z\" fill=\"#111\" stroke=\"#fff\" "
+      "stroke-width=\"1.2\"/><text x=\"{0:.1f}\" y=\"{2:.1f}\" font-size=\"12\" "
+      "font-weight=\"700\" fill=\"#111\" text-anchor=\"middle\">N</text>",
+      x, y, y + 34);
+}
+
+std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks& marks) {
+  std::string outline, cells;
+  for (const MapLine& l : marks.release)
+    outline += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", frame.x(l.x0), frame.y(l.y0),
+                           frame.x(l.x1), frame.y(l.y1));
+  const Grid& g = scene.cells;
+  const double side = g.cell_m * frame.scale();
+  for (std::size_t i = 0; i < marks.left.size(); ++i) {
+    if (!(marks.left[i] > 0)) continue;
+    const auto row = static_cast<double>(i / g.n_cols), col = static_cast<double>(i % g.n_cols);
+    cells +=
+        fmt::format("M{0:.1f} {1:.1f}h{2:.2f}v{2:.2f}h-{2:.2f}Z",
+                    frame.x(g.west_m + col * g.cell_m), frame.y(g.north_m - row * g.cell_m), side);
+  }
+  std::string svg;
+  if (!cells.empty())
+    svg += fmt::format(
+        "<path d=\"{}\" fill=\"url(#hatch)\" stroke=\"#b3123f\" "
+        "stroke-width=\"1.4\"/>",
+        cells);
+  if (!outline.empty())
+    svg += fmt::format(
+        "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3.2\"/>"
+        "<path d=\"{0}\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.4\"/>",
+        outline);
+  return svg;
+}
+
 std::string hillshade_uri(const MapScene& scene) {
   const Grid& g = scene.ground.grid;
   return data_uri(grey_png(scene.shade, g.n_cols, g.n_rows));
@@ -96,7 +133,7 @@ std::string hillshade_uri(const MapScene& scene) {
 
 /// Colours, frame, ticks and scale bar; the hillshade lies below already.
 std::string overlay_svg(const Frame& frame, const MapScene& scene, const LayerStack& maps,
-                        const Layer& layer, std::size_t plane) {
+                        const Layer& layer, std::size_t plane, const MapMarks& marks) {
   const Legend legend = legend_for(layer);
   const Indexed colours = indexed_classes(scene_plane(scene, layer, plane, maps.grid), legend);
   const Grid& c = scene.cells;
@@ -110,35 +147,58 @@ std::string overlay_svg(const Frame& frame, const MapScene& scene, const LayerSt
       "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" "
       "stroke=\"#1b2228\" stroke-opacity=\"0.35\"/>",
       frame.left, frame.top, map_width, frame.height());
-  return svg + coordinate_ticks(frame) + scale_bar(frame);
+  return svg + marks_svg(frame, scene, marks) + coordinate_ticks(frame) + scale_bar(frame) +
+         north_arrow(frame);
 }
 
 }  // namespace
+
+MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
+                   const Raster<std::uint8_t>* release) {
+  MapMarks marks;
+  if (release != nullptr) marks.release = cell_outline(*release);
+  for (const Layer* layer : shown_layers(maps))
+    if (layer->meaning.quantity == Quantity::left)
+      marks.left = scene_plane(scene, *layer, 0, maps.grid);
+  return marks;
+}
+
+std::string marks_legend_html(const MapMarks& marks) {
+  const bool left =
+      std::any_of(marks.left.begin(), marks.left.end(), [](float v) { return v > 0; });
+  if (marks.release.empty() && !left) return {};
+  std::string html = "<ul class=\"legend marks\">";
+  if (!marks.release.empty()) html += "<li><span class=\"swatch release\"></span>release</li>";
+  if (left) html += "<li><span class=\"swatch left\"></span>mass left the terrain here</li>";
+  return html + "</ul>";
+}
 
 std::string hillshade_defs(const MapScene& scene) {
   const Frame frame{scene.ground.grid};
   return fmt::format(
       "<svg class=\"defs\" width=\"0\" height=\"0\" aria-hidden=\"true\"><defs>"
       "<image id=\"hillshade\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
-      "href=\"{}\"/></defs></svg>",
+      "href=\"{}\"/><pattern id=\"hatch\" width=\"5\" height=\"5\" "
+      "patternUnits=\"userSpaceOnUse\"><rect width=\"5\" height=\"5\" fill=\"#fff\" "
+      "fill-opacity=\"0.75\"/><path d=\"M0 5L5 0M-1 1L1 -1M4 6L6 4\" stroke=\"#b3123f\" "
+      "stroke-width=\"1.2\"/></pattern></defs></svg>",
       map_width, frame.height(), hillshade_uri(scene));
 }
 
 std::string map_figure_svg(const MapScene& scene, const LayerStack& maps, const Layer& layer,
-                           std::size_t plane) {
+                           std::size_t plane, const MapMarks& marks) {
   const Frame frame{scene.ground.grid, 18, 0};
   return fmt::format(
              "<svg class=\"map-figure\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" "
              "aria-label=\"{}\" {}><use href=\"#hillshade\" x=\"{}\" y=\"{}\"/>",
              frame.left + map_width + 1, frame.height() + 18,
              html_escape(plane_title(layer, plane)), font, frame.left, frame.top) +
-         overlay_svg(frame, scene, maps, layer, plane) + "</svg>";
+         overlay_svg(frame, scene, maps, layer, plane, marks) + "</svg>";
 }
 
 std::string legend_html(const Legend& legend) {
-  std::string html = "<ul class=\"legend\">";
-  if (!legend.unit.label.empty())
-    html += "<li class=\"unit\">" + html_escape(legend.unit.label) + "</li>";
+  std::string html =
+      "<p class=\"legend-title\">" + html_escape(legend.title) + "</p><ul class=\"legend\">";
   for (const auto& c : legend.classes)
     html += fmt::format(
         "<li><svg width=\"22\" height=\"14\" aria-hidden=\"true\"><rect width=\"22\" height=\"14\" "

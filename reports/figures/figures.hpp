@@ -2,6 +2,7 @@
 /// Still pictures of one map over hillshade, for pages without script, for print, for other texts.
 #pragma once
 
+#include "reports/figures/cell_outline.hpp"
 #include "reports/figures/legend.hpp"
 #include "reports/figures/map_scene.hpp"
 
@@ -11,14 +12,24 @@
 
 namespace sturz {
 
-/// Hidden SVG that holds the hillshade picture once, under the id `hillshade`; every figure of a
-/// page refers to it.
+/// What is drawn over every map.
+struct MapMarks {
+  std::vector<MapLine> release;  ///< outline of the cells covered at the start
+  std::vector<float> left;       ///< [scene.cells], > 0 where mass left the terrain; may be empty
+};
+MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
+                   const Raster<std::uint8_t>* release);
+
+/// Hidden SVG that holds the hillshade picture once, under the id `hillshade`, and the pattern
+/// `hatch`; every figure of a page refers to them.
 std::string hillshade_defs(const MapScene& scene);
 
 /// Figure for a page that already holds hillshade_defs(): hillshade, colours, frame, coordinates,
-/// scale bar. The legend is the page's (see legend_html).
+/// scale bar, north arrow, marks. The legend is the page's (see legend_html).
 std::string map_figure_svg(const MapScene& scene, const LayerStack& maps, const Layer& layer,
-                           std::size_t plane);
+                           std::size_t plane, const MapMarks& marks);
+/// What the marks mean, as a list for HTML; empty text where there are none.
+std::string marks_legend_html(const MapMarks& marks);
 /// Legend as a list of coloured swatches for HTML, ordered from low to high.
 std::string legend_html(const Legend& legend);
 

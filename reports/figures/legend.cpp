@@ -74,6 +74,13 @@ Ramp ramp_of(const LayerMeaning& meaning) {
   }
 }
 
+std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
+  if (layer.meaning.statistic == Statistic::probability) return "Share of the valid simulations";
+  const bool named = layer.meaning.quantity != Quantity::other;
+  return (named ? title(layer.meaning.quantity) : words(layer.name)) +
+         (unit.label.empty() ? "" : " [" + unit.label + "]");
+}
+
 }  // namespace
 
 int Legend::class_of(float stored) const {
@@ -89,6 +96,7 @@ Legend legend_for(const Layer& layer) {
   const LayerMeaning& meaning = layer.meaning;
   Legend legend;
   legend.unit = display_unit(layer.units);
+  legend.title = legend_title(layer, legend.unit);
   legend.probability = meaning.statistic == Statistic::probability && layer.units == "1";
   legend.clear_zero = meaning.quantity != Quantity::arrival;
   double largest = 0;

@@ -20,6 +20,7 @@ struct LegendClass {
 };
 
 struct Legend {
+  std::string title;  ///< what the classes are of, with its unit: "Flow speed [m/s]"
   DisplayUnit unit;
   bool probability = false;  ///< shown in per cent
   bool clear_zero = true;    ///< cells with 0 are not painted (NaN never is)

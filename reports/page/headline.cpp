@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/headline.hpp"
 
-#include "ensemble/hazard/wilson.hpp"
-#include "reports/figures/legend.hpp"
+#include "ensemble/censoring/scalar_censoring.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,54 +21,23 @@ std::vector<std::pair<Outcome, int>> count_outcomes(const std::vector<MemberSumm
   return counts;
 }
 
-/// Area of cells with P(reached) >= 0.5, and of those whose interval lies above or touches it.
-Estimate likely_area(const LayerStack& maps, int n_valid) {
-  for (const Layer& layer : maps.layers) {
-    const LayerMeaning& m = layer.meaning;
-    if (m.quantity != Quantity::reached || m.statistic != Statistic::probability) continue;
-    const double cell_area = maps.grid.cell_m * maps.grid.cell_m;
-    Estimate area{0, 0, 0};
-    for (const float p : layer.values) {
-      if (!(p > 0)) continue;
-      const auto hits = static_cast<std::int64_t>(std::lround(p * static_cast<double>(n_valid)));
-      const ProbabilityBounds interval = wilson_interval(hits, n_valid);
-      if (p >= 0.5) area.value += cell_area;
-      if (interval.lower >= 0.5) area.lower += cell_area;
-      if (interval.upper >= 0.5) area.upper += cell_area;
-    }
-    return area;
-  }
-  return {};
+/// Area of cells with P(reached) >= 0.5, and of those whose interval lies above or touches it. From
+/// the convergence, which knows every cell: those of the page's maps may be joined ones.
+Estimate likely_area(const ReportInput& input, int n_valid) {
+  if (input.convergence.empty() || input.convergence.back().n_members != n_valid) return {};
+  const ConvergencePoint& all = input.convergence.back();
+  return {all.area_likely_m2, all.area_likely_lower_m2, all.area_likely_upper_m2};
 }
 
 }  // namespace
-
-Estimate median_estimate(std::vector<double> sample, double confidence) {
-  std::erase_if(sample, [](double v) { return !std::isfinite(v); });
-  if (sample.empty()) return {};
-  std::sort(sample.begin(), sample.end());
-  const std::size_t n = sample.size();
-  Estimate e{n % 2 == 1 ? sample[n / 2] : (sample[n / 2 - 1] + sample[n / 2]) / 2, nan_d, nan_d};
-  // Number of values below the true median is binomial (n, 1/2): drop from each side as many as
-  // still leave the wished confidence between.
-  const double tail = (1 - confidence) / 2, log_half_n = static_cast<double>(n) * std::log(0.5);
-  double below = 0, log_choose = 0;
-  std::size_t drop = 0;
-  while (drop < n / 2) {
-    below += std::exp(log_choose + log_half_n);
-    if (below > tail) break;
-    log_choose += std::log(static_cast<double>(n - drop) / static_cast<double>(drop + 1));
-    ++drop;
-  }
-  if (drop > 0) e.lower = sample[drop - 1], e.upper = sample[n - drop];
-  return e;
-}
 
 Headline headline(const ReportInput& input) {
   Headline h;
   h.n_members = static_cast<int>(input.members.size());
   h.outcomes = count_outcomes(input.members);
-  std::vector<double> runouts, areas;
+  h.censoring = censoring_report(input.members, input.max_censored_fraction);
+  h.censoring.where = input.where_mass_left;
+  h.n_valid = static_cast<int>(h.censoring.valid);
   const auto keep_larger = [](double& a, double b) {
     const bool larger = !(a >= b);
     if (larger) a = b;
@@ -77,18 +45,22 @@ Headline headline(const ReportInput& input) {
   };
   for (const MemberSummary& m : input.members) {
     h.member_seconds += m.scalars.wall_s;
+    h.cpu_seconds += m.scalars.cpu_s;
     if (!is_valid(m.outcome)) continue;
-    ++h.n_valid;
-    runouts.push_back(m.scalars.runout_m);
-    areas.push_back(m.scalars.reached_area_m2);
     if (keep_larger(h.max_energy_j_m2, m.scalars.max_energy_j_m2)) h.max_energy_member = m.member;
     keep_larger(h.max_speed_m_s, m.scalars.max_speed_m_s);
     keep_larger(h.max_thickness_m, m.scalars.max_thickness_m);
   }
-  h.runout_m = median_estimate(runouts);
-  h.reached_area_m2 = median_estimate(areas).value;
-  if (input.hazard != nullptr && h.n_valid > 0)
-    h.likely_area_m2 = likely_area(*input.hazard, h.n_valid);
+  const auto median = [&](double MemberScalars::*field) {
+    return censored_quantile(observations(input.members, field), 0.5, interval_confidence);
+  };
+  h.runout_m = median(&MemberScalars::runout_m);
+  h.reached_area_m2 = median(&MemberScalars::reached_area_m2);
+  h.crown_to_toe_length_m = median(&MemberScalars::crown_to_toe_length_m);
+  h.crown_to_toe_drop_m = median(&MemberScalars::crown_to_toe_drop_m);
+  h.crown_to_toe_ratio = median(&MemberScalars::crown_to_toe_ratio);
+  h.com_travel_m = median(&MemberScalars::com_travel_m);
+  if (input.hazard != nullptr && h.n_valid > 0) h.likely_area_m2 = likely_area(input, h.n_valid);
   if (input.elapsed_s > 0) h.members_per_hour = 3600.0 * h.n_members / input.elapsed_s;
   return h;
 }

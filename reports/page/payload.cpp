@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/payload.hpp"
 
+#include "ensemble/censoring/rank_agreement.hpp"
+#include "ensemble/censoring/scalar_censoring.hpp"
+#include "reports/figures/cell_outline.hpp"
 #include "reports/figures/codec.hpp"
 #include "reports/figures/legend.hpp"
 #include "reports/figures/motion_charts.hpp"
@@ -11,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace sturz {
 namespace {
@@ -68,15 +72,32 @@ Json ground_json(const Raster<double>& ground) {
           {"data", std::move(packed.data)}};
 }
 
+/// [[x0, y0, x1, y1], ...] around the cells that the release covers.
+Json release_json(const Raster<std::uint8_t>* release) {
+  Json lines = Json::array();
+  if (release != nullptr)
+    for (const MapLine& l : cell_outline(*release)) lines.push_back({l.x0, l.y0, l.x1, l.y1});
+  return lines;
+}
+
 Json legend_json(const Legend& legend) {
   Json classes = Json::array();
   for (const auto& c : legend.classes)
     classes.push_back({{"lower", c.lower}, {"label", c.label}, {"colour", hex_text(c.colour)}});
-  return {{"unit", legend.unit.label},
+  return {{"title", legend.title},
+          {"unit", legend.unit.label},
           {"unitFactor", legend.unit.factor},
           {"probability", legend.probability},
           {"clearZero", legend.clear_zero},
           {"classes", classes}};
+}
+
+/// Files say "members / valid members"; readers of the page get the number.
+std::string shown_comment(const Layer& layer, int n_valid) {
+  constexpr std::string_view counted = "members / valid members";
+  if (!layer.comment.starts_with(counted)) return layer.comment;
+  return "share of the " + std::to_string(n_valid) + " valid simulations" +
+         layer.comment.substr(counted.size());
 }
 
 Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& layer,
@@ -100,7 +121,7 @@ Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& laye
           {"quantityTitle", title(meaning.quantity)},
           {"statistic", to_string(meaning.statistic)},
           {"longName", layer.long_name},
-          {"comment", layer.comment},
+          {"comment", shown_comment(layer, n_valid)},
           {"axisUnit", display_unit(layer.axis.units).label},
           {"legend", legend_json(legend_for(layer))},
           {"planes", std::move(planes)}};
@@ -115,11 +136,32 @@ Json maps_json(const ReportInput& input, const MapScene& scene, const LayerStack
     if (layer == first) start = static_cast<int>(layers.size());
     layers.push_back(layer_json(scene, maps, *layer, input, n_valid));
   }
-  return {{"cells", grid_json(scene.cells)},
-          {"ground", ground_json(scene.ground)},
-          {"view", grid_json(scene.ground.grid)},
-          {"start", start},
-          {"layers", std::move(layers)}};
+  return {{"cells", grid_json(scene.cells)},        {"ground", ground_json(scene.ground)},
+          {"view", grid_json(scene.ground.grid)},   {"start", start},
+          {"release", release_json(input.release)}, {"layers", std::move(layers)}};
+}
+
+/// Whether the runout grows with sampled key `k`, over the shown members.
+Json agreement_json(const ReportInput& input, const std::vector<std::size_t>& rows, std::size_t k) {
+  std::vector<double> parameter;
+  std::vector<Observation> runout;
+  for (const std::size_t i : rows) {
+    const MemberSummary& m = input.members[i];
+    if (!is_valid(m.outcome)) continue;
+    parameter.push_back(input.samples.rows[i][k]);
+    runout.push_back({m.scalars.runout_m, known(&MemberScalars::runout_m, m.censoring)});
+  }
+  const RankAgreement found = rank_agreement(parameter, runout);
+  return {{"tau", rounded(found.tau)}, {"ordered", found.ordered}, {"pairs", found.pairs}};
+}
+
+/// An end that is not known becomes null, like one that cannot be told.
+Json median_json(const CensoredEstimate& e) {
+  return {{"median", rounded(e.value)},
+          {"atLeast", e.at_least},
+          {"lower", rounded(e.lower)},
+          {"upper", rounded(e.upper)},
+          {"open", std::isinf(e.upper)}};
 }
 
 /// Columns of the scatter plots and the histogram: evenly thinned when there are very many.
@@ -127,6 +169,7 @@ Json members_json(const ReportInput& input) {
   const std::size_t n = input.members.size();
   const std::size_t stride = (n + max_scatter_members - 1) / max_scatter_members;
   Json numbers = Json::array(), outcomes = Json::array(), valid = Json::array();
+  Json cut = Json::array();  // the runout is known to be at least what it is
   Json scalars = Json::object(), samples = Json::array();
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < n; i += std::max<std::size_t>(1, stride)) rows.push_back(i);
@@ -134,6 +177,7 @@ Json members_json(const ReportInput& input) {
     numbers.push_back(input.members[i].member);
     outcomes.push_back(to_string(input.members[i].outcome));
     valid.push_back(is_valid(input.members[i].outcome));
+    cut.push_back(known(&MemberScalars::runout_m, input.members[i].censoring) != Known::exactly);
   }
   const auto column = [&](double MemberScalars::*field) {
     Json values = Json::array();
@@ -154,10 +198,11 @@ Json members_json(const ReportInput& input) {
                          {"label", key_label(input.samples, k)},
                          {"unit", unit},
                          {"factor", factor},
+                         {"agreement", agreement_json(input, rows, k)},
                          {"values", std::move(values)}});
     }
-  return {{"total", n},     {"member", numbers},  {"outcome", outcomes},
-          {"valid", valid}, {"scalars", scalars}, {"samples", samples}};
+  return {{"total", n}, {"member", numbers},  {"outcome", outcomes}, {"valid", valid},
+          {"cut", cut}, {"scalars", scalars}, {"samples", samples}};
 }
 
 /// What the convergence chart can follow, each with the number of members.
@@ -249,10 +294,7 @@ std::string report_payload(const ReportInput& input, const MapScene* scene,
   Json page{{"z", 1.959964},  // of ensemble/hazard/wilson.hpp
             {"valid", h.n_valid},
             {"single", input.hazard == nullptr},
-            {"runout",
-             {{"median", rounded(h.runout_m.value)},
-              {"lower", rounded(h.runout_m.lower)},
-              {"upper", rounded(h.runout_m.upper)}}}};
+            {"runout", median_json(h.runout_m)}};
   page["members"] = members_json(input);
   if (input.history != nullptr) page["motion"] = motion_json(*input.history);
   page["convergence"] = convergence_json(input.convergence);

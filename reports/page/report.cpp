@@ -77,10 +77,11 @@ std::string make_report(const ReportInput& input) {
   if (maps != nullptr && maps->grid.n_cells() > 0) scene = make_map_scene(*maps, input.elevation);
   const MapScene* shown = scene ? &*scene : nullptr;
 
-  const std::string body =
-      warnings_html(input, h) + headline_html(input, h) + map_html(input, shown, maps) +
-      motion_html(input) + charts_html(input, h) + members_html(input, h) +
-      computation_html(input, h) + provenance_html(input) + reading_html(input);
+  const std::string body = banner_html(input, h) + warnings_html(input, h) +
+                           headline_html(input, h) + map_html(input, shown, maps) +
+                           motion_html(input) + charts_html(input, h) + members_html(input, h) +
+                           computation_html(input, h) + provenance_html(input) +
+                           reading_html(input);
   std::string page = head_html(input) + "<body>\n<main>\n" + header_html(input, h) +
                      navigation_html(body) + body + "\n</main>\n";
   if (report_has_script())

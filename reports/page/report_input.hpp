@@ -7,6 +7,7 @@
 #include "ensemble/hazard/convergence.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,9 @@ struct ReportInput {
   NamedSeconds timings;                       ///< by effect, all members together [s]
   NamedSeconds pass_timings;                  ///< by pass of a step, shown folded; may be empty [s]
   double elapsed_s = 0;                       ///< wall time of the whole run; 0 = unknown
+  double max_censored_fraction = 0;  ///< of members; above it the page begins with a banner
+  std::string where_mass_left;       ///< in words, may be empty
+  const Raster<std::uint8_t>* release = nullptr;  ///< 1: covered at the start; may be null
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

@@ -29,11 +29,12 @@ std::size_t typical_plane(const Layer& layer, double resolved_thickness_m) {
 }
 
 std::string still_figure(const MapScene& scene, const LayerStack& maps, const Layer& layer,
-                         double resolved_thickness_m) {
+                         double resolved_thickness_m, const MapMarks& marks) {
   const std::size_t plane = typical_plane(layer, resolved_thickness_m);
   return fmt::format("<figure><figcaption>{}</figcaption>{}{}</figure>",
                      html_escape(plane_title(layer, plane)),
-                     map_figure_svg(scene, maps, layer, plane), legend_html(legend_for(layer)));
+                     map_figure_svg(scene, maps, layer, plane, marks),
+                     legend_html(legend_for(layer)) + marks_legend_html(marks));
 }
 
 /// One picture each of what readers ask for most, as far as the stack has it; the first layer to
@@ -63,16 +64,30 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
 
 std::string still_figures(const ReportInput& input, const MapScene& scene, const LayerStack& maps) {
   std::string html = "<div id=\"still-maps\" class=\"stills\">";
+  const MapMarks marks = map_marks(scene, maps, input.release);
   for (const Layer* layer : still_layers(maps))
-    html += still_figure(scene, maps, *layer, input.resolved_thickness_m);
+    html += still_figure(scene, maps, *layer, input.resolved_thickness_m, marks);
   return html + "</div>";
 }
 
-/// Name of the coordinate system: the first quoted text of its WKT.
+/// " (EPSG:32633)" where the whole system, not only a part of it, has a code: the last thing in
+/// its WKT.
+std::string epsg_text(const std::string& wkt) {
+  const std::size_t at = wkt.rfind("\"EPSG\",");
+  if (at == std::string::npos) return {};
+  const std::size_t from = wkt.find_first_of("0123456789", at);
+  const std::size_t to = wkt.find_first_not_of("0123456789", from);
+  if (from == std::string::npos || to == std::string::npos) return {};
+  std::size_t closed = 0;
+  for (std::size_t i = to; i < wkt.size(); ++i) closed += wkt[i] == ']';
+  return closed == 2 ? " (EPSG:" + wkt.substr(from, to - from) + ")" : "";
+}
+
+/// Name of the coordinate system: the first quoted text of its WKT, and its code.
 std::string crs_name(const std::string& wkt) {
   const std::size_t open = wkt.find('"');
   if (open == std::string::npos) return "local coordinates";
-  return wkt.substr(open + 1, wkt.find('"', open + 1) - open - 1);
+  return wkt.substr(open + 1, wkt.find('"', open + 1) - open - 1) + epsg_text(wkt);
 }
 
 }  // namespace
@@ -105,20 +120,28 @@ std::string map_html(const ReportInput& input, const MapScene* scene, const Laye
 std::string charts_html(const ReportInput& input, const Headline& h) {
   if (h.n_valid < 2 || !report_has_script()) return {};
   std::string html =
-      "<section id=\"spread\" class=\"needs-script\" hidden><h2>Spread of the members</h2>"
+      "<section id=\"spread\" class=\"needs-script\" hidden><h2>Spread of the simulations</h2>"
       "<div class=\"charts\">"
-      "<figure class=\"chart\"><figcaption>How far the members ran</figcaption>"
+      "<figure class=\"chart\"><figcaption>How far the simulations ran<small id=\"read-runout\">"
+      "</small></figcaption>"
       "<div id=\"chart-runout\"></div></figure>";
   if (input.convergence.size() > 1)
     html +=
-        "<figure class=\"chart\"><figcaption>Has the ensemble settled? "
+        "<figure class=\"chart\"><figcaption>Would more simulations change the map? "
         "<select id=\"pick-convergence\" aria-label=\"Number to follow\"></select></figcaption>"
         "<div id=\"chart-convergence\"></div></figure>";
   html += "</div>";
   if (!input.samples.rows.empty())
     html +=
-        "<h3>What drives the runout</h3><p class=\"note\">One dot per member; \u03C1 is the rank "
-        "correlation with runout (Spearman). Crosses are members that failed.</p>"
+        "<h3>What drives the runout</h3><p class=\"note\">One dot per simulation. \u03C4 is the "
+        "rank "
+        "correlation with runout (Kendall): of the pairs of simulations whose order is known, the "
+        "share that runs farther with the larger value, less the share that runs less far. " +
+        std::string(h.censoring.censored() > 0
+                        ? "Rings with an arrow are cut off: they ran at least so far, and pairs of "
+                          "them, or with one that came to rest farther, are not counted. "
+                        : "") +
+        "Crosses are simulations that failed.</p>"
         "<div id=\"chart-scatter\" class=\"charts scatter\"></div>";
   return html + "</section>";
 }

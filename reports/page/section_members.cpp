@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/core/error.hpp"
+#include "ensemble/censoring/scalar_censoring.hpp"
 #include "reports/page/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <vector>
@@ -23,6 +25,9 @@ struct ScalarColumn {
 };
 constexpr ScalarColumn scalar_columns[] = {
     {"runout", "m", &MemberScalars::runout_m},
+    {"crown to toe, L", "m", &MemberScalars::crown_to_toe_length_m},
+    {"H/L", "1", &MemberScalars::crown_to_toe_ratio},
+    {"centre-of-mass travel", "m", &MemberScalars::com_travel_m},
     {"area", "m2", &MemberScalars::reached_area_m2},
     {"max speed", "m s-1", &MemberScalars::max_speed_m_s},
     {"max thickness", "m", &MemberScalars::max_thickness_m},
@@ -35,6 +40,7 @@ constexpr ScalarColumn scalar_columns[] = {
     {"simulated", "s", &MemberScalars::end_time_s},
     {"steps", "1", &MemberScalars::n_steps},
     {"computed in", "s", &MemberScalars::wall_s},
+    {"CPU", "s", &MemberScalars::cpu_s},
 };
 
 std::string header_cell(const std::string& label, const std::string& unit,
@@ -46,6 +52,16 @@ std::string header_cell(const std::string& label, const std::string& unit,
 
 std::string number_cell(double value) {
   return fmt::format("<td class=\"n\" data-v=\"{:.9g}\">{}</td>", value, shown_number(value));
+}
+
+/// A scalar of a member as far as it is known.
+std::string scalar_cell(double value, Known known) {
+  if (known == Known::exactly || std::isnan(value)) return number_cell(value);
+  const bool least = known == Known::at_least;
+  return fmt::format(
+      "<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value,
+      least ? "at least: the member is cut off" : "of what was seen: the member is cut off",
+      least ? "\u2265\u00A0" : "(", shown_number(value), least ? "" : ")");
 }
 
 std::string unit_of(const ReportTable& table, std::size_t k) {
@@ -78,7 +94,8 @@ std::string full_name(const ScalarColumn& c) {
 std::string table_head(const ReportTable& samples, bool with_samples,
                        const std::vector<ScalarColumn>& columns) {
   std::string head = header_cell("member", "", "Number of the member") +
-                     header_cell("outcome", "", "How the member ended");
+                     header_cell("outcome", "", "How the member ended") +
+                     header_cell("cut off", "", "Why its end is not known, where it is not");
   for (std::size_t k = 0; with_samples && k < samples.columns.size(); ++k)
     head += header_cell(key_label(samples, k), display_unit(unit_of(samples, k)).label,
                         samples.columns[k]);
@@ -86,19 +103,25 @@ std::string table_head(const ReportTable& samples, bool with_samples,
   return head;
 }
 
+std::string row_class(const MemberSummary& m) {
+  if (!is_valid(m.outcome)) return " class=\"lost\"";
+  return is_censored(m.censoring) ? " class=\"cut\"" : "";
+}
+
 std::string table_row(const ReportInput& input, std::size_t i,
                       const std::vector<ScalarColumn>& columns) {
   const MemberSummary& m = input.members[i];
-  std::string row =
-      fmt::format("<tr{}><td class=\"n\" data-v=\"{}\">{}</td><td title=\"{}\">{}</td>",
-                  is_valid(m.outcome) ? "" : " class=\"lost\"", m.member, m.member,
-                  html_escape(m.reason), words(to_string(m.outcome)));
+  std::string row = fmt::format(
+      "<tr{}><td class=\"n\" data-v=\"{}\">{}</td><td title=\"{}\">{}</td><td>{}</td>",
+      row_class(m), m.member, m.member, html_escape(m.reason), words(to_string(m.outcome)),
+      is_censored(m.censoring) ? words(to_string(m.censoring)) : "");
   if (!input.samples.rows.empty())
     for (std::size_t k = 0; k < input.samples.columns.size(); ++k)
       row += number_cell(display_unit(unit_of(input.samples, k)).factor * input.samples.rows[i][k]);
   const bool has_scalars = m.outcome != Outcome::failed && m.outcome != Outcome::cancelled;
   for (const auto& c : columns)
-    row += number_cell(has_scalars ? factor_of(c) * m.scalars.*c.field : nan_d);
+    row += scalar_cell(has_scalars ? factor_of(c) * m.scalars.*c.field : nan_d,
+                       known(c.field, m.censoring));
   return row + "</tr>";
 }
 
@@ -159,7 +182,14 @@ std::string members_html(const ReportInput& input, const Headline& h) {
         "<p class=\"note\">{} of {} members are shown, all that failed among them "
         "where they fit; the rest is in members.csv.</p>",
         max_rows, n);
-  return html + "<div class=\"table-box\" tabindex=\"0\"><table id=\"member-table\"><thead><tr>" +
+  if (n > 1)
+    html +=
+        "<p class=\"print-only\">The table of all members is in members.csv, and in this page "
+        "on a screen.</p>";
+  return html +
+         (n > 1 ? "<div class=\"table-box\" tabindex=\"0\">"
+                : "<div class=\"table-box short\" tabindex=\"0\">") +
+         "<table id=\"member-table\"><thead><tr>" +
          table_head(input.samples, !input.samples.rows.empty(), columns) + "</tr></thead><tbody>" +
          rows + "</tbody></table></div></section>";
 }

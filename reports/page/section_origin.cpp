@@ -84,16 +84,30 @@ std::string reading_html(const ReportInput& input) {
   std::vector<std::string> lines;
   if (input.hazard != nullptr) {
     lines = {
-        "Probability is the share of valid members: it answers \u201Cgiven the ranges in the "
+        "Probability is the share of the valid simulations (members): it answers \u201Cgiven the "
+        "ranges in the "
         "scenario file\u201D, not \u201Chow often does such a slide occur\u201D. It says nothing "
         "about the chance that the slope fails.",
         "Intervals at " + level +
-            " are Wilson's, for members drawn independently: they tell how much the map could "
-            "change with other members of the same ensemble. Latin hypercube and Sobol\u2019 "
+            " of probabilities are Wilson's, for members drawn independently: they tell how much "
+            "the "
+            "map could change with other members of the same ensemble. Latin hypercube and "
+            "Sobol\u2019 "
             "designs usually do better than that. Errors of the model, the terrain and the "
             "ranges themselves are not in them.",
-        "The interval of the median runout needs no distribution (order statistics); it is left "
-        "out where there are too few members.",
+        "Intervals of medians need no distribution (order statistics); they are left out where "
+        "there are too few members.",
+        "A member is cut off when mass left the known terrain, or still moved at the end. It "
+        "counts "
+        "in every probability with what it reached, which makes that a lower bound. Its runout, "
+        "area and peaks are lower bounds, too: medians with such members are Kaplan and Meier's "
+        "estimate, or \u201C\u2265\u201D where half of the members or more are cut off, and their "
+        "intervals hold wherever those members would have ended. What lies at rest is not known "
+        "while mass moves: medians of lengths and heights of the deposit leave such members out, "
+        "and their intervals let them lie anywhere.",
+        "L is the horizontal distance from the crown of the release to the farthest cell of the "
+        "deposit, H the fall between the two, H/L the tangent of the travel angle "
+        "(Fahrb\u00F6schung).",
     };
   }
   lines.emplace_back(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "reports/page/estimate_text.hpp"
 #include "reports/page/sections.hpp"
 #include "reports/page/text.hpp"
 
@@ -7,7 +8,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
+#include <initializer_list>
 #include <set>
 
 namespace sturz {
@@ -26,9 +27,12 @@ std::string card(const std::string& label, const std::string& value, const std::
       html_escape(label), html_escape(value), html_escape(detail));
 }
 
-std::string interval_text(const Estimate& e, const std::string& ends) {
-  if (std::isnan(e.lower)) return "too few members for an interval";
-  return fmt::format("{} interval {}", percent_text(interval_confidence), ends);
+/// Of a number counted from the maps: each member that is cut off may have reached any cell.
+std::string area_interval(const Estimate& e, bool cut) {
+  if (std::isnan(e.lower)) return "too few simulations for an interval";
+  return fmt::format(
+      "{} interval {}", percent_text(interval_confidence),
+      cut ? "from " + area_text(e.lower) + ", upper end not known" : area_text(e.lower, e.upper));
 }
 
 std::string sentence(std::string text) {
@@ -37,36 +41,11 @@ std::string sentence(std::string text) {
 }
 
 std::string outcome_counts(const Headline& h) {
-  std::string out;
+  std::string out = h.n_valid > 0 ? counts_text(h.censoring) : "";
   for (const auto& [outcome, n] : h.outcomes)
-    out += (out.empty() ? "" : " \u00B7 ") + std::to_string(n) + " " + words(to_string(outcome));
+    if (!is_valid(outcome))
+      out += (out.empty() ? "" : ", ") + std::to_string(n) + " " + words(to_string(outcome));
   return out;
-}
-
-/// Warnings of members differ in their numbers only: one line per sentence, with its count.
-struct MemberWarning {
-  std::string example;
-  int count = 0;
-};
-std::vector<MemberWarning> member_warnings(const std::vector<MemberSummary>& members) {
-  std::map<std::string, std::size_t> place;
-  std::vector<MemberWarning> found;
-  for (const MemberSummary& m : members) {
-    std::size_t start = 0;
-    while (start < m.warnings.size()) {
-      const std::size_t end = std::min(m.warnings.find("; ", start), m.warnings.size());
-      const std::string text = m.warnings.substr(start, end - start);
-      std::string shape = text;
-      std::erase_if(shape, [](unsigned char c) { return std::isdigit(c) || c == '.'; });
-      const auto [it, is_new] = place.try_emplace(shape, found.size());
-      if (is_new) found.push_back({text, 0});
-      ++found[it->second].count;
-      start = end + 2;
-    }
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.count > b.count; });
-  return found;
 }
 
 /// "depth averaged", or both where members differ.
@@ -118,12 +97,16 @@ std::string warnings_html(const ReportInput& input, const Headline& h) {
         fmt::format("{} of {} members failed and {} left out of every map and number "
                     "below; the table of members gives the reasons.",
                     lost, h.n_members, lost == 1 ? "is" : "are"));
+  if (h.censoring.censored() > 0 && banner_html(input, h).empty()) {
+    const std::vector<std::string> said = censoring_sentences(h.censoring);
+    lines.push_back(said[0] + " " + said[1] + " " + said[said.size() - 2]);
+  }
   lines.insert(lines.end(), input.warnings.begin(), input.warnings.end());
   for (const auto& w : member_warnings(input.members)) {
     if (std::find(lines.begin(), lines.end(), w.example) != lines.end()) continue;
     lines.push_back(h.n_members == 1
                         ? sentence(w.example)
-                        : fmt::format("{} of {} members: {}", w.count, h.n_members, w.example));
+                        : fmt::format("{} of {} simulations: {}", w.count, h.n_members, w.example));
   }
   if (lines.empty()) return {};
   std::string html =
@@ -131,6 +114,87 @@ std::string warnings_html(const ReportInput& input, const Headline& h) {
   for (const auto& line : lines) html += "<li>" + html_escape(line) + "</li>";
   return html + "</ul></section>";
 }
+
+std::string banner_html(const ReportInput& input, const Headline& h) {
+  const bool single = input.hazard == nullptr && h.n_members == 1;
+  if (h.censoring.censored() == 0 || !(single || h.censoring.too_many())) return {};
+  const std::vector<std::string> sentences = censoring_sentences(h.censoring);
+  std::string html =
+      "<section class=\"banner\" role=\"alert\"><h2>" + html_escape(sentences.front()) + "</h2><p>";
+  for (std::size_t i = 1; i < sentences.size(); ++i)
+    html.append(i > 1 ? " " : "").append(html_escape(sentences[i]));
+  return html + "</p></section>";
+}
+
+namespace {
+
+/// Facts joined by semicolons; empty ones are left out.
+std::string joined(std::initializer_list<std::string> facts) {
+  std::string text;
+  for (const std::string& fact : facts)
+    if (!fact.empty()) text += (text.empty() ? "" : "; ") + fact;
+  return text;
+}
+
+std::string metres(double value) { return with_unit(value, "m"); }
+
+/// A card of a median with its interval and what is cut off.
+std::string median_card(const std::string& label, const CensoredEstimate& e,
+                        const NumberWriter& number, bool single, const std::string& detail) {
+  return card(single ? sentence(label) : "Median " + label, value_text(e, number),
+              joined({single ? "" : interval_text(e, number), single ? "" : cut_text(e), detail}));
+}
+
+std::string area_card(const ReportInput& input, const Headline& h, bool single) {
+  const auto area = [](double value) { return area_text(value); };
+  if (single || std::isnan(h.likely_area_m2.value))
+    return median_card("area reached", h.reached_area_m2, area, single,
+                       "cells that the flow touched at any time");
+  const bool cut = h.censoring.censored() > 0;
+  return card(
+      "Area likely reached", (cut ? "\u2265\u00A0" : "") + area_text(h.likely_area_m2.value),
+      joined({"P(reached) \u2265 50 %", area_interval(h.likely_area_m2, cut),
+              cut ? fmt::format("{} of {} cut off", h.censoring.censored(), h.censoring.valid) : "",
+              "cells of " + metres(input.hazard->grid.cell_m)}));
+}
+
+std::string crown_to_toe_card(const Headline& h, bool single) {
+  const CensoredEstimate& ratio = h.crown_to_toe_ratio;
+  const auto angle = [](double tangent) {
+    return shown_number(tangent) + " (" +
+           shown_number(std::atan(tangent) * 180 / 3.14159265358979) + "\u00B0)";
+  };
+  return median_card("crown to toe, L", h.crown_to_toe_length_m, metres, single,
+                     joined({"H " + value_text(h.crown_to_toe_drop_m, metres),
+                             "H/L " + value_text(ratio, angle)}));
+}
+
+std::string energy_card(const Headline& h, bool single) {
+  return card(
+      "Largest kinetic energy",
+      (h.censoring.censored() > 0 ? "\u2265\u00A0" : "") + with_unit(h.max_energy_j_m2, "J m-2"),
+      joined({single ? "" : fmt::format("member {}", h.max_energy_member),
+              fmt::format("fastest {}, thickest {}", with_unit(h.max_speed_m_s, "m s-1"),
+                          metres(h.max_thickness_m))}));
+}
+
+std::string time_card(const ReportInput& input, const Headline& h, bool single) {
+  std::string pace;
+  if (!std::isnan(h.members_per_hour) && !single)
+    pace = shown_number(h.members_per_hour) + " simulations per hour";
+  const bool cpu = h.cpu_seconds > 0;
+  return card(
+      cpu ? "CPU time" : "Computing time", duration_text(cpu ? h.cpu_seconds : h.member_seconds),
+      joined({single ? "of this run" : "summed over simulations",
+              input.elapsed_s > 0 ? duration_text(input.elapsed_s) + " elapsed" : "", pace}));
+}
+
+double cell_of(const ReportInput& input) {
+  const LayerStack* maps = input.hazard != nullptr ? input.hazard : input.peaks;
+  return maps != nullptr ? maps->grid.cell_m : nan_d;
+}
+
+}  // namespace
 
 std::string headline_html(const ReportInput& input, const Headline& h) {
   if (h.n_members == 0) return {};
@@ -142,34 +206,19 @@ std::string headline_html(const ReportInput& input, const Headline& h) {
                      ? "simulated " + duration_text(input.members.front().scalars.end_time_s)
                      : input.members.front().reason);
   else
-    html +=
-        card("Valid members", fmt::format("{} of {}", h.n_valid, h.n_members), outcome_counts(h));
+    html += card("Valid simulations", fmt::format("{} of {}", h.n_valid, h.n_members),
+                 outcome_counts(h));
   if (h.n_valid > 0) {
-    if (!std::isnan(h.likely_area_m2.value))
-      html += card("Area likely reached", area_text(h.likely_area_m2.value),
-                   fmt::format("P(reached) \u2265 50 %; {}",
-                               interval_text(h.likely_area_m2, area_text(h.likely_area_m2.lower,
-                                                                         h.likely_area_m2.upper))));
-    else
-      html += card(single ? "Area reached" : "Median area reached", area_text(h.reached_area_m2),
-                   "cells that the flow touched at any time");
-    html += card(single ? "Runout" : "Median runout", with_unit(h.runout_m.value, "m"),
-                 single ? std::string("release's centre of mass to the farthest cell reached")
-                        : interval_text(h.runout_m, shown_number(h.runout_m.lower) + " \u2013 " +
-                                                        with_unit(h.runout_m.upper, "m")));
-    html += card("Largest kinetic energy", with_unit(h.max_energy_j_m2, "J m-2"),
-                 (single ? std::string() : fmt::format("member {}; ", h.max_energy_member)) +
-                     fmt::format("fastest {}, thickest {}", with_unit(h.max_speed_m_s, "m s-1"),
-                                 with_unit(h.max_thickness_m, "m")));
+    html += area_card(input, h, single);
+    html +=
+        median_card("runout", h.runout_m, metres, single,
+                    std::string(single ? "release's centre of mass to the farthest cell; " : "") +
+                        "read to a cell of " + metres(cell_of(input)));
+    html += crown_to_toe_card(h, single);
+    html += median_card("centre-of-mass travel", h.com_travel_m, metres, single, "");
+    html += energy_card(h, single);
   }
-  std::string pace;
-  if (!std::isnan(h.members_per_hour) && !single)
-    pace = shown_number(h.members_per_hour) + " members per hour";
-  if (input.elapsed_s > 0)
-    pace += (pace.empty() ? "" : "; ") + duration_text(input.elapsed_s) + " elapsed";
-  html += card("Computing time", duration_text(h.member_seconds),
-               pace.empty() ? (single ? "of this run" : "summed over members") : pace);
-  return html + "</dl></section>";
+  return html + time_card(input, h, single) + "</dl></section>";
 }
 
 }  // namespace sturz

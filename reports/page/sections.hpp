@@ -12,6 +12,8 @@ namespace sturz {
 
 /// Title, one line of origin, links to the parts below.
 std::string header_html(const ReportInput& input, const Headline& h);
+/// What is cut off, where more members are than the scenario accepts; else empty text.
+std::string banner_html(const ReportInput& input, const Headline& h);
 /// Warnings of the run and of its members; empty text when there are none.
 std::string warnings_html(const ReportInput& input, const Headline& h);
 std::string headline_html(const ReportInput& input, const Headline& h);

@@ -88,6 +88,11 @@ void add_ensemble(std::vector<KeyInfo>& keys) {
   keys.push_back(key(ensemble, &EnsembleSpec::max_failed_fraction,
                      {"ensemble.max_failed_fraction", number, "1", 0, 1,
                       "Share of failed members above which the ensemble counts as failed."}));
+  keys.push_back(
+      key(ensemble, &EnsembleSpec::max_censored_fraction,
+          {"ensemble.max_censored_fraction", number, "1", 0, 1,
+           "Share of members whose mass left the terrain or still moved at the end above "
+           "which every result says so first."}));
 }
 
 void add_hazard(std::vector<KeyInfo>& keys) {

@@ -36,7 +36,7 @@ TEST(Convergence, MatchesBruteForce) {
   const std::vector<ConvergencePoint> points = probability_convergence(source);
   ASSERT_EQ(points.size(), valid.size());
   for (std::size_t n = 1; n <= valid.size(); ++n) {
-    double cells = 0, sum = 0, width = 0, likely = 0, possible = 0;
+    double cells = 0, sum = 0, width = 0, likely = 0, possible = 0, sure = 0, perhaps = 0;
     for (int row = 0; row < grid.n_rows; ++row)
       for (int col = 0; col < grid.n_cols; ++col) {
         if (hits(valid.size(), row, col) == 0) continue;
@@ -47,6 +47,8 @@ TEST(Convergence, MatchesBruteForce) {
         sum += p;
         width += (bounds.upper - bounds.lower) / 2;
         likely += p >= 0.5;
+        sure += bounds.lower >= 0.5;
+        perhaps += k > 0 && bounds.upper >= 0.5;
         possible += p >= 0.05;
       }
     const ConvergencePoint& point = points[n - 1];
@@ -54,6 +56,8 @@ TEST(Convergence, MatchesBruteForce) {
     EXPECT_NEAR(point.mean_probability_reached, sum / cells, 1e-12);
     EXPECT_NEAR(point.mean_half_width, width / cells, 1e-12);
     EXPECT_EQ(point.area_likely_m2, likely * 25);
+    EXPECT_EQ(point.area_likely_lower_m2, sure * 25);
+    EXPECT_EQ(point.area_likely_upper_m2, perhaps * 25);
     EXPECT_EQ(point.area_possible_m2, possible * 25);
   }
 }

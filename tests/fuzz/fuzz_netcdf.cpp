@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A member's file, or a file of maps, whose dimensions, attributes and variables were changed as
 // the bytes say: a result, IoError or SetupError. The file itself is always sound: HDF5 and netCDF
-// are known to crash on broken bytes (checksums have to stand before them), and would hide what
+// are known to crash on broken bytes (the seal stands before them), and would hide what
 // this program makes of sound files with senseless contents.
 #include "engine/core/error.hpp"
 #include "io/files/io_error.hpp"
+#include "io/files/seal.hpp"
 #include "io/members/member_file.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace {
 
@@ -156,7 +158,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t which = bytes.ConsumeIntegralInRange<std::size_t>(0, originals.size() - 1);
   Document document = originals[which];
   for (int n = 0; n < 12 && bytes.remaining_bytes() > 0; ++n) change(bytes, document);
-  const std::vector<unsigned char> image = sturz::test::bytes_of(document);
+  std::vector<unsigned char> image = sturz::test::bytes_of(document);
+  const std::string seal = sturz::seal_of(std::as_bytes(std::span(image)));
+  image.insert(image.end(), seal.begin(), seal.end());
   const sturz::fuzz::MemoryFile file(image.data(), image.size());
   if (which < 2)
     run([&] { check(sturz::read_member(file.path())); });

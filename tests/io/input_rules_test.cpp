@@ -225,6 +225,8 @@ TEST_F(Trust, VirtualRastersAreLookedThrough) {
 }
 
 TEST_F(Trust, TheLibraryItselfHasNoNetwork) {
+  scene.terrain.raster = "none.tif";
+  EXPECT_THAT(refusal(), HasSubstr("none.tif"));  // the first reader closes it
   EXPECT_EQ(VSIFOpenL("/vsicurl/http://127.0.0.1:9/bed.tif", "rb"), nullptr);
   EXPECT_THAT(CPLGetLastErrorMsg(), HasSubstr("which is not read"));
   EXPECT_EQ(GDALGetDriverByName("WMS"), nullptr);

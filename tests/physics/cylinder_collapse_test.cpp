@@ -46,12 +46,15 @@ Scenario scene(double aspect, int particles_along, const Material& m = sand) {
   return s;
 }
 
-/// The quarter x, y > 0 of a round scene between smooth walls.
+/// The quarter x, y > 0 of a round scene between smooth walls. They are built behind the release,
+/// because one across it is refused, and moved to the axis with the cut.
 Simulation quarter_of(Scenario s) {
-  s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt},
-                    WallSpec{{0, 0, 0}, {0, 1, 0}, 0, std::nullopt}};
+  const double behind = -2 * s.release.cylinder->radius_m;
+  s.domain.walls = {WallSpec{{behind, 0, 0}, {1, 0, 0}, 0, std::nullopt},
+                    WallSpec{{0, behind, 0}, {0, 1, 0}, 0, std::nullopt}};
   Simulation simulation = build(s);
   State& state = simulation.parts().state;
+  for (Wall& wall : state.domain.walls) wall.point = Vec3::Zero();
   MovingSet& p = state.grains();
   std::vector<std::uint8_t> keep(p.size());
   for (std::size_t i = 0; i < p.size(); ++i) keep[i] = p.x[i] > 0 && p.y[i] > 0;

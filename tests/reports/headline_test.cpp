@@ -1,47 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/headline.hpp"
 
+#include "reports/page/estimate_text.hpp"
+#include "reports/page/text.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace sturz {
 namespace {
 
-std::vector<double> up_to(int n) {
-  std::vector<double> values(static_cast<std::size_t>(n));
-  std::iota(values.begin(), values.end(), 1);
-  return values;
+TEST(ReportEstimate, IsWrittenAsFarAsItIsKnown) {
+  const NumberWriter metres = [](double v) { return shown_number(v) + " m"; };
+  CensoredEstimate e;
+  e.n = 40, e.value = 2440, e.lower = 2435, e.upper = 2446;
+  EXPECT_EQ(value_text(e, metres), "2440 m");
+  EXPECT_EQ(interval_text(e, metres), "95\u00A0% interval 2435 m \u2013 2446 m");
+  EXPECT_EQ(cut_text(e), "");
+  e.at_least = true, e.upper = INFINITY, e.n_at_least = 36;
+  EXPECT_EQ(value_text(e, metres), "\u2265\u00A02440 m");
+  EXPECT_EQ(interval_text(e, metres), "95\u00A0% interval from 2435 m, upper end not known");
+  EXPECT_EQ(cut_text(e), "36 of 40 cut off");
+  e.value = nan_d, e.lower = -INFINITY;
+  EXPECT_EQ(value_text(e, metres), "not known");
+  EXPECT_EQ(interval_text(e, metres), "no interval: too many are cut off");
+  e.lower = e.upper = nan_d;
+  EXPECT_EQ(interval_text(e, metres), "too few simulations for an interval");
+  EXPECT_EQ(value_text({}, metres), "\u2013");
 }
 
-TEST(ReportMedian, HasTheTabulatedOrderStatistics) {
-  // Ranks of the 95 % interval of a median, e.g. Conover, Practical Nonparametric Statistics:
-  // n = 10: 2 and 9; n = 20: 6 and 15; n = 50: 18 and 33.
-  for (const auto& [n, low, high] : {std::tuple{10, 2, 9}, {20, 6, 15}, {50, 18, 33}}) {
-    const Estimate e = median_estimate(up_to(n));
-    EXPECT_EQ(e.lower, low) << n;
-    EXPECT_EQ(e.upper, high) << n;
-    EXPECT_EQ(e.value, (n + 1) / 2.0);
-  }
-}
-
-TEST(ReportMedian, TellsNoIntervalFromTooFewMembers) {
-  const Estimate five = median_estimate(up_to(5));
-  EXPECT_EQ(five.value, 3);
-  EXPECT_TRUE(std::isnan(five.lower));
-  const Estimate six = median_estimate(up_to(6));
-  EXPECT_EQ(six.lower, 1);
-  EXPECT_EQ(six.upper, 6);
-  EXPECT_TRUE(std::isnan(median_estimate({}).value));
-}
-
-TEST(ReportMedian, StaysFiniteForLargeSamples) {
-  const Estimate e = median_estimate(up_to(20001));
-  EXPECT_EQ(e.value, 10001);
-  EXPECT_NEAR(e.lower, 10001 - 1.96 * std::sqrt(20001) / 2, 2);
+TEST(ReportHeadline, MedianOfMembersThatLeftIsALowerBound) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  for (MemberSummary& m : input.members) m.censoring = Censoring::none;
+  const double median = headline(input).runout_m.value;
+  for (MemberSummary& m : input.members)
+    if (m.scalars.runout_m > 0.9 * median) {
+      m.scalars.runout_m = 0.9 * median;  // the edge
+      m.censoring = Censoring::left_terrain;
+    }
+  const Headline cut = headline(input);
+  EXPECT_TRUE(cut.runout_m.at_least);
+  EXPECT_LE(cut.runout_m.lower, median);
+  EXPECT_TRUE(std::isinf(cut.runout_m.upper));
+  EXPECT_TRUE(cut.censoring.too_many());
 }
 
 TEST(ReportHeadline, CountsOnlyValidMembers) {

@@ -2,6 +2,7 @@
 #include "tests/reports/made_up_results.hpp"
 
 #include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 
 #include <fmt/format.h>
 
@@ -96,15 +97,17 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
   for (int k = 0; k < n_peak_layers; ++k)
     m.layers[k].assign(grid.n_cells(), info(static_cast<PeakLayer>(k)).untouched);
   const double effective = x[0] * (1 - x[1]);
-  const double runout = std::clamp(0.30 + 0.55 * std::exp(-(effective - 0.07) / 0.12), 0.25, 0.93);
+  const double whole = std::clamp(0.30 + 0.55 * std::exp(-(effective - 0.07) / 0.12), 0.25, 0.93);
+  const bool gone = whole > scene.edge;
+  const double runout = std::min(whole, scene.edge);
   const double side = 0.6 * (x[2] - 0.6), length = grid.n_cols * grid.cell_m;
   const double aspect = length / (grid.n_rows * grid.cell_m);
   MemberScalars& sc = m.scalars;
   for (int row = 0; row < grid.n_rows; ++row)
     for (int col = 0; col < grid.n_cols; ++col) {
       const double s = (col + 0.5) / grid.n_cols, t = 0.5 - (row + 0.5) / grid.n_rows;
-      const double along = (s - 0.08) / (runout - 0.08);
-      if (along <= 0 || along >= 1) continue;
+      const double along = (s - 0.08) / (whole - 0.08);
+      if (along <= 0 || along >= 1 || s >= scene.edge) continue;
       const double fan = std::max(0.0, s - 0.62);
       const double centre = gully(s) * aspect / 1.5 + fan * side;
       const double half = (0.035 + 0.02 * std::sin(9 * s + 30 * x[2]) * 0.5 + 0.22 * fan) *
@@ -123,7 +126,8 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
       put(PeakLayer::speed, v);
       put(PeakLayer::energy, 0.5 * 1500 * h * v * v);
       put(PeakLayer::pressure, 1500 * v * v);
-      put(PeakLayer::arrival, 4 + 70 * along);
+      put(PeakLayer::arrival, along < 0.06 ? 0 : 4 + 70 * along);
+      if (gone && (col + 1.5) / grid.n_cols >= scene.edge) put(PeakLayer::left, 800 * h);
       put(PeakLayer::deposit, 0.4 * h * along);
       sc.reached_area_m2 += grid.cell_m * grid.cell_m;
       sc.max_thickness_m = std::max(sc.max_thickness_m, h);
@@ -132,18 +136,27 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
       sc.max_pressure_pa = std::max(sc.max_pressure_pa, 1500 * v * v);
     }
   sc.runout_m = (runout - 0.08) * length;
+  sc.front_travel_m = sc.runout_m;
+  sc.crown_to_toe_length_m = sc.runout_m + 0.03 * length;
+  sc.crown_to_toe_drop_m = 0.3 * sc.crown_to_toe_length_m;
+  sc.crown_to_toe_ratio = 0.3;
+  sc.com_travel_m = 0.6 * sc.runout_m;
+  sc.lost_fraction = gone ? whole - scene.edge : 0;
   sc.release_layers = 2.7;
   sc.parted_fraction = 0.01 + 0.1 * x[1];
   sc.end_time_s = 74 + 20 * x[2];
   sc.n_particles = 2841;
   sc.n_steps = 18000 + 40 * static_cast<double>(number);
   sc.wall_s = 11 + 6 * runout;
+  sc.cpu_s = 1.8 * sc.wall_s;
   m.warnings = fmt::format(
       "the release is {:.1f} particles thick (fewer than 3: stresses across the flow are not "
       "resolved). Use a finer spacing_m",
       sc.release_layers);
   m.outcome = Outcome::settled;
   if (runout > 0.9) m.outcome = Outcome::out_of_time;
+  if (gone) m.outcome = Outcome::left_terrain;
+  m.censoring = censoring_of(gone, m.outcome == Outcome::out_of_time);
   if (scene.n_failed > 0 && number % (scene.n_members / scene.n_failed) == 11) {
     m.outcome = Outcome::diverged;
     m.reason =
@@ -231,6 +244,7 @@ MadeUpResults make_up_results(const MadeUpScene& scene) {
   context.spacing_m = 7;
   r.history = make_history();
   r.hazard = make_hazard_map(*source, HazardSpec{}, context);
+  r.release = release_footprint(*source);
   r.source = std::move(source);
   return r;
 }
@@ -268,6 +282,8 @@ ReportInput MadeUpResults::ensemble_input() const {
                 {"bookkeeping", 5.2},        {"gravity", 1.9},
                 {"isolated particles", 0.4}, {"states of the grains", 0.3}};
   in.elapsed_s = 251;
+  in.max_censored_fraction = 0.05;
+  in.release = &release;
   in.resolved_thickness_m = 3.5;
   return in;
 }

@@ -15,6 +15,7 @@ struct MadeUpScene {
   double cell_m = 20;
   int n_members = 32;
   int n_failed = 1;  ///< every so many-th member diverges
+  double edge = 1;   ///< share of the width at which mass is lost: 1 is beyond all of them
 };
 
 /// Owns everything that a ReportInput points to.
@@ -25,6 +26,7 @@ struct MadeUpResults {
   LayerStack peaks;       ///< of the first member
   MemberHistory history;  ///< of the first member, with states
   DesignTable design;
+  Raster<std::uint8_t> release;
 
   /// Page of the whole ensemble, with every optional part filled.
   ReportInput ensemble_input() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages in a real browser: no errors, no requests, maps and charts that react.
-//   STURZ_PAGES     folder with ensemble.html, single.html, empty.html
+//   STURZ_PAGES     folder with ensemble.html, cut.html, single.html, empty.html
 //   STURZ_MODULES   folder whose node_modules holds playwright-core
 //   STURZ_CHROMIUM  the browser; the test is skipped with a message when it is missing
 import assert from 'node:assert/strict';
@@ -73,7 +73,7 @@ async function clickMap(page, fx, fy) {
 }
 
 test('every page opens without errors or requests', {skip}, async () => {
-  for (const name of ['ensemble', 'single', 'empty']) {
+  for (const name of ['ensemble', 'single', 'cut', 'empty']) {
     const {page, trouble, close} = await open(name);
     if (name !== 'empty') await liveMap(page);
     await page.waitForTimeout(300);
@@ -136,6 +136,49 @@ test('opacity and contours change the picture', {skip}, async () => {
   await close();
 });
 
+test('what is cut off is said first and drawn as such', {skip}, async () => {
+  const {page, trouble, close} = await open('cut');
+  await liveMap(page);
+  const banner = await page.locator('.banner').boundingBox();
+  assert.ok(banner.y + banner.height < 700, 'above the fold');
+  assert.match(await page.textContent('.banner'), /of 31 simulations \(\d+ %\) are cut off/);
+  assert.match(await page.textContent('#read-runout'), /cut off/);
+  assert.match(await page.textContent('#chart-scatter'), /τ = −?\d\.\d+ from \d+ % of the pairs/);
+  assert.match(await page.textContent('.card:nth-child(3)'), /≥/);
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
+test('both ends of the interval are maps of their own', {skip}, async () => {
+  const {page, close} = await open('ensemble');
+  await liveMap(page);
+  const share = await picture(page);
+  await page.click('[data-key="lower"]');
+  assert.match(await page.textContent('.map-title'), /lower end of its 95 % interval/);
+  const lower = await picture(page);
+  assert.notEqual(lower, share);
+  await page.click('[data-key="upper"]');
+  assert.notEqual(await picture(page), lower);
+  await close();
+});
+
+test('the plain wheel says what zooms, and the whole screen keeps legend and choices', {skip},
+     async () => {
+       const {page, close} = await open('ensemble');
+       await liveMap(page);
+       await page.locator('#map').scrollIntoViewIfNeeded();
+       const box = await page.locator('#map').boundingBox();
+       await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+       await page.mouse.wheel(0, 40);
+       assert.ok(await page.locator('.wheel-hint').isVisible());
+       await page.click('.ol-full-screen button');
+       await page.waitForTimeout(500);
+       assert.equal(await page.evaluate(() => document.fullscreenElement?.id), 'map-app');
+       for (const part of ['.legend-box', '.pickers', '.map-title'])
+         assert.ok(await page.locator(part).isVisible(), part);
+       await close();
+     });
+
 test('charts are drawn and the table sorts', {skip}, async () => {
   const {page, trouble, close} = await open('ensemble');
   await liveMap(page);
@@ -172,7 +215,7 @@ test('a run is followed through time with one cursor', {skip}, async () => {
 });
 
 test('a phone shows the page without sideways scrolling', {skip}, async () => {
-  for (const name of ['ensemble', 'single', 'empty']) {
+  for (const name of ['ensemble', 'single', 'cut', 'empty']) {
     const {page, close} = await open(
         name, {viewport: {width: 360, height: 740}, isMobile: true, hasTouch: true});
     if (name !== 'empty') await liveMap(page);
@@ -196,5 +239,6 @@ test('without script and in print the still maps stand in', {skip}, async () => 
   await live.page.emulateMedia({media: 'print'});
   assert.ok(await live.page.locator('#still-maps').isVisible());
   assert.ok(!await live.page.locator('#map-app').isVisible());
+  assert.ok(!await live.page.locator('#member-table').isVisible(), 'seven pages of numbers');
   await live.close();
 });

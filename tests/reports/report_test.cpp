@@ -93,7 +93,9 @@ TEST(Report, HoldsWhatAReaderNeeds) {
   for (const char* text :
        {"Gully above the made-up village", "31 of 32", "Read this first", "Median runout",
         "95\u00A0% interval", "not resolved", "WGS 84 / UTM zone 33N", "friction_coefficient",
-        "members per hour", "git hash", "Probability that the flow arrives"})
+        "simulations per hour", "Median crown to toe, L", "H/L", "Median centre-of-mass travel",
+        "(EPSG:32633)", "Share of the valid simulations", "git hash",
+        "Probability that the flow arrives"})
     EXPECT_TRUE(holds(page, text));
   EXPECT_TRUE(holds(page, "bound by &lt;terrain contact&gt;")) << "why member 11 failed";
   EXPECT_EQ(count(page, "<figure>"), 6U) << "still figures";
@@ -120,11 +122,76 @@ TEST(Report, SaysThatNoMemberIsValid) {
   EXPECT_EQ(nesting_error(page), "");
 }
 
+/// The made-up ensemble with its longest members cut off by the end time, `n` of them.
+ReportInput with_cut_members(const testing::MadeUpResults& results, int n) {
+  ReportInput input = results.ensemble_input();
+  input.max_censored_fraction = 0.05;
+  for (MemberSummary& m : input.members) {
+    if (!is_valid(m.outcome)) continue;
+    m.censoring = n > 0 ? Censoring::still_moving : Censoring::none;
+    m.outcome = n-- > 0 ? Outcome::out_of_time : Outcome::settled;
+  }
+  return input;
+}
+
+TEST(Report, BeginsWithWhatIsCutOffWhereThatIsMuch) {
+  const auto results = testing::make_up_results();
+  const std::string page = make_report(with_cut_members(results, 20));
+  const std::size_t banner = page.find("<section class=\"banner\"");
+  ASSERT_NE(banner, std::string::npos);
+  EXPECT_LT(banner, page.find("Read this first"));
+  EXPECT_TRUE(holds(page, "20 of 31 simulations (65 %) are cut off."));
+  EXPECT_TRUE(holds(page, "In 20 of them mass still moved at the end time."));
+  EXPECT_TRUE(holds(page, "a longer numerics.end_time_s"));
+  EXPECT_TRUE(holds(page, "upper end not known"));
+  EXPECT_TRUE(holds(page, "20 of 31 cut off"));
+  EXPECT_TRUE(holds(page, "at least: the member is cut off"));
+  EXPECT_TRUE(holds(page, "11 settled, 20 out of time, 1 diverged"));
+  EXPECT_EQ(nesting_error(page), "");
+}
+
+TEST(Report, SaysWhatIsCutOffAmongTheWarningsWhereItIsLittle) {
+  const auto results = testing::make_up_results();
+  const std::string page = make_report(with_cut_members(results, 1));
+  EXPECT_FALSE(holds(page, "<section class=\"banner\""));
+  EXPECT_TRUE(holds(page, "<li>1 of 31 simulations (3 %) are cut off."));
+  const std::string clean = make_report(with_cut_members(results, 0));
+  EXPECT_FALSE(holds(clean, "cut off."));
+  EXPECT_FALSE(holds(clean, "at least: the member is cut off"));
+}
+
+TEST(Report, ASingleRunThatIsCutOffSaysSo) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.single_input();
+  input.members.front().outcome = Outcome::left_terrain;
+  input.members.front().censoring = Censoring::left_terrain;
+  input.members.front().scalars.lost_fraction = 0.3;
+  input.where_mass_left = "over the eastern edge (y 1 to 2)";
+  const std::string page = make_report(input);
+  EXPECT_TRUE(holds(page, "This result is cut off."));
+  EXPECT_TRUE(
+      holds(page, "ran off the known terrain over the eastern edge (y 1 to 2): 30 % of it."));
+  EXPECT_TRUE(holds(page, "<dt>Runout</dt><dd class=\"value\">\u2265"));
+}
+
+TEST(Report, TheScriptKnowsWhichMembersAreCutOffAndWhichPairsCount) {
+  if (!report_has_script()) GTEST_SKIP() << "built without the script bundle";
+  const auto results = testing::make_up_results();
+  const auto data = data_of(make_report(with_cut_members(results, 20)));
+  int cut = 0;
+  for (const auto& c : data["members"]["cut"]) cut += c.get<bool>();
+  EXPECT_EQ(cut, 20);
+  const auto& agreement = data["members"]["samples"][0]["agreement"];
+  EXPECT_EQ(agreement["pairs"], 31 * 30 / 2);
+  EXPECT_LE(agreement["ordered"].get<int>(), 31 * 30 / 2 - 20 * 19 / 2);
+  EXPECT_TRUE(data["runout"]["open"].get<bool>());
+}
+
 TEST(Report, TakesOneMemberAsAnEnsembleOfOne) {
   const auto results = testing::make_up_results({.n_members = 1, .n_failed = 0});
   const std::string page = make_report(results.ensemble_input());
   EXPECT_TRUE(holds(page, "Ensemble of 1 member "));
-  EXPECT_TRUE(holds(page, "too few members for an interval"));
+  EXPECT_TRUE(holds(page, "too few simulations for an interval"));
   EXPECT_EQ(nesting_error(page), "");
 }
 
@@ -192,6 +259,7 @@ TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   EXPECT_EQ(data["valid"], 31);
   const auto& layers = data["maps"]["layers"];
   EXPECT_EQ(layers[data["maps"]["start"].get<std::size_t>()]["name"], "probability_reached");
+  EXPECT_TRUE(layers[0]["comment"].get<std::string>().starts_with("share of the 31 valid simulat"));
   bool seen = false;
   for (const auto& layer : layers)
     if (layer["name"] == "probability_of_peak_thickness_above_threshold") {
@@ -205,6 +273,15 @@ TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   EXPECT_TRUE(seen);
   EXPECT_EQ(data["members"]["samples"].size(), 4U);
   EXPECT_EQ(data["members"]["samples"][0]["values"].size(), 32U);
+}
+
+TEST(ReportFigures, DrawReleaseAndNorthOnEveryMap) {
+  const auto results = testing::make_up_results();
+  const std::string page = make_report(results.ensemble_input());
+  EXPECT_EQ(count(page, "font-weight=\"700\" fill=\"#111\" text-anchor=\"middle\">N</text>"), 6U);
+  EXPECT_EQ(count(page, "<span class=\"swatch release\"></span>release"), 6U);
+  if (!report_has_script()) return;
+  EXPECT_EQ(data_of(page)["maps"]["release"].size(), cell_outline(results.release).size());
 }
 
 TEST(ReportFigures, ShowTheMostSevereOfJoinedCells) {

@@ -36,6 +36,11 @@ int main(int argc, char** argv) {
   write(directory / "ensemble.html", sturz::make_report(input));
   write(directory / "single.html", sturz::make_report(results.single_input()));
 
+  auto cut_scene = scene;
+  cut_scene.edge = 0.45;
+  const auto cut = make_up_results(cut_scene);
+  write(directory / "cut.html", sturz::make_report(cut.ensemble_input()));
+
   auto empty_scene = scene;
   empty_scene.n_members = 0;
   const auto empty = make_up_results(empty_scene);

@@ -109,15 +109,23 @@ TEST(Reach, WindowsOfHigherLevelsAreNestedAndEndWithTheWhole) {
 TEST(DrawnRange, IsTheSupportOrFourStandardDeviations) {
   EXPECT_EQ(drawn_range(Uncertain(0.3)), std::pair(0.3, 0.3));
   Uncertain u;
-  u.distribution = Distribution{.kind = Distribution::Kind::uniform, .min = 0.1, .max = 0.4};
+  Distribution d;
+  d.kind = Distribution::Kind::uniform;
+  d.min = 0.1, d.max = 0.4;
+  u.distribution = d;
   EXPECT_EQ(drawn_range(u), std::pair(0.1, 0.4));
-  u.distribution = Distribution{.kind = Distribution::Kind::normal, .mean = 0.3, .sd = 0.05};
+  d = {};
+  d.kind = Distribution::Kind::normal;
+  d.mean = 0.3, d.sd = 0.05;
+  u.distribution = d;
   EXPECT_NEAR(drawn_range(u).first, 0.1, 1e-12);
   EXPECT_NEAR(drawn_range(u).second, 0.5, 1e-12);
   u.distribution->min = 0.2;
   EXPECT_EQ(drawn_range(u).first, 0.2);
-  u.distribution =
-      Distribution{.kind = Distribution::Kind::lognormal, .median = 2, .sigma_ln = 0.25};
+  d = {};
+  d.kind = Distribution::Kind::lognormal;
+  d.median = 2, d.sigma_ln = 0.25;
+  u.distribution = d;
   EXPECT_NEAR(drawn_range(u).first, 2 / std::exp(1.0), 1e-12);
 }
 

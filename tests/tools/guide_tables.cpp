@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the tables of the user guide from the program's own: every block between
 // `<!-- generated: ... -->` and `<!-- end -->`. With --check it only compares.
+#include "ensemble/censoring/scalar_censoring.hpp"
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/value_text.hpp"
@@ -10,9 +11,11 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -88,7 +91,34 @@ std::string layer_table() {
   return table;
 }
 
+std::string known_text(Known known) {
+  switch (known) {
+    case Known::exactly:
+      return "known";
+    case Known::at_least:
+      return "at least";
+    case Known::not_at_all:
+      break;
+  }
+  return "not known";
+}
+
+/// Scalars that say the same of a member that is cut off share a row.
+std::string censoring_table() {
+  std::map<std::pair<Known, Known>, std::string> names;
+  for (const ScalarInfo& scalar : scalar_table()) {
+    std::string& list = names[{known(scalar.field, Censoring::left_terrain),
+                               known(scalar.field, Censoring::still_moving)}];
+    list += fmt::format("{}`{}`", list.empty() ? "" : ", ", scalar.name);
+  }
+  std::string table = "| scalar | mass left the terrain | mass still moves |\n|---|---|---|\n";
+  for (const auto& [how, list] : names)
+    table += fmt::format("| {} | {} | {} |\n", list, known_text(how.first), known_text(how.second));
+  return table;
+}
+
 std::string generated(const std::string& what) {
+  if (what == "censoring") return censoring_table();
   if (what.starts_with("keys ")) return key_table(what.substr(5));
   if (what == "layers") return layer_table();
   throw std::runtime_error("nothing is known to generate for '" + what + "'");

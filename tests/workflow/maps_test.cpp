@@ -25,7 +25,7 @@ TEST_F(MapsWorkflow, AreMadeAgainFromTheFolderAlone) {
     ASSERT_TRUE(std::filesystem::remove(path(file))) << file;
 
   workflow::FinishedFolder found = workflow::open_finished(path("out"), silent);
-  const DesignTable design = workflow::saved_design(found.folder);
+  const DesignTable design = workflow::saved_design(found.folder, found.manifest, found.scenario);
   const workflow::MapsMade made = workflow::make_maps(found.folder, found.manifest, found.scenario,
                                                       design, found.elevation.get(), silent);
   EXPECT_EQ(made.hazard_hash, hash);

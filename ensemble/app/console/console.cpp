@@ -2,6 +2,7 @@
 #include "ensemble/app/console/console.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/app/console/json_text.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,13 @@
 
 namespace sturz::app {
 namespace {
+
+/// What cannot be written is remembered by the stream; command_line() looks at the end. The work
+/// goes on meanwhile: hours of members are worth more than a line.
+void put(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+  std::fflush(stream);
+}
 
 /// Text from files and names, without what would command the terminal: control characters are
 /// shown as \x1b. Line ends and tabs stay.
@@ -33,12 +41,6 @@ std::string harmless(std::string_view line) {
     }
   }
   return text;
-}
-
-/// Bytes that are no UTF-8 (names of files may hold them) become U+FFFD.
-std::string as_event(const char* kind, std::string_view text) {
-  return nlohmann::json{{"event", kind}, {"text", text}}.dump(
-      -1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -69,8 +71,7 @@ void Console::say(std::string_view line) {
   note(line);
   if (json_) return;
   clear_progress();
-  fmt::print("{}\n", harmless(line));
-  std::fflush(stdout);
+  put(stdout, fmt::format("{}\n", harmless(line)));
 }
 
 void Console::note(std::string_view line) {
@@ -80,34 +81,30 @@ void Console::note(std::string_view line) {
 void Console::warn(std::string_view line) {
   if (log_) log_->logger->warn("{}", harmless(line));
   clear_progress();
-  if (json_) return event(as_event("warning", line));
-  fmt::print(stderr, "warning: {}\n", harmless(line));
+  if (json_) return event(json_text(nlohmann::json{{"event", "warning"}, {"text", line}}));
+  put(stderr, fmt::format("warning: {}\n", harmless(line)));
 }
 
 void Console::error(std::string_view line) {
   if (log_) log_->logger->error("{}", harmless(line));
   clear_progress();
-  if (json_) event(as_event("error", line));
-  fmt::print(stderr, "error: {}\n", harmless(line));
+  if (json_) event(json_text(nlohmann::json{{"event", "error"}, {"text", line}}));
+  put(stderr, fmt::format("error: {}\n", harmless(line)));
 }
 
 void Console::event(std::string_view json_object) {
-  if (!json_) return;
-  fmt::print("{}\n", json_object);
-  std::fflush(stdout);
+  if (json_) put(stdout, fmt::format("{}\n", json_object));
 }
 
 void Console::progress(std::string_view line) {
   if (!shows_progress()) return;
-  fmt::print(stderr, "\r\033[2K{}", line);
-  std::fflush(stderr);
+  put(stderr, fmt::format("\r\033[2K{}", line));
   bar_on_screen_ = true;
 }
 
 void Console::clear_progress() {
   if (!bar_on_screen_) return;
-  fmt::print(stderr, "\r\033[2K");
-  std::fflush(stderr);
+  put(stderr, "\r\033[2K");
   bar_on_screen_ = false;
 }
 

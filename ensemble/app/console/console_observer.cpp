@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/console/console_observer.hpp"
 
+#include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/console/progress_bar.hpp"
 
 #include <fmt/core.h>
@@ -28,14 +29,13 @@ void ConsoleObserver::member_stored(const MemberResult& result) {
   console_.note(fmt::format("member {} {}{}{} ({:.1f} s, front {:.0f} m)", result.member,
                             to_string(result.outcome), result.reason.empty() ? "" : ": ",
                             result.reason, s.wall_s, s.front_travel_m));
-  console_.event(nlohmann::json{{"event", "member"},
-                                {"member", result.member},
-                                {"outcome", to_string(result.outcome)},
-                                {"censored", to_string(result.censoring)},
-                                {"reason", result.reason},
-                                {"wall_s", s.wall_s},
-                                {"front_travel_m", s.front_travel_m}}
-                     .dump());
+  console_.event(json_text(nlohmann::json{{"event", "member"},
+                                          {"member", result.member},
+                                          {"outcome", to_string(result.outcome)},
+                                          {"censored", to_string(result.censoring)},
+                                          {"reason", result.reason},
+                                          {"wall_s", s.wall_s},
+                                          {"front_travel_m", s.front_travel_m}}));
 }
 
 void ConsoleObserver::maps_begin() { console_.progress("making maps ..."); }

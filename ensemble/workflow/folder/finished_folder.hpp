@@ -6,6 +6,7 @@
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <memory>
 

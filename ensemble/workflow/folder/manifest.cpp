@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/workflow/version.hpp"
+#include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
 
 #include <fmt/chrono.h>
@@ -21,12 +22,14 @@ void Manifest::write(const fs::path& file) {
   git_commit = workflow::git_commit;
   compiler = workflow::compiler;
   build_type = workflow::build_type;
-  json inputs_json = json::array();
+  json inputs_json = json::array(), builds_json = json::array();
   for (const InputIdentity& input : inputs)
     inputs_json.push_back({{"role", input.role},
                            {"file", input.file},
                            {"shape", input.shape},
                            {"parts", input.parts}});
+  for (const Build& build : builds)
+    builds_json.push_back({{"version", build.version}, {"git_commit", build.git_commit}});
   const json all = {{"kind", kind},
                     {"program",
                      {{"name", "sturz"},
@@ -46,8 +49,17 @@ void Manifest::write(const fs::path& file) {
                     {"notes", notes},
                     {"warnings", warnings},
                     {"compute_s", compute_s},
-                    {"hazard_hash", hazard_hash}};
-  write_text_atomic(file, all.dump(2) + "\n");
+                    {"scenario_hash", scenario_hash},
+                    {"scene_hash", scene_hash},
+                    {"design_hash", design_hash},
+                    {"design_hash_before", design_hash_before},
+                    {"computed_by", builds_json},
+                    {"hazard_hash", hazard_hash},
+                    {"maps_of", maps_of},
+                    {"map_files", map_files},
+                    {"censored", censored}};
+  // Names of files are bytes, and JSON is UTF-8: what is not is replaced.
+  write_text_atomic(file, all.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 namespace {
@@ -104,6 +116,17 @@ Manifest Manifest::read(const fs::path& file) {
     m.warnings = all.at("warnings").get<std::vector<std::string>>();
     m.compute_s = all.at("compute_s").get<double>();
     m.hazard_hash = all.at("hazard_hash").get<std::string>();
+    // The first versions did not write these.
+    m.scenario_hash = all.value("scenario_hash", "");
+    m.scene_hash = all.value("scene_hash", "");
+    m.design_hash = all.value("design_hash", "");
+    m.design_hash_before = all.value("design_hash_before", "");
+    m.maps_of = all.value("maps_of", "");
+    m.map_files = all.value("map_files", std::vector<std::string>{});
+    for (const auto& build : all.value("computed_by", json::array()))
+      m.builds.push_back(
+          {build.at("version").get<std::string>(), build.at("git_commit").get<std::string>()});
+    m.censored = all.value("censored", "");
   } catch (const json::exception& problem) {
     not_a_manifest(file, problem.what());
   }
@@ -117,14 +140,30 @@ std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
       {"started", started},
       {"command", command},
       {"spacing", fmt::format("{} m", spacing_m)}};
+  if (builds.size() > 1) {
+    std::string all;
+    for (const Build& build : builds) all += (all.empty() ? "" : ", ") + build_text(build);
+    out.emplace_back("members computed by", all);
+  }
   if (kind == "ensemble") {
     out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
+    if (!censored.empty()) out.emplace_back("cut off", censored);
     out.emplace_back("hash of the maps", hazard_hash);
   }
   for (const InputIdentity& input : inputs)
     out.emplace_back("input " + input.file, identity_text(input));
+  for (auto& [name, text] : out) {
+    name = as_utf8(name);
+    text = as_utf8(text);
+  }
   return out;
 }
+
+std::string build_text(const Build& build) {
+  return fmt::format("sturz {} ({})", build.version, build.git_commit);
+}
+
+Build this_build() { return {workflow::version, workflow::git_commit}; }
 
 std::string utc_now() {
   const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());

@@ -12,6 +12,15 @@
 
 namespace sturz::workflow {
 
+/// A program that computed members of a folder.
+struct Build {
+  std::string version, git_commit;
+  bool operator==(const Build&) const = default;
+};
+/// "sturz 1.2.0 (0123456789ab)"
+std::string build_text(const Build&);
+Build this_build();
+
 /// What a results folder says about how it came to be: manifest.json.
 struct Manifest {
   std::string kind;     ///< "ensemble" or "run"
@@ -24,7 +33,15 @@ struct Manifest {
   std::vector<std::string> description, notes, warnings;  ///< as `describe` says them
   double spacing_m = 0;
   double compute_s = 0;     ///< wall time of all calls so far
-  std::string hazard_hash;  ///< of every value of the maps; empty: no maps yet
+  std::string hazard_hash;  ///< of every value of the maps; empty: none yet, or being made
+  std::string maps_of;      ///< hash of the members that the maps were made from, as members_hash()
+  std::vector<std::string> map_files;  ///< in hazard/, ours to replace and to remove
+  std::string scenario_hash;           ///< as scenario_hash()
+  std::string scene_hash;              ///< as scene_hash(): what the members are computed from
+  std::string design_hash_before;      ///< of the table that this one replaces; empty: none
+  std::string design_hash;             ///< as design_hash(); empty for a single run
+  std::vector<Build> builds;           ///< all that computed members here, the first first
+  std::string censored;  ///< which of the maps' members are cut off; empty: no maps yet
   // Of the program that wrote it; filled in by write().
   std::string version, git_commit, compiler, build_type;
 

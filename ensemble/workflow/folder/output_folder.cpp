@@ -3,8 +3,6 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
-#include "scenarios/schema/schema.hpp"
-#include "scenarios/schema/value_text.hpp"
 
 #include <fmt/core.h>
 
@@ -29,7 +27,8 @@ void require_only_ours(const OutputFolder& folder) {
   static constexpr std::array ours{"log.txt", "members", "design.csv"};
   for (const auto& entry : fs::directory_iterator(folder.root)) {
     const fs::path name = entry.path().filename();
-    const bool mine = name.extension() == ".part" ||
+    const bool mine = name.extension() == ".part" || name.string().starts_with("lock.json") ||
+                      name.string().starts_with("lock_") ||
                       std::find(ours.begin(), ours.end(), name.string()) != ours.end();
     require(mine, fmt::format("{} holds files of something else, such as {} (results could "
                               "overwrite them). Choose another folder with --out.",
@@ -37,15 +36,16 @@ void require_only_ours(const OutputFolder& folder) {
   }
 }
 
-KeyValue without_file_names(const KeyInfo& key, KeyValue value) {
-  for_each_path(key, value, [](std::string& path) { path.clear(); });
-  return value;
-}
-
 }  // namespace
 
 bool holds_results(const OutputFolder& folder, const std::string& kind) {
-  if (!fs::exists(folder.root)) return false;
+  std::error_code problem;
+  if (!fs::exists(fs::status(folder.root, problem))) {
+    require(!problem || problem == std::errc::no_such_file_or_directory,
+            fmt::format("{}: {}. Choose another folder with --out.", folder.root.string(),
+                        problem.message()));
+    return false;
+  }
   require(fs::is_directory(folder.root),
           fmt::format("{} is a file (results need a folder). Choose another name with --out.",
                       folder.root.string()));
@@ -61,25 +61,6 @@ bool holds_results(const OutputFolder& folder, const std::string& kind) {
   }
   if (kind == "ensemble") require_no_orphans(folder);
   return false;
-}
-
-std::vector<std::string> differences(const Scenario& before, const Scenario& now) {
-  std::vector<std::string> found;
-  for (const KeyInfo& key : schema()) {
-    const bool only_asked = key.path == "title" || key.path == "ensemble.members" ||
-                            key.path == "ensemble.max_failed_fraction" ||
-                            key.path.starts_with("terrain.window.") ||
-                            (key.path.starts_with("hazard.") && key.path != "hazard.cell_size_m");
-    if (only_asked || key.kind == ValueKind::path) continue;
-    const KeyValue was = key.get(before), is = key.get(now);
-    if (without_file_names(key, was) == without_file_names(key, is)) continue;
-    const auto text = [](const KeyValue& v) {
-      const std::string words = value_text(v);
-      return words.empty() ? std::string("absent") : words;
-    };
-    found.push_back(fmt::format("{}: {} -> {}", key.path, text(was), text(is)));
-  }
-  return found;
 }
 
 std::string default_folder(const std::string& scenario_file) {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where the files of one ensemble or run lie, and when an old folder may go on.
+/// Where the files of one ensemble or run lie, and whether a folder is free for them.
 #pragma once
-
-#include "scenarios/scenario.hpp"
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace sturz::workflow {
 
@@ -17,6 +14,7 @@ struct OutputFolder {
   std::filesystem::path scenario() const { return root / "scenario.yaml"; }
   std::filesystem::path design() const { return root / "design.csv"; }
   std::filesystem::path manifest() const { return root / "manifest.json"; }
+  std::filesystem::path lock() const { return root / "lock.json"; }
   std::filesystem::path log() const { return root / "log.txt"; }
   std::filesystem::path members() const { return root / "members"; }
   std::filesystem::path members_csv() const { return root / "members.csv"; }
@@ -30,11 +28,6 @@ struct OutputFolder {
 /// True when the folder already holds results of that kind; false when it is free to be used.
 /// \throws SetupError when it holds something else
 bool holds_results(const OutputFolder&, const std::string& kind);
-
-/// Each difference between two scenes that changes what a member computes, as "key: old -> new".
-/// Left out: titles, thresholds, quantiles, the accepted share of failures, the number of members,
-/// what is read first of a raster, and the names of files (what was read of them counts instead).
-std::vector<std::string> differences(const Scenario& before, const Scenario& now);
 
 /// Results folder for a scenario file that was given none: out/<its name or its folder's name>.
 std::string default_folder(const std::string& scenario_file);

@@ -4,13 +4,13 @@
 #include "engine/core/error.hpp"
 #include "ensemble/members/shards.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
+#include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
-#include "io/members/member_store.hpp"
-#include "io/scenario/scenario_file.hpp"
 
 #include <fmt/core.h>
 
@@ -28,34 +28,49 @@ SceneRequest scene_of(const EnsembleRequest& request) {
   return scene;
 }
 
-/// Refuses to go on in a folder that was begun with another scene or other files.
-void require_same_scene(const OutputFolder& folder, const Scene& scene) {
-  std::string what;
-  for (const std::string& line : differences(read_scenario(folder.scenario()), scene.scenario))
-    what += "\n  " + line;
-  for (const std::string& line :
-       input_differences(Manifest::read(folder.manifest()).inputs, scene.inputs.identities))
-    what += "\n  " + line;
-  require(what.empty(),
-          fmt::format("{} was begun with another scene (members of two scenes make no map). "
-                      "Choose another folder with --out, or take these changes back:{}",
-                      folder.root.string(), what));
+/// Keeps what the folder knows of its past, and says what may surprise.
+void continue_folder(EnsembleJob& job, Observer& observer) {
+  require_same_scene(job.folder, job.scene.scenario, job.scene.inputs.identities);
+  const Manifest before = Manifest::read(job.folder.manifest());
+  job.design = continued_design(job.folder, before, job.scene.scenario, job.design);
+  Manifest& now = job.manifest;
+  now.design_hash_before = design_hash(saved_design(job.folder, before, job.scene.scenario));
+  now.started = before.started;
+  now.inputs = with_known_parts(now.inputs, before.inputs);
+  now.compute_s = before.compute_s;
+  if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
+  now.hazard_hash = before.hazard_hash;
+  now.maps_of = before.maps_of;
+  now.map_files = before.map_files;
+  now.builds = before.builds;
+  if (now.builds.empty()) now.builds.push_back({before.version, before.git_commit});
+  const Build mine = this_build();
+  if (std::find(now.builds.begin(), now.builds.end(), mine) != now.builds.end()) return;
+  observer.warning(fmt::format(
+      "{} was begun by {}, this is {}: members of both will stand side by side, and their results "
+      "may differ. manifest.json names both. To have all members from this program, choose another "
+      "folder with --out.",
+      job.folder.root.string(), build_text(now.builds.back()), build_text(mine)));
+  now.builds.push_back(mine);
 }
 
-/// Order matters: scenario.yaml comes last and marks the folder as begun.
+/// Order matters. The manifest comes before the design, whose hash it holds, old and new: killed in
+/// between, the folder can still tell it from an edited one. scenario.yaml comes last and marks the
+/// folder as begun.
 void begin_folder(const EnsembleJob& job) {
   Manifest manifest = job.manifest;
   make_folder(job.folder.root);
-  write_text_atomic(job.folder.design(), to_csv(job.design));
   manifest.write(job.folder.manifest());
+  write_text_atomic(job.folder.design(), to_csv(job.design));
   save_scenario(job.folder, job.scene.scenario);
 }
 
 /// Members of this call's share that are not finished.
 void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer& observer) {
-  const MemberStore store(job.folder.members());
-  for (const std::string& problem : store.problems())
-    observer.warning(problem + " It is computed again.");
+  const MemberStore store = members_of(job.folder, job.manifest, job.design, [&](std::int64_t k) {
+    return k < job.design.n_members() && k % shard.n == shard.k - 1;
+  });
+  warn_of_problems(store, "It is computed again.", observer);
   std::set<std::int64_t> finished;
   for (const MemberSummary& m : store.members())
     if (is_valid(m.outcome) || !retry_failed) finished.insert(m.member);
@@ -107,17 +122,20 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   for (std::string& warning : ensemble_warnings(job.scene, job.design))
     job.scene.description.warnings.push_back(std::move(warning));
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
+  job.manifest.scenario_hash = scenario_hash(job.scene.scenario);
+  job.manifest.scene_hash = scene_hash(job.scene.scenario, job.scene.inputs.identities);
 
-  if (holds_results(job.folder, "ensemble")) {
-    require_same_scene(job.folder, job.scene);
-    job.design = continued_design(job.folder, job.design);
-    const Manifest before = Manifest::read(job.folder.manifest());
-    job.manifest.started = before.started;
-    job.manifest.inputs = with_known_parts(job.manifest.inputs, before.inputs);
-    job.manifest.compute_s = before.compute_s;
-  }
+  holds_results(job.folder, "ensemble");  // refuses what is not ours before a lock is put there
+  job.lock = shard.n > 1 ? FolderLock::shard(job.folder, shard, request.command)
+                         : FolderLock::alone(job.folder, request.command);
+  if (holds_results(job.folder, "ensemble"))
+    continue_folder(job, observer);
+  else
+    job.manifest.builds = {this_build()};
   job.manifest.members = job.design.n_members();
+  job.manifest.design_hash = design_hash(job.design);
   begin_folder(job);
+  job.lock->others_may_come();
   observer.folder_ready(job.folder);
   find_work(job, shard, request.retry_failed, observer);
   share_machine(job, request.workers, observer);

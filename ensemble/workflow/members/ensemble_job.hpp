@@ -3,23 +3,21 @@
 #pragma once
 
 #include "ensemble/sampling/design.hpp"
+#include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
+#include "ensemble/workflow/folder/shard.hpp"
 #include "ensemble/workflow/observer.hpp"
 #include "ensemble/workflow/scene.hpp"
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace sturz::workflow {
-
-/// Part k of n of the members, 1 <= k <= n.
-struct Shard {
-  int k = 1, n = 1;
-};
 
 struct EnsembleRequest {
   SceneRequest scene;
@@ -32,6 +30,7 @@ struct EnsembleRequest {
 };
 
 struct EnsembleJob {
+  std::shared_ptr<FolderLock> lock;  ///< the folder is ours while a copy of the job lives
   Scene scene;
   OutputFolder folder;
   Manifest manifest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/members/run_ensemble.hpp"
 
+#include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/member_order.hpp"
 #include "io/members/member_file.hpp"
 
@@ -20,12 +21,13 @@ MemberResult run_member(const EnsembleJob& job, std::int64_t member,
 }
 
 void store_member(const EnsembleJob& job, const MemberResult& result) {
+  const MemberOrigin origin = origin_of(job.manifest, job.design, result.member);
   if (result.grid.n_cells() > 0) {
-    write_member(job.folder.members(), result);
+    write_member(job.folder.members(), result, origin);
   } else {  // it failed before it knew its maps
     MemberResult with_grid = result;
     with_grid.grid = job.scene.inputs.hazard_grid;
-    write_member(job.folder.members(), with_grid);
+    write_member(job.folder.members(), with_grid, origin);
   }
 }
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/members/single_run.hpp"
 
+#include "ensemble/censoring/edge_crossing.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
+#include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/members/member_file.hpp"
+#include "io/members/member_store.hpp"
 #include "io/members/particle_frames.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 
@@ -31,6 +35,13 @@ MemberSummary summary_of(const MemberResult& r) {
           r.warnings, r.state_hash, r.scalars,   r.window, r.effect_seconds};
 }
 
+/// So that a run which is stopped does not leave the results of one scene under the name of
+/// another.
+void remove_results(const OutputFolder& folder) {
+  for (const auto& file : {folder.peaks_nc(), folder.report(), folder.members() / "000000.nc"})
+    std::filesystem::remove(file);
+}
+
 }  // namespace
 
 SingleRun prepare_run(const RunRequest& request, Observer& observer) {
@@ -39,9 +50,20 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.folder.root = request.folder;
   run.threads = request.threads > 0 ? request.threads : available_cores();
   run.particles_every_s = request.particles_every_s;
-  holds_results(run.folder, "run");  // refuses a folder of anything else
+  const auto& inputs = run.scene.inputs.identities;
+  holds_results(run.folder, "run");  // refuses what is not ours before a lock is put there
+  run.lock = FolderLock::alone(run.folder, request.command);
+  if (holds_results(run.folder, "run")) {
+    if (!request.replace)
+      require_same_scene(run.folder, run.scene.medians, inputs);
+    else
+      remove_results(run.folder);
+  }
   run.manifest = manifest_of(run.scene, "run", request.command);
   run.manifest.members = 1;
+  run.manifest.builds = {this_build()};
+  run.manifest.scenario_hash = scenario_hash(run.scene.medians);
+  run.manifest.scene_hash = scene_hash(run.scene.medians, inputs);
   make_folder(run.folder.root);
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
@@ -60,7 +82,7 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
   };
   return run.scene.ground->computed([&](const SceneInputs& inputs) {
     Simulation simulation = assemble(run.scene.medians, inputs, 0, run.threads);
-    std::filesystem::remove_all(run.folder.particles());  // of an earlier run, or on less ground
+    remove_particle_frames(run.folder.particles());  // of an earlier run, or on less ground
     std::optional<ParticleFrameWriter> frames;
     if (run.particles_every_s) {
       frames.emplace(run.folder.particles());
@@ -71,16 +93,23 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
   });
 }
 
-void store_run(SingleRun& run, const MemberResult& result) {
+RunStored store_run(SingleRun& run, const MemberResult& result) {
   const OutputFolder& folder = run.folder;
   const Scene& scene = run.scene;
   Manifest& manifest = run.manifest;
   manifest.compute_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
   manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
-  manifest.write(folder.manifest());
-  write_member(folder.members(), result);
+  const MemberSummary summary = summary_of(result);
   LayerStack peaks = peak_layers(result);
+  RunStored stored{censoring_report({&summary, 1}, 0),
+                   member_warnings({&summary, 1}, manifest.warnings)};
+  if (const auto* ground = scene.inputs.elevation.get())
+    stored.censoring.where = where_mass_left(peaks, ground->grid);
+  manifest.censored = one_line(stored.censoring);
+  manifest.write(folder.manifest());
+  write_member(folder.members(), result,
+               {member_hash(manifest.scene_hash), workflow::version, workflow::git_commit});
   peaks.attributes = {
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
@@ -90,13 +119,16 @@ void store_run(SingleRun& run, const MemberResult& result) {
       {"formulation", result.formulation},
       {"computing_time_by_effect", as_text(result.effect_seconds)}};
   write_layers(folder.peaks_nc(), peaks, result.history);
-  const MemberSummary summary = summary_of(result);
   PageContent page;
   page.peaks = &peaks;
   page.elevation = scene.inputs.elevation.get();
   page.members = {&summary, 1};
   page.run = &result;
+  page.where_mass_left = stored.censoring.where;
+  const Raster<std::uint8_t> release = release_footprint(MemberStore(folder.members()));
+  page.release = &release;
   write_page(folder, manifest, scene.medians, page);
+  return stored;
 }
 
 }  // namespace sturz::workflow

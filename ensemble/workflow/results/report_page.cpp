@@ -2,11 +2,16 @@
 #include "ensemble/workflow/results/report_page.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/censoring/edge_crossing.hpp"
+#include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
+#include "ensemble/workflow/folder/folder_lock.hpp"
+#include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "io/files/plain_text.hpp"
+#include "io/files/seal.hpp"
 #include "io/files/text_files.hpp"
 #include "io/members/member_file.hpp"
-#include "io/members/member_store.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "reports/page/report.hpp"
 
@@ -46,12 +51,29 @@ NamedSeconds largest_first(NamedSeconds passes) {
   return passes;
 }
 
+/// A page of some members over the maps of others would mislead.
+void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const MemberStore& store,
+                     const DesignTable& design) {
+  const bool whole = !manifest.hazard_hash.empty();
+  require(whole && manifest.maps_of == members_hash(store, design.n_members()),
+          fmt::format("{}: {} (the page would show what does not belong together; {} of {} members "
+                      "are finished). Run the same `sturz ensemble` again, or make the maps with "
+                      "`sturz merge`{}.",
+                      folder.root.string(),
+                      whole ? "its maps were made from other members than it holds now"
+                            : "its maps are not finished",
+                      store.members().size(), design.n_members(),
+                      static_cast<std::int64_t>(store.members().size()) < design.n_members()
+                          ? " --partial"
+                          : ""));
+}
+
 }  // namespace
 
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
                 const PageContent& content) {
   ReportInput input;
-  input.title = scenario.title.empty() ? folder.root.filename().string() : scenario.title;
+  input.title = scenario.title.empty() ? as_utf8(folder.root.filename().string()) : scenario.title;
   input.scenario_yaml = read_text(folder.scenario());
   input.manifest = manifest.lines();
   input.elevation = content.elevation;
@@ -61,6 +83,9 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);
   input.convergence.assign(content.convergence.begin(), content.convergence.end());
+  input.max_censored_fraction = scenario.ensemble.max_censored_fraction;
+  input.where_mass_left = content.where_mass_left;
+  input.release = content.release;
   input.warnings = manifest.warnings;
   input.notes = manifest.notes;
   input.description = manifest.description;
@@ -79,26 +104,36 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 }
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer) {
-  const FinishedFolder finished = open_finished(folder, observer);
+  FinishedFolder finished = open_finished(folder, observer);
+  const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
+  finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   const bool one_run = finished.manifest.kind == "run";
   const auto maps = one_run ? finished.folder.peaks_nc() : finished.folder.hazard_nc();
   require(std::filesystem::exists(maps),
           fmt::format("{} does not exist (the page shows its maps). {}", maps.string(),
                       one_run ? "Run the scene again." : "Make it with `sturz merge`."));
-  const LayerStack stack = read_layers(maps);
-  const MemberStore store(finished.folder.members());
   DesignTable design;
+  if (!one_run) design = saved_design(finished.folder, finished.manifest, finished.scenario);
+  const MemberStore store = one_run ? MemberStore(finished.folder.members())
+                                    : members_of(finished.folder, finished.manifest, design);
+  warn_of_problems(store, "The page does without it.", observer);
+  if (!one_run) require_maps_of(finished.folder, finished.manifest, store, design);
+  if (seal_state(maps) == SealState::broken) require_sealed(maps);
+  const LayerStack stack = read_layers(maps);
   std::vector<ConvergencePoint> convergence;
   MemberResult run;
   PageContent page;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
-    design = saved_design(finished.folder);
     page.design = &design;
     convergence = probability_convergence(store);
     page.convergence = convergence;
   }
   page.elevation = finished.elevation.get();
+  const Raster<std::uint8_t> release = release_footprint(store);
+  page.release = &release;
+  if (page.elevation != nullptr)
+    page.where_mass_left = where_mass_left(stack, page.elevation->grid);
   page.members = store.members();
   if (one_run && !page.members.empty()) {
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));

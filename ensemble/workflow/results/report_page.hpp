@@ -10,8 +10,10 @@
 #include "ensemble/workflow/observer.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 
 namespace sturz::workflow {
 
@@ -23,6 +25,8 @@ struct PageContent {
   const Raster<double>* elevation = nullptr;
   std::span<const MemberSummary> members;
   std::span<const ConvergencePoint> convergence;
+  std::string where_mass_left;                    ///< in words
+  const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
   const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Charts of the whole ensemble: runout histogram, convergence, parameters against runout.
+// Charts of the whole ensemble: runout histogram, convergence, parameters against runout. What is
+// cut off is drawn as such: hatched bars, rings with an arrow.
 import uPlot from 'uplot';
 
 import {colours, onColourChange} from './colours.js';
@@ -39,15 +40,21 @@ function niceStep(rough) {
   return [1, 2, 2.5, 5, 10].map((s) => s * power).find((s) => s >= rough);
 }
 
-function histogram(values) {
+/** Bars of all values, and of those that are cut off. */
+function histogram(values, cut) {
   const low = Math.min(...values);
   const high = Math.max(...values);
   const wished = Math.min(24, Math.max(8, Math.ceil(2.5 * Math.cbrt(values.length))));
   const step = niceStep(Math.max((high - low) / wished, 1e-9 * Math.max(1, Math.abs(high))));
   const first = Math.floor(low / step);
   const counts = new Array(Math.max(1, Math.floor(high / step) - first + 1)).fill(0);
-  for (const v of values) counts[Math.min(counts.length - 1, Math.floor(v / step) - first)]++;
-  return {step, centres: counts.map((_, k) => (first + k + 0.5) * step), counts};
+  const cutCounts = counts.map(() => 0);
+  values.forEach((v, i) => {
+    const k = Math.min(counts.length - 1, Math.floor(v / step) - first);
+    counts[k]++;
+    if (cut[i]) cutCounts[k]++;
+  });
+  return {step, centres: counts.map((_, k) => (first + k + 0.5) * step), counts, cutCounts};
 }
 
 /** The median and its interval on top of the bars. */
@@ -57,8 +64,9 @@ function drawMedian(plot, runout, c) {
   const x = (value) => plot.valToPos(value, 'x', true);
   ctx.save();
   if (runout.lower !== null) {
+    const end = runout.open ? bbox.left + bbox.width : x(runout.upper);
     ctx.fillStyle = c.band;
-    ctx.fillRect(x(runout.lower), bbox.top, x(runout.upper) - x(runout.lower), bbox.height);
+    ctx.fillRect(x(runout.lower), bbox.top, end - x(runout.lower), bbox.height);
   }
   ctx.strokeStyle = c.warm;
   ctx.lineWidth = 2 * devicePixelRatio;
@@ -70,30 +78,56 @@ function drawMedian(plot, runout, c) {
   ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   ctx.textAlign = x(runout.median) > bbox.left + bbox.width / 2 ? 'right' : 'left';
   const gap = (ctx.textAlign === 'left' ? 6 : -6) * devicePixelRatio;
-  ctx.fillText('median', x(runout.median) + gap, bbox.top + 12 * devicePixelRatio);
+  ctx.fillText(runout.atLeast ? 'median ≥' : 'median', x(runout.median) + gap, bbox.top + 12 * devicePixelRatio);
   ctx.restore();
+}
+
+/** Slanted lines on the sheet's colour: a fill for what is cut off. */
+function hatch(c) {
+  const tile = document.createElement('canvas');
+  const size = 6 * devicePixelRatio;
+  tile.width = tile.height = size;
+  const ctx = tile.getContext('2d');
+  ctx.fillStyle = c.sheet;
+  ctx.fillRect(0, 0, size, size);
+  ctx.strokeStyle = c.accent;
+  ctx.lineWidth = 1.6 * devicePixelRatio;
+  ctx.beginPath();
+  for (const shift of [-size, 0, size]) {
+    ctx.moveTo(shift, size);
+    ctx.lineTo(shift + size, 0);
+  }
+  ctx.stroke();
+  return ctx.createPattern(tile, 'repeat');
 }
 
 function drawRunout(page) {
   const box = document.getElementById('chart-runout');
-  const values = page.members.scalars.runout.filter((v, i) => page.members.valid[i] && v !== null);
-  if (!box || values.length === 0) return;
-  const {step, centres, counts} = histogram(values);
+  const {members} = page;
+  const rows = members.scalars.runout.map((_, i) => i).filter(
+      (i) => members.valid[i] && members.scalars.runout[i] !== null);
+  if (!box || rows.length === 0) return;
+  const {step, centres, counts, cutCounts} =
+      histogram(rows.map((i) => members.scalars.runout[i]), rows.map((i) => members.cut[i]));
+  const anyCut = cutCounts.some((n) => n > 0);
+  if (anyCut)
+    document.getElementById('read-runout').textContent = 'hatched: cut off, ran at least so far';
   keepDrawn(box, (width) => {
     const c = colours();
+    const bars = {width: 1, points: {show: false}, paths: uPlot.paths.bars({size: [0.92], gap: 1})};
     return new uPlot({
       width, height: 240, legend: {show: false}, cursor: {show: false},
       scales: {
         x: {time: false, range: [centres[0] - step, centres[centres.length - 1] + step]},
         y: {range: (_, __, max) => [0, Math.max(1, max * 1.12)]},
       },
-      axes: axes(c, 'runout [m]', 'members'),
-      series: [{}, {
-        fill: c.accent, stroke: c.accent, width: 0, points: {show: false},
-        paths: uPlot.paths.bars({size: [0.92], gap: 1}),
-      }],
+      axes: axes(c, 'runout [m]', 'simulations'),
+      series: [
+        {}, {fill: c.accent, stroke: c.accent, ...bars},
+        {fill: () => hatch(c), stroke: c.accent, ...bars},
+      ],
       hooks: {draw: [(plot) => drawMedian(plot, page.runout, c)]},
-    }, [centres, counts], box);
+    }, [centres, counts, cutCounts.map((n) => n || null)], box);
   });
 }
 
@@ -112,7 +146,7 @@ function drawConvergence(page) {
         x: {time: false, range: [0, n[n.length - 1] * 1.02]},
         y: {range: (_, __, max) => [0, max > 0 ? max * 1.1 : 1]},
       },
-      axes: axes(c, 'members counted', chosen.unit),
+      axes: axes(c, 'simulations counted', chosen.unit),
       series: [{}, {
         stroke: c.accent, width: 2, fill: c.band,
         points: {show: true, size: 5, fill: c.accent},
@@ -122,32 +156,58 @@ function drawConvergence(page) {
   pick.addEventListener('change', redraw);
 }
 
-/** Ranks from 1, ties share their mean. */
-function ranks(values) {
-  const order = values.map((_, i) => i).sort((a, b) => values[a] - values[b]);
-  const out = new Array(values.length);
-  for (let i = 0; i < order.length;) {
-    let j = i;
-    while (j + 1 < order.length && values[order[j + 1]] === values[order[i]]) j++;
-    for (let k = i; k <= j; k++) out[order[k]] = (i + j) / 2 + 1;
-    i = j + 1;
+/** Crosses at the foot: members that failed. */
+function drawLost(plot, lost, c) {
+  const {ctx, bbox} = plot;
+  const r = 3.5 * devicePixelRatio;
+  ctx.save();
+  ctx.strokeStyle = c.warm;
+  ctx.lineWidth = 1.5 * devicePixelRatio;
+  for (const value of lost) {
+    const px = plot.valToPos(value, 'x', true);
+    const py = bbox.top + bbox.height - 2 * r;
+    ctx.beginPath();
+    ctx.moveTo(px - r, py - r);
+    ctx.lineTo(px + r, py + r);
+    ctx.moveTo(px - r, py + r);
+    ctx.lineTo(px + r, py - r);
+    ctx.stroke();
   }
-  return out;
+  ctx.restore();
 }
 
-/** Spearman's rank correlation; NaN where one of both never varies. */
-export function rankCorrelation(a, b) {
-  const [ra, rb] = [ranks(a), ranks(b)];
-  const mean = (a.length + 1) / 2;
-  let ab = 0;
-  let aa = 0;
-  let bb = 0;
-  for (let i = 0; i < a.length; i++) {
-    ab += (ra[i] - mean) * (rb[i] - mean);
-    aa += (ra[i] - mean) ** 2;
-    bb += (rb[i] - mean) ** 2;
-  }
-  return ab / Math.sqrt(aa * bb);
+/** Rings with an arrow up: at least so far. */
+function drawCut(plot, xs, ys, c) {
+  const {ctx} = plot;
+  const r = (xs.length > 300 ? 2 : 3) * devicePixelRatio;
+  ctx.save();
+  ctx.strokeStyle = c.accent;
+  ctx.fillStyle = c.sheet;
+  ctx.lineWidth = 1.3 * devicePixelRatio;
+  ys.forEach((y, i) => {
+    if (y === null || y === undefined) return;
+    const px = plot.valToPos(xs[i], 'x', true);
+    const py = plot.valToPos(y, 'y', true);
+    ctx.beginPath();
+    ctx.moveTo(px, py - r);
+    ctx.lineTo(px, py - 4 * r);
+    ctx.moveTo(px - r, py - 2.8 * r);
+    ctx.lineTo(px, py - 4 * r);
+    ctx.lineTo(px + r, py - 2.8 * r);
+    ctx.stroke();
+    ctx.beginPath();
+    ctx.arc(px, py, r, 0, 2 * Math.PI);
+    ctx.fill();
+    ctx.stroke();
+  });
+  ctx.restore();
+}
+
+/** "τ = 0.52", and how many pairs that is counted from where not from all. */
+function agreementText({tau, ordered, pairs}) {
+  if (tau === null) return 'τ not known';
+  const text = `τ = ${tau.toFixed(2).replace('-', '−')}`;
+  return ordered < pairs ? `${text} from ${Math.round(100 * ordered / pairs)} % of the pairs` : text;
 }
 
 function scatterPlot(figure, sample, page) {
@@ -159,12 +219,13 @@ function scatterPlot(figure, sample, page) {
   const lost = shown.filter((v, i) => !members.valid[i] && Number.isFinite(v));
   const x = usable.map((i) => shown[i]);
   const y = usable.map((i) => members.scalars.runout[i]);
-  const rho = rankCorrelation(x, y);
+  const known = usable.map((i, k) => members.cut[i] ? null : y[k]);
+  const cut = usable.map((i, k) => members.cut[i] ? y[k] : null);
   const caption = document.createElement('figcaption');
   const readout = document.createElement('small');
-  const rhoText = Number.isFinite(rho) ? `ρ = ${rho.toFixed(2).replace('-', '−')}` : '';
+  const agreement = agreementText(sample.agreement);
   caption.append(sample.label, readout);
-  readout.textContent = rhoText;
+  readout.textContent = agreement;
   const box = document.createElement('div');
   figure.append(caption, box);
   keepDrawn(box, (width) => {
@@ -179,39 +240,29 @@ function scatterPlot(figure, sample, page) {
           const pad = 0.04 * (high - low) || Math.abs(high) * 0.1 || 1;
           return [low - pad, high + pad];
         }},
-        y: {range: (_, min, max) => [0, Math.max(max * 1.08, 1e-9)]},
+        y: {range: (_, min, max) => [0, Math.max(max * 1.12, 1e-9)]},
       },
       axes: axes(c, sample.unit ? `[${sample.unit}]` : '', 'runout [m]'),
-      series: [{}, {
-        stroke: c.accent, paths: () => null,
-        points: {show: true, size: x.length > 300 ? 4 : 6, width: 0, fill: c.accent},
-      }],
+      series: [
+        {}, {
+          stroke: c.accent, paths: () => null,
+          points: {show: true, size: x.length > 300 ? 4 : 6, width: 0, fill: c.accent},
+        },
+        {stroke: 'transparent', paths: () => null, points: {show: false}},
+      ],
       hooks: {
         setCursor: [(plot) => {
           const k = plot.cursor.idx ?? -1;
-          const pair = k >= 0 ? `${numberText(x[k])} → ${numberText(y[k])} m` : '';
-          readout.textContent = pair ? `member ${members.member[usable[k]]}: ${pair}` : rhoText;
+          const least = k >= 0 && cut[k] !== null ? '≥ ' : '';
+          const pair = k >= 0 ? `${numberText(x[k])} → ${least}${numberText(y[k])} m` : '';
+          readout.textContent = pair ? `member ${members.member[usable[k]]}: ${pair}` : agreement;
         }],
         draw: [(plot) => {
-          const {ctx, bbox} = plot;
-          const r = 3.5 * devicePixelRatio;
-          ctx.save();
-          ctx.strokeStyle = c.warm;
-          ctx.lineWidth = 1.5 * devicePixelRatio;
-          for (const value of lost) {
-            const px = plot.valToPos(value, 'x', true);
-            const py = bbox.top + bbox.height - 2 * r;
-            ctx.beginPath();
-            ctx.moveTo(px - r, py - r);
-            ctx.lineTo(px + r, py + r);
-            ctx.moveTo(px - r, py + r);
-            ctx.lineTo(px + r, py - r);
-            ctx.stroke();
-          }
-          ctx.restore();
+          drawCut(plot, x, cut, c);
+          drawLost(plot, lost, c);
         }],
       },
-    }, [x, y], box);
+    }, [x, known, cut], box);
   });
 }
 

@@ -7,6 +7,7 @@ import {createMap} from './map.js';
 const statisticNames = {
   probability: 'Probability', quantile: 'Quantile', mean: 'Mean', peak: 'Peak', value: 'Value',
 };
+const boundNames = {lower: 'lower end', upper: 'upper end'};
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
 export function element(tag, attributes = {}, ...children) {
@@ -31,6 +32,26 @@ function chips(label, entries, active, pick) {
   return row;
 }
 
+/** The map is never turned: north is up. */
+function northArrow() {
+  const space = 'http://www.w3.org/2000/svg';
+  const svg = document.createElementNS(space, 'svg');
+  for (const [name, value] of Object.entries(
+           {viewBox: '0 0 24 36', width: '24', height: '36', class: 'north', role: 'img',
+            'aria-label': 'North is up'}))
+    svg.setAttribute(name, value);
+  const part = (tag, attributes, text = '') => {
+    const node = document.createElementNS(space, tag);
+    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
+    node.textContent = text;
+    svg.append(node);
+  };
+  part('path', {d: 'M12 1 19 23 12 18 5 23Z', fill: '#111', stroke: '#fff', 'stroke-width': '1.2'});
+  part('text', {x: '12', y: '34', 'text-anchor': 'middle', 'font-size': '11', 'font-weight': '700',
+                fill: '#111', stroke: '#fff', 'stroke-width': '2.4', 'paint-order': 'stroke'}, 'N');
+  return svg;
+}
+
 /** All planes of a page as {layer, plane, values}, unpacked. */
 async function loadPlanes(maps) {
   const jobs = [];
@@ -51,6 +72,8 @@ export async function startMaps(page) {
   const title = element('h3', {class: 'map-title'});
   const target = element('div', {id: 'map', class: 'map', tabindex: '0', 'aria-label': 'Map'});
   const hover = element('div', {class: 'hover', 'aria-live': 'off'});
+  const wheelHint = element('div', {class: 'wheel-hint'}, 'Ctrl and the wheel zoom the map');
+  wheelHint.hidden = true;
   const legendBox = element('div', {class: 'legend-box'});
   const comment = element('p', {class: 'note map-comment'});
   const cellBox = element('div', {class: 'cell-box'});
@@ -67,12 +90,13 @@ export async function startMaps(page) {
       pickers,
       element('div', {class: 'map-grid'},
               element('div', {class: 'map-column'}, title,
-                      element('div', {class: 'map-box'}, target, hover), comment),
+                      element('div', {class: 'map-box'}, target, northArrow(), hover, wheelHint), comment),
               element('aside', {class: 'map-side'}, legendBox, switches, cellBox)));
 
   const cellPanel = createCellPanel(cellBox, page, planes);
   const reached = planes.find((p) => p.layer.quantity === 'reached');
   let current = planes.find((p) => p.layer === maps.layers[maps.start]);
+  let bound = 'value';
 
   const groundHeight = ([x, y]) => {
     const at = heights ? cellIndex(maps.ground.grid, x, y) : -1;
@@ -99,8 +123,15 @@ export async function startMaps(page) {
     const k = at < 0 ? -1 : classOf(legend, value);
     if (k >= 0) legendBox.querySelector(`[data-class="${k}"]`)?.classList.add('on');
   };
-  const view = createMap(target, maps, heights, {
+  const left = planes.find((p) => p.layer.quantity === 'left') ?? null;
+  let hintTimer = 0;
+  const view = createMap(target, maps, heights, left?.values ?? null, {
     hover: showHover,
+    plainWheel() {
+      wheelHint.hidden = false;
+      clearTimeout(hintTimer);
+      hintTimer = setTimeout(() => { wheelHint.hidden = true; }, 1500);
+    },
     click(coordinate) {
       const at = cellIndex(maps.cells, ...coordinate);
       view.mark(coordinate);
@@ -111,24 +142,39 @@ export async function startMaps(page) {
 
   const drawLegend = (legend) => {
     const list = element('ul', {class: 'legend'});
-    if (legend.unit) list.append(element('li', {class: 'unit'}, legend.unit));
     legend.classes.forEach((c, k) => {
       const swatch = element('span', {class: 'swatch'});
       swatch.style.background = c.colour;
       list.append(element('li', {'data-class': k}, swatch, c.label));
     });
-    legendBox.replaceChildren(list);
+    const marks = element('ul', {class: 'legend marks'});
+    if (maps.release.length > 0)
+      marks.append(element('li', {}, element('span', {class: 'swatch release'}), 'release'));
+    if (left?.values.some((v) => v > 0))
+      marks.append(element('li', {}, element('span', {class: 'swatch left'}),
+                           'mass left the terrain here'));
+    legendBox.replaceChildren(element('p', {class: 'legend-title'}, legend.title), list, marks);
   };
 
   const show = (next) => {
     current = next;
-    const {layer, plane, values} = current;
-    title.textContent = plane.title;
+    const {layer, plane} = current;
+    const shown = boundOf(current, bound);
+    title.textContent = bound === 'value' || !layer.legend.probability
+        ? plane.title : `${plane.title}: ${boundNames[bound]} of its 95 % interval`;
     comment.textContent = layer.comment ? `${capital(layer.comment)}.` : '';
     drawLegend(layer.legend);
-    view.show(layer.legend, values);
+    view.show(layer.legend, shown);
     cellPanel.follow(layer.quantity);
     drawPickers();
+  };
+
+  /** A plane's probabilities, or one end of their interval where the flow came at all. */
+  const boundOf = ({layer, values}, which) => {
+    if (which === 'value' || !layer.legend.probability || !(page.valid > 0)) return values;
+    const end = which === 'lower' ? 0 : 1;
+    return values.map(
+        (p, i) => reached && !(reached.values[i] > 0) ? p : wilson(p, page.valid, page.z)[end]);
   };
 
   /** Goes to a quantity and statistic; keeps what was chosen where it exists there. */
@@ -167,6 +213,15 @@ export async function startMaps(page) {
                         flag: p.plane.resolved === false ? 'not resolved' : '',
                       })),
           `level-${choices.indexOf(current)}`, (key) => show(choices[Number(key.slice(6))])));
+    if (current.layer.legend.probability && page.valid > 0)
+      rows.push(chips(
+          'End of the interval',
+          [{key: 'value', label: 'Share'}, {key: 'lower', label: '95 % lower'},
+           {key: 'upper', label: '95 % upper'}],
+          bound, (key) => {
+            bound = key;
+            show(current);
+          }));
     pickers.replaceChildren(...rows);
     if (focused) pickers.querySelector(`[data-key="${focused}"]`)?.focus();
   };

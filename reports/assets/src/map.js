@@ -7,6 +7,7 @@ import ScaleLine from 'ol/control/ScaleLine.js';
 import {platformModifierKeyOnly} from 'ol/events/condition.js';
 import Feature from 'ol/Feature.js';
 import MultiLineString from 'ol/geom/MultiLineString.js';
+import MultiPolygon from 'ol/geom/MultiPolygon.js';
 import Polygon, {fromExtent} from 'ol/geom/Polygon.js';
 import {defaults as defaultInteractions} from 'ol/interaction/defaults.js';
 import DragPan from 'ol/interaction/DragPan.js';
@@ -107,6 +108,59 @@ function wholeScreenSign() {
   return svg;
 }
 
+/** Slanted lines for cells where mass crossed the edge of the terrain. */
+function hatchFill() {
+  const tile = document.createElement('canvas');
+  const size = 7 * devicePixelRatio;
+  tile.width = tile.height = size;
+  const ctx = tile.getContext('2d');
+  ctx.fillStyle = 'rgba(255,255,255,0.75)';
+  ctx.fillRect(0, 0, size, size);
+  ctx.strokeStyle = '#b3123f';
+  ctx.lineWidth = 1.8 * devicePixelRatio;
+  ctx.beginPath();
+  for (const shift of [-size, 0, size]) {
+    ctx.moveTo(shift, size);
+    ctx.lineTo(shift + size, 0);
+  }
+  ctx.stroke();
+  return new Fill({color: ctx.createPattern(tile, 'repeat')});
+}
+
+/** Cells of a plane that are not 0, as one shape; null when there is none. */
+function cellShape(values, grid) {
+  const squares = [];
+  values.forEach((v, i) => {
+    if (!(v > 0)) return;
+    const west = grid.west + (i % grid.cols) * grid.cell;
+    const south = grid.north - (Math.floor(i / grid.cols) + 1) * grid.cell;
+    squares.push(fromExtent([west, south, west + grid.cell, south + grid.cell]).getCoordinates());
+  });
+  return squares.length > 0 ? new Feature(new MultiPolygon(squares)) : null;
+}
+
+/** Outline of the release and cells where mass left: what every map of the page shows. */
+function marksLayer(maps, leftValues) {
+  const source = new VectorSource();
+  if (maps.release.length > 0) {
+    const outline = new Feature(new MultiLineString(
+        maps.release.map(([x0, y0, x1, y1]) => [[x0, y0], [x1, y1]])));
+    outline.setStyle([
+      new Style({stroke: new Stroke({color: 'rgba(255,255,255,0.9)', width: 4})}),
+      new Style({stroke: new Stroke({color: '#111', width: 1.8})}),
+    ]);
+    source.addFeature(outline);
+  }
+  const left = leftValues ? cellShape(leftValues, maps.cells) : null;
+  if (left) {
+    left.setStyle(new Style({
+      fill: hatchFill(), stroke: new Stroke({color: '#b3123f', width: 2}),
+    }));
+    source.addFeature(left);
+  }
+  return new VectorLayer({source, updateWhileInteracting: true});
+}
+
 /** One pixel per cell, in the legend's colours. */
 function paint(canvas, legend, values) {
   const context = canvas.getContext('2d');
@@ -125,10 +179,12 @@ function paint(canvas, legend, values) {
 
 /**
  * @param {HTMLElement} target
- * @param {object} maps of the page's data; `heights` are the ground's, null when unknown
- * @param {{hover: Function, click: Function}} on get the map coordinate; hover also null on leaving
+ * @param {object} maps of the page's data; `heights` are the ground's, null when unknown;
+ *   `leftValues` tell where mass left, null when it did nowhere
+ * @param {{hover: Function, click: Function, plainWheel: Function}} on hover and click get the map
+ *   coordinate, hover also null on leaving; plainWheel: the wheel turned without Ctrl
  */
-export function createMap(target, maps, heights, on) {
+export function createMap(target, maps, heights, leftValues, on) {
   const viewExtent = extentOf(maps.view);
   const projection = new Projection({
     code: 'sturz', units: 'm', extent: viewExtent, getPointResolution: (resolution) => resolution,
@@ -179,10 +235,11 @@ export function createMap(target, maps, heights, on) {
   };
   const map = new OlMap({
     target,
-    layers: [shade, results, lines, marker],
+    layers: [shade, results, lines, marksLayer(maps, leftValues), marker],
     controls: defaultControls({rotate: false, attribution: false}).extend([
       new ScaleLine({minWidth: 80}), new FullScreen({
         tipLabel: 'Whole screen', label: wholeScreenSign(), labelActive: wholeScreenSign(),
+        source: 'map-app',
       }),
     ]),
     interactions: defaultInteractions({
@@ -200,6 +257,9 @@ export function createMap(target, maps, heights, on) {
   });
   map.getView().fit(viewExtent, {padding: [0, 0, 0, 0]});
 
+  target.addEventListener('wheel', (event) => {
+    if (!event.ctrlKey && !event.metaKey && document.fullscreenElement === null) on.plainWheel();
+  }, {passive: true});
   map.on('pointermove', (event) => {
     if (!event.dragging) on.hover(event.coordinate);
   });

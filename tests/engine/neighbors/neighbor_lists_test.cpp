@@ -17,9 +17,7 @@ namespace {
 
 constexpr double support = 2.6, skin = 0.195, search_radius = support + skin;
 
-NeighborLists make_lists() {
-  return {support, skin, sweeps(best_instruction_set()).tight_list};
-}
+NeighborLists make_lists() { return {support, skin, sweeps(best_instruction_set()).tight_list}; }
 
 ParticleSet set_of(const std::vector<Vec3>& points) {
   ParticleSet set;

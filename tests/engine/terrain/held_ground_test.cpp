@@ -47,7 +47,7 @@ void expect_same(const SurfaceDistance& a, const SurfaceDistance& b) {
 class HeldGroundTest : public ::testing::Test {
  protected:
   Raster<double> all_ = raster_of(hills, whole);
-  Window window_{20, 30, 60, 64};
+  Window window_{14, 30, 70, 70};  // tiles of 16 cells around all that is asked for
   Terrain full_ = test::ground_of(all_);
   Terrain part_ = held(all_, window_);
 };
@@ -107,15 +107,18 @@ TEST_F(HeldGroundTest, NodesBesideTheWindowsEndAreNotTrusted) {
 }
 
 TEST_F(HeldGroundTest, PatchesAreCountedInRowsOfTheWhole) {
-  std::vector<double> dug(6, 150.0);
+  std::vector<double> dug;
+  for (int r = 50; r < 52; ++r)
+    for (int c = 60; c < 63; ++c) dug.push_back(all_.at(r, c) - 1);
   dug[2] = nan_d;
   const Terrain a = part_.with_patch(50, 60, 2, 3, dug), b = full_.with_patch(50, 60, 2, 3, dug);
   for (int r = 45; r < 56; ++r)
     for (int c = 55; c < 68; ++c) ASSERT_EQ(a.node(r, c), b.node(r, c));
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> row(48, 53), col(58, 64);
+  std::uniform_real_distribution<double> row(48, 53), col(58, 64), up(-0.5, 3);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 p = at(row(random), col(random), 151);
+    Vec3 p = at(row(random), col(random), 0);
+    p.z() = b.height(p.x(), p.y()) + up(random);
     for (const double contact : {0.2, 0.9})
       expect_same(a.distance(p, contact), b.distance(p, contact));
     ASSERT_EQ(a.clearance(p), b.clearance(p));

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/censoring/censoring_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+namespace sturz {
+namespace {
+
+std::string percent(double share) {
+  if (share > 0 && share < 0.01) return fmt::format("{:.2g} %", 100 * share);
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
+std::string of_all(std::int64_t n, const CensoringReport& r) {
+  return fmt::format("{} of {}", n, r.valid);
+}
+
+/// A sentence without its numbers.
+std::string shape_of(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+  return text;
+}
+
+}  // namespace
+
+CensoringReport censoring_report(std::span<const MemberSummary> members, double accepted_fraction) {
+  CensoringReport r;
+  r.accepted_fraction = accepted_fraction;
+  for (const MemberSummary& m : members) {
+    if (!is_valid(m.outcome)) continue;
+    ++r.valid;
+    r.settled += m.censoring == Censoring::none;
+    r.still_moving += m.censoring == Censoring::still_moving;
+    r.left_terrain += m.censoring == Censoring::left_terrain;
+    r.left_and_moving += m.censoring == Censoring::left_and_moving;
+    if (has_left(m.censoring))
+      r.largest_lost_fraction = std::max(r.largest_lost_fraction, m.scalars.lost_fraction);
+  }
+  return r;
+}
+
+std::string counts_text(const CensoringReport& r) {
+  std::string text;
+  const auto add = [&](std::int64_t n, const char* what) {
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, what);
+  };
+  add(r.settled, "settled");
+  add(r.still_moving, "out of time");
+  add(r.left_terrain, "left the terrain");
+  add(r.left_and_moving, "left the terrain and still moved");
+  return text.empty() ? "none" : text;
+}
+
+std::string one_line(const CensoringReport& r) {
+  return fmt::format("{} of {} valid members ({})", r.censored(), r.valid, counts_text(r));
+}
+
+std::vector<std::string> censoring_sentences(const CensoringReport& r) {
+  if (r.censored() == 0) return {};
+  const bool one = r.valid == 1;
+  std::vector<std::string> lines;
+  lines.push_back(one ? std::string("This result is cut off.")
+                      : fmt::format("{} simulations ({}) are cut off.", of_all(r.censored(), r),
+                                    percent(r.fraction())));
+  if (r.left() > 0)
+    lines.push_back(fmt::format(
+        "{}ass ran off the known terrain{}{}.",
+        one ? std::string("M") : fmt::format("In {} of them m", r.left()),
+        r.where.empty() ? "" : " " + r.where,
+        one ? fmt::format(": {} of it", percent(r.largest_lost_fraction))
+            : fmt::format(", up to {} of a simulation's mass", percent(r.largest_lost_fraction))));
+  if (r.moving() > 0)
+    lines.push_back(
+        one ? "Mass still moved at the end time."
+            : fmt::format("In {} of them mass still moved at the end time.", r.moving()));
+  lines.emplace_back(
+      "What they reached counts, as a lower bound: they may have gone farther, faster and thicker. "
+      "Where all of it would lie at rest is not known.");
+  std::string cure;
+  if (r.left() > 0) cure = "take terrain that goes on beyond that edge (a larger terrain.raster)";
+  if (r.moving() > 0)
+    cure += std::string(cure.empty() ? "" : ", and ") + "a longer numerics.end_time_s";
+  lines.push_back(fmt::format("To see the whole {}: {}.", one ? "runout" : "spread", cure));
+  return lines;
+}
+
+std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> members,
+                                           std::span<const std::string> known) {
+  std::set<std::string> left_out;
+  for (const std::string& text : known) left_out.insert(shape_of(text));
+  std::map<std::string, std::size_t> place;
+  std::vector<MemberWarning> found;
+  for (const MemberSummary& m : members) {
+    std::size_t start = 0;
+    while (start < m.warnings.size()) {
+      const std::size_t end = std::min(m.warnings.find("; ", start), m.warnings.size());
+      const std::string text = m.warnings.substr(start, end - start), shape = shape_of(text);
+      start = end + 2;
+      if (left_out.contains(shape)) continue;
+      const auto [it, is_new] = place.try_emplace(shape, found.size());
+      if (is_new) found.push_back({text, 0});
+      ++found[it->second].count;
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return a.count > b.count; });
+  return found;
+}
+
+}  // namespace sturz

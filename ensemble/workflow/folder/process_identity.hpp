@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which process on which machine: enough to tell a live one from one that only left its name.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace sturz::workflow {
+
+struct ProcessIdentity {
+  std::string host;     ///< name of the machine
+  std::string machine;  ///< its own number (/etc/machine-id); empty where there is none
+  std::string boot;     ///< another after each start of the machine
+  std::string pids;  ///< in which set of process numbers `pid` counts (containers have their own)
+  std::int64_t pid = 0;
+  std::uint64_t start = 0;  ///< when it began, in ticks since the machine's start; tells a process
+                            ///< from a later one with the same number
+  bool operator==(const ProcessIdentity&) const = default;
+};
+
+const ProcessIdentity& this_process();
+
+enum class Liveness {
+  alive,
+  gone,
+  unknown,  ///< on another machine or in another container: cannot be asked from here
+};
+Liveness liveness_of(const ProcessIdentity&);
+
+}  // namespace sturz::workflow
