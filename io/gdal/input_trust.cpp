@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -177,10 +178,14 @@ void close_network() {
   if (skipped.find(',') == std::string::npos)
     std::replace(skipped.begin(), skipped.end(), ' ', ',');
   CPLSetConfigOption("GDAL_SKIP", (skipped.empty() ? gone : skipped + "," + gone).c_str());
+  // The library keeps ours to its end and forgets the one before, which others may still use.
+  static auto* const replaced = new std::vector<VSIFilesystemHandler*>;
   for (const char* system : network_systems)
-    for (const char* kind : {"", "_streaming"})
-      // The library keeps it to its end.
-      VSIFileManager::InstallHandler(fmt::format("/{}{}/", system, kind), new ClosedSystem);
+    for (const char* kind : {"", "_streaming"}) {
+      const std::string prefix = fmt::format("/{}{}/", system, kind);
+      replaced->push_back(VSIFileManager::GetHandler(prefix.c_str()));
+      VSIFileManager::InstallHandler(prefix, new ClosedSystem);
+    }
   CPLHTTPSetFetchCallback(no_request, nullptr);
 }
 

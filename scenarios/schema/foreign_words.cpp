@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <initializer_list>
 #include <string_view>
+#include <vector>
 
 namespace sturz {
 namespace {
 
 struct Entry {
-  std::initializer_list<std::string_view> words;
+  std::vector<std::string_view> words;
   std::string_view advice;
 };
 

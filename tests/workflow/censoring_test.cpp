@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 constexpr double cell_m = 4, west_m = 400000, south_m = 4000000, release_x_m = west_m + 30;
-constexpr int n_rows = 20;
+constexpr int n_rows = 60;  // wide enough that no mass leaves at the sides
 
 /// Thirty degrees for 80 m, then five; ends `length_m` after its western edge. ESRI ASCII.
 std::string slope(double length_m) {
@@ -52,7 +52,7 @@ ensemble: {{design: latin_hypercube, members: 24, seed: 3}}
 hazard: {{cell_size_m: 4}}
 formulation: depth_averaged
 )",
-                     raster, release_x_m - 10, release_x_m + 10, south_m + 30, south_m + 50);
+                     raster, release_x_m - 10, release_x_m + 10, south_m + 110, south_m + 130);
 }
 
 struct Finished {
