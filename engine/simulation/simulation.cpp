@@ -279,15 +279,20 @@ class Run {
     m.release_layers = release.layers;
     m.released_mass_kg = ledger.released_mass;
     m.lost_mass_kg = ledger.lost_mass;
-    double left_mass = 0;
-    for (const MovingSet& set : s.sets)
-      for (const Departure& gone : set.departures) left_mass += gone.mass;
-    m.lost_fraction = left_mass / brought;
+    m.lost_fraction = ledger.lost_mass / brought;
     m.mass_error = (mass_on_terrain(s) + ledger.lost_mass + ledger.taken_mass - brought) / brought;
     const double released = ledger.available_energy();
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
     m.take_off_fraction = s.time > 0 ? ledger.detachment / (brought * s.time) : 0;
     m.n_particles = static_cast<double>(n_created(s) - removed_before_);
+  }
+
+  /// Mass that crossed the edge of the known ground.
+  double departed_mass() const {
+    double mass = 0;
+    for (const MovingSet& set : parts_.state.sets)
+      for (const Departure& gone : set.departures) mass += gone.mass;
+    return mass;
   }
 
   /// What is averaged over the run's time.
@@ -322,6 +327,10 @@ class Run {
       result_.outcome = Outcome::left_terrain;
       result_.reason = std::to_string(100 * ledger.lost_mass / ledger.brought_mass()) +
                        " % of the mass left the terrain";
+      const double sunk = ledger.lost_mass - departed_mass();
+      if (sunk > 1e-9 * ledger.lost_mass)
+        result_.reason +=
+            ", " + std::to_string(100 * sunk / ledger.lost_mass) + " % of it through the ground";
     }
   }
 
