@@ -156,7 +156,7 @@ TEST_F(HazardMapOfRandomMembers, SharesReachedMembersBetweenTheIntensities) {
       high += is_high;
       medium += !is_high && !std::isnan(t[m]);
     }
-    const double n = static_cast<double>(h.size());
+    const auto n = static_cast<double>(h.size());
     EXPECT_EQ(at("probability_of_high_intensity", row, col), static_cast<float>(high / n));
     EXPECT_EQ(at("probability_of_medium_intensity", row, col), static_cast<float>(medium / n));
     EXPECT_FLOAT_EQ(static_cast<float>((high + medium) / n), at("probability_of_reach", row, col));

@@ -135,7 +135,7 @@ std::optional<LockHolder> take_lock(const fs::path& file, const LockHolder& mine
       remember_unfinished(file);  // not before: it may be of another process
       return std::nullopt;
     }
-    const auto holder = holder_in(file);
+    auto holder = holder_in(file);
     if (!holder) continue;  // given back just now
     if (liveness_of(holder->process) != Liveness::gone) return holder;
     if (take_over(file, *holder, mine)) {
