@@ -150,6 +150,17 @@ TEST(Report, BeginsWithWhatIsCutOffWhereThatIsMuch) {
   EXPECT_EQ(nesting_error(page), "");
 }
 
+TEST(Report, APartOfAnEnsembleSaysSo) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  EXPECT_EQ(make_report(input).find("are missing here"), std::string::npos);
+  input.n_planned = 40;
+  const std::string page = make_report(input);
+  EXPECT_NE(page.find("8 of the 40 planned members are missing here"), std::string::npos);
+  EXPECT_NE(page.find("Ensemble of 32 of 40 members"), std::string::npos);
+  EXPECT_NE(page.find(", 8 not computed yet"), std::string::npos);
+}
+
 TEST(Report, SaysWhatIsCutOffAmongTheWarningsWhereItIsLittle) {
   const auto results = testing::make_up_results();
   const std::string page = make_report(with_cut_members(results, 1));

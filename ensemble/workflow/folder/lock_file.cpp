@@ -53,6 +53,9 @@ std::optional<LockHolder> parsed(const std::string& text) {
     h.purpose = all.at("purpose").get<std::string>();
     h.brief = all.at("brief").get<bool>();
     h.token = all.at("token").get<std::string>();
+    // It becomes part of a file's name.
+    if (h.token.empty() || h.token.find_first_not_of("0123456789abcdef") != std::string::npos)
+      return std::nullopt;
     return h;
   } catch (const json::exception&) {
     return std::nullopt;
