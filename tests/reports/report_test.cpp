@@ -94,7 +94,7 @@ TEST(Report, HoldsWhatAReaderNeeds) {
        {"Gully above the made-up village", "31 of 32", "Read this first", "Median runout",
         "95\u00A0% interval", "not resolved", "WGS 84 / UTM zone 33N", "friction_coefficient",
         "simulations per hour", "Median crown to toe, L", "H/L", "Median centre-of-mass travel",
-        "(EPSG:32633)", "Share of the valid simulations", "git hash",
+        "(EPSG:32633)", "Share of the valid simulations", "sturz 0.1.0 (9f31c02)",
         "Probability that the flow arrives"})
     EXPECT_TRUE(holds(page, text));
   EXPECT_TRUE(holds(page, "bound by &lt;terrain contact&gt;")) << "why member 11 failed";
