@@ -40,7 +40,7 @@ class HashingSource final : public LayerSource {
   const LayerStack& about() const override { return from_.about(); }
   void read(std::size_t layer, std::size_t plane, const Window& window,
             std::span<float> out) const override;
-  /// Of all maps: reads those that nobody has read. \throws Cancelled
+  /// Of all maps: reads what was not read. \throws Cancelled
   std::uint64_t value(CancelFlag cancel = {}) const;
 
  private:

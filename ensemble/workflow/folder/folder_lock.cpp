@@ -62,7 +62,7 @@ void require_no_shards(const OutputFolder& folder) {
 }
 
 /// Waits a minute for the folder's own lock.
-/// \param behind_all whoever holds it; false: those only that begin or look around
+/// \param behind_all also behind a process that stays alone; false: refuse then
 void take_in_turn(const OutputFolder& folder, const LockHolder& holder, bool behind_all) {
   constexpr std::chrono::seconds patience{60};
   const auto end = std::chrono::steady_clock::now() + patience;

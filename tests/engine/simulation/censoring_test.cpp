@@ -124,7 +124,7 @@ TEST(Censoring, MassThatSankThroughTheGroundCensorsToo) {
     EXPECT_TRUE(has_left(r.censoring));
     EXPECT_EQ(r.outcome == Outcome::left_terrain, r.scalars.lost_fraction > 0.01);
     if (r.outcome == Outcome::left_terrain) {
-      EXPECT_NE(r.reason.find("100.000000 % of it through the ground"), std::string::npos);
+      EXPECT_NE(r.reason.find("some of it through the ground"), std::string::npos);
     }
   }
 }
