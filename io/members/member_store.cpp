@@ -106,7 +106,7 @@ void MemberStore::read_part(std::size_t index, PeakLayer layer, const Window& pa
     std::fill(out.begin(), out.end(), info(layer).untouched);
     return;
   }
-  const std::lock_guard lock(netcdf_mutex());  // whoever writes maps meanwhile holds it, too
+  const std::lock_guard lock(netcdf_mutex());  // a writer of maps meanwhile holds it, too
   read_member_part(reader(index), w, layer, part, out);
 }
 
