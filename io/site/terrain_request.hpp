@@ -17,4 +17,13 @@ inline RasterRequest terrain_request(const Scenario& scenario) {
   return request;
 }
 
+/// Where the terrain's file had no system, the files beside it mostly share the lack, and the user
+/// has named the system once.
+template <class Request>
+void stand_in_with_terrain(Request& request, const TerrainSpec& terrain) {
+  if (terrain.crs == local_crs) return;
+  request.fallback_crs = terrain.crs;
+  request.fallback_crs_key = "terrain.crs";
+}
+
 }  // namespace sturz

@@ -37,18 +37,19 @@ MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
   plan.members = start_order(job);
   plan.workers = job.workers;
   RunCallbacks callbacks;
+  MembersRun run;
   callbacks.run_member = [&job](std::int64_t member, const std::atomic<bool>& stop) {
     return run_member(job, member, stop);
   };
   callbacks.store = [&](const MemberResult& result) {
     store_member(job, result);
+    run.computed.push_back(summary_of(result));
     observer.member_stored(result);
   };
   callbacks.on_progress = [&](const RunnerProgress& progress) {
     observer.ensemble_progress(progress, job.finished_before);
   };
   RunReport report = run_members(plan, callbacks, cancel);
-  MembersRun run;
   run.finished = job.finished_before + report.progress.n_done;
   run.total = job.finished_before + report.progress.n_total;
   run.failed = std::move(report.failed);

@@ -16,7 +16,7 @@
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <string>
 
@@ -41,6 +41,14 @@ MemberSummary summary_of(const MemberResult& r) {
 void remove_results(const OutputFolder& folder) {
   for (const auto& file : {folder.peaks_nc(), folder.report(), folder.members() / "000000.nc"})
     std::filesystem::remove(file);
+}
+
+/// What is cut off, what was warned of before and what the run itself found: a line each.
+std::string warnings_text(const RunStored& stored, const std::vector<std::string>& before) {
+  std::vector<std::string> lines = censoring_sentences(stored.censoring);
+  lines.insert(lines.end(), before.begin(), before.end());
+  for (const MemberWarning& w : stored.warnings) lines.push_back(w.example);
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 }  // namespace
@@ -119,6 +127,8 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
       {"censored", std::string(to_string(result.censoring))},
       {"formulation", result.formulation},
       {"computing_time_by_effect", as_text(result.effect_seconds)}};
+  if (const std::string said = warnings_text(stored, manifest.warnings); !said.empty())
+    peaks.attributes.emplace_back("warnings", said);
   write_layers(folder.peaks_nc(), peaks, result.history);
   PageContent page;
   page.peaks = &peaks;
@@ -128,6 +138,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   page.where_mass_left = stored.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(MemberStore(folder.members()));
   page.release = &release;
+  page.observed = scene.inputs.observed;
   write_page(folder, manifest, scene.medians, page);
   return stored;
 }

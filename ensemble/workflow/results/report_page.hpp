@@ -32,6 +32,7 @@ struct PageContent {
   CancelFlag cancel;
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
+  std::span<const std::vector<Vec2>> observed;    ///< rings of the observed outline [m]
   const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 
