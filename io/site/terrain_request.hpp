@@ -2,6 +2,7 @@
 /// The raster that a scenario names as its terrain.
 #pragma once
 
+#include "io/gdal/crs.hpp"
 #include "io/gdal/raster_request.hpp"
 #include "scenarios/scenario.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/member_order.hpp"
+#include "ensemble/workflow/members/member_summary.hpp"
 #include "io/members/member_file.hpp"
 
 #include <utility>

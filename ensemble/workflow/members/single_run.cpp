@@ -6,6 +6,7 @@
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/members/member_summary.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -29,11 +30,6 @@ std::string as_text(const NamedSeconds& times) {
   for (const auto& [name, seconds] : times)
     text += fmt::format("{}{} {:.6g} s", text.empty() ? "" : "; ", name, seconds);
   return text;
-}
-
-MemberSummary summary_of(const MemberResult& r) {
-  return {r.member,   r.outcome,    r.censoring, r.reason, r.formulation,   r.binding_limit,
-          r.warnings, r.state_hash, r.scalars,   r.window, r.effect_seconds};
 }
 
 /// So that a run which is stopped does not leave the results of one scene under the name of

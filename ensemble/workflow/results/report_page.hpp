@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/cancel.hpp"
+#include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sturz::workflow {
 
