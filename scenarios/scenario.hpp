@@ -190,6 +190,8 @@ struct HazardSpec {
   std::vector<double> energy_kj_m2{10, 100, 1000};
   std::vector<double> pressure_kpa{1, 10, 30};
   std::vector<double> quantiles{0.05, 0.5, 0.95};
+  std::string observed_polygon;  ///< any OGR polygon layer, drawn over the maps
+  std::string observed_note;     ///< what it is, in words
   bool operator==(const HazardSpec&) const = default;
 };
 
