@@ -115,9 +115,8 @@ class Run {
         result_.scalars.max_mach =
             std::max(result_.scalars.max_mach, set.motion.max_speed / set.sound_speed);
     }
-    travelled_ += s.max_speed() * s.previous_dt;
-    const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
-    if (travelled_ >= half_cell) record();
+    to_next_record_ += parts_.peaks.share_of_record(s.sets, s.previous_dt);
+    if (to_next_record_ >= 1) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
     if (s.time - sampled_at_ > sample_interval(parts_.facts.spacing_m) &&
         s.n_steps - sampled_step_ >= 4)
@@ -126,7 +125,7 @@ class Run {
     if (s.n_steps % 16 == 0) watch();
   }
 
-  /// Peak maps, whenever the fastest particle may have crossed half a cell.
+  /// Peak maps, whenever a particle may have moved by what they can tell apart.
   void record() {
     const double now = parts_.state.time;
     parts_.peaks.record(parts_.state.sets, now);
@@ -136,7 +135,7 @@ class Run {
     median_time_ += layers.median * span;
     p10_time_ += layers.p10 * span;
     recorded_at_ = now;
-    travelled_ = 0;
+    to_next_record_ = 0;
   }
 
   void sample_diagnostics() {
@@ -373,7 +372,7 @@ class Run {
   std::size_t most_ = 0;
   bool ended_ = false, at_rest_ = false;
   std::size_t sampled_step_ = 0;
-  double travelled_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
+  double to_next_record_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
          p10_time_ = 0, progress_at_ = 0, next_frame_ = 0, peak_energy_ = 0;
   std::vector<ParticleTravel> each_;
   std::vector<double> loaded_;
