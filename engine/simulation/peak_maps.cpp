@@ -21,9 +21,6 @@ constexpr double enough_cover = 0.75;
 /// Half the width of what a particle surely covers, in mean distances. A little less than a half,
 /// for at an edge columns seem farther apart than they are.
 constexpr double own_share = 0.4;
-/// Layers are an average over time that changes slowly: looked at in one record of so many.
-constexpr std::size_t layers_every = 8;
-
 float& sum_of(CellSums& cell, CellSum what) { return cell[static_cast<int>(what)]; }
 
 /// Width of a particle's spread [cells]: rounded alike wherever room for its weights is counted.
@@ -90,7 +87,8 @@ double PeakMaps::Width::area(std::size_t i, double mass, double distance) const 
 
 /// Widths of all sets, and the cells that they can touch.
 Window PeakMaps::bounds_of(std::span<const MovingSet> sets) {
-  expect(!sets.empty() && (n_sets_ == 0 || n_sets_ == sets.size()), "the sets stay the same");
+  expect(!sets.empty() && sets.size() <= 2, "one set, or two");
+  expect((n_sets_ == 0 || n_sets_ == sets.size()), "the sets stay the same");
   n_sets_ = sets.size();
   widths_.clear();
   Window all;
@@ -188,7 +186,7 @@ void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
   const Width& widest = widths_[set];
   const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
   const double distance_per_radius = settings_.width_per_radius / 1.5;
-  const double volume_per_mass = 1 / p.bulk_density, per_spacing = 1 / p.spacing;
+  const double volume_per_mass = 1 / p.bulk_density, in_first = set == 0 ? 1 : 0;
   double width = widest.cells, distance = p.spacing;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double x = (p.x[i] - g.west_m) * per_cell - 0.5;
@@ -205,8 +203,8 @@ void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
     down_.set(y, width);
     const double area = widest.area(i, mass, distance) * per_cell * per_cell;
     const Eigen::Array<double, n_cell_sums, 1> whole{
-        mass * volume_per_mass, mass, mass * vx,         mass * vy, mass * vz,
-        0.5 * mass * v2,        area, mass * per_spacing};
+        mass * volume_per_mass, mass, mass * vx,      mass * vy, mass * vz,
+        0.5 * mass * v2,        area, mass * in_first};
     add_one(whole.cast<float>());
     cover_own(x, y, std::max(0.5, own_share * distance * per_cell));
   }
@@ -243,30 +241,31 @@ void PeakMaps::keep_peaks(double time_s) {
   before_s_ = last_s_, last_s_ = time_s;
 }
 
-/// Over the cells: how many layers of the particles in it the cell's thickness is.
-void PeakMaps::count_layers() {
+/// Of every set, over the cells: how many of its layers the cell's whole thickness is.
+void PeakMaps::count_layers(std::span<const MovingSet> sets) {
   const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
   double total = 0;
   histogram_.clear();
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot)
     for (int k = 0; k < SumTiles::n_cells; ++k) {
       CellSums& cell = sums_.cells(slot)[k];
-      const double mass = sum_of(cell, CellSum::mass);
+      const double mass = sum_of(cell, CellSum::mass), first = sum_of(cell, CellSum::first_mass);
       if (mass == 0) continue;
       const double thickness = per_area * sum_of(cell, CellSum::volume);
-      histogram_.add(thickness * sum_of(cell, CellSum::layers) / mass, mass);
+      histogram_.add(thickness / sets.front().spacing, first);
+      if (sets.size() > 1) histogram_.add(thickness / sets[1].spacing, mass - first);
       total += mass;
     }
   layers_ = histogram_.count(total);
 }
 
-void PeakMaps::record(std::span<const MovingSet> sets, double time_s) {
+void PeakMaps::record(std::span<const MovingSet> sets, double time_s, bool with_layers) {
   const Window w = bounds_of(sets);
   if (w.n_cells() == 0) return;
   sums_.cover(w);
   peaks_.cover(w);
   scatter(sets);
-  if (n_records_ % layers_every == 0) count_layers();
+  if (with_layers) count_layers(sets);
   keep_peaks(time_s);
   sums_.clear();
 }

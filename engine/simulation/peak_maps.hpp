@@ -44,7 +44,8 @@ class PeakMaps {
   /// Takes in one instant of all sets; a particle's volume is its mass over its set's bulk density,
   /// so volume is kept as far as floats can. Serial and in storage order: bitwise reproducible for
   /// a given particle order. Particles without a finite position and speed are left out.
-  void record(std::span<const MovingSet>, double time_s);
+  /// At most two sets. \param with_layers  count the layers too; else those of the last time stay
+  void record(std::span<const MovingSet>, double time_s, bool with_layers = true);
   /// Writes window, layers (deposit and mass left from `final_state`) and the map scalars (reached
   /// and deposit area, maxima) into `result`. Record the final state first, as any other instant.
   void finish(std::span<const MovingSet> final_state, MemberResult& result);
@@ -62,7 +63,7 @@ class PeakMaps {
   /// 8 % lower; with the parabola through three records 2 %. Figures of flows:
   /// docs/studies/bookkeeping.md.
   static constexpr double record_share = 0.4;
-  /// Layers across the thickness, of every eighth instant.
+  /// Layers across the thickness, when they were last counted.
   const LayerCount& layers() const { return layers_; }
 
  private:
@@ -92,7 +93,7 @@ class PeakMaps {
   void scatter(std::span<const MovingSet>);
   void scatter_set(const MovingSet&, std::size_t set);
   void keep_peaks(double time_s);
-  void count_layers();
+  void count_layers(std::span<const MovingSet>);
   void keep_deposit();
 
   PeakMapSettings settings_;

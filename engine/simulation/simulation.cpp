@@ -26,6 +26,9 @@ using Clock = std::chrono::steady_clock;
 /// its own size.
 double sample_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
 
+/// Layers are averaged over a member's life and change slowly: counted in one record of so many.
+constexpr std::size_t layers_every = 8;
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -128,7 +131,7 @@ class Run {
   /// Peak maps, whenever a particle may have moved by what they can tell apart.
   void record() {
     const double now = parts_.state.time;
-    parts_.peaks.record(parts_.state.sets, now);
+    parts_.peaks.record(parts_.state.sets, now, n_records_++ % layers_every == 0);
     const LayerCount& layers = parts_.peaks.layers();
     const double span = now - recorded_at_;
     thin_time_ += layers.thin_fraction * span;
@@ -371,7 +374,7 @@ class Run {
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
   bool ended_ = false, at_rest_ = false;
-  std::size_t sampled_step_ = 0;
+  std::size_t sampled_step_ = 0, n_records_ = 0;
   double to_next_record_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
          p10_time_ = 0, progress_at_ = 0, next_frame_ = 0, peak_energy_ = 0;
   std::vector<ParticleTravel> each_;

@@ -1,37 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Takes one row of a tile's sums into its peaks, all cells of the row alike.
+/// Takes one row of a tile's sums into its peaks, eight cells at a time.
 #pragma once
 
+#include "engine/simulation/maps/eight.hpp"
 #include "engine/simulation/maps/peak_tiles.hpp"
 #include "engine/simulation/maps/sum_tiles.hpp"
-#include "engine/simulation/maps/transpose.hpp"
-
-#include <algorithm>
-#include <cmath>
 
 namespace sturz {
 
-/// Values of a cell at the last three instants, the newest first, that hold the largest in their
-/// middle: the top of the parabola through them, for between two instants a peak passes unseen.
-/// It stands over the middle one by an eighth at most, which is what three evenly spaced instants
-/// give; uneven ones (a member's last) could give anything.
-/// \param newer,older  time between the middle one and its neighbours [s]
-/// \param most_over    that eighth, or 0: no parabola
-inline float top_of(float now, float middle, float before, float newer, float older,
-                    float most_over) {
-  const float rise = (middle - before) / older, fall = (now - middle) / newer;
-  const float slope = (rise * newer + fall * older) / (older + newer);
-  const float bend = (rise - fall) / (older + newer);  // minus half the second derivative
-  const bool is_top = (middle >= before) & (middle >= now) & (bend > 0);
-  const float over = is_top ? 0.25F * slope * slope / bend : 0.0F;
-  return middle + std::min(over, most_over * middle);
-}
-
-/// Loops of known length without branches, so that the compiler makes vector instructions of them.
-class PeakRow {
- public:
-  static constexpr int edge = PeakTile::edge;
-
+/// What a row is looked at with.
+struct PeakRow {
   float time_s = 0;
   bool has_three = false;          ///< instants so far: a parabola needs them
   float newer_s = 1, older_s = 1;  ///< between the last three
@@ -39,72 +17,64 @@ class PeakRow {
   float enough_cover = 0;          ///< and they are reached where as much of them is covered
   float per_area = 0;              ///< of a cell [1/m2]
 
-  /// \param cells  [edge]  \param first  of the row's cells within the tile
-  void keep(const CellSums* cells, std::size_t first, PeakTile& peaks) {
-    for (int j = 0; j < edge; j += n_cell_sums) {
-      float* rows[n_cell_sums];
-      for (int k = 0; k < n_cell_sums; ++k) rows[k] = &sums_[k][j];
-      transpose_eight(cells[j].data(), rows);
-    }
-    look();
-    keep_tops(first, peaks);
-    const float* coverage = sums(CellSum::coverage);
-    float* arrival = &peaks.arrival[first];
-    for (int j = 0; j < edge; ++j) {
-      const bool reached = (thickness_[j] > runout_limit_m) & (coverage[j] >= enough_cover);
-      arrival[j] = std::min(arrival[j], reached ? time_s : PeakTile::never);
-    }
+  /// \param cells  of the row  \param first  of the row's cells within the tile
+  void keep(const CellSums* cells, std::size_t first, PeakTile& peaks) const {
+    for (int j = 0; j < PeakTile::edge; j += 8) keep_eight(cells[j].data(), first + j, peaks);
   }
 
  private:
-  const float* sums(CellSum s) const { return sums_[static_cast<int>(s)]; }
-
-  void look() {
-    const float *volume = sums(CellSum::volume), *mass = sums(CellSum::mass),
-                *px = sums(CellSum::momentum_x), *py = sums(CellSum::momentum_y),
-                *pz = sums(CellSum::momentum_z), *energy = sums(CellSum::energy);
-    for (int j = 0; j < edge; ++j) {
-      thickness_[j] = volume[j] * per_area;
-      const bool counts = thickness_[j] > runout_limit_m;
-      const float per_mass = counts ? 1 / mass[j] : 0.0F;
-      const float vx = px[j] * per_mass, vy = py[j] * per_mass, vz = pz[j] * per_mass;
-      speed_[j] = std::sqrt(vx * vx + vy * vy + vz * vz);
-      energy_[j] = counts ? energy[j] * per_area : 0.0F;
-      density_[j] = counts ? mass[j] / volume[j] : 0.0F;  // of the mixture
-    }
+  /// Of values at the last three instants that hold the largest in their middle: the top of the
+  /// parabola through them, for between two instants a peak passes unseen. It stands over the
+  /// middle one by an eighth at most, which is what three evenly spaced instants give; uneven ones
+  /// (a member's last) could give anything. Elsewhere the middle one itself.
+  Eight top_of(const Eight& now, const Eight& middle, const Eight& before) const {
+    const Eight rise = (middle - before) / older_s, fall = (now - middle) / newer_s;
+    const Eight slope = (rise * newer_s + fall * older_s) / (older_s + newer_s);
+    const Eight bend = (rise - fall) / (older_s + newer_s);  // minus half the second derivative
+    const Eight most = has_three ? 0.125F * middle : 0.0F * middle;
+    const Eight over = smaller(0.25F * slope * slope / bend, most);
+    const auto is_top = (middle >= before) & (middle >= now) & (bend > 0.0F);
+    return middle + (is_top ? over : 0.0F * middle);
   }
 
-  void keep_tops(std::size_t first, PeakTile& peaks) const {
-    const float newer = newer_s, older = older_s;
-    const float most_over = has_three ? 0.125F : 0.0F;
-    float *h = &peaks.thickness[first], *e = &peaks.energy[first], *v = &peaks.speed[first],
-          *p = &peaks.pressure[first];
-    float *h1 = &peaks.last.thickness[first], *h2 = &peaks.before.thickness[first];
-    float *e1 = &peaks.last.energy[first], *e2 = &peaks.before.energy[first];
-    float *v1 = &peaks.last.speed[first], *v2 = &peaks.before.speed[first];
-    for (int j = 0; j < edge; ++j) {
-      const float top = top_of(thickness_[j], h1[j], h2[j], newer, older, most_over);
-      h[j] = std::max(h[j], std::max(top, thickness_[j]));
-      h2[j] = h1[j], h1[j] = thickness_[j];
-    }
-    for (int j = 0; j < edge; ++j) {
-      const float top = top_of(energy_[j], e1[j], e2[j], newer, older, most_over);
-      e[j] = std::max(e[j], std::max(top, energy_[j]));
-      e2[j] = e1[j], e1[j] = energy_[j];
-    }
-    for (int j = 0; j < edge; ++j) {
-      // Where the flow was too thin to count there is no speed, and no parabola through it.
-      const bool all = (speed_[j] > 0) & (v1[j] > 0) & (v2[j] > 0);
-      const float top = all ? top_of(speed_[j], v1[j], v2[j], newer, older, most_over) : 0.0F;
-      const float speed = std::max(top, speed_[j]);
-      v[j] = std::max(v[j], speed);
-      p[j] = std::max(p[j], density_[j] * speed * speed);
-      v2[j] = v1[j], v1[j] = speed_[j];
-    }
+  /// Moves the instants on. \return the largest of the new value and a top that it closes
+  Eight pass(const Eight& now, float* last, float* before, bool gaps_count) const {
+    const Eight middle = eight_at(last), first = eight_at(before);
+    put_eight(before, middle);
+    put_eight(last, now);
+    const Eight top = top_of(now, middle, first);
+    if (gaps_count) return larger(now, top);
+    // Where the flow was too thin to count there is no value, and no parabola through it.
+    return ((now > 0.0F) & (middle > 0.0F) & (first > 0.0F)) ? larger(now, top) : now;
   }
 
-  float sums_[n_cell_sums][edge];
-  float thickness_[edge], speed_[edge], energy_[edge], density_[edge];
+  void keep_eight(const float* cells, std::size_t at, PeakTile& peaks) const {
+    Eight sums[n_cell_sums];
+    transpose_eight(cells, sums);
+    const auto sum = [&](CellSum s) { return sums[static_cast<int>(s)]; };
+    const Eight none{}, mass = sum(CellSum::mass), volume = sum(CellSum::volume);
+    const Eight thickness = volume * per_area;
+    const auto counts = thickness > runout_limit_m;
+    const Eight per_mass = counts ? 1.0F / mass : none;
+    const Eight vx = sum(CellSum::momentum_x) * per_mass, vy = sum(CellSum::momentum_y) * per_mass,
+                vz = sum(CellSum::momentum_z) * per_mass;
+    const Eight speed_now = root(vx * vx + vy * vy + vz * vz);
+    const Eight energy_now = counts ? sum(CellSum::energy) * per_area : none;
+    const Eight density = counts ? mass / volume : none;  // of the mixture
+
+    const auto raise = [&](PeakTile::PerCell<float>& peak, const Eight& value) {
+      put_eight(&peak[at], larger(eight_at(&peak[at]), value));
+    };
+    PeakTile::Instant &last = peaks.last, &before = peaks.before;
+    const Eight speed = pass(speed_now, &last.speed[at], &before.speed[at], false);
+    raise(peaks.thickness, pass(thickness, &last.thickness[at], &before.thickness[at], true));
+    raise(peaks.energy, pass(energy_now, &last.energy[at], &before.energy[at], true));
+    raise(peaks.speed, speed);
+    raise(peaks.pressure, density * speed * speed);
+    const auto reached = counts & (sum(CellSum::coverage) >= enough_cover);
+    const Eight now = reached ? none + time_s : none + PeakTile::never;
+    put_eight(&peaks.arrival[at], smaller(eight_at(&peaks.arrival[at]), now));
+  }
 };
 
 }  // namespace sturz

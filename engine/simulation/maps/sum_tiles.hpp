@@ -11,10 +11,19 @@
 namespace sturz {
 
 /// What a cell sums; in this order within `CellSums`.
-enum class CellSum { volume, mass, momentum_x, momentum_y, momentum_z, energy, coverage, layers };
+enum class CellSum {
+  volume,
+  mass,
+  momentum_x,
+  momentum_y,
+  momentum_z,
+  energy,
+  coverage,
+  first_mass
+};
 constexpr int n_cell_sums = 8;
-/// Sums of one cell, or what one particle adds to them: m3, kg, kg m/s, J, 1, and kg/m of mass over
-/// spacing. One vector instruction adds them all; in float, as the maps are, for a cell sums some
+/// Sums of one cell, or what one particle adds to them: m3, kg, kg m/s, J, 1, and kg of the first
+/// set alone. One vector instruction adds them all; in float, as the maps are, for a cell sums some
 /// dozen parts.
 using CellSums = Eigen::Array<float, n_cell_sums, 1>;
 
