@@ -22,7 +22,7 @@ class SpreadWeights {
     n_ = static_cast<int>(std::ceil(place + reach) - first);
     const auto n_blocks = static_cast<std::size_t>((n_ + block - 1) / block);
     if (exact_.size() < n_blocks) exact_.resize(n_blocks), weights_.resize(n_blocks * block);
-    const Block steps = Block::LinSpaced(0, block - 1) * per_width;
+    const Block steps = Block(0, 1, 2, 3) * per_width;
     Block sum = Block::Zero();
     double at = (first - place) * per_width;
     for (std::size_t k = 0; k < n_blocks; ++k, at += block * per_width) {
