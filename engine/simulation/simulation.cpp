@@ -318,8 +318,8 @@ class Run {
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
-    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(), result_.grid,
-                       result_.scalars);
+    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
+                       places_left(s), result_.grid, result_.scalars);
     result_.state_hash = hash_of(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;

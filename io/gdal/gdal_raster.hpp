@@ -27,6 +27,8 @@ class ElevationRaster {
   /// \throws SetupError; see read_elevation
   explicit ElevationRaster(const RasterRequest& request);
   ~ElevationRaster();
+  ElevationRaster(const ElevationRaster&) = delete;
+  ElevationRaster& operator=(const ElevationRaster&) = delete;
 
   /// The whole working grid.
   const Grid& grid() const;

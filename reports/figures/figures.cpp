@@ -107,10 +107,10 @@ std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks&
   const double side = g.cell_m * frame.scale();
   for (std::size_t i = 0; i < marks.left.size(); ++i) {
     if (!(marks.left[i] > 0)) continue;
-    const auto row = static_cast<double>(i / g.n_cols), col = static_cast<double>(i % g.n_cols);
-    cells +=
-        fmt::format("M{0:.1f} {1:.1f}h{2:.2f}v{2:.2f}h-{2:.2f}Z",
-                    frame.x(g.west_m + col * g.cell_m), frame.y(g.north_m - row * g.cell_m), side);
+    const std::size_t row = i / g.n_cols, col = i % g.n_cols;
+    cells += fmt::format("M{0:.1f} {1:.1f}h{2:.2f}v{2:.2f}h-{2:.2f}Z",
+                         frame.x(g.west_m + static_cast<double>(col) * g.cell_m),
+                         frame.y(g.north_m - static_cast<double>(row) * g.cell_m), side);
   }
   std::string svg;
   if (!cells.empty())

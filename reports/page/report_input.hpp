@@ -41,6 +41,7 @@ struct ReportInput {
   NamedSeconds pass_timings;                  ///< by pass of a step, shown folded; may be empty [s]
   double elapsed_s = 0;                       ///< wall time of the whole run; 0 = unknown
   CancelFlag cancel;                 ///< looked at between maps; make_report then throws Cancelled
+  std::int64_t n_planned = 0;        ///< members of the whole ensemble; 0: those that are here
   double max_censored_fraction = 0;  ///< of members; above it the page begins with a banner
   std::string where_mass_left;       ///< in words, may be empty
   const Raster<std::uint8_t>* release = nullptr;  ///< 1: covered at the start; may be null

@@ -179,7 +179,7 @@ std::string wkt2(int epsg) {
   char* text = nullptr;
   const char* options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   crs.exportToWkt(&text, options);
-  const std::string wkt = text;
+  std::string wkt = text;
   CPLFree(text);
   return wkt;
 }

@@ -18,11 +18,13 @@
 namespace sturz::test {
 
 class IoTest : public ::testing::Test {
+ public:
+  IoTest(const IoTest&) = delete;
+  IoTest& operator=(const IoTest&) = delete;
+
  protected:
   IoTest();
   ~IoTest() override;
-  IoTest(const IoTest&) = delete;
-  IoTest& operator=(const IoTest&) = delete;
 
   std::filesystem::path folder() const { return folder_; }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }

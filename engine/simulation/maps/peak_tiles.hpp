@@ -87,7 +87,7 @@ void PeakTiles::take_sums(Use&& use) {
       unsigned bits = touched_[slot * edge + static_cast<std::size_t>(row)];
       touched_[slot * edge + static_cast<std::size_t>(row)] = 0;
       for (; bits != 0; bits &= bits - 1) {
-        const std::size_t cell = static_cast<std::size_t>(row * edge + std::countr_zero(bits));
+        const auto cell = static_cast<std::size_t>(row) * edge + std::countr_zero(bits);
         use(tile.peak[cell], slot, cell);
         for (auto& of_set : mass_) of_set[slot * n_cells + cell] = 0;
         coverage_[slot * n_cells + cell] = 0;

@@ -80,7 +80,7 @@ std::shared_ptr<FolderLock> FolderLock::alone(const OutputFolder& folder,
   make_folder(folder.root);
   auto& known = mine().alone[fs::weakly_canonical(folder.root).string()];
   if (auto held = known.lock()) return held;
-  const std::shared_ptr<FolderLock> lock(new FolderLock);
+  std::shared_ptr<FolderLock> lock(new FolderLock);
   const LockHolder holder = me(purpose, false);
   if (const auto other = take_lock(folder.lock(), holder)) refuse(folder, folder.lock(), *other);
   lock->main_ = {folder.lock(), holder.token};
@@ -95,7 +95,7 @@ std::shared_ptr<FolderLock> FolderLock::alone(const OutputFolder& folder,
 std::shared_ptr<FolderLock> FolderLock::shard(const OutputFolder& folder, const Shard& shard,
                                               const std::string& purpose) {
   make_folder(folder.root);
-  const std::shared_ptr<FolderLock> lock(new FolderLock);
+  std::shared_ptr<FolderLock> lock(new FolderLock);
   const LockHolder beginning = me(purpose, true), computing = me(purpose, false);
   constexpr std::chrono::seconds patience{60};
   const auto end = std::chrono::steady_clock::now() + patience;

@@ -91,7 +91,7 @@ void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
                     "other.",
                     wanted_workers, cores, cores));
   job.workers = std::min({wanted_workers > 0 ? wanted_workers : cores, cores, n});
-  const double memory = static_cast<double>(job.scene.description.memory_bytes);
+  const auto memory = static_cast<double>(job.scene.description.memory_bytes);
   const double free = available_memory_bytes();
   if (memory > 0 && free > 0 && memory * job.workers > 0.9 * free) {
     const int fewer = std::max(1, static_cast<int>(0.9 * free / memory));

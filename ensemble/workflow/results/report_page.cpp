@@ -84,6 +84,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.members.assign(content.members.begin(), content.members.end());
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);
+  if (content.design) input.n_planned = content.design->n_members();
   input.convergence.assign(content.convergence.begin(), content.convergence.end());
   input.max_censored_fraction = scenario.ensemble.max_censored_fraction;
   input.where_mass_left = content.where_mass_left;
