@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace sturz {
@@ -251,11 +252,10 @@ class Run {
     result_.censoring =
         censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
     write_averages();
-    std::vector<std::string> said = doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m);
-    if (sound)
-      for (std::string& warning : parts_.step.warnings(s)) said.push_back(std::move(warning));
-    for (const std::string& warning : said)
-      result_.warnings += (result_.warnings.empty() ? "" : "; ") + warning;
+    auto said = doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m);
+    if (sound) std::ranges::move(parts_.step.warnings(s), std::back_inserter(said));
+    for (const std::string& text : said)
+      result_.warnings += (result_.warnings.empty() ? "" : "; ") + text;
     if (sound) write_final_state();
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
