@@ -117,7 +117,7 @@ struct GrainsSpec {
       friction_angle_deg;  ///< ... or this: mu = tan(angle), no rate dependence
   Uncertain cohesion_pa{0};
   Uncertain poisson_ratio{0.3};
-  LateralPressure earth_pressure = LateralPressure::isotropic;  ///< depth_averaged only
+  LateralPressure earth_pressure = LateralPressure::automatic;  ///< depth_averaged only
   std::optional<GrainStatesSpec> states;                        ///< absent: every grain is dense
   bool operator==(const GrainsSpec&) const = default;
 };

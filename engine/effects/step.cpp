@@ -85,6 +85,12 @@ std::vector<std::string> Step::pass_names() const {
   return names;
 }
 
+std::vector<std::string> Step::warnings(const State& state) const {
+  std::vector<std::string> out;
+  for (const auto& pass : passes_) pass->warnings(state, out);
+  return out;
+}
+
 std::size_t Step::bytes() const {
   std::size_t total = 0;
   for (const auto& pass : passes_) total += pass->bytes();

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace sturz {
@@ -253,8 +254,10 @@ class Run {
     result_.censoring =
         censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
     write_averages();
-    for (const std::string& doubt : doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m))
-      result_.warnings += (result_.warnings.empty() ? "" : "; ") + doubt;
+    auto said = doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m);
+    if (sound) std::ranges::move(parts_.step.warnings(s), std::back_inserter(said));
+    for (const std::string& text : said)
+      result_.warnings += (result_.warnings.empty() ? "" : "; ") + text;
     if (sound) write_final_state();
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
