@@ -11,6 +11,7 @@
 #include "io/site/observed/observed_outline.hpp"
 #include "io/site/release_hash.hpp"
 #include "io/site/release_shapes.hpp"
+#include "io/site/stand_in_crs.hpp"
 #include "io/site/terrain_request.hpp"
 #include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
