@@ -62,9 +62,9 @@ TEST_F(ZoneInputs, TheLaterOfTwoHolds) {
 }
 
 TEST_F(ZoneInputs, HolesAndSeveralFeaturesOfALayer) {
-  const std::string ring =
-      feature("Polygon", "[" + square(0, 0, 50) + "," + square(10, 10, 30) + "]");
-  const std::string overlapping = feature("Polygon", "[" + square(40, 0, 50) + "]");
+  const auto list = [](std::string rings) { return rings.insert(0, 1, '[').append(1, ']'); };
+  const std::string ring = feature("Polygon", list(square(0, 0, 50) + "," + square(10, 10, 30)));
+  const std::string overlapping = feature("Polygon", list(square(40, 0, 50)));
   add_zone("many.geojson", collection(ring + "," + overlapping));
   const SceneInputs in = load_scene_inputs(scene);
   EXPECT_EQ(count(in, 1), (25 - 9) + 25 - 5);

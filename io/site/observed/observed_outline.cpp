@@ -4,7 +4,6 @@
 #include "engine/core/error.hpp"
 #include "io/site/polygon_layer.hpp"
 #include "io/site/stand_in_crs.hpp"
-#include "io/site/terrain_request.hpp"
 
 #include <fmt/core.h>
 
