@@ -85,10 +85,8 @@ std::vector<std::string> Step::pass_names() const {
   return names;
 }
 
-std::vector<std::string> Step::warnings(const State& state) const {
-  std::vector<std::string> out;
+void Step::warnings(const State& state, std::vector<std::string>& out) const {
   for (const auto& pass : passes_) pass->warnings(state, out);
-  return out;
 }
 
 std::size_t Step::bytes() const {

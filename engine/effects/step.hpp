@@ -93,8 +93,8 @@ class Step {
   void apply(State&, double dt);
 
   std::vector<std::string> pass_names() const;
-  /// Of all passes, see Pass::warnings.
-  std::vector<std::string> warnings(const State&) const;
+  /// Appends those of all passes, see Pass::warnings.
+  void warnings(const State&, std::vector<std::string>& out) const;
   const std::vector<PassTime>& timings() const { return timings_; }
   std::size_t bytes() const;
 

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 #include <map>
 
 namespace sturz {
@@ -247,15 +246,14 @@ class Run {
     // The time may have ended a member that rest would have ended, had it been asked to.
     if (result_.outcome == Outcome::out_of_time && at_rest_) result_.outcome = Outcome::settled;
     result_.needs_more_ground = s.terrain.needs_more();
-    result_.member = parts_.facts.member;
-    result_.formulation = parts_.facts.formulation;
+    result_.member = parts_.facts.member, result_.formulation = parts_.facts.formulation;
     result_.warnings = parts_.facts.warnings;
     write_balance();
     result_.censoring =
         censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
     write_averages();
     auto said = doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m);
-    if (sound) std::ranges::move(parts_.step.warnings(s), std::back_inserter(said));
+    if (sound) parts_.step.warnings(s, said);
     for (const std::string& text : said)
       result_.warnings += (result_.warnings.empty() ? "" : "; ") + text;
     if (sound) write_final_state();
