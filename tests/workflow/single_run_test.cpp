@@ -44,7 +44,8 @@ TEST_F(RunWorkflow, WhatItWarnsOfStandsInFileAndPage) {
   ASSERT_EQ(result.censoring, Censoring::still_moving);
   workflow::store_run(run, result);
   std::string said;
-  for (const auto& [name, text] : LayersFileReader(path("out/peaks.nc")).about().attributes)
+  const LayersFileReader peaks(path("out/peaks.nc"));
+  for (const auto& [name, text] : peaks.about().attributes)
     if (name == "warnings") said = text;
   EXPECT_THAT(said, HasSubstr("longer numerics.end_time_s"));
   for (const std::string& warning : run.manifest.warnings) EXPECT_THAT(said, HasSubstr(warning));
