@@ -59,8 +59,8 @@ class PeakMaps {
   /// the particle that is farthest on, when it moves by half a cell or by `record_share` of the
   /// width that it is spread over, whichever is more. Nothing on the map is finer.
   double share_of_record(std::span<const MovingSet>, double dt_s) const;
-  /// A lone particle's peak between two records that lie this share of its width apart is at most
-  /// 8 % lower; with the parabola through three records 2 %. Figures of flows:
+  /// An isolated particle's peak between two records that lie this share of its width apart is at
+  /// most 8 % lower; with the parabola through three records 2 %. Figures of flows:
   /// docs/studies/bookkeeping.md.
   static constexpr double record_share = 0.4;
   /// Layers across the thickness, when they were last counted.

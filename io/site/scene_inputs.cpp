@@ -21,7 +21,7 @@
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,6 @@ struct Loading {
   SceneInputs inputs;
   std::string release_label;  ///< for messages about the release
   std::optional<Raster<double>> synthetic_source;
-
   std::unique_ptr<ElevationRaster> raster;  ///< of terrain.raster
   std::vector<std::string> problems;        ///< of files that cannot be used
 
@@ -65,9 +64,7 @@ struct Loading {
     }
   }
   void refuse_problems() const {
-    std::string all;
-    for (const std::string& problem : problems) all += (all.empty() ? "" : "\n") + problem;
-    require(all.empty(), all);
+    require(problems.empty(), fmt::format("{}", fmt::join(problems, "\n")));
   }
   void set_release(Raster<double> pattern, ReleasePattern kind) {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));

@@ -39,7 +39,7 @@ TEST_F(ObservedInputs, RingsAreThoseOfTheFileHolesToo) {
 TEST_F(ObservedInputs, AnotherSystemIsReprojected) {
   // The same place in degrees; without a system GeoJSON is WGS84.
   const std::string ring =
-      "[[[15.001,41.5505],[15.003,41.5505],[15.003,41.5515],[15.001,41.5515],[15.001,41.5505]]]";
+      "[[[15.001,41.5525],[15.003,41.5525],[15.003,41.5535],[15.001,41.5535],[15.001,41.5525]]]";
   const SceneInputs in = load(collection(feature("Polygon", ring), ""));
   ASSERT_EQ(in.observed.size(), 1U);
   for (const Vec2& p : in.observed[0]) {

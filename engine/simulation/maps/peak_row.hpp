@@ -30,10 +30,11 @@ struct PeakRow {
   Eight top_of(const Eight& now, const Eight& middle, const Eight& before) const {
     const Eight rise = (middle - before) / older_s, fall = (now - middle) / newer_s;
     const Eight slope = (rise * newer_s + fall * older_s) / (older_s + newer_s);
-    const Eight bend = (rise - fall) / (older_s + newer_s);  // minus half the second derivative
+    const Eight curvature =
+        (rise - fall) / (older_s + newer_s);  // minus half the second derivative
     const Eight most = has_three ? 0.125F * middle : 0.0F * middle;
-    const Eight over = smaller(0.25F * slope * slope / bend, most);
-    const auto is_top = (middle >= before) & (middle >= now) & (bend > 0.0F);
+    const Eight over = smaller(0.25F * slope * slope / curvature, most);
+    const auto is_top = (middle >= before) & (middle >= now) & (curvature > 0.0F);
     return middle + (is_top ? over : 0.0F * middle);
   }
 
