@@ -183,27 +183,6 @@ TEST_F(Inputs, AChangeWhileMembersRunStopsTheRun) {
   }
 }
 
-TEST_F(Inputs, GroundThatAnotherShardHasReadOtherwiseStopsTheRun) {
-  for (const std::string part : {"1/2", "0/2 rows 0-9 columns 600-699"}) {
-    ground(valley(0.466));
-    scene_with(wider);
-    std::filesystem::remove_all(path("out"));
-    Recorder heard;
-    const workflow::EnsembleJob job = workflow::prepare_ensemble(four(2), heard);
-    ASSERT_EQ(job.scene.ground->now()->level, 0) << "describing has read more";
-    // The other shard has begun at the same time and grown first, on an earlier file.
-    workflow::Manifest shared = manifest();
-    ASSERT_FALSE(shared.inputs.front().parts.contains(part));
-    shared.inputs.front().parts[part] = "0123456789abcdef";
-    shared.write(path("out/manifest.json"));
-    const workflow::MembersRun stopped = workflow::run_ensemble(job, heard, heard.cancel);
-    EXPECT_THAT(stopped.stop_error, AllOf(HasSubstr("another shard has read another input"),
-                                          HasSubstr("the first block " + part)));
-    EXPECT_EQ(stopped.finished, 0);
-    EXPECT_FALSE(exists("out/lock.json")) << "others wait for ever";
-  }
-}
-
 TEST_F(Inputs, MapsAreNotMadeOverAnotherGround) {
   two_members("");
   Raster<double> holes = valley(0.466);
