@@ -279,10 +279,7 @@ class Run {
     m.release_layers = release.layers;
     m.released_mass_kg = ledger.released_mass;
     m.lost_mass_kg = ledger.lost_mass;
-    double left_mass = 0;
-    for (const MovingSet& set : s.sets)
-      for (const Departure& gone : set.departures) left_mass += gone.mass;
-    m.lost_fraction = left_mass / brought;
+    m.lost_fraction = ledger.lost_mass / brought;
     m.mass_error = (mass_on_terrain(s) + ledger.lost_mass + ledger.taken_mass - brought) / brought;
     const double released = ledger.available_energy();
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
@@ -322,6 +319,7 @@ class Run {
       result_.outcome = Outcome::left_terrain;
       result_.reason = std::to_string(100 * ledger.lost_mass / ledger.brought_mass()) +
                        " % of the mass left the terrain";
+      if (ledger.leaked_mass > 0) result_.reason += ", some of it through the ground";
     }
   }
 

@@ -92,9 +92,9 @@ void announce(const EnsembleJob& job, const Options& options, Console& console) 
 
 /// An exit code other than ok when the members did not all come to an end.
 int how_it_ended(const workflow::MembersRun& run, Console& console) {
-  if (!run.store_error.empty()) {
+  if (!run.stop_error.empty()) {
     console.error(fmt::format("{} The {} finished members are kept; the same command will resume.",
-                              run.store_error, run.finished));
+                              run.stop_error, run.finished));
     return usage_or_scenario_error;
   }
   if (run.interrupted) {

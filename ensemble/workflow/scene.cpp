@@ -140,7 +140,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.command = as_utf8(command);  // names of files in it are bytes
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
-  m.inputs = scene.inputs.identities;
+  m.inputs = scene.ground->identities();
   m.description = description_lines(scene);
   m.notes = scene.inputs.notes;
   m.warnings = scene.description.warnings;

@@ -147,6 +147,13 @@ void load_ground(Loading& loading) {
   in.first_window = first.window;
   if (!loading.raster) return;
   RasterRead read = loading.raster->read(first.window);
+  if (first.reach) {
+    // The longest time of a run follows from it, also where terrain.window is smaller. One cell
+    // more: beyond its edge the energy line lies under the ground.
+    const Window seen = widened(first.reach->window, 1, loading.grid());
+    if (!first.window.contains(seen))
+      read.identity.parts.merge(loading.raster->read(seen).identity.parts);
+  }
   take_ground(loading, read);
 }
 

@@ -5,6 +5,7 @@
 #include "ensemble/members/shards.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
@@ -62,6 +63,28 @@ void begin_folder(const EnsembleJob& job) {
   manifest.write(job.folder.manifest());
   write_text_atomic(job.folder.design(), to_csv(job.design));
   save_scenario(job.folder, job.scene.scenario);
+}
+
+/// Whatever part of the ground members read, the manifest knows it before one of them is stored:
+/// also for shards, and when the run is stopped.
+void keep_what_is_read(EnsembleJob& job) {
+  const auto lock = job.lock;
+  const auto keep = [folder = job.folder, scenario = job.scene.scenario,
+                     lock](const std::vector<InputIdentity>& read) {
+    lock->others_wait(folder);
+    try {
+      Manifest manifest = Manifest::read(folder.manifest());  // another shard may have read more
+      const auto changed = changed_inputs(scenario, read, manifest.inputs);
+      require(changed.empty(), "another shard has read another input:" + as_lines(changed) + "\n");
+      manifest.inputs = with_known_parts(manifest.inputs, read);
+      manifest.write(folder.manifest());
+    } catch (...) {
+      lock->others_may_come();
+      throw;
+    }
+    lock->others_may_come();
+  };
+  job.scene.ground->remember(job.manifest.inputs, keep);
 }
 
 /// Members of this call's share that are not finished.
@@ -134,6 +157,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   job.manifest.members = job.design.n_members();
   job.manifest.design_hash = design_hash(job.design);
   begin_folder(job);
+  keep_what_is_read(job);
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
   find_work(job, shard, request.retry_failed, observer);

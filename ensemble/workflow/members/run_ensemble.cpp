@@ -53,7 +53,7 @@ MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
   run.total = job.finished_before + report.progress.n_total;
   run.failed = std::move(report.failed);
   run.interrupted = report.interrupted;
-  run.store_error = std::move(report.store_error);
+  run.stop_error = std::move(report.stop_error);
   return run;
 }
 

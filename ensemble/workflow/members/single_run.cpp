@@ -3,6 +3,7 @@
 
 #include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
+#include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
@@ -65,6 +66,7 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.manifest.builds = {this_build()};
   run.manifest.scenario_hash = scenario_hash(run.scene.medians);
   run.manifest.scene_hash = scene_hash(run.scene.medians, inputs);
+  run.scene.ground->remember(run.manifest.inputs, {});
   make_folder(run.folder.root);
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
@@ -100,7 +102,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   Manifest& manifest = run.manifest;
   manifest.compute_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
-  manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
+  manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->identities());
   const MemberSummary summary = summary_of(result);
   const auto ground = ground_of_map(scene.medians, scene.inputs, map_grid(result));
   LayerStack peaks = peak_layers(result, ground.get(), scene.inputs.terrain_grid());
@@ -108,6 +110,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
                    member_warnings({&summary, 1}, manifest.warnings)};
   stored.censoring.where = where_mass_left(peaks, scene.inputs.terrain_grid());
   manifest.censored = one_line(stored.censoring);
+  manifest.hazard_hash = fmt::format("{:016x}", hash_of(peaks));
   manifest.write(folder.manifest());
   write_member(folder.members(), result,
                {member_hash(manifest.scene_hash), workflow::version, workflow::git_commit});

@@ -4,9 +4,11 @@
 #include "engine/core/error.hpp"
 #include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
+#include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/seal.hpp"
@@ -51,6 +53,33 @@ NamedSeconds largest_first(NamedSeconds passes) {
   }
   if (n_small > 0) passes.emplace_back(fmt::format("{} others under 1 % each", n_small), rest);
   return passes;
+}
+
+/// Relief of another ground than the members' would mislead, and a page without it says why.
+void leave_out_relief(FinishedFolder& finished, Observer& observer) {
+  std::string why = finished.unreadable;
+  if (!finished.changed.empty()) {
+    why =
+        "the input files are not what the members were computed from any more, so the page has no "
+        "relief:" +
+        as_lines(finished.changed);
+    observer.warning(why);
+    finished.inputs.reset();
+  }
+  if (!why.empty()) finished.manifest.warnings.push_back(as_utf8(why));  // for the page alone
+}
+
+/// What the file holds is what was made: the manifest knows its hash.
+void require_own_maps(const std::filesystem::path& file, const Manifest& manifest,
+                      const HashingSource& maps, CancelFlag cancel) {
+  if (manifest.hazard_hash.empty()) return;  // runs of versions before
+  const std::string hash = fmt::format("{:016x}", maps.value(cancel));
+  require(hash == manifest.hazard_hash,
+          fmt::format("{} does not hold the maps that were made of this folder's members (their "
+                      "hash is {}, manifest.json says {}). {}",
+                      file.string(), hash, manifest.hazard_hash,
+                      manifest.kind == "run" ? "Run the scene again."
+                                             : "Make them again with `sturz merge`."));
 }
 
 /// A page of some members over the maps of others would mislead.
@@ -112,6 +141,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   FinishedFolder finished = open_finished(folder, observer);
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
+  leave_out_relief(finished, observer);
   const bool one_run = finished.manifest.kind == "run";
   const auto maps = one_run ? finished.folder.peaks_nc() : finished.folder.hazard_nc();
   require(std::filesystem::exists(maps),
@@ -127,7 +157,9 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   if (seal_state(maps) == SealState::broken) require_sealed(maps);
   observer.maps_begin();
   const LayersFileReader reader(maps);
-  const LayerStack stack = coarse_layers(reader, page_cells, cancel);
+  const HashingSource hashed(reader);
+  const LayerStack stack = coarse_layers(hashed, page_cells, cancel);
+  require_own_maps(maps, finished.manifest, hashed, cancel);
   std::shared_ptr<const Raster<double>> ground;
   if (finished.inputs)
     ground = ground_of_map(finished.scenario, *finished.inputs, reader.about().grid);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace sturz {
@@ -106,6 +107,26 @@ TEST(Censoring, AnyMassThatLeftCensors) {
   const MemberResult r = simulation.run();
   EXPECT_TRUE(has_left(r.censoring));
   EXPECT_GT(r.scalars.lost_fraction, 0);
+}
+
+TEST(Censoring, MassThatSankThroughTheGroundCensorsToo) {
+  for (const std::size_t sunk : {1U, 12U}) {
+    Scenario s = slide_over_the_edge(Formulation::full_stress);
+    s.terrain.synthetic->parameters["length_m"] = 400;
+    s.numerics.end_time_s = 0.5;
+    SceneInputs in = load_scene_inputs(s);
+    Simulation simulation = assemble(s, in, 0, 1);
+    MovingSet& grains = simulation.parts().state.grains();
+    for (std::size_t i = 0; i < sunk; ++i) grains.z[i] -= 40;
+    const MemberResult r = simulation.run();
+    EXPECT_GT(r.scalars.lost_mass_kg, 0);
+    EXPECT_DOUBLE_EQ(r.scalars.lost_fraction, r.scalars.lost_mass_kg / r.scalars.released_mass_kg);
+    EXPECT_TRUE(has_left(r.censoring));
+    EXPECT_EQ(r.outcome == Outcome::left_terrain, r.scalars.lost_fraction > 0.01);
+    if (r.outcome == Outcome::left_terrain) {
+      EXPECT_NE(r.reason.find("some of it through the ground"), std::string::npos);
+    }
+  }
 }
 
 TEST(CrownToToe, IsMeasuredFromTheHighestSourceToTheFarthestDeposit) {
