@@ -117,7 +117,7 @@ std::vector<std::string> description_lines(const Scene& scene) {
     lines.emplace_back(
         "not in columns: vertical structure, dilute states, a resolved pore fluid "
         "(pore_pressure_ratio stands for it)");
-  if (const auto idle = idle_keys(scene.scenario, columns); !idle.empty())
+  if (const auto idle = idle_keys(scene.scenario, columns, d.friction_inside); !idle.empty())
     lines.push_back(fmt::format("without effect in {}: {}", d.formulation, comma_separated(idle)));
   lines.push_back(
       fmt::format("memory: {:.1f} MB a member", static_cast<double>(d.memory_bytes) / 1e6));

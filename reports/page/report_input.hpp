@@ -3,12 +3,14 @@
 #pragma once
 
 #include "engine/core/cancel.hpp"
+#include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,6 +47,8 @@ struct ReportInput {
   double max_censored_fraction = 0;  ///< of members; above it the page begins with a banner
   std::string where_mass_left;       ///< in words, may be empty
   const Raster<std::uint8_t>* release = nullptr;  ///< 1: covered at the start; may be null
+  std::span<const std::vector<Vec2>> observed;    ///< closed rings of a mapped event [m]
+  std::string observed_note;                      ///< what they are, in words; may be empty
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

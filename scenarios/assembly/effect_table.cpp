@@ -9,6 +9,9 @@
 #include "engine/effects/kinetic/effect.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
+#include "scenarios/schema/number_text.hpp"
+
+#include <algorithm>
 
 namespace sturz {
 namespace {
@@ -59,9 +62,16 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
-  if (s.grains->earth_pressure == LateralPressure::isotropic)
-    return {true, "`grains.earth_pressure: isotropic`, K = 1"};
-  return {true, "`grains.earth_pressure: active_passive`"};
+  const std::string key =
+      "`grains.earth_pressure: " + std::string(to_string(s.grains->earth_pressure)) + "`";
+  if (plan.columns.spent_inside.empty())
+    return {true, knows_internal_friction(plan.columns) ? key : key + ", K = 1"};
+  const double most =
+      *std::max_element(plan.columns.spent_inside.begin(), plan.columns.spent_inside.end());
+  return {true, key + ": the release is " +
+                    short_number(plan.release.median_thickness_m / plan.release_narrow_side_m) +
+                    " times as thick as it is wide; internal friction takes up to " +
+                    short_number(100 * most) + " % of the thrust that drives"};
 }
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
   return by_key("basal.turbulent_coefficient_m_s2", s.basal.turbulent_coefficient_m_s2.has_value());

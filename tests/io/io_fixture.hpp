@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,6 +37,13 @@ class IoTest : public ::testing::Test {
 
  private:
   std::filesystem::path folder_;
+};
+
+/// A scene on 50 x 40 cells of 10 m, south-west corner at 500000, 4600000 of UTM 33N.
+class SceneOnAPlane : public IoTest {
+ protected:
+  SceneOnAPlane();
+  Scenario scene;
 };
 
 /// What a raster file shall hold.

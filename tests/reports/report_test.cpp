@@ -295,6 +295,23 @@ TEST(ReportFigures, DrawReleaseAndNorthOnEveryMap) {
   EXPECT_EQ(data_of(page)["maps"]["release"].size(), cell_outline(results.release).size());
 }
 
+TEST(ReportFigures, DrawTheObservedOutlineAndSayWhatItIs) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  EXPECT_EQ(count(make_report(input), "swatch observed\"></span>"), 0U);
+  const std::vector<std::vector<Vec2>> rings = {{{100, 40}, {160, 40}, {160, 90}, {100, 40}}};
+  input.observed = rings;
+  input.observed_note = "mapped <2017>";
+  const std::string page = make_report(input);
+  EXPECT_EQ(count(page, "swatch observed\"></span>observed: mapped &lt;2017&gt;</li>"), 6U);
+  EXPECT_EQ(count(page, "stroke-dasharray=\"7 4\""), 6U);
+  if (!report_has_script()) return;
+  const auto observed = data_of(page)["maps"]["observed"];
+  EXPECT_EQ(observed["label"], "observed: mapped <2017>");
+  EXPECT_EQ(observed["rings"][0][2], nlohmann::json({160, 90}));
+  EXPECT_EQ(observed["rings"][0].size(), 4U);
+}
+
 TEST(ReportFigures, ShowTheMostSevereOfJoinedCells) {
   LayerStack maps;
   maps.grid = {

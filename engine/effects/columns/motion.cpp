@@ -5,6 +5,7 @@
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/losses.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sturz {
@@ -54,8 +55,12 @@ class BedPass final : public Pass {
     Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
-    const BasalResistance& bed = set.bed[flow_->zone_of(s.domain, p, i)];
-    const double plastic = bed.plastic(normal_gravity, thickness, set.density);
+    const int zone = flow_->zone_of(s.domain, p, i);
+    const BasalResistance& bed = set.bed[zone];
+    double plastic = bed.plastic(normal_gravity, thickness, set.density);
+    if (!set.spent_inside.empty())
+      plastic +=
+          flow_->share[i] * set.spent_inside[zone] * driving_thrust(p, i, n, pull, before, kick);
     Vec3 after = braked(before, pull, plastic, 0, kick);
     if (bed.has_rate()) {
       // The rate at the mean speed of the step, found from the rate at its start: a steady flow
@@ -78,6 +83,18 @@ class BedPass final : public Pass {
     p.vx[i] = after.x(), p.vy[i] = after.y(), p.vz[i] = after.z();
     const Vec3 mean = 0.5 * (before + after);
     return {taken.dot(mean), held.dot(mean)};
+  }
+
+  /// What pressure adds to the motion that it drives, or would start [m/s^2]; what it takes to hold
+  /// the column against the fall of the ground drives nothing.
+  static double driving_thrust(const MovingSet& p, std::size_t i, const Vec3& n, const Vec3& pull,
+                               const Vec3& before, double kick) {
+    Vec3 thrust(p.ax[i], p.ay[i], p.az[i]);
+    thrust -= thrust.dot(n) * n;
+    const Vec3 along = before + kick * pull;
+    const double speed = along.norm();
+    if (!(speed > 0)) return 0;
+    return std::max(0.0, std::min(thrust.dot(along), pull.dot(along)) / speed);
   }
 
   /// Exact solution of dv/dt = pull - plastic v/|v| - rate v with the direction frozen; the

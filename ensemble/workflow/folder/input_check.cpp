@@ -4,7 +4,14 @@
 #include "io/gdal/gdal_raster.hpp"
 #include "io/site/terrain_request.hpp"
 
+#include <utility>
+
 namespace sturz::workflow {
+
+std::vector<InputIdentity> of_members(std::vector<InputIdentity> inputs) {
+  std::erase_if(inputs, [](const InputIdentity& i) { return i.role == "hazard.observed_polygon"; });
+  return inputs;
+}
 
 std::vector<std::string> changed_inputs(const Scenario& scenario, std::vector<InputIdentity> now,
                                         const std::vector<InputIdentity>& before) {
@@ -14,7 +21,7 @@ std::vector<std::string> changed_inputs(const Scenario& scenario, std::vector<In
     const std::vector<std::string> unread = parts_to_read(is, before);
     if (!unread.empty()) is.parts.merge(ElevationRaster(terrain).hashes_of(unread));
   }
-  return input_differences(before, now);
+  return input_differences(of_members(before), of_members(std::move(now)));
 }
 
 std::string as_lines(const std::vector<std::string>& sentences) {

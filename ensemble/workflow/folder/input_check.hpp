@@ -10,6 +10,9 @@
 
 namespace sturz::workflow {
 
+/// The inputs that members are computed from: without what is only drawn over the maps.
+std::vector<InputIdentity> of_members(std::vector<InputIdentity> inputs);
+
 /// What differs between the inputs that results were made from and those of today, one sentence for
 /// each input. Every part of the terrain that `before` names is compared: what `now` has not read
 /// of it is read from today's file, these blocks alone.

@@ -81,7 +81,7 @@ std::string scenario_hash(const Scenario& scenario) {
 
 std::string scene_hash(const Scenario& scenario, const std::vector<InputIdentity>& inputs) {
   std::string text = scenario_hash(scenario) + "\n";
-  for (const InputIdentity& input : inputs) {
+  for (const InputIdentity& input : of_members(inputs)) {
     text += fmt::format("{}: {}\n", input.role, input.shape);
     for (const auto& [part, hash] : input.parts) text += fmt::format("{}={}\n", part, hash);
   }

@@ -132,6 +132,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   page.where_mass_left = made.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
+  page.observed = inputs.observed;
   manifest.hazard_hash = hash;
   manifest.maps_of = members_hash(store, design.n_members());
   write_page(folder, manifest, scenario, page);

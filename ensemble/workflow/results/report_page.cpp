@@ -17,6 +17,7 @@
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
 #include "reports/page/report.hpp"
+#include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/core.h>
@@ -82,6 +83,17 @@ void require_own_maps(const std::filesystem::path& file, const Manifest& manifes
                                              : "Make them again with `sturz merge`."));
 }
 
+/// What was said of the edge before is answered where every member kept all its mass.
+std::vector<std::string> still_true(std::vector<std::string> warnings,
+                                    std::span<const MemberSummary> members) {
+  const bool left = std::any_of(members.begin(), members.end(), [](const MemberSummary& m) {
+    return !is_valid(m.outcome) || has_left(m.censoring);
+  });
+  if (!left && !members.empty())
+    std::erase_if(warnings, [](const std::string& w) { return w.starts_with(edge_warning); });
+  return warnings;
+}
+
 /// A page of some members over the maps of others would mislead.
 void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const MemberStore& store,
                      const DesignTable& design) {
@@ -118,7 +130,9 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.max_censored_fraction = scenario.ensemble.max_censored_fraction;
   input.where_mass_left = content.where_mass_left;
   input.release = content.release;
-  input.warnings = manifest.warnings;
+  input.observed = content.observed;
+  input.observed_note = scenario.hazard.observed_note;
+  input.warnings = still_true(manifest.warnings, content.members);
   input.notes = manifest.notes;
   input.cancel = content.cancel;
   input.description = manifest.description;
@@ -176,6 +190,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   page.elevation = ground.get();
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
+  if (finished.inputs) page.observed = finished.inputs->observed;
   if (finished.inputs)
     page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
   page.members = store.members();

@@ -121,7 +121,9 @@ TEST(ColumnMaps, FollowSupportRadiiThatGrowAndShrink) {
   EXPECT_NEAR(sum_of(r.layer(PeakLayer::deposit)) * 25, volume_of(c.set), 3e-8 * volume_of(c.set));
   std::fill(support_radius.begin(), support_radius.end(), 6.0);
   narrow = maps_of({grid, 1, density, 1e-3}, c.set);
-  EXPECT_EQ(r.scalars.max_thickness_m, narrow.scalars.max_thickness_m) << "narrowest is thickest";
+  EXPECT_GE(r.scalars.max_thickness_m, narrow.scalars.max_thickness_m) << "narrowest is thickest";
+  // Widths that jump from one look to the next: the parabola through three adds an eighth at most.
+  EXPECT_LE(r.scalars.max_thickness_m, 1.125001 * narrow.scalars.max_thickness_m);
   EXPECT_LT(r.scalars.max_deposit_m, narrow.scalars.max_deposit_m);
 }
 
@@ -177,7 +179,7 @@ TEST(LayerCount, WeighsByMass) {
   test::OneSetMaps maps({Grid{20, 20, 0, 20, 1, ""}, 1, density, 1e-6});
   maps.record(p, 0);
   const LayerCount c = maps.layers();
-  EXPECT_NEAR(c.thin_fraction, 7.0 / 16, 1e-12);
+  EXPECT_NEAR(c.thin_fraction, 7.0 / 16, 1e-7) << "cells sum in float";
   EXPECT_NEAR(c.median / 16, 1, 0.051);
   EXPECT_NEAR(c.p10 / (8.0 / 3), 1, 0.051) << "the corners hold 1/16, the sides the next 3/8";
 }
