@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -153,7 +154,7 @@ void PeakMaps::add_one(const CellSums& whole) {
       const int next_col = std::min(col1, (col / edge + 1) * edge);
       const std::size_t slot = sums_.slot_at(row / edge, col / edge);
       sums_.mark_rows(slot, rows);
-      CellSums* cells = sums_.cells(slot) + row % edge * edge + col % edge;
+      CellSums* cells = sums_.cells(slot) + std::ptrdiff_t{edge} * (row % edge) + col % edge;
       const float *down = down_.weights() + (row - down_.first()),
                   *across = across_.weights() + (col - across_.first());
       const int n = next_col - col;
@@ -271,7 +272,7 @@ void PeakMaps::record(std::span<const MovingSet> sets, double time_s, bool with_
 }
 
 void PeakMaps::keep_deposit() {
-  const float per_area = static_cast<float>(1 / (settings_.grid.cell_m * settings_.grid.cell_m));
+  const auto per_area = static_cast<float>(1 / (settings_.grid.cell_m * settings_.grid.cell_m));
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot) {
     PeakTile& peaks = peaks_.at(sums_.tiles()[slot].tile_row, sums_.tiles()[slot].tile_col);
     for (std::size_t k = 0; k < SumTiles::n_cells; ++k) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace sturz {
@@ -27,7 +28,7 @@ inline Eight root(Eight v) {
 /// Eight by eight, rows to columns. \param in  [8 x 8] by rows
 inline void transpose_eight(const float* in, Eight (&out)[8]) {
   Eight a[8], b[8];
-  for (int k = 0; k < 8; ++k) a[k] = eight_at(in + 8 * k);
+  for (int k = 0; k < 8; ++k) a[k] = eight_at(in + std::ptrdiff_t{8} * k);
   for (int k = 0; k < 8; k += 2) {  // pairs of rows, interleaved
     b[k] = __builtin_shufflevector(a[k], a[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
     b[k + 1] = __builtin_shufflevector(a[k], a[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
