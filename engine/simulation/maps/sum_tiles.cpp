@@ -2,6 +2,7 @@
 #include "engine/simulation/maps/sum_tiles.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace sturz {
 
@@ -19,7 +20,8 @@ void SumTiles::clear() {
     const Open& tile = open_[slot];
     directory_.at(tile.tile_row, tile.tile_col) = -1;
     for (int row = 0; row < edge; ++row)
-      if (tile.rows >> row & 1U) std::fill_n(cells(slot) + row * edge, edge, CellSums::Zero());
+      if (tile.rows >> row & 1U)
+        std::fill_n(cells(slot) + std::ptrdiff_t{edge} * row, edge, CellSums::Zero());
   }
   open_.clear();
 }

@@ -15,8 +15,8 @@
 
 namespace sturz::workflow {
 
-GrowingGround::GrowingGround(const Scenario& scenario, SceneInputs first)
-    : scenario_(scenario),
+GrowingGround::GrowingGround(Scenario scenario, SceneInputs first)
+    : scenario_(std::move(scenario)),
       first_(std::make_shared<const SceneInputs>(std::move(first))),
       largest_(first_),
       known_(first_->identities) {}

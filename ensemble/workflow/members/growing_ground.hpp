@@ -23,7 +23,7 @@ class GrowingGround {
   /// may not be used.
   using Hearer = std::function<void(const std::vector<InputIdentity>&)>;
 
-  GrowingGround(const Scenario& scenario, SceneInputs first);
+  GrowingGround(Scenario scenario, SceneInputs first);
 
   /// Larger windows have to agree with `known` too, what a results folder says was read before, and
   /// `hearer` hears of each.
