@@ -125,6 +125,15 @@ TEST(ColumnMaps, FollowSupportRadiiThatGrowAndShrink) {
   // Widths that jump from one look to the next: the parabola through three adds an eighth at most.
   EXPECT_LE(r.scalars.max_thickness_m, 1.125001 * narrow.scalars.max_thickness_m);
   EXPECT_LT(r.scalars.max_deposit_m, narrow.scalars.max_deposit_m);
+  // Where the narrowest comes last there is no parabola over it, and the peak is it to the bit.
+  test::OneSetMaps shrinking({grid, 1, density, 1e-3});
+  double time_s = 0;
+  for (const double now : {20.0, 110.0, 61.0, 6.0}) {
+    std::fill(support_radius.begin(), support_radius.end(), now);
+    shrinking.record(c.set, time_s += 1);
+  }
+  shrinking.finish(c.set, r);
+  EXPECT_EQ(r.scalars.max_thickness_m, narrow.scalars.max_thickness_m);
 }
 
 /// Widths of whole thirds of a cell, give or take the last bit: the number of cells that a column
