@@ -4,10 +4,9 @@
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/value_text.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -88,12 +87,13 @@ std::vector<std::string> material_notes(const Scenario& scenario) {
   if (!material) return notes;
   for (const MaterialValue& value : material->values) {
     const std::string is = value_text(find_key(value.key)->get(scenario));
-    const bool own = is != value.value;
-    notes.push_back(fmt::format(
-        "material {}: {} = {} ({})", material->name, value.key, is,
-        own ? fmt::format("yours; the material's is {}, {}", value.value, value.source)
-            : fmt::format("{}{}", value.source,
-                          value.checked ? "" : "; from memory, look it up before you quote it")));
+    std::string note = std::string("material ") + material->name + ": " + value.key + " = " + is;
+    if (is != value.value)
+      note += std::string(" (yours; the material's is ") + value.value + ", " + value.source + ")";
+    else
+      note += std::string(" (") + value.source +
+              (value.checked ? ")" : "; from memory, look it up before you quote it)");
+    notes.push_back(std::move(note));
   }
   return notes;
 }
