@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+/// The ready-made priors of `material`, laid under what a scenario file says itself.
 #pragma once
 
 #include "io/scenario/yaml_tree.hpp"

@@ -29,7 +29,7 @@ const std::array all{
               {friction, "{triangular: [0.03, 0.1, 0.25]}", "Hungr and Evans 1996", false},
               {xi, "{triangular: [100, 500, 1000]}", "Hungr and Evans 1996", false}}},
     Material{"debris_flow",
-             "granular debris and water, in one phase",
+             "granular debris with its water, as one material",
              {{density, "2650", usual, false},
               {fraction, "{uniform: [0.5, 0.7]}", usual, false},
               {friction, "{triangular: [0.05, 0.15, 0.25]}", "Rickenmann and others 2006", false},
