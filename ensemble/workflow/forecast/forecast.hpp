@@ -36,7 +36,7 @@ struct Forecast {
   Range member_s;                             ///< of the design on average
   double start_s = 0;                         ///< starting and reading the scene
   Range members_s, maps_s, total_s;
-  Range elapsed_s;      ///< low: nobody else computes here; likely: others take what they take now
+  Range elapsed_s;      ///< low: the cores are idle otherwise; likely: as busy as now
   double slowdown = 1;  ///< by what others take
   Range memory_bytes;   ///< the most at a time
   Range members_disk_bytes, maps_disk_bytes;

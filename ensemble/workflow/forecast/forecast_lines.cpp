@@ -51,8 +51,8 @@ std::vector<std::string> forecast_lines(const Forecast& f) {
   }
   lines.push_back(fmt::format("predicted for {} members, {} at a time: {}{}", f.members, f.workers,
                               seconds_text(f.elapsed_s),
-                              f.slowdown > 1.5 ? fmt::format(", {:.1f} times what it would be if "
-                                                             "nobody else computed here",
+                              f.slowdown > 1.5 ? fmt::format(", the cores being busy: {:.1f} times "
+                                                             "what it takes on idle ones",
                                                              f.slowdown)
                                                : ""));
   const bool known = f.tried_members > 0;

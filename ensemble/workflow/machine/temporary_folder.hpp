@@ -10,7 +10,8 @@
 
 namespace sturz::workflow {
 
-/// Its name is this process's alone; whoever writes into it makes it. Goes away with the scope.
+/// Its name is this process's alone; it is made by what is written into it, and goes away with the
+/// scope.
 class TemporaryFolder {
  public:
   TemporaryFolder() : path_(std::filesystem::temp_directory_path() / name()) {}
