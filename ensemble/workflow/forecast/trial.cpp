@@ -95,19 +95,24 @@ class Twin {
     return describe(numbers, *ground_.now());
   }
 
-  /// Of a member at its own spacing: that of the medians, unless members may be computed unlike.
+  /// Whether members are to be looked at one by one: where they may be computed unlike, or where
+  /// whole layers of particles jump with their thickness. Of very many particles it takes too long.
+  bool one_by_one(const Scenario& numbers) const {
+    if (numbers.formulation == Formulation::automatic) return true;
+    return !is_columns(scene_.description) && scene_.description.n_particles < 100'000;
+  }
+
+  /// Of a member at its own spacing; that of the medians where they are much alike.
   SceneDescription own_description(const Scenario& numbers) const {
-    if (numbers.formulation != Formulation::automatic) return scene_.description;
-    return describe(numbers, *scene_.ground->now());
+    return one_by_one(numbers) ? describe(numbers, *scene_.ground->now()) : scene_.description;
   }
 
   /// Steps and particle updates of the scene's member over those of its twin.
   std::pair<double, double> ratios(const Scenario& numbers) const {
     if (coarser_ == 1) return {1, 1};
     const SceneDescription own = own_description(numbers);
-    const bool alike =
-        own.formulation == described_.formulation && numbers.formulation != Formulation::automatic;
-    const SceneDescription twin = alike ? described_ : describe_on_ground(at_spacing(numbers));
+    const SceneDescription twin =
+        one_by_one(numbers) ? describe_on_ground(at_spacing(numbers)) : described_;
     const double described = own.n_steps / std::max(twin.n_steps, 1.0);
     // Cells of the ground bound fast columns besides their spacing, which described steps know
     // less.
