@@ -137,11 +137,10 @@ class Twin {
     write_member(folder.path(), result);
     const double written_s = thread_cpu_seconds() - begin;
     m.file_bytes = size_of(folder.path(), result.member);
-    if (coarser_ > 1) {  // what a file has without maps does not grow
+    if (coarser_ > 1 && result.window.n_cells() > 0) {  // what a file has besides does not grow
       MemberResult bare = result;
-      bare.outcome = Outcome::failed;
-      bare.window = {};
-      for (auto& layer : bare.layers) layer.clear();
+      bare.window = {result.window.row0, result.window.col0, 1, 1};
+      for (auto& layer : bare.layers) layer.resize(std::min<std::size_t>(layer.size(), 1));
       write_member(folder.path(), bare);
       const double fixed = size_of(folder.path(), result.member);
       m.file_bytes = fixed + cells * std::max(0.0, m.file_bytes - fixed);
