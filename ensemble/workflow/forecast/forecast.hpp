@@ -44,9 +44,8 @@ struct Forecast {
 
 /// Members from a trial (trial.hpp), maps from what the tried members reach and this machine's
 /// speed at making maps. Ranges are wide enough for what docs/studies/forecasts.md measured:
-///   a member     two fifths for the machine, more by a power of 0.3 where the trial was coarser,
-///   and
-///                what the finer of two trials differed from the coarser one
+///   a member     two fifths for the machine, more by a power of 0.3 where the trial was coarser;
+///                what the finer of two trials differed from the coarser one, where that is more
 ///   all members  that, and twice the standard error of the mean of those tried
 ///   maps         two fifths either way, between the ground that the tried members reach and what
 ///                the farthest of all will
