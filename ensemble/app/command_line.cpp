@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/command_line.hpp"
 
+#include "engine/core/cancel.hpp"
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/interrupt.hpp"
@@ -11,6 +12,7 @@
 #include "ensemble/workflow/version.hpp"
 
 #include <fmt/core.h>
+#include <nlohmann/json.hpp>
 
 #include <cstdio>
 #include <exception>
@@ -49,6 +51,11 @@ int guarded(const std::function<int(Console&)>& action, Console& console) {
     return interrupted;
   } catch (const SetupError& problem) {
     console.error(problem.what());
+  } catch (const Cancelled&) {
+    console.clear_progress();
+    console.event(nlohmann::json{{"event", "interrupted"}}.dump());
+    console.warn("interrupted; members are safe. The same command goes on.");
+    return interrupted;
   } catch (const std::bad_alloc&) {
     console.error(
         "Out of memory. What is finished is kept: the same command goes on where more memory is "

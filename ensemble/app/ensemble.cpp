@@ -123,7 +123,7 @@ int ensemble(const Options& options, Console& console) {
                             job.folder.root.string()));
     return ok;
   }
-  return verdict(workflow::make_maps(job, observer), console);
+  return verdict(workflow::make_maps(job, observer, interrupt_flag()), console);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/verdict.hpp"
 
@@ -17,7 +18,9 @@ struct Options {
 
 int merge(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  return verdict(workflow::merge_members({options.folder, options.partial}, observer), console);
+  return verdict(
+      workflow::merge_members({options.folder, options.partial}, observer, interrupt_flag()),
+      console);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // sturz report: write the page of a results folder again.
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -15,7 +16,7 @@ struct Options {
 
 int report(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  console.say(workflow::rewrite_page(options.folder, observer).string());
+  console.say(workflow::rewrite_page(options.folder, observer, interrupt_flag()).string());
   return ok;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/hazard/convergence.hpp"
 
-#include "ensemble/hazard/member_tiles.hpp"
 #include "ensemble/hazard/wilson.hpp"
 
 #include <algorithm>
@@ -19,32 +18,8 @@ std::vector<std::int64_t> sizes_up_to(std::int64_t n, int max_points) {
   return sizes;
 }
 
-/// Cells by how many of the first N members reached them: whole numbers, so no order of cells or
-/// tiles can change what follows from them.
-using Histogram = std::vector<std::int64_t>;
-
-std::vector<Histogram> count_cells(const MemberTiles& members,
-                                   const std::vector<std::int64_t>& sizes) {
-  std::vector<Histogram> histograms;
-  for (const std::int64_t n : sizes) histograms.emplace_back(n + 1, 0);
-  CellBlock arrival;
-  for (const Window& tile : members.tiles()) {
-    members.read(PeakLayer::arrival, tile, arrival);
-    for (std::size_t cell = 0; cell < tile.n_cells(); ++cell) {
-      const std::span<const float> times = arrival.cell(cell);
-      if (std::all_of(times.begin(), times.end(), [](float t) { return std::isnan(t); })) continue;
-      std::size_t hits = 0, member = 0;
-      for (std::size_t point = 0; point < sizes.size(); ++point) {
-        for (; member < static_cast<std::size_t>(sizes[point]); ++member)
-          hits += !std::isnan(times[member]);
-        ++histograms[point][hits];
-      }
-    }
-  }
-  return histograms;
-}
-
-ConvergencePoint summary(const Histogram& cells, std::int64_t n, double cell_area_m2) {
+ConvergencePoint summary(const std::vector<std::int64_t>& cells, std::int64_t n,
+                         double cell_area_m2) {
   ConvergencePoint point;
   point.n_members = n;
   std::int64_t n_cells = 0, n_likely = 0, n_possible = 0, hits_in_all = 0;
@@ -76,17 +51,42 @@ ConvergencePoint summary(const Histogram& cells, std::int64_t n, double cell_are
 
 }  // namespace
 
-std::vector<ConvergencePoint> probability_convergence(const MemberSource& source,
-                                                      std::size_t memory_limit_bytes,
-                                                      int max_points) {
-  const MemberTiles members(source, memory_limit_bytes, 1);
-  const double cell_area_m2 = source.grid().cell_m * source.grid().cell_m;
-  const auto sizes = sizes_up_to(static_cast<std::int64_t>(members.n_members()), max_points);
-  const std::vector<Histogram> histograms = count_cells(members, sizes);
+ConvergenceCount::ConvergenceCount(std::size_t n_members, int max_points)
+    : sizes_(sizes_up_to(static_cast<std::int64_t>(n_members), max_points)) {
+  for (const std::int64_t n : sizes_) histograms_.emplace_back(n + 1, 0);
+}
+
+void ConvergenceCount::add(const CellRows& rows) {
+  for (std::size_t cell = 0; cell < rows.window.n_cells(); ++cell) {
+    const std::span<const std::uint32_t> members = rows.members_of(cell);
+    const std::span<const float> times = rows.of(PeakLayer::arrival, cell);
+    if (std::all_of(times.begin(), times.end(), [](float t) { return std::isnan(t); })) continue;
+    std::size_t hits = 0, touch = 0;
+    for (std::size_t point = 0; point < sizes_.size(); ++point) {
+      for (; touch < times.size() && static_cast<std::int64_t>(members[touch]) < sizes_[point];
+           ++touch)
+        hits += !std::isnan(times[touch]);
+      ++histograms_[point][hits];
+    }
+  }
+}
+
+std::vector<ConvergencePoint> ConvergenceCount::points(double cell_area_m2) const {
   std::vector<ConvergencePoint> points;
-  for (std::size_t i = 0; i < sizes.size(); ++i)
-    points.push_back(summary(histograms[i], sizes[i], cell_area_m2));
+  for (std::size_t i = 0; i < sizes_.size(); ++i)
+    points.push_back(summary(histograms_[i], sizes_[i], cell_area_m2));
   return points;
+}
+
+std::vector<ConvergencePoint> probability_convergence(const MemberParts& source,
+                                                      std::size_t memory_bytes, int max_points,
+                                                      CancelFlag cancel) {
+  const MemberCells members(source);
+  ConvergenceCount count(members.n_members(), max_points);
+  members.visit(members.touched(), {PeakLayer::arrival}, memory_bytes, cancel,
+                [&](const CellRows& rows) { count.add(rows); });
+  if (members.n_members() == 0) return {};
+  return count.points(source.grid().cell_m * source.grid().cell_m);
 }
 
 }  // namespace sturz

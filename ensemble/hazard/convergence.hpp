@@ -2,7 +2,8 @@
 /// Would more members change the map? Probabilities made from the first N members, N growing.
 #pragma once
 
-#include "engine/simulation/member_result.hpp"
+#include "engine/core/cancel.hpp"
+#include "ensemble/hazard/member_cells.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -21,10 +22,26 @@ struct ConvergencePoint {
   double mean_half_width = 0;   ///< half of the 95 % Wilson interval of P(reached)
 };
 
-/// At most `max_points` points, evenly spaced in N; the last is the whole ensemble. Empty when
-/// there is no valid member; areas and means are 0 when no member reached a cell.
+/// Counts cells as they pass by; a map in the making does it on the way.
+class ConvergenceCount {
+ public:
+  /// At most `max_points` points, evenly spaced in N; the last is the whole ensemble.
+  explicit ConvergenceCount(std::size_t n_members, int max_points = 40);
+  /// Looks at who arrived: the rows must hold PeakLayer::arrival.
+  void add(const CellRows& rows);
+  /// Empty when there is no valid member; areas and means are 0 when no member reached a cell.
+  std::vector<ConvergencePoint> points(double cell_area_m2) const;
+
+ private:
+  std::vector<std::int64_t> sizes_;
+  /// For each size: cells by how many of the first N members reached them. Whole numbers, so no
+  /// order of cells can change what follows from them.
+  std::vector<std::vector<std::int64_t>> histograms_;
+};
+
+/// The same from stored members alone.
 std::vector<ConvergencePoint> probability_convergence(
-    const MemberSource& members, std::size_t memory_limit_bytes = std::size_t{512} << 20,
-    int max_points = 40);
+    const MemberParts& members, std::size_t memory_bytes = MemberCells::default_memory_bytes,
+    int max_points = 40, CancelFlag cancel = {});
 
 }  // namespace sturz

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/hazard/hazard_layers.hpp"
 
+#include "ensemble/hazard/map_units.hpp"
 #include "ensemble/hazard/swiss_intensity.hpp"
 #include "ensemble/hazard/wilson.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 namespace sturz {
 namespace {
@@ -14,19 +17,17 @@ constexpr const char* quantile_rule =
     "(Hyndman and Fan 1996, definition 7)";
 constexpr const char* bound_rule = "95 % Wilson interval of the share of valid members";
 
-/// A member quantity as the maps speak of it.
+/// A member quantity as the maps speak of it, in the units in which the scenario asks for it.
 struct PeakMaps {
   PeakLayer source;
-  const char* word;        ///< in names: peak_<word>, <word>_threshold
-  const char* axis_units;  ///< of the thresholds in the scenario
-  double si_per_axis_unit;
+  const char* word;  ///< first word of the layers' names, <word>_threshold
   const std::vector<double> HazardSpec::*thresholds;
 };
 const PeakMaps peaks[] = {
-    {PeakLayer::thickness, "thickness", "m", 1, &HazardSpec::thickness_m},
-    {PeakLayer::speed, "speed", "m s-1", 1, &HazardSpec::speed_m_s},
-    {PeakLayer::energy, "energy", "kJ m-2", 1000, &HazardSpec::energy_kj_m2},
-    {PeakLayer::pressure, "pressure", "kPa", 1000, &HazardSpec::pressure_kpa},
+    {PeakLayer::thickness, "thickness", &HazardSpec::thickness_m},
+    {PeakLayer::speed, "speed", &HazardSpec::speed_m_s},
+    {PeakLayer::energy, "energy", &HazardSpec::energy_kj_m2},
+    {PeakLayer::pressure, "pressure", &HazardSpec::pressure_kpa},
 };
 
 /// Says which thickness thresholds the particles cannot resolve; empty if none.
@@ -55,22 +56,29 @@ Layer made(std::string name, LayerMeaning meaning, std::string long_name, std::s
 
 class Builder {
  public:
-  Builder(const Grid& grid, const HazardSpec& spec, double spacing_m, std::int64_t n_members)
-      : spec_(spec), spacing_m_(spacing_m), n_members_(n_members) {
+  Builder(const Grid& grid, const HazardSpec& spec, double spacing_m, std::int64_t n_members,
+          std::int64_t n_censored)
+      : spec_(spec), spacing_m_(spacing_m), n_members_(n_members), n_censored_(n_censored) {
     out_.stack.grid = grid;
   }
 
-  HazardLayers build() {
+  HazardLayers build(bool any_left) {
     Layer count =
         made("number_of_members", {Quantity::members, Statistic::count},
              "valid members of the ensemble", "1", "settled, out of time or left the terrain");
     add(std::move(count), static_cast<float>(n_members_));
     out_.reached = add_probability(
-        "probability_reached", Quantity::reached, "share of members that reach the cell",
+        "probability_of_reach", Quantity::reached, "share of members that reach the cell",
         "reached: smoothed thickness above the runout limit at any time", {}, {});
+    if (any_left)
+      out_.mass_left =
+          add(made("probability_of_mass_left", {Quantity::left, Statistic::probability},
+                   "share of members whose mass crossed the edge of the known ground here", "1",
+                   "members / valid members; what lies beyond is not known"),
+              0);
     for (const PeakMaps& q : peaks) out_.quantities.push_back(add_peak(q));
     out_.arrival_quantile = add_quantiles(
-        "arrival_time", Quantity::arrival, "time until the flow arrives", "s", "",
+        "arrival", Quantity::arrival, "time until the flow arrives", "s", "",
         "over the members that reach the cell only; undefined where none does; linear between "
         "order statistics (Hyndman and Fan 1996, definition 7)",
         nan_f);
@@ -80,10 +88,16 @@ class Builder {
   }
 
  private:
-  /// Adds a layer with one value everywhere and tells its place.
+  /// Adds a layer, with its value of an untouched cell, and tells its place.
   std::size_t add(Layer layer, float fill) {
     const bool defined = n_members_ > 0 || layer.is_count();
-    layer.values.assign(layer.n_planes() * out_.stack.grid.n_cells(), defined ? fill : nan_f);
+    if (!layer.is_count()) layer.n_censored = static_cast<int>(n_censored_);
+    if (n_censored_ > 0 && layer.meaning.statistic == Statistic::probability)
+      layer.comment =
+          joined(layer.comment, fmt::format("a lower bound: the end of {} of {} members "
+                                            "was not seen",
+                                            n_censored_, n_members_));
+    out_.untouched.push_back(defined ? fill : nan_f);
     out_.stack.layers.push_back(std::move(layer));
     return out_.stack.layers.size() - 1;
   }
@@ -130,24 +144,26 @@ class Builder {
 
   QuantityLayers add_peak(const PeakMaps& q) {
     const Quantity quantity = quantity_of(q.source);
-    const PeakLayerInfo& of = info(q.source);
-    const std::string name = fmt::format("peak_{}", q.word);
+    const std::string name = q.word, meaning = info(q.source).long_name;
     QuantityLayers layers;
     layers.source = q.source;
+    const MapUnit unit = map_unit(q.source);
+    layers.units_per_si = unit.per_si;
     const std::vector<double>& thresholds = spec_.*q.thresholds;
     if (!thresholds.empty()) {
       const bool is_thickness = q.source == PeakLayer::thickness;
-      const LayerAxis axis{fmt::format("{}_threshold", q.word), "", q.axis_units, thresholds};
+      const LayerAxis axis{name + "_threshold", "", unit.name, thresholds};
       std::vector<float> si;
-      for (const double t : thresholds) si.push_back(static_cast<float>(t * q.si_per_axis_unit));
+      for (const double t : thresholds)
+        si.push_back(static_cast<float>(t * std::round(1 / unit.per_si)));
       layers.exceedance = add_probability(
-          fmt::format("probability_of_{}_above_threshold", name), quantity,
-          fmt::format("share of members whose {} exceeds the threshold", of.long_name),
+          name + "_exceedance", quantity,
+          fmt::format("share of members whose {} exceeds the threshold", meaning),
           is_thickness ? not_resolved(thresholds, spacing_m_) : "", axis, std::move(si));
     }
-    layers.mean = add_mean(name, quantity, of.long_name, of.units, "time: maximum ");
+    layers.mean = add_mean(name, quantity, meaning, unit.name, "time: maximum ");
     layers.quantile =
-        add_quantiles(name, quantity, of.long_name, of.units, "time: maximum", quantile_rule, 0);
+        add_quantiles(name, quantity, meaning, unit.name, "time: maximum", quantile_rule, 0);
     return layers;
   }
 
@@ -155,9 +171,9 @@ class Builder {
     const PeakLayerInfo& of = info(PeakLayer::deposit);
     QuantityLayers layers;
     layers.source = PeakLayer::deposit;
-    layers.mean = add_mean("deposit_thickness", Quantity::deposit, of.long_name, of.units, "");
-    layers.quantile = add_quantiles("deposit_thickness", Quantity::deposit, of.long_name, of.units,
-                                    "", quantile_rule, 0);
+    layers.mean = add_mean("deposit", Quantity::deposit, of.long_name, of.units, "");
+    layers.quantile =
+        add_quantiles("deposit", Quantity::deposit, of.long_name, of.units, "", quantile_rule, 0);
     return layers;
   }
 
@@ -167,7 +183,7 @@ class Builder {
     const auto layer = [&](IntensityClass intensity, const std::string& rule) {
       const std::string_view word = to_string(intensity);
       return add(
-          made(fmt::format("probability_of_{}_debris_flow_intensity", word),
+          made(fmt::format("probability_of_{}_intensity", word),
                {Quantity::intensity, Statistic::probability, intensity},
                fmt::format("share of members with {} intensity, Swiss debris-flow classes", word),
                "1", joined(rule, note)),
@@ -183,15 +199,15 @@ class Builder {
 
   const HazardSpec& spec_;
   double spacing_m_;
-  std::int64_t n_members_;
+  std::int64_t n_members_, n_censored_;
   HazardLayers out_;
 };
 
 }  // namespace
 
-HazardLayers empty_hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
-                                 std::int64_t n_members) {
-  return Builder(grid, spec, spacing_m, n_members).build();
+HazardLayers hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
+                           std::int64_t n_members, std::int64_t n_censored, bool any_left) {
+  return Builder(grid, spec, spacing_m, n_members, n_censored).build(any_left);
 }
 
 }  // namespace sturz

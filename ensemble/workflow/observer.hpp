@@ -29,7 +29,8 @@ class Observer {
   virtual void ensemble_progress(const RunnerProgress&, std::int64_t /*finished_before*/) {}
   /// The member, valid or not, is safely in its file.
   virtual void member_stored(const MemberResult&) {}
-  /// All members are in; reading them and making maps may take a while.
+  /// Reading members and making maps, or a page, begins; it may take a while and heeds its cancel
+  /// flag.
   virtual void maps_begin() {}
 };
 

@@ -140,8 +140,9 @@ void AtomicFile::fail(const char* what, int code) const {
                               target_.string(), folder.string()));
   const bool about_space = code == ENOSPC || code == EDQUOT || code == EIO;
   throw IoError(fmt::format("{} {} ({}{}). {}; files already there are unharmed.", what,
-                            target_.string(), std::strerror(code),
-                            about_space ? free_space_text(folder) : "", cure_of(code)));
+                            target_.string(), code == 0 ? "the disk refuses" : std::strerror(code),
+                            about_space || code == 0 ? free_space_text(folder) : "",
+                            cure_of(code)));
 }
 
 void write_bytes_atomic(const fs::path& target, std::span<const std::byte> bytes) {

@@ -29,10 +29,11 @@ class AtomicFile {
   void write(std::span<const std::byte> bytes);
   /// Makes the content durable and gives it its name. \throws IoError
   void commit();
-
- private:
+  /// For those who write the part file by other means: says why in this class's words.
+  /// \param code errno, 0: not known
   [[noreturn]] void fail(const char* what, int code) const;
 
+ private:
   std::filesystem::path target_, part_;
   int descriptor_ = -1;
 };

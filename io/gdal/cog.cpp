@@ -4,9 +4,10 @@
 #include "engine/core/error.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
-#include "io/files/stored_count.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
+#include "io/gdal/planes/plane_dataset.hpp"
+#include "scenarios/layers/plane_name.hpp"
 
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -28,17 +29,24 @@ struct MemoryFile {
   MemoryFile& operator=(const MemoryFile&) = delete;
 };
 
+/// GDAL asks now and then whether it shall go on.
+int go_on(double /*share*/, const char* /*message*/, void* cancel) {
+  return static_cast<const CancelFlag*>(cancel)->raised() ? FALSE : TRUE;
+}
+
 /// Encodes `dataset` by `driver_name` in memory and writes the bytes in one stroke.
 void write_encoded(const fs::path& target, GDALDataset& dataset, const char* driver_name,
-                   const CPLStringList& options) {
+                   const CPLStringList& options, CancelFlag cancel = {}) {
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name);
   expect(driver != nullptr, "GDAL has its GeoTIFF drivers");
   const MemoryFile memory(&dataset);
   CPLErrorReset();
   DatasetPtr encoded(
-      driver->CreateCopy(memory.name.c_str(), &dataset, FALSE, options.List(), nullptr, nullptr));
+      driver->CreateCopy(memory.name.c_str(), &dataset, FALSE, options.List(), go_on, &cancel));
   const bool made = encoded != nullptr;
   encoded.reset();
+  cancel.check();
+  if (const auto* plane = dynamic_cast<const PlaneDataset*>(&dataset)) plane->rethrow();
   vsi_l_offset size = 0;
   const GByte* bytes = VSIGetMemFileBuffer(memory.name.c_str(), &size, FALSE);
   if (!made || bytes == nullptr)
@@ -53,18 +61,12 @@ void set_place(GDALDataset& dataset, const Grid& grid) {
   dataset.SetSpatialRef(&crs);
 }
 
-std::string plane_name(const Layer& layer, std::size_t plane) {
-  if (layer.axis.values.empty()) return layer.name + ".tif";
-  return fmt::format("{}_{:g}.tif", layer.name, layer.axis.values[plane]);
-}
-
 void describe(GDALDataset& dataset, const Layer& layer, std::size_t plane,
               const LayerStack& stack) {
   for (const auto& [name, value] : stack.attributes)
     dataset.SetMetadataItem(name.c_str(), value.c_str());
   GDALRasterBand& band = *dataset.GetRasterBand(1);
   band.SetDescription(layer.name.c_str());
-  band.SetUnitType(layer.units.c_str());
   const auto item = [&](const char* name, const std::string& value) {
     if (!value.empty()) band.SetMetadataItem(name, value.c_str());
   };
@@ -73,64 +75,49 @@ void describe(GDALDataset& dataset, const Layer& layer, std::size_t plane,
   item("long_name", layer.long_name);
   item("cell_methods", layer.cell_methods);
   item("comment", layer.comment);
+  if (layer.n_censored > 0) item("sturz_censored_members", std::to_string(layer.n_censored));
   if (!layer.axis.values.empty())
     item(layer.axis.name.c_str(),
          fmt::format("{:g} {}", layer.axis.values[plane], layer.axis.units));
 }
 
-CPLStringList cog_options(bool is_count) {
+CPLStringList cog_options() {
   CPLStringList options;
   options.SetNameValue("COMPRESS", "DEFLATE");
   options.SetNameValue("PREDICTOR", "YES");
   options.SetNameValue("NUM_THREADS", "1");
   options.SetNameValue("BIGTIFF", "IF_SAFER");
-  options.SetNameValue("OVERVIEW_RESAMPLING", is_count ? "NEAREST" : "AVERAGE");
+  options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
   return options;
-}
-
-void write_plane(const fs::path& target, const LayerStack& stack, const Layer& layer,
-                 std::size_t plane) {
-  const Grid& grid = stack.grid;
-  const auto first = layer.values.begin() + static_cast<std::ptrdiff_t>(plane * grid.n_cells());
-  const auto end = first + static_cast<std::ptrdiff_t>(grid.n_cells());
-  std::vector<float> floats;
-  std::vector<std::int32_t> counts;
-  if (layer.is_count())
-    std::transform(first, end, std::back_inserter(counts), stored_count);
-  else
-    floats.assign(first, end);
-  void* values = layer.is_count() ? static_cast<void*>(counts.data()) : floats.data();
-  const DatasetPtr dataset = wrap_in_memory(values, layer.is_count() ? GDT_Int32 : GDT_Float32,
-                                            grid.n_cols, grid.n_rows, affine_of(grid).data());
-  dataset->GetRasterBand(1)->SetNoDataValue(layer.is_count() ? no_count : nan_d);
-  set_place(*dataset, grid);
-  describe(*dataset, layer, plane, stack);
-  write_encoded(target, *dataset, "COG", cog_options(layer.is_count()));
 }
 
 }  // namespace
 
-std::vector<std::string> cog_names(const LayerStack& stack) {
-  std::vector<std::string> names;
-  for (const Layer& layer : stack.layers)
+std::vector<PlaneFile> cog_files(const fs::path& folder, const LayerStack& about) {
+  std::vector<PlaneFile> files;
+  for (std::size_t l = 0; l < about.layers.size(); ++l) {
+    const Layer& layer = about.layers[l];
+    if (layer.is_count()) continue;
+    const fs::path place = layer.meaning.is_bound() ? folder / "bounds" : folder;
     for (std::size_t plane = 0; plane < layer.n_planes(); ++plane)
-      names.push_back(plane_name(layer, plane));
-  return names;
+      files.push_back({l, plane, place / (plane_name(layer, plane) + ".tif")});
+  }
+  return files;
 }
 
-std::vector<fs::path> write_cogs(const fs::path& folder, const LayerStack& stack) {
+std::vector<PlaneFile> write_cogs(const fs::path& folder, const LayerSource& maps,
+                                  CancelFlag cancel) {
   const GdalScope scope;
-  make_folder(folder);
-  std::vector<fs::path> written;
-  for (const Layer& layer : stack.layers) {
-    require(layer.values.size() == layer.n_planes() * stack.grid.n_cells(),
-            fmt::format("layer '{}' does not fill its planes. Fill every plane.", layer.name));
-    for (std::size_t plane = 0; plane < layer.n_planes(); ++plane) {
-      written.push_back(folder / plane_name(layer, plane));
-      write_plane(written.back(), stack, layer, plane);
-    }
+  const LayerStack& about = maps.about();
+  std::vector<PlaneFile> files = cog_files(folder, about);
+  for (const PlaneFile& file : files) {
+    cancel.check();
+    make_folder(file.path.parent_path());
+    PlaneDataset dataset(maps, file.layer, file.plane);
+    describe(dataset, about.layers[file.layer], file.plane, about);
+    write_encoded(file.path, dataset, "COG", cog_options(), cancel);
   }
-  return written;
+  return files;
 }
 
 void write_geotiff(const fs::path& file, const Raster<double>& raster, const TextPairs& metadata) {

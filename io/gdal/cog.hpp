@@ -2,7 +2,8 @@
 /// Maps as GeoTIFF: Cloud-Optimised for results, plain for terrains.
 #pragma once
 
-#include "scenarios/layers/layer_stack.hpp"
+#include "engine/core/cancel.hpp"
+#include "scenarios/layers/layer_stream.hpp"
 
 #include <filesystem>
 #include <string>
@@ -13,16 +14,22 @@ namespace sturz {
 
 using TextPairs = std::vector<std::pair<std::string, std::string>>;
 
-/// Names of the files that write_cogs() makes of the stack, in their order.
-std::vector<std::string> cog_names(const LayerStack& stack);
+/// Which plane of which layer a file holds.
+struct PlaneFile {
+  std::size_t layer = 0, plane = 0;
+  std::filesystem::path path;
+};
 
-/// One Cloud-Optimised GeoTIFF per plane, <layer>.tif or <layer>_<axis value>.tif, in `folder`
-/// (made if needed): float32 with nodata NaN, counts int32; unit, description and the stack's
-/// attributes as metadata. Each file appears whole or not at all.
-/// \return the files in the order of the layers
-/// \throws IoError
-std::vector<std::filesystem::path> write_cogs(const std::filesystem::path& folder,
-                                              const LayerStack& stack);
+/// The files that write_cogs() makes, in the order of the layers.
+std::vector<PlaneFile> cog_files(const std::filesystem::path& folder, const LayerStack& about);
+
+/// One Cloud-Optimised GeoTIFF per plane, plane_name() + ".tif", in `folder`; bounds of
+/// probabilities in its folder `bounds`, so that the maps that people open first stand alone;
+/// counts, the same number everywhere, are left out. float32 with nodata NaN; unit, description and
+/// the stack's attributes as metadata. Planes pass through block by block; each file appears whole
+/// or not at all. \return the files in the order of the layers \throws IoError; Cancelled
+std::vector<PlaneFile> write_cogs(const std::filesystem::path& folder, const LayerSource& maps,
+                                  CancelFlag cancel = {});
 
 /// A float64 GeoTIFF [m] with nodata NaN and metadata, e.g. {{"SYNTHETIC", "YES"}}. \throws IoError
 void write_geotiff(const std::filesystem::path& file, const Raster<double>& raster,

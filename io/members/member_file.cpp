@@ -213,6 +213,14 @@ void read_member_rows(const NetcdfReader& file, const Window& window, PeakLayer 
               {static_cast<std::size_t>(n), static_cast<std::size_t>(window.n_cols)}, out);
 }
 
+void read_member_part(const NetcdfReader& file, const Window& window, PeakLayer layer,
+                      const Window& part, std::span<float> out) {
+  file.floats(info(layer).name,
+              {static_cast<std::size_t>(part.row0 - window.row0),
+               static_cast<std::size_t>(part.col0 - window.col0)},
+              {static_cast<std::size_t>(part.n_rows), static_cast<std::size_t>(part.n_cols)}, out);
+}
+
 MemberResult read_member(const std::filesystem::path& path) {
   require_sealed(path);
   const NetcdfReader file(path);

@@ -18,4 +18,8 @@ void require_inside(const NetcdfReader& file, const Window& window, const Grid& 
 void read_member_rows(const NetcdfReader& file, const Window& window, PeakLayer layer, int first,
                       int n, std::span<float> out);
 
+/// One map in the cells of `part`, a window of the grid inside the member's own. \throws IoError
+void read_member_part(const NetcdfReader& file, const Window& window, PeakLayer layer,
+                      const Window& part, std::span<float> out);
+
 }  // namespace sturz

@@ -37,15 +37,12 @@ std::vector<std::int64_t> numbers_in(const fs::path& folder) {
   return numbers;
 }
 
-std::size_t key_of(std::size_t index, PeakLayer layer) {
-  return index * n_peak_layers + static_cast<std::size_t>(layer);
-}
-
 }  // namespace
 
-MemberStore::MemberStore(fs::path folder, const MemberFilter& filter, std::size_t memory_bound)
-    : folder_(std::move(folder)), memory_bound_(memory_bound) {
+MemberStore::MemberStore(fs::path folder, const MemberFilter& filter, CancelFlag cancel)
+    : folder_(std::move(folder)) {
   for (const std::int64_t number : numbers_in(folder_)) {
+    cancel.check();
     if (filter.wanted && !filter.wanted(number)) continue;
     try {
       add(number, filter);
@@ -84,11 +81,6 @@ const Grid& MemberStore::grid() const {
   return grid_;
 }
 
-std::size_t MemberStore::memory_in_use() const {
-  const std::lock_guard lock(mutex_);
-  return bytes_;
-}
-
 const NetcdfReader& MemberStore::reader(std::size_t index) const {
   if (!last_reader_ || last_index_ != index) {
     last_reader_.reset();
@@ -99,44 +91,21 @@ const NetcdfReader& MemberStore::reader(std::size_t index) const {
   return *last_reader_;
 }
 
-MemberStore::Map MemberStore::cached_or_loaded(std::size_t index, PeakLayer layer) const {
-  const auto known = maps_.find(key_of(index, layer));
-  if (known != maps_.end()) return known->second;
-  const Window& window = members_[index].window;
-  const std::size_t bytes = window.n_cells() * sizeof(float);
-  if (bytes_ + bytes > memory_bound_) return nullptr;
-  auto values = std::make_shared<std::vector<float>>(window.n_cells());
-  read_member_rows(reader(index), window, layer, 0, window.n_rows, *values);
-  bytes_ += bytes;
-  return maps_[key_of(index, layer)] = std::move(values);
-}
-
-void MemberStore::read_rows(std::size_t index, PeakLayer layer, int row0, int n_rows,
+void MemberStore::read_part(std::size_t index, PeakLayer layer, const Window& part,
                             std::span<float> out) const {
-  const Grid& whole = grid();
   expect(index < members_.size(), "the member exists");
-  expect(row0 >= 0 && n_rows >= 0 && row0 + n_rows <= whole.n_rows, "the rows lie on the grid");
-  expect(out.size() == static_cast<std::size_t>(n_rows) * whole.n_cols, "out holds the rows");
-  std::fill(out.begin(), out.end(), info(layer).untouched);
   const Window& w = members_[index].window;
-  const int first = std::max(row0, w.row0), end = std::min(row0 + n_rows, w.row0 + w.n_rows);
-  if (first >= end || w.n_cols == 0 || !is_kept(layer, members_[index].censoring)) return;
-  const auto width = static_cast<std::size_t>(w.n_cols);
-  std::vector<float> rows;  // only when memory is full
-  Map map;
-  {
-    const std::lock_guard lock(mutex_);
-    map = cached_or_loaded(index, layer);
-    if (!map) {
-      rows.resize(static_cast<std::size_t>(end - first) * width);
-      read_member_rows(reader(index), w, layer, first - w.row0, end - first, rows);
-    }
+  expect(part.row0 >= w.row0 && end_row(part) <= end_row(w) && part.col0 >= w.col0 &&
+             end_col(part) <= end_col(w),
+         "the part lies in the member's window");
+  expect(out.size() == part.n_cells(), "out holds the part");
+  if (part.n_cells() == 0) return;
+  if (!is_kept(layer, members_[index].censoring)) {
+    std::fill(out.begin(), out.end(), info(layer).untouched);
+    return;
   }
-  const float* from =
-      map ? map->data() + static_cast<std::size_t>(first - w.row0) * width : rows.data();
-  for (int row = first; row < end; ++row, from += width)
-    std::copy(from, from + width,
-              out.begin() + static_cast<std::ptrdiff_t>(row - row0) * whole.n_cols + w.col0);
+  const std::lock_guard lock(mutex_);
+  read_member_part(reader(index), w, layer, part, out);
 }
 
 }  // namespace sturz

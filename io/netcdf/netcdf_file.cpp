@@ -2,7 +2,6 @@
 #include "io/netcdf/netcdf_file.hpp"
 
 #include "engine/core/error.hpp"
-#include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
 #include "io/files/seal.hpp"
 
@@ -10,7 +9,9 @@
 #include <hdf5.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <cstdlib>
 #include <memory>
 
@@ -33,6 +34,10 @@ nc_type code(NcType type) {
 
 std::recursive_mutex& netcdf_mutex() {
   static std::recursive_mutex mutex;
+  // Every file is closed by its owner; what HDF5 would do at exit with one that a full disk kept
+  // open is to complain or to hang. It must be told before anything else.
+  static const bool told = H5dont_atexit() >= 0;
+  static_cast<void>(told);
   // HDF5 prints its errors thread by thread, and netCDF silences only the thread in which it woke
   // up; it asks HDF5 for optional attributes all the time, and each one that is absent is an error.
   thread_local bool silent = false;
@@ -43,18 +48,27 @@ std::recursive_mutex& netcdf_mutex() {
   return mutex;
 }
 
-NetcdfWriter::NetcdfWriter(std::filesystem::path target)
+NetcdfWriter::NetcdfWriter(std::filesystem::path target, NetcdfMedium medium)
     : lock_(netcdf_mutex()), target_(std::move(target)) {
-  constexpr std::size_t first_guess = std::size_t{1} << 20;
-  check(nc_create_mem(target_.c_str(), NC_NETCDF4, first_guess, &id_), "creating the file");
+  if (medium == NetcdfMedium::disk) {
+    on_disk_ = std::make_unique<AtomicFile>(target_);
+    check(nc_create(on_disk_->part().c_str(), NC_NETCDF4 | NC_CLOBBER, &id_), "creating the file");
+  } else {
+    constexpr std::size_t first_guess = std::size_t{1} << 20;
+    check(nc_create_mem(target_.c_str(), NC_NETCDF4, first_guess, &id_), "creating the file");
+  }
 }
 
 NetcdfWriter::~NetcdfWriter() {
-  if (id_ >= 0) nc_abort(id_);
+  if (id_ < 0) return;
+  // A full disk: HDF5 wants to write its last blocks before it lets go. Give it the room.
+  if (on_disk_) static_cast<void>(::truncate(on_disk_->part().c_str(), 0));
+  nc_abort(id_);
 }
 
 void NetcdfWriter::check(int status, const std::string& what) const {
   if (status == NC_NOERR) return;
+  if (on_disk_) on_disk_->fail("cannot write", errno);
   throw IoError(fmt::format("{}: {} failed (netCDF: {}). Is there enough memory?", target_.string(),
                             what, nc_strerror(status)));
 }
@@ -79,6 +93,10 @@ void NetcdfWriter::compress(int variable, const std::vector<std::size_t>& chunk)
   check(nc_def_var_deflate(id_, variable, /*shuffle=*/1, /*deflate=*/1, /*level=*/1),
         "compressing");
   check(nc_def_var_fletcher32(id_, variable, NC_FLETCHER32), "adding checksums");
+  std::size_t bytes = sizeof(double);
+  for (const std::size_t length : chunk) bytes *= length;
+  constexpr float keep_none = 1;  // what is written whole may go first
+  if (on_disk_) check(nc_set_var_chunk_cache(id_, variable, bytes, 7, keep_none), "caching");
 }
 
 void NetcdfWriter::text(int variable, const std::string& name, const std::string& value) {
@@ -127,8 +145,37 @@ void NetcdfWriter::put(int variable, std::span<const std::int32_t> values) {
   check(nc_put_var_int(id_, variable, values.data()), "writing values");
 }
 
+void NetcdfWriter::put(int variable, const std::vector<std::size_t>& start,
+                       const std::vector<std::size_t>& count, std::span<const float> values) {
+  check(nc_put_vara_float(id_, variable, start.data(), count.data(), values.data()),
+        "writing values");
+}
+
+void NetcdfWriter::put(int variable, const std::vector<std::size_t>& start,
+                       const std::vector<std::size_t>& count,
+                       std::span<const std::int32_t> values) {
+  check(nc_put_vara_int(id_, variable, start.data(), count.data(), values.data()),
+        "writing values");
+}
+
 void NetcdfWriter::commit() {
   expect(id_ >= 0, "a file is committed once");
+  if (on_disk_) {
+    commit_disk();
+  } else {
+    commit_memory();
+  }
+}
+
+void NetcdfWriter::commit_disk() {
+  errno = 0;
+  check(nc_close(id_), "closing the file");
+  id_ = -1;
+  lock_.unlock();
+  on_disk_->commit();
+}
+
+void NetcdfWriter::commit_memory() {
   NC_memio image{};
   const int status = nc_close_memio(id_, &image);
   id_ = -1;

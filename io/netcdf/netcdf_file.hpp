@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// netCDF-4 files through netCDF-C, with every status checked and one lock for the process.
 ///
-/// Neither netCDF-C nor HDF5 may run in two threads at once, not even on different files. Files are
-/// therefore built in memory under the lock and go to disk as plain bytes (atomic_file.hpp): a full
-/// disk is then an ordinary write error and cannot leave HDF5 with a file it fails to close.
+/// Neither netCDF-C nor HDF5 may run in two threads at once, not even on different files. Small
+/// files are therefore built in memory under the lock and go to disk as plain bytes
+/// (atomic_file.hpp): a full disk is then an ordinary write error. Maps may be larger than memory:
+/// their file grows in its part file on disk, one chunk after the other.
 #pragma once
+
+#include "io/files/atomic_file.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -23,12 +27,15 @@ std::recursive_mutex& netcdf_mutex();
 
 enum class NcType { int32, float32, float64 };
 
-/// Builds one file; nothing is on disk before commit(). Holds the lock while it lives.
+/// Where a file grows before it gets its name.
+enum class NetcdfMedium { memory, disk };
+
+/// Builds one file; nothing has its name before commit(). Holds the lock while it lives.
 class NetcdfWriter {
  public:
   static constexpr int global = -1;  ///< in place of a variable: the file's own attributes
 
-  explicit NetcdfWriter(std::filesystem::path target);
+  explicit NetcdfWriter(std::filesystem::path target, NetcdfMedium medium = NetcdfMedium::memory);
   ~NetcdfWriter();
   NetcdfWriter(const NetcdfWriter&) = delete;
   NetcdfWriter& operator=(const NetcdfWriter&) = delete;
@@ -37,6 +44,7 @@ class NetcdfWriter {
   /// \param dimensions slowest first; none: a scalar
   int variable(const std::string& name, NcType type, const std::vector<int>& dimensions);
   /// Stores the variable in compressed (shuffle, deflate 1), checksummed (fletcher32) chunks.
+  /// Whole chunks then go to the file as they come: no more than one is kept in memory.
   void compress(int variable, const std::vector<std::size_t>& chunk);
 
   void text(int variable, const std::string& name, const std::string& value);
@@ -50,16 +58,24 @@ class NetcdfWriter {
   void put(int variable, std::span<const double> values);
   void put(int variable, std::span<const float> values);
   void put(int variable, std::span<const std::int32_t> values);
+  /// A block of `count` values per dimension that begins at `start`.
+  void put(int variable, const std::vector<std::size_t>& start,
+           const std::vector<std::size_t>& count, std::span<const float> values);
+  void put(int variable, const std::vector<std::size_t>& start,
+           const std::vector<std::size_t>& count, std::span<const std::int32_t> values);
 
-  /// Closes the file in memory and writes it, sealed (io/files/seal.hpp), in one stroke.
-  /// \throws IoError
+  /// Closes the file, seals what was built in memory (io/files/seal.hpp), and gives it its name in
+  /// one stroke. \throws IoError
   void commit();
 
  private:
   void check(int status, const std::string& what) const;
+  void commit_memory();
+  void commit_disk();
 
   std::unique_lock<std::recursive_mutex> lock_;
   std::filesystem::path target_;
+  std::unique_ptr<AtomicFile> on_disk_;
   int id_ = -1;
 };
 

@@ -17,11 +17,12 @@
 namespace sturz {
 namespace {
 
-constexpr std::size_t chunk_edge = 256;
+constexpr std::size_t chunk_edge = 128;  // the blocks in which maps are made
 
 constexpr const char* order_attribute = "layer_order";
 constexpr const char* quantity_attribute = "sturz_quantity";
 constexpr const char* statistic_attribute = "sturz_statistic";
+constexpr const char* censored_attribute = "sturz_censored_members";
 constexpr const char* intensity_attribute = "sturz_intensity_class";
 
 struct WrittenAxis {
@@ -64,12 +65,6 @@ int write_axis(NetcdfWriter& file, const Layer& layer, std::map<std::string, Wri
   return dimension;
 }
 
-void put_counts(NetcdfWriter& file, int variable, const Layer& layer) {
-  std::vector<std::int32_t> counts(layer.values.size());
-  std::transform(layer.values.begin(), layer.values.end(), counts.begin(), stored_count);
-  file.put(variable, counts);
-}
-
 void write_meaning(NetcdfWriter& file, int variable, const LayerMeaning& meaning) {
   file.text(variable, quantity_attribute, std::string(to_string(meaning.quantity)));
   file.text(variable, statistic_attribute, std::string(to_string(meaning.statistic)));
@@ -77,11 +72,9 @@ void write_meaning(NetcdfWriter& file, int variable, const LayerMeaning& meaning
     file.text(variable, intensity_attribute, std::string(to_string(meaning.intensity)));
 }
 
-void write_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
+/// Defines one variable and tells its number.
+int define_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
                  const GridDimensions& place, std::map<std::string, WrittenAxis>& axes) {
-  require(layer.values.size() == layer.n_planes() * grid.n_cells(),
-          fmt::format("layer '{}' has {} values, not {} planes of {} cells. Fill every plane.",
-                      layer.name, layer.values.size(), layer.n_planes(), grid.n_cells()));
   std::vector<int> dimensions{place.y, place.x};
   std::vector<std::size_t> chunk{std::min(chunk_edge, static_cast<std::size_t>(grid.n_rows)),
                                  std::min(chunk_edge, static_cast<std::size_t>(grid.n_cols))};
@@ -103,12 +96,9 @@ void write_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
   text_if_any(file, variable, "cell_methods", layer.cell_methods);
   text_if_any(file, variable, "comment", layer.comment);
   write_meaning(file, variable, layer.meaning);
+  if (layer.n_censored > 0) file.integer(variable, censored_attribute, layer.n_censored);
   link_grid(file, variable, grid);
-  if (layer.is_count()) {
-    put_counts(file, variable, layer);
-  } else {
-    file.put(variable, layer.values);
-  }
+  return variable;
 }
 
 void write_attributes(NetcdfWriter& file, const LayerStack& stack) {
@@ -150,6 +140,7 @@ LayerMeaning read_meaning(const NetcdfReader& file, const std::string& map) {
   return meaning;
 }
 
+/// Everything but the values.
 Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& name,
                  const std::vector<std::string>& dimensions) {
   Layer layer;
@@ -163,10 +154,12 @@ Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& 
   layer.units = text(name, "units");
   layer.cell_methods = text(name, "cell_methods");
   layer.comment = text(name, "comment");
+  layer.n_censored =
+      static_cast<int>(std::clamp(file.number(name, censored_attribute).value_or(0), 0.0, 1e9));
   if (dimensions.size() == 3)
     layer.axis = {dimensions[0], text(dimensions[0], "standard_name"), text(dimensions[0], "units"),
                   file.doubles(dimensions[0])};
-  std::vector<std::size_t> start(dimensions.size(), 0), count;
+  std::vector<std::size_t> count;
   for (const auto& dimension : dimensions) count.push_back(file.length(dimension));
   const std::size_t n = count.size();
   if (count[n - 2] != static_cast<std::size_t>(grid.n_rows) ||
@@ -176,14 +169,7 @@ Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& 
         fmt::format("{}: variable '{}' does not lie on the file's grid (it is damaged). "
                     "Compute it again.",
                     file.file().string(), name));
-  layer.values.resize(file.size(name));
-  if (!layer.is_count()) {
-    file.floats(name, start, count, layer.values);
-    return layer;
-  }
-  const std::vector<std::int32_t> counts = file.integers(name);
-  std::transform(counts.begin(), counts.end(), layer.values.begin(),
-                 [](std::int32_t v) { return v == no_count ? nan_f : static_cast<float>(v); });
+  file.size(name);  // refuses what the file cannot hold
   return layer;
 }
 
@@ -197,35 +183,100 @@ void restore_order(std::vector<Layer>& layers, const std::string& order) {
 
 }  // namespace
 
-void write_layers(const std::filesystem::path& path, const LayerStack& stack,
-                  const MemberHistory& history) {
-  NetcdfWriter file(path);
-  write_attributes(file, stack);
-  const GridDimensions place = write_grid(file, stack.grid);
+LayersFileWriter::LayersFileWriter(std::filesystem::path file, NetcdfMedium medium)
+    : file_(std::move(file), medium) {}
+
+void LayersFileWriter::begin(const LayerStack& about) {
+  write_attributes(file_, about);
+  const GridDimensions place = write_grid(file_, about.grid);
   std::map<std::string, WrittenAxis> axes;
-  for (const auto& layer : stack.layers) write_layer(file, layer, stack.grid, place, axes);
-  write_history(file, history);
-  file.commit();
+  for (const auto& layer : about.layers) {
+    variables_.push_back(define_layer(file_, layer, about.grid, place, axes));
+    is_count_.push_back(layer.is_count());
+    has_axis_.push_back(!layer.axis.values.empty());
+  }
 }
 
-LayerStack read_layers(const std::filesystem::path& path) {
-  const NetcdfReader file(path);
-  LayerStack stack;
-  stack.grid = read_grid(file);
-  for (const auto& name : file.attributes(""))
-    if (const auto value = file.text("", name);
+void LayersFileWriter::put(std::size_t layer, std::size_t plane, const Window& w,
+                           std::span<const float> values) {
+  std::vector<std::size_t> start{static_cast<std::size_t>(w.row0),
+                                 static_cast<std::size_t>(w.col0)},
+      count{static_cast<std::size_t>(w.n_rows), static_cast<std::size_t>(w.n_cols)};
+  if (has_axis_[layer]) {
+    start.insert(start.begin(), plane);
+    count.insert(count.begin(), 1);
+  }
+  if (!is_count_[layer]) {
+    file_.put(variables_[layer], start, count, values);
+    return;
+  }
+  std::vector<std::int32_t> counts(values.size());
+  std::transform(values.begin(), values.end(), counts.begin(), stored_count);
+  file_.put(variables_[layer], start, count, counts);
+}
+
+void LayersFileWriter::commit(const MemberHistory& history) {
+  write_history(file_, history);
+  file_.commit();
+}
+
+LayersFileReader::LayersFileReader(const std::filesystem::path& path) : file_(path) {
+  about_.grid = read_grid(file_);
+  for (const auto& name : file_.attributes(""))
+    if (const auto value = file_.text("", name);
         value && name != "Conventions" && name != order_attribute)
-      stack.attributes.emplace_back(name, *value);
-  for (const auto& name : file.variables()) {
-    const auto dimensions = file.dimensions(name);
+      about_.attributes.emplace_back(name, *value);
+  for (const auto& name : file_.variables()) {
+    const auto dimensions = file_.dimensions(name);
     if (dimensions.size() < 2) continue;  // coordinates, crs and history
     if (dimensions.size() > 3 || dimensions.back() != "x" ||
         dimensions[dimensions.size() - 2] != "y")
       throw IoError(
           fmt::format("{}: variable '{}' is not a map over y, x. Remove it.", path.string(), name));
-    stack.layers.push_back(read_layer(file, stack.grid, name, dimensions));
+    about_.layers.push_back(read_layer(file_, about_.grid, name, dimensions));
   }
-  restore_order(stack.layers, file.text("", order_attribute).value_or(""));
+  restore_order(about_.layers, file_.text("", order_attribute).value_or(""));
+}
+
+void LayersFileReader::read(std::size_t number, std::size_t plane, const Window& w,
+                            std::span<float> out) const {
+  const Layer& layer = about_.layers[number];
+  std::vector<std::size_t> start{static_cast<std::size_t>(w.row0),
+                                 static_cast<std::size_t>(w.col0)},
+      count{static_cast<std::size_t>(w.n_rows), static_cast<std::size_t>(w.n_cols)};
+  if (!layer.axis.values.empty()) {
+    start.insert(start.begin(), plane);
+    count.insert(count.begin(), 1);
+  }
+  file_.floats(layer.name, start, count, out);
+  if (!layer.is_count()) return;
+  for (float& v : out)
+    if (v == static_cast<float>(no_count)) v = nan_f;
+}
+
+void write_layers(const std::filesystem::path& path, const LayerStack& stack,
+                  const MemberHistory& history) {
+  const StackSource checked(stack);
+  LayersFileWriter file(path, NetcdfMedium::memory);
+  file.begin(stack);
+  const std::size_t n = stack.grid.n_cells();
+  for (std::size_t l = 0; l < stack.layers.size(); ++l)
+    for (std::size_t plane = 0; plane < stack.layers[l].n_planes(); ++plane)
+      file.put(l, plane, {0, 0, stack.grid.n_rows, stack.grid.n_cols},
+               std::span(stack.layers[l].values).subspan(plane * n, n));
+  file.commit(history);
+}
+
+LayerStack read_layers(const std::filesystem::path& path) {
+  const LayersFileReader file(path);
+  LayerStack stack = file.about();
+  const std::size_t n = stack.grid.n_cells();
+  for (std::size_t l = 0; l < stack.layers.size(); ++l) {
+    stack.layers[l].values.resize(stack.layers[l].n_planes() * n);
+    for (std::size_t plane = 0; plane < stack.layers[l].n_planes(); ++plane)
+      file.read(l, plane, {0, 0, stack.grid.n_rows, stack.grid.n_cols},
+                std::span(stack.layers[l].values).subspan(plane * n, n));
+  }
   return stack;
 }
 

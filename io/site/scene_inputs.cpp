@@ -10,6 +10,7 @@
 #include "io/site/hazard_grid.hpp"
 #include "io/site/release_hash.hpp"
 #include "io/site/release_shapes.hpp"
+#include "io/site/terrain_request.hpp"
 #include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
@@ -114,13 +115,7 @@ void load_synthetic(Loading& loading) {
 
 /// Opens it; what is read of it follows from the release.
 void open_raster(Loading& loading) {
-  const TerrainSpec& spec = loading.scenario.terrain;
-  RasterRequest request;
-  request.path = spec.raster;
-  request.directory = loading.scenario.directory;
-  request.crs = spec.crs;
-  request.cell_size_m = spec.cell_size_m;
-  loading.raster = std::make_unique<ElevationRaster>(request);
+  loading.raster = std::make_unique<ElevationRaster>(terrain_request(loading.scenario));
   loading.inputs.whole = loading.raster->grid();
 }
 

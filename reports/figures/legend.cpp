@@ -58,7 +58,7 @@ std::vector<double> even_classes(double largest) {
 }
 
 Ramp ramp_of(const LayerMeaning& meaning) {
-  if (meaning.statistic == Statistic::probability) return Ramp::hazard;
+  if (meaning.statistic == Statistic::probability || meaning.is_bound()) return Ramp::hazard;
   switch (meaning.quantity) {
     case Quantity::arrival:
       return Ramp::arrival;
@@ -97,7 +97,8 @@ Legend legend_for(const Layer& layer) {
   Legend legend;
   legend.unit = display_unit(layer.units);
   legend.title = legend_title(layer, legend.unit);
-  legend.probability = meaning.statistic == Statistic::probability && layer.units == "1";
+  legend.probability =
+      (meaning.statistic == Statistic::probability || meaning.is_bound()) && layer.units == "1";
   legend.clear_zero = meaning.quantity != Quantity::arrival;
   double largest = 0;
   for (const float v : layer.values)

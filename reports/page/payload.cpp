@@ -105,6 +105,7 @@ Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& laye
   const LayerMeaning& meaning = layer.meaning;
   Json planes = Json::array();
   for (std::size_t k = 0; k < layer.n_planes(); ++k) {
+    input.cancel.check();
     Json plane = plane_json(scene_plane(scene, layer, k, maps.grid), scene.cells.n_cols, n_valid);
     plane["label"] = plane_label(layer, k);
     plane["title"] = plane_title(layer, k);

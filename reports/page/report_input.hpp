@@ -2,6 +2,7 @@
 /// Everything that a page may show, as its sections read it.
 #pragma once
 
+#include "engine/core/cancel.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
 #include "ensemble/hazard/convergence.hpp"
@@ -39,6 +40,7 @@ struct ReportInput {
   NamedSeconds timings;                       ///< by effect, all members together [s]
   NamedSeconds pass_timings;                  ///< by pass of a step, shown folded; may be empty [s]
   double elapsed_s = 0;                       ///< wall time of the whole run; 0 = unknown
+  CancelFlag cancel;                 ///< looked at between maps; make_report then throws Cancelled
   double max_censored_fraction = 0;  ///< of members; above it the page begins with a banner
   std::string where_mass_left;       ///< in words, may be empty
   const Raster<std::uint8_t>* release = nullptr;  ///< 1: covered at the start; may be null

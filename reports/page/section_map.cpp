@@ -65,8 +65,10 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
 std::string still_figures(const ReportInput& input, const MapScene& scene, const LayerStack& maps) {
   std::string html = "<div id=\"still-maps\" class=\"stills\">";
   const MapMarks marks = map_marks(scene, maps, input.release);
-  for (const Layer* layer : still_layers(maps))
+  for (const Layer* layer : still_layers(maps)) {
+    input.cancel.check();
     html += still_figure(scene, maps, *layer, input.resolved_thickness_m, marks);
+  }
   return html + "</div>";
 }
 
@@ -107,13 +109,12 @@ std::string map_html(const ReportInput& input, const MapScene* scene, const Laye
               : "These are still pictures: this sturz was built without the script bundle "
                 "(STURZ_REPORT_JS=OFF, or node was missing). All maps are in the result files.";
   html += "</p>" + hillshade_defs(*scene) + still_figures(input, *scene, *maps);
-  html +=
-      fmt::format("<p class=\"note\">{}; cells of {}{}.</p>",
-                  html_escape(crs_name(maps->grid.crs_wkt)), with_unit(scene->cells.cell_m, "m"),
-                  scene->coarsening > 1
-                      ? fmt::format(" (the most severe of {0} x {0} cells of the result files)",
-                                    scene->coarsening)
-                      : std::string());
+  const int joined = scene->coarsening * maps->joined;
+  html += fmt::format(
+      "<p class=\"note\">{}; cells of {}{}.</p>", html_escape(crs_name(maps->grid.crs_wkt)),
+      with_unit(scene->cells.cell_m, "m"),
+      joined > 1 ? fmt::format(" (the most severe of {0} x {0} cells of the result files)", joined)
+                 : std::string());
   return html + "</section>";
 }
 

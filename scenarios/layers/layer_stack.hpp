@@ -24,7 +24,7 @@ struct LayerAxis {
 
 /// One named field of results: [axis.values.size() or 1][n_rows][n_cols], NaN where undefined.
 struct Layer {
-  std::string name;  ///< variable name, e.g. "probability_of_peak_thickness_above_threshold"
+  std::string name;  ///< variable name, e.g. "thickness_exceedance"
   LayerMeaning meaning;
   std::string long_name;
   std::string standard_name;  ///< CF standard name or empty
@@ -32,7 +32,9 @@ struct Layer {
   std::string cell_methods;   ///< CF cell_methods or empty
   std::string comment;        ///< free text (rules, 'not resolved' notes) or empty
   LayerAxis axis;             ///< empty values: a plain map
-  std::vector<float> values;
+  std::vector<float> values;  ///< empty where layers are only described, see layer_stream.hpp
+  /// Members behind the values whose end was not seen: probabilities and peaks are lower bounds.
+  int n_censored = 0;
 
   std::size_t n_planes() const { return axis.values.empty() ? 1 : axis.values.size(); }
   /// Whole numbers: stored as int32, never quantised.
@@ -44,6 +46,7 @@ struct LayerStack {
   Grid grid;
   std::vector<Layer> layers;
   std::vector<std::pair<std::string, std::string>> attributes;  ///< global text attributes
+  int joined = 1;  ///< cells of the result files in one of these, per direction
 
   const Layer* find(const std::string& name) const {
     for (const auto& l : layers)

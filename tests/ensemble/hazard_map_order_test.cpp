@@ -3,14 +3,15 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
-#include "ensemble/hazard/member_tiles.hpp"
+#include "ensemble/hazard/member_cells.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "tests/support/memory_members.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
+#include <atomic>
+#include <cmath>
 
 namespace sturz {
 namespace {
@@ -34,11 +35,12 @@ std::vector<MemberResult> members(const Grid& grid) {
 }
 
 std::uint64_t map_hash(const Grid& grid, const std::vector<MemberResult>& results,
-                       std::size_t memory_limit_bytes) {
+                       std::size_t memory_bytes) {
   MemoryMembers source(grid);
   for (const MemberResult& r : results) source.add(r);
-  return hash_of(
-      make_hazard_map(source, {}, {.memory_limit_bytes = memory_limit_bytes, .attributes = {}}));
+  HazardContext context;
+  context.memory_bytes = memory_bytes;
+  return hash_of(make_hazard_map(source, {}, context));
 }
 
 TEST(HazardMapBits, DoNotDependOnTheOrderOfMembers) {
@@ -55,7 +57,7 @@ TEST(HazardMapBits, DoNotDependOnTheOrderOfMembers) {
   EXPECT_NE(map_hash(grid, results, 1 << 20), hash) << "the hash sees nothing";
 }
 
-TEST(HazardMapBits, DoNotDependOnTheSizeOfTiles) {
+TEST(HazardMapBits, DoNotDependOnTheMemory) {
   const Grid grid = small_grid(11, 17);
   const std::vector<MemberResult> results = members(grid);
   const std::uint64_t hash = map_hash(grid, results, std::size_t{1} << 30);
@@ -71,35 +73,84 @@ TEST(HazardMapBits, DoNotDependOnFailedMembers) {
   EXPECT_EQ(map_hash(grid, results, 1 << 20), hash);
 }
 
-TEST(MemberTiles, CoverTheTouchedCellsOnceWithinTheMemory) {
-  const Grid grid = small_grid(11, 17);
+/// Members on 300 x 290 cells: several blocks in both directions.
+MemoryMembers many_blocks(int n_members) {
+  const Grid grid = small_grid(300, 290);
   MemoryMembers source(grid);
-  for (const MemberResult& r : members(grid)) source.add(r);
-  for (const std::size_t limit : {1U, 1000U, 6000U, 1000000U}) {
-    const MemberTiles tiles(source, limit, 3);
-    std::vector<int> covered(grid.n_cells(), 0);
-    for (const Window& t : tiles.tiles()) {
-      EXPECT_TRUE(t.n_cells() == 1 || t.n_cells() * tiles.n_members() * 3 * 4 <= limit);
-      for (int row = t.row0; row < t.row0 + t.n_rows; ++row)
-        for (int col = t.col0; col < t.col0 + t.n_cols; ++col) ++covered[grid.index(row, col)];
-    }
-    const Window& w = tiles.touched();
-    for (int row = 0; row < grid.n_rows; ++row)
-      for (int col = 0; col < grid.n_cols; ++col) {
-        const bool inside =
-            row >= w.row0 && row < w.row0 + w.n_rows && col >= w.col0 && col < w.col0 + w.n_cols;
-        EXPECT_EQ(covered[grid.index(row, col)], inside ? 1 : 0);
-      }
+  std::mt19937 random(11);
+  for (int m = 0; m < n_members; ++m) {
+    MemberResult r = random_member(m, grid, random);
+    r.outcome = m % 5 == 4 ? Outcome::failed : Outcome::settled;
+    source.add(r);
+  }
+  return source;
+}
+
+TEST(HazardMapBits, DoNotDependOnTheMemoryOverManyBlocks) {
+  const MemoryMembers source = many_blocks(12);
+  HazardContext context;
+  const std::uint64_t hash = hash_of(make_hazard_map(source, {}, context));
+  for (const std::size_t limit : {1U << 14, 1U << 17, 1U << 20, 1U << 22}) {
+    context.memory_bytes = limit;
+    EXPECT_EQ(hash_of(make_hazard_map(source, {}, context)), hash) << limit << " bytes";
   }
 }
 
-TEST(MemberTiles, RefuseAMemberThatOccursTwice) {
+TEST(MemberCells, HandOutEveryCellOnceWithWhatMembersLeft) {
+  const MemoryMembers source = many_blocks(9);
+  const MemberCells cells(source);
+  ASSERT_EQ(cells.n_members(), 8U);
+  const Window extent{1, 2, 298, 285};
+  for (const std::size_t limit : {std::size_t{1}, std::size_t{1} << 15, std::size_t{1} << 30}) {
+    std::vector<int> seen(source.grid().n_cells(), 0);
+    cells.visit(
+        extent, {PeakLayer::speed, PeakLayer::arrival}, limit, {}, [&](const CellRows& rows) {
+          for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
+            const int row = rows.window.row0 + static_cast<int>(i) / rows.window.n_cols;
+            const int col = rows.window.col0 + static_cast<int>(i) % rows.window.n_cols;
+            ++seen[source.grid().index(row, col)];
+            const auto speeds = rows.of(PeakLayer::speed, i);
+            std::vector<float> expected;
+            for (std::size_t m = 0; m < source.members().size(); ++m) {
+              if (!is_valid(source.members()[m].outcome)) continue;
+              const float v = source.value(m, PeakLayer::speed, row, col);
+              if (v != 0 || !std::isnan(source.value(m, PeakLayer::arrival, row, col)))
+                expected.push_back(v);
+            }
+            EXPECT_TRUE(std::equal(speeds.begin(), speeds.end(), expected.begin(), expected.end()));
+          }
+        });
+    for (int row = 0; row < source.grid().n_rows; ++row)
+      for (int col = 0; col < source.grid().n_cols; ++col)
+        EXPECT_EQ(seen[source.grid().index(row, col)],
+                  row >= 1 && row < 299 && col >= 2 && col < 287 ? 1 : 0);
+  }
+}
+
+TEST(MemberCells, OpenEveryMemberOnceWhereMemoryHoldsAll) {
+  const MemoryMembers source = many_blocks(10);
+  const MemberCells cells(source);
+  cells.visit(cells.touched(), {PeakLayer::arrival, PeakLayer::speed}, std::size_t{1} << 30, {},
+              [](const CellRows&) {});
+  EXPECT_EQ(source.turns(), 8) << "the reader went back to a member it had left";
+}
+
+TEST(MemberCells, StopWhenTold) {
+  const MemoryMembers source = many_blocks(3);
+  const MemberCells cells(source);
+  const std::atomic<bool> stop{true};
+  EXPECT_THROW(cells.visit(cells.touched(), {PeakLayer::arrival}, 1 << 20, stop,
+                           [](const CellRows&) { ADD_FAILURE() << "went on"; }),
+               Cancelled);
+}
+
+TEST(MemberCells, RefuseAMemberThatOccursTwice) {
   const Grid grid = small_grid(4, 4);
   std::mt19937 random(1);
   MemoryMembers source(grid);
   source.add(random_member(3, grid, random));
   source.add(random_member(3, grid, random));
-  EXPECT_THROW(MemberTiles(source, 1000, 1), SetupError);
+  EXPECT_THROW(MemberCells{source}, SetupError);
 }
 
 }  // namespace

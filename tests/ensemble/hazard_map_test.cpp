@@ -32,7 +32,10 @@ class HazardMapOfRandomMembers : public testing::Test {
       source_.add(r);
       if (is_valid(r.outcome)) valid_.push_back(r);
     }
-    map_ = make_hazard_map(source_, spec_, {.spacing_m = 3, .n_planned = 32, .attributes = {}});
+    HazardContext context;
+    context.spacing_m = 3;
+    context.n_planned = 32;
+    map_ = make_hazard_map(source_, spec_, context);
   }
 
   /// The slow way: values of all valid members in one cell.
@@ -96,8 +99,7 @@ TEST_F(HazardMapOfRandomMembers, CountsExceedanceAsBruteForceDoes) {
       for (std::size_t t = 0; t < thresholds.size(); ++t) {
         const auto hits = std::count_if(x.begin(), x.end(),
                                         [&](double v) { return v > thresholds[t] * peak.si; });
-        expect_probability("probability_of_peak_" + peak.word + "_above_threshold", row, col, t,
-                           static_cast<int>(hits));
+        expect_probability(peak.word + "_exceedance", row, col, t, static_cast<int>(hits));
       }
     });
 }
@@ -106,26 +108,27 @@ TEST_F(HazardMapOfRandomMembers, CountsReachedCellsByTheirArrival) {
   for_cells([&](int row, int col) {
     const std::vector<double> t = values(PeakLayer::arrival, row, col);
     const auto hits = std::count_if(t.begin(), t.end(), [](double v) { return !std::isnan(v); });
-    expect_probability("probability_reached", row, col, 0, static_cast<int>(hits));
+    expect_probability("probability_of_reach", row, col, 0, static_cast<int>(hits));
   });
 }
 
 TEST_F(HazardMapOfRandomMembers, TakesMeansAndQuantilesOverAllValidMembers) {
   for (const auto& [layer, name] :
-       {std::pair<PeakLayer, std::string>{PeakLayer::deposit, "deposit_thickness"},
-        {PeakLayer::thickness, "peak_thickness"},
-        {PeakLayer::speed, "peak_speed"},
-        {PeakLayer::energy, "peak_energy"},
-        {PeakLayer::pressure, "peak_pressure"}})
+       {std::pair<PeakLayer, std::string>{PeakLayer::deposit, "deposit"},
+        {PeakLayer::thickness, "thickness"},
+        {PeakLayer::speed, "speed"},
+        {PeakLayer::energy, "energy"},
+        {PeakLayer::pressure, "pressure"}})
     for_cells([&, &which = layer, &word = name](int row, int col) {
       const std::vector<double> x = values(which, row, col);
+      const double unit = which == PeakLayer::energy || which == PeakLayer::pressure ? 1e-3 : 1;
       double sum = 0;
       for (const double v : x) sum += v;
       EXPECT_EQ(at(word + "_mean", row, col),
-                static_cast<float>(sum / static_cast<double>(x.size())));
+                static_cast<float>(sum / static_cast<double>(x.size()) * unit));
       for (std::size_t q = 0; q < spec_.quantiles.size(); ++q)
         EXPECT_EQ(at(word + "_quantile", row, col, q),
-                  static_cast<float>(quantile(x, spec_.quantiles[q])));
+                  static_cast<float>(quantile(x, spec_.quantiles[q]) * unit));
     });
 }
 
@@ -134,7 +137,7 @@ TEST_F(HazardMapOfRandomMembers, TakesArrivalQuantilesOverMembersThatCame) {
     std::vector<double> t = values(PeakLayer::arrival, row, col);
     std::erase_if(t, [](double v) { return std::isnan(v); });
     for (std::size_t q = 0; q < spec_.quantiles.size(); ++q) {
-      const float seen = at("arrival_time_quantile", row, col, q);
+      const float seen = at("arrival_quantile", row, col, q);
       if (t.empty())
         EXPECT_TRUE(std::isnan(seen));
       else
@@ -154,11 +157,9 @@ TEST_F(HazardMapOfRandomMembers, SharesReachedMembersBetweenTheIntensities) {
       medium += !is_high && !std::isnan(t[m]);
     }
     const double n = static_cast<double>(h.size());
-    EXPECT_EQ(at("probability_of_high_debris_flow_intensity", row, col),
-              static_cast<float>(high / n));
-    EXPECT_EQ(at("probability_of_medium_debris_flow_intensity", row, col),
-              static_cast<float>(medium / n));
-    EXPECT_FLOAT_EQ(static_cast<float>((high + medium) / n), at("probability_reached", row, col));
+    EXPECT_EQ(at("probability_of_high_intensity", row, col), static_cast<float>(high / n));
+    EXPECT_EQ(at("probability_of_medium_intensity", row, col), static_cast<float>(medium / n));
+    EXPECT_FLOAT_EQ(static_cast<float>((high + medium) / n), at("probability_of_reach", row, col));
   });
 }
 
@@ -185,12 +186,12 @@ TEST_F(HazardMapOfRandomMembers, GivesEveryLayerItsShapeAndUnits) {
     EXPECT_FALSE(layer.units.empty()) << layer.name;
     EXPECT_FALSE(layer.long_name.empty()) << layer.name;
   }
-  const Layer* energy = map_.find("probability_of_peak_energy_above_threshold");
+  const Layer* energy = map_.find("energy_exceedance");
   EXPECT_EQ(energy->units, "1");
   EXPECT_EQ(energy->axis.name, "energy_threshold");
   EXPECT_EQ(energy->axis.units, "kJ m-2");
-  EXPECT_EQ(map_.find("peak_energy_quantile")->units, "J m-2");
-  EXPECT_EQ(map_.find("peak_pressure_mean")->cell_methods, "time: maximum realization: mean");
+  EXPECT_EQ(map_.find("energy_quantile")->units, "kJ m-2");
+  EXPECT_EQ(map_.find("pressure_mean")->cell_methods, "time: maximum realization: mean");
 }
 
 TEST_F(HazardMapOfRandomMembers, TellsWhatEveryLayerShows) {
@@ -199,14 +200,14 @@ TEST_F(HazardMapOfRandomMembers, TellsWhatEveryLayerShows) {
     EXPECT_EQ(map_.find(name)->meaning, (LayerMeaning{quantity, statistic, intensity})) << name;
   };
   is("number_of_members", Quantity::members, Statistic::count);
-  is("probability_reached", Quantity::reached, Statistic::probability);
-  is("probability_reached_lower", Quantity::reached, Statistic::lower_bound);
-  is("probability_of_peak_energy_above_threshold", Quantity::energy, Statistic::probability);
-  is("probability_of_peak_energy_above_threshold_upper", Quantity::energy, Statistic::upper_bound);
-  is("peak_pressure_quantile", Quantity::pressure, Statistic::quantile);
-  is("arrival_time_quantile", Quantity::arrival, Statistic::quantile);
-  is("deposit_thickness_mean", Quantity::deposit, Statistic::mean);
-  is("probability_of_high_debris_flow_intensity", Quantity::intensity, Statistic::probability,
+  is("probability_of_reach", Quantity::reached, Statistic::probability);
+  is("probability_of_reach_lower", Quantity::reached, Statistic::lower_bound);
+  is("energy_exceedance", Quantity::energy, Statistic::probability);
+  is("energy_exceedance_upper", Quantity::energy, Statistic::upper_bound);
+  is("pressure_quantile", Quantity::pressure, Statistic::quantile);
+  is("arrival_quantile", Quantity::arrival, Statistic::quantile);
+  is("deposit_mean", Quantity::deposit, Statistic::mean);
+  is("probability_of_high_intensity", Quantity::intensity, Statistic::probability,
      IntensityClass::high);
   for (const Layer& layer : map_.layers) {
     EXPECT_NE(layer.meaning.quantity, Quantity::other) << layer.name;
@@ -216,14 +217,12 @@ TEST_F(HazardMapOfRandomMembers, TellsWhatEveryLayerShows) {
 
 TEST_F(HazardMapOfRandomMembers, MarksThresholdsThatTheSpacingCannotResolve) {
   // Spacing 3 m: thresholds of 0.1, 0.5 and 1 m lie below 1.5 m, 2 m does not.
-  const std::string comment = map_.find("probability_of_peak_thickness_above_threshold")->comment;
+  const std::string comment = map_.find("thickness_exceedance")->comment;
   EXPECT_THAT(comment, HasSubstr("not resolved (below half the particle spacing of 3 m): 0.1 m, "
                                  "0.5 m, 1 m"));
   EXPECT_THAT(comment, testing::Not(HasSubstr("2 m")));
-  EXPECT_THAT(map_.find("probability_of_high_debris_flow_intensity")->comment,
-              HasSubstr("not resolved"));
-  EXPECT_THAT(map_.find("probability_of_peak_speed_above_threshold")->comment,
-              testing::Not(HasSubstr("not resolved")));
+  EXPECT_THAT(map_.find("probability_of_high_intensity")->comment, HasSubstr("not resolved"));
+  EXPECT_THAT(map_.find("speed_exceedance")->comment, testing::Not(HasSubstr("not resolved")));
 }
 
 TEST(HazardMap, LeavesOutLayersWithoutThresholdsOrQuantiles) {
@@ -234,10 +233,10 @@ TEST(HazardMap, LeavesOutLayersWithoutThresholdsOrQuantiles) {
   spec.speed_m_s.clear();
   spec.quantiles.clear();
   const LayerStack map = make_hazard_map(source, spec, {});
-  EXPECT_EQ(map.find("probability_of_peak_speed_above_threshold"), nullptr);
-  EXPECT_EQ(map.find("peak_speed_quantile"), nullptr);
-  EXPECT_EQ(map.find("arrival_time_quantile"), nullptr);
-  EXPECT_NE(map.find("peak_speed_mean"), nullptr);
+  EXPECT_EQ(map.find("speed_exceedance"), nullptr);
+  EXPECT_EQ(map.find("speed_quantile"), nullptr);
+  EXPECT_EQ(map.find("arrival_quantile"), nullptr);
+  EXPECT_NE(map.find("speed_mean"), nullptr);
 }
 
 TEST(HazardMap, IsUndefinedWithoutValidMembers) {
@@ -261,11 +260,77 @@ TEST(HazardMap, OfMembersThatNeverMovedIsDry) {
   }
   const LayerStack map = make_hazard_map(source, {}, {});
   for (int cell = 0; cell < 4; ++cell) {
-    EXPECT_EQ(map.find("probability_reached")->values[cell], 0);
-    EXPECT_NEAR(map.find("probability_reached_upper")->values[cell], 0.1611, 1e-4);
-    EXPECT_EQ(map.find("peak_thickness_mean")->values[cell], 0);
-    EXPECT_TRUE(std::isnan(map.find("arrival_time_quantile")->values[cell]));
+    EXPECT_EQ(map.find("probability_of_reach")->values[cell], 0);
+    EXPECT_NEAR(map.find("probability_of_reach_upper")->values[cell], 0.1611, 1e-4);
+    EXPECT_EQ(map.find("thickness_mean")->values[cell], 0);
+    EXPECT_TRUE(std::isnan(map.find("arrival_quantile")->values[cell]));
   }
+}
+
+/// A member that left `value` as its thickness in one cell.
+MemberResult one_cell_member(const Grid& grid, int member, int row, int col, float value) {
+  MemberResult r;
+  r.member = member;
+  r.outcome = Outcome::settled;
+  r.grid = grid;
+  r.window = {row, col, 1, 1};
+  for (auto& layer : r.layers) layer = {0.0F};
+  r.layer(PeakLayer::thickness)[0] = value;
+  r.layer(PeakLayer::energy)[0] = 2500;
+  return r;
+}
+
+TEST(HazardMap, CoversWhatWasTouchedAndAMarginOnTheMembersGrid) {
+  MemoryMembers source(small_grid(1000, 2000, 5));
+  source.add(one_cell_member(source.grid(), 0, 500, 700, 1));
+  source.add(one_cell_member(source.grid(), 1, 520, 690, 1));
+  const LayerStack map = make_hazard_map(source, {}, {});
+  EXPECT_EQ(map.grid.n_rows, 21 + 2 * map_margin_cells);
+  EXPECT_EQ(map.grid.n_cols, 11 + 2 * map_margin_cells);
+  EXPECT_EQ(map.grid.west_m, 500000 + (690 - map_margin_cells) * 5);
+  EXPECT_EQ(map.grid.north_m, 4.5e6 - (500 - map_margin_cells) * 5);
+  const std::size_t cell = map.grid.index(map_margin_cells, 10 + map_margin_cells);
+  EXPECT_EQ(map.find("probability_of_reach")->values[cell], 0.5F);
+  EXPECT_EQ(map.find("energy_mean")->values[cell], 1.25F) << "kJ m-2";
+  // At the edge of the grid the margin is cut, not moved.
+  MemoryMembers corner(small_grid(30, 30));
+  corner.add(one_cell_member(corner.grid(), 0, 0, 29, 1));
+  const Grid at_corner = make_hazard_map(corner, {}, {}).grid;
+  EXPECT_EQ(at_corner.n_rows, 1 + map_margin_cells);
+  EXPECT_EQ(at_corner.n_cols, 1 + map_margin_cells);
+  EXPECT_EQ(at_corner.north_m, corner.grid().north_m);
+}
+
+TEST(HazardMap, IsMissingWhereTheGroundIsNotKnownAndZeroElsewhere) {
+  MemoryMembers source(small_grid(40, 40));
+  source.add(one_cell_member(source.grid(), 0, 20, 20, 1));
+  Raster<double> ground(source.grid(), 100.0);
+  ground.at(20, 20) = nan_d;  // a member came all the same
+  ground.at(20, 22) = nan_d;
+  HazardContext context;
+  context.ground = &ground;
+  const LayerStack map = make_hazard_map(source, {}, context);
+  const auto at = [&](const char* layer, int row, int col) {
+    const int row0 = 20 - map_margin_cells, col0 = 20 - map_margin_cells;
+    return map.find(layer)->values[map.grid.index(row - row0, col - col0)];
+  };
+  for (const Layer& layer : map.layers) {
+    if (layer.is_count()) continue;
+    const bool arrival = layer.meaning.quantity == Quantity::arrival;
+    for (std::size_t plane = 0; plane < layer.n_planes(); ++plane) {
+      const std::size_t first = plane * map.grid.n_cells();
+      const auto value = [&](int row, int col) {
+        return layer.values[first + map.grid.index(row - 20 + map_margin_cells,
+                                                   col - 20 + map_margin_cells)];
+      };
+      EXPECT_TRUE(std::isnan(value(20, 22))) << layer.name;
+      EXPECT_EQ(std::isnan(value(18, 18)), arrival) << layer.name;
+      if (layer.meaning.statistic != Statistic::upper_bound && !arrival) {
+        EXPECT_EQ(value(18, 18), 0) << layer.name;
+      }
+    }
+  }
+  EXPECT_EQ(at("thickness_mean", 20, 20), 1);
 }
 
 TEST(HazardMap, RefusesDataThatCannotBeRight) {

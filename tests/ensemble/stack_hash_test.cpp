@@ -47,6 +47,17 @@ TEST(StackHash, SeesEveryValueNameAndPlace) {
   EXPECT_NE(hash_of(other), hash);
 }
 
+TEST(StackHash, DoesNotSeeInWhichWindowsValuesCome) {
+  LayerStack s = stack();
+  s.grid.n_rows = 3;
+  s.layers[0].values = {1, 2, 3, nan_f, 0, 4};
+  StackHash parts(s);
+  const std::vector<float> right{2, nan_f, 4}, left{1, 3, 0};
+  parts.add(0, 0, {0, 1, 3, 1}, right);
+  parts.add(0, 0, {0, 0, 3, 1}, left);
+  EXPECT_EQ(parts.value(), hash_of(s));
+}
+
 TEST(StackHash, IgnoresDatesAndComments) {
   LayerStack other = stack();
   other.attributes.emplace_back("history", "today");

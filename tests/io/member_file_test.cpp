@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <csignal>
@@ -193,26 +194,33 @@ TEST_F(Store, ListsFinishedMembersInOrderAndReadsTheirRows) {
   EXPECT_EQ(store.members()[1].state_hash, all[1].state_hash);
   EXPECT_THAT(store.problems(), IsEmpty());
   expect_rows(store, all);
-  // Six layers each, and the mass that left of the one that is censored so.
-  EXPECT_EQ(store.memory_in_use(), ((12U + 120U + 12U) * 6 + 120U) * sizeof(float));
-  expect_rows(store, all);  // now from memory
 }
 
-TEST_F(Store, ReadsTheSameWhenMemoryIsShort) {
-  std::vector<MemberResult> all;
-  for (int number = 0; number < 4; ++number) all.push_back(made_up_member(number));
-  for (const auto& m : all) write_member(members(), m);
-  const MemberStore store(members(), {}, /*memory_bound=*/200);
-  expect_rows(store, all);
-  expect_rows(store, all);
-  EXPECT_LE(store.memory_in_use(), 200U);
+TEST_F(Store, ReadsAnyPartOfAMembersWindow) {
+  const MemberResult m = made_up_member(3);
+  write_member(members(), m);
+  const MemberStore store(members());
+  const Window& w = m.window;
+  const Window part{w.row0 + 1, w.col0 + 1, w.n_rows - 1, w.n_cols - 2};
+  std::vector<float> values(part.n_cells());
+  store.read_part(0, PeakLayer::speed, part, values);
+  for (int row = 0; row < part.n_rows; ++row)
+    for (int col = 0; col < part.n_cols; ++col)
+      EXPECT_EQ(values[static_cast<std::size_t>(row) * part.n_cols + col],
+                m.layer(PeakLayer::speed)[static_cast<std::size_t>(row + 1) * w.n_cols + col + 1]);
+}
+
+TEST_F(Store, StopsOpeningFilesWhenTold) {
+  write_member(members(), made_up_member(0));
+  const std::atomic<bool> stop{true};
+  EXPECT_THROW(MemberStore(members(), {}, stop), Cancelled);
 }
 
 TEST_F(Store, ReadsFromSeveralThreads) {
   std::vector<MemberResult> all;
   for (int number = 0; number < 4; ++number) all.push_back(made_up_member(number));
   for (const auto& m : all) write_member(members(), m);
-  const MemberStore store(members(), {}, 500);
+  const MemberStore store(members());
   std::vector<std::thread> threads;
   for (int t = 0; t < 3; ++t) threads.emplace_back([&] { expect_rows(store, all); });
   for (auto& thread : threads) thread.join();

@@ -9,8 +9,11 @@
 #include "io/netcdf/netcdf_file.hpp"
 #include "tests/io/io_fixture.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <random>
 #include <thread>
 
 namespace sturz::test {
@@ -210,6 +213,62 @@ TEST_F(NetcdfLayers, ProjectionsOfTheWorldPassTheLint) {
   }
   const ShellResult lint = cf_lint(files);
   EXPECT_EQ(lint.exit_code, 0) << lint.output;
+}
+
+TEST_F(NetcdfLayers, PassByInBlocksInAnyOrder) {
+  const LayerStack s = every_kind();
+  const StackSource source(s);
+  LayersFileWriter file(path("parts.nc"));
+  file.begin(s);
+  std::vector<float> values;
+  for (const Window& w : {Window{3, 0, 2, 6}, Window{0, 4, 3, 2}, Window{0, 0, 3, 4}})
+    for (std::size_t l = 0; l < s.layers.size(); ++l)
+      for (std::size_t plane = 0; plane < s.layers[l].n_planes(); ++plane) {
+        values.resize(w.n_cells());
+        source.read(l, plane, w, values);
+        file.put(l, plane, w, values);
+      }
+  EXPECT_FALSE(std::filesystem::exists(path("parts.nc"))) << "it has its name too early";
+  file.commit();
+  const LayerStack back = read_layers(path("parts.nc")), whole = read_layers(written(s));
+  ASSERT_EQ(back.layers.size(), whole.layers.size());
+  for (std::size_t l = 0; l < back.layers.size(); ++l) {
+    EXPECT_EQ(back.layers[l].name, whole.layers[l].name);
+    EXPECT_EQ(back.layers[l].units, whole.layers[l].units);
+    ASSERT_EQ(back.layers[l].values.size(), whole.layers[l].values.size());
+    EXPECT_EQ(std::memcmp(back.layers[l].values.data(), whole.layers[l].values.data(),
+                          back.layers[l].values.size() * sizeof(float)),
+              0);
+  }
+}
+
+TEST_F(NetcdfLayers, ADiskThatFillsUpOnTheWayLeavesNothingAndTheNextFileIsWhole) {
+  LayerStack s;
+  s.grid = {600, 600, 403000, 4629500, 10, ""};
+  Layer noise{"speed_mean", {Quantity::speed, Statistic::mean}, "", "", "m s-1", "", "", {}, {}};
+  std::mt19937 random(1);
+  for (int i = 0; i < 360000; ++i) noise.values.push_back(static_cast<float>(random()));
+  s.layers = {noise};
+  const auto write = [&](const std::string& name) {
+    LayersFileWriter file(path(name));
+    file.begin(s);
+    for (int row = 0; row < 600; row += 128) {
+      const int n = std::min(128, 600 - row);
+      file.put(
+          0, 0, {row, 0, n, 600},
+          std::span(noise.values)
+              .subspan(static_cast<std::size_t>(row) * 600, static_cast<std::size_t>(n) * 600));
+    }
+    file.commit();
+  };
+  {
+    const SmallDisk disk(300000);
+    EXPECT_THAT(message_of([&] { write("a.nc"); }), AllOf(HasSubstr("cannot write " + path("a.nc")),
+                                                          HasSubstr("(File too large). A limit")));
+  }
+  EXPECT_THAT(names(), ::testing::IsEmpty());
+  write("b.nc");
+  EXPECT_EQ(read_layers(path("b.nc")).layers[0].values, noise.values);
 }
 
 TEST_F(NetcdfLayers, GdalReadsAMapBackAsTerrain) {

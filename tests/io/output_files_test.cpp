@@ -15,6 +15,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -148,7 +150,7 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
   LayerStack s;
   s.grid = {600, 520, 403000, 4629500, 10, utm33_wkt()};
   s.attributes = {{"scenario_title", "test"}};
-  Layer p{"probability_of_peak_thickness_above_threshold",
+  Layer p{"thickness_exceedance",
           {Quantity::thickness, Statistic::probability},
           "chance",
           "",
@@ -159,6 +161,9 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
           std::vector<float>(624000, 0.25F)};
   p.values[0] = nan_f;
   p.values[312000] = 0.75F;
+  Layer bound = p;
+  bound.name = "thickness_exceedance_lower";
+  bound.meaning.statistic = Statistic::lower_bound;
   Layer n{"number_of_valid_members",
           {Quantity::members, Statistic::count},
           "members",
@@ -168,12 +173,16 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
           "",
           {},
           std::vector<float>(312000, 32)};
-  s.layers = {p, n};
-  const auto files = write_cogs(folder() / "hazard", s);
-  EXPECT_THAT(names(), ElementsAre("hazard/number_of_valid_members.tif",
-                                   "hazard/probability_of_peak_thickness_above_threshold_0.1.tif",
-                                   "hazard/probability_of_peak_thickness_above_threshold_2.tif"));
-  ASSERT_EQ(files.size(), 3U);
+  s.layers = {p, bound, n};
+  const auto written = write_cogs(folder() / "hazard", StackSource(s));
+  EXPECT_THAT(names(), ElementsAre("hazard/bounds/thickness_exceedance_0.1_m_lower.tif",
+                                   "hazard/bounds/thickness_exceedance_2_m_lower.tif",
+                                   "hazard/thickness_exceedance_0.1_m.tif",
+                                   "hazard/thickness_exceedance_2_m.tif"));
+  ASSERT_EQ(written.size(), 4U);
+  EXPECT_EQ(written[3].layer, 1U);
+  EXPECT_EQ(written[3].plane, 1U);
+  const std::vector<std::filesystem::path> files{written[0].path, written[1].path};
   GDALDataset* data = GDALDataset::Open(files[1].c_str());
   EXPECT_STREQ(data->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
   EXPECT_STREQ(data->GetSpatialRef()->GetAuthorityCode(nullptr), "32633");
@@ -186,23 +195,54 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
   EXPECT_STREQ(band.GetMetadataItem("thickness_threshold"), "2 m");
   EXPECT_STREQ(band.GetMetadataItem("comment"), "not resolved");
   EXPECT_STREQ(band.GetUnitType(), "1");
-  EXPECT_STREQ(band.GetDescription(), "probability_of_peak_thickness_above_threshold");
+  EXPECT_STREQ(band.GetDescription(), "thickness_exceedance");
   EXPECT_STREQ(data->GetMetadataItem("scenario_title"), "test");
   float first = 0;
   ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 1, 1, &first, 1, 1, GDT_Float32, 0, 0, nullptr), CE_None);
   EXPECT_EQ(first, 0.75F);
+  // Every cell, through blocks of other sizes than the source's.
+  std::vector<float> all(312000);
+  ASSERT_EQ(
+      band.RasterIO(GF_Read, 0, 0, 600, 520, all.data(), 600, 520, GDT_Float32, 0, 0, nullptr),
+      CE_None);
+  EXPECT_EQ(std::memcmp(all.data(), &p.values[312000], all.size() * sizeof(float)), 0);
   GDALClose(data);
-  data = GDALDataset::Open(files[2].c_str());
-  EXPECT_EQ(data->GetRasterBand(1)->GetRasterDataType(), GDT_Int32);
-  GDALClose(data);
+}
+
+/// Fails in the middle, as a damaged file does.
+struct BrokenSource : LayerSource {
+  LayerStack stack;
+  const LayerStack& about() const override { return stack; }
+  void read(std::size_t, std::size_t, const Window& w, std::span<float> out) const override {
+    if (w.row0 > 0) throw IoError("hazard.nc: damaged");
+    std::fill(out.begin(), out.end(), 1.0F);
+  }
+};
+
+TEST_F(GeoTiff, ADamagedSourceIsToldAndLeavesNothing) {
+  BrokenSource source;
+  source.stack.grid = {600, 520, 403000, 4629500, 10, utm33_wkt()};
+  source.stack.layers = {{"deposit_mean", {}, "", "", "m", "", "", {}, {}}};
+  EXPECT_EQ(message_of([&] { write_cogs(folder(), source); }), "hazard.nc: damaged");
+  EXPECT_THAT(names(), IsEmpty());
+}
+
+TEST_F(GeoTiff, StopsWhenToldAndLeavesNothing) {
+  LayerStack s;
+  s.grid = {3, 2, 0, 2, 1, ""};
+  s.layers = {{"deposit_mean", {}, "", "", "m", "", "", {}, {1, 2, 3, 4, 5, 6}}};
+  const std::atomic<bool> stop{true};
+  EXPECT_THROW(write_cogs(folder(), StackSource(s), stop), Cancelled);
+  EXPECT_THAT(names(), IsEmpty());
 }
 
 TEST_F(GeoTiff, ABareSceneHasNoSystem) {
   LayerStack s;
   s.grid = {3, 2, 0, 2, 1, ""};
   s.layers = {{"deposit_mean", {}, "", "", "m", "", "", {}, {1, 2, 3, 4, 5, 6}}};
-  const auto files = write_cogs(folder(), s);
-  GDALDataset* data = GDALDataset::Open(files[0].c_str());
+  const auto files = write_cogs(folder(), StackSource(s));
+  EXPECT_THAT(names(), ElementsAre("deposit_mean_m.tif"));
+  GDALDataset* data = GDALDataset::Open(files[0].path.c_str());
   EXPECT_EQ(data->GetSpatialRef(), nullptr);
   GDALClose(data);
 }

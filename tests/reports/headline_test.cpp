@@ -67,7 +67,7 @@ TEST(ReportHeadline, CountsOnlyValidMembers) {
 TEST(ReportHeadline, LikelyAreaIsTheCellsWithAtLeastOneHalf) {
   const auto results = testing::make_up_results();
   const Headline h = headline(results.ensemble_input());
-  const Layer* reached = results.hazard.find("probability_reached");
+  const Layer* reached = results.hazard.find("probability_of_reach");
   ASSERT_NE(reached, nullptr);
   double area = 0;
   for (const float p : reached->values) area += p >= 0.5F ? 20 * 20 : 0;

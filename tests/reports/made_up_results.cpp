@@ -191,7 +191,7 @@ MemberHistory make_history() {
   return h;
 }
 
-class MadeUpSource : public MemberSource {
+class MadeUpSource : public MemberParts {
  public:
   MadeUpSource(const MadeUpScene& scene, Grid grid, const DesignTable& design)
       : grid_(std::move(grid)) {
@@ -204,11 +204,15 @@ class MadeUpSource : public MemberSource {
   }
   const std::vector<MemberSummary>& members() const override { return summaries_; }
   const Grid& grid() const override { return grid_; }
-  void read_rows(std::size_t index, PeakLayer layer, int row0, int n_rows,
+  void read_part(std::size_t index, PeakLayer layer, const Window& part,
                  std::span<float> out) const override {
     const auto& values = results_[index].layer(layer);
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(grid_.index(row0, 0)),
-                static_cast<std::size_t>(n_rows) * grid_.n_cols, out.begin());
+    std::fill(out.begin(), out.end(), info(layer).untouched);
+    if (values.empty()) return;
+    for (int row = 0; row < part.n_rows; ++row)
+      std::copy_n(
+          values.begin() + static_cast<std::ptrdiff_t>(grid_.index(part.row0 + row, part.col0)),
+          part.n_cols, out.begin() + static_cast<std::ptrdiff_t>(row) * part.n_cols);
   }
   const std::vector<MemberResult>& results() const { return results_; }
 

@@ -3,6 +3,7 @@
 /// as their made-up friction lets them. Maps come from the real make_hazard_map.
 #pragma once
 
+#include "engine/simulation/member_parts.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "reports/page/report.hpp"
 
@@ -21,7 +22,7 @@ struct MadeUpScene {
 /// Owns everything that a ReportInput points to.
 struct MadeUpResults {
   Raster<double> elevation;
-  std::unique_ptr<MemberSource> source;
+  std::unique_ptr<MemberParts> source;
   LayerStack hazard;      ///< empty layers without members
   LayerStack peaks;       ///< of the first member
   MemberHistory history;  ///< of the first member, with states

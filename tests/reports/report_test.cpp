@@ -258,11 +258,11 @@ TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   const auto data = data_of(make_report(results.ensemble_input()));
   EXPECT_EQ(data["valid"], 31);
   const auto& layers = data["maps"]["layers"];
-  EXPECT_EQ(layers[data["maps"]["start"].get<std::size_t>()]["name"], "probability_reached");
+  EXPECT_EQ(layers[data["maps"]["start"].get<std::size_t>()]["name"], "probability_of_reach");
   EXPECT_TRUE(layers[0]["comment"].get<std::string>().starts_with("share of the 31 valid simulat"));
   bool seen = false;
   for (const auto& layer : layers)
-    if (layer["name"] == "probability_of_peak_thickness_above_threshold") {
+    if (layer["name"] == "thickness_exceedance") {
       seen = true;
       ASSERT_EQ(layer["planes"].size(), 4U);
       EXPECT_EQ(layer["planes"][3]["axis"], 2.0);

@@ -127,7 +127,7 @@ PRIVATE_WORDS = {
     r"rims?|\w+_rim": "domain boundary, edge",
     r"booked|bookings?|books": "accounted for, account, ledger",
     r"bends?|bend_\w+": "curvature",
-    r"reach_\w+|\w+_reach|reaches of": "support radius, contact distance, search radius or runout",
+    r"reach_\w+|(?!probability_of_reach)\w+_reach|reaches of": "support radius, contact distance, search radius or runout",
 }
 # Particles, effects and callers are things.
 PERSONS = re.compile(r"\b(?:nobody|whoever|everybody|everyone|somebody|someone|anybody|anyone)\b"

@@ -152,7 +152,7 @@ def lint_map(name, variable, data, has_crs):
     methods = attribute(variable, "cell_methods")
     if methods is not None:
         yield from lint_cell_methods(name, methods)
-    if name.startswith("probability_of_"):
+    if name.startswith("probability_of_") or "_exceedance" in name:
         yield from lint_probability(name, variable)
 
 

@@ -2,7 +2,7 @@
 /// An ensemble's members kept in memory, and random ones to fill it.
 #pragma once
 
-#include "engine/simulation/member_result.hpp"
+#include "engine/simulation/member_parts.hpp"
 
 #include <random>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace sturz::test {
 
-/// A MemberSource over results in memory, in the order in which they were added.
-class MemoryMembers : public MemberSource {
+/// A MemberParts over results in memory, in the order in which they were added.
+class MemoryMembers : public MemberParts {
  public:
   explicit MemoryMembers(Grid grid) : grid_(std::move(grid)) {}
 
@@ -32,13 +32,22 @@ class MemoryMembers : public MemberSource {
   const std::vector<MemberSummary>& members() const override { return summaries_; }
   const Grid& grid() const override { return grid_; }
 
-  void read_rows(std::size_t index, PeakLayer layer, int row0, int n_rows,
+  void read_part(std::size_t index, PeakLayer layer, const Window& part,
                  std::span<float> out) const override {
+    if (index != last_) ++turns_;
+    last_ = index;
     const MemberResult& r = results_.at(index);
-    for (int row = 0; row < n_rows; ++row)
-      for (int col = 0; col < grid_.n_cols; ++col)
-        out[static_cast<std::size_t>(row) * grid_.n_cols + col] = value(r, layer, row0 + row, col);
+    for (int row = 0; row < part.n_rows; ++row)
+      for (int col = 0; col < part.n_cols; ++col)
+        out[static_cast<std::size_t>(row) * part.n_cols + col] =
+            value(r, layer, part.row0 + row, part.col0 + col);
   }
+
+  float value(std::size_t index, PeakLayer layer, int row, int col) const {
+    return value(results_.at(index), layer, row, col);
+  }
+  /// How often the reader came to another member than the last.
+  int turns() const { return turns_; }
 
   /// One cell of one member, seen through its window.
   static float value(const MemberResult& r, PeakLayer layer, int row, int col) {
@@ -53,6 +62,8 @@ class MemoryMembers : public MemberSource {
   Grid grid_;
   std::vector<MemberSummary> summaries_;
   std::vector<MemberResult> results_;
+  mutable std::size_t last_ = static_cast<std::size_t>(-1);
+  mutable int turns_ = 0;
 };
 
 inline Grid small_grid(int n_rows, int n_cols, double cell_m = 10) {

@@ -5,8 +5,9 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/workflow/members/single_run.hpp"
+#include "ensemble/workflow/results/merge.hpp"
 #include "io/gdal/cog.hpp"
-#include "io/members/member_store.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
 #include <fmt/core.h>
@@ -135,6 +136,38 @@ TEST_F(Growing, ParticlesToo) { expect_same_bits("", "full_stress", 10); }
 
 TEST_F(Growing, ADugSourceAndASpeedThatBeatsTheLine) {
   expect_same_bits("  surface: pre_failure\n  velocity_m_s: [30, 5, 0]\n", "depth_averaged", 10);
+}
+
+TEST_F(Growing, MapsKnowAHoleBeyondWhatWasReadFirst) {
+  const auto maps = [&](const char* window) {
+    Recorder silent;
+    workflow::EnsembleJob members = job(window);
+    workflow::run_ensemble(members, silent, silent.cancel);
+    return workflow::make_maps(members, silent);
+  };
+  const workflow::MapsMade without = maps(tiny);
+  const Grid map = read_layers(without.folder.hazard_nc()).grid;
+  Raster<double> z = valley();
+  const Window extent = window_of(map, z.grid);
+  z.at(extent.row0 + 1, extent.col0 + 2) = nan_d;  // in the map's margin, where no mass comes
+  write_geotiff(path("dem.tif"), z, {});
+  const workflow::MapsMade grown = maps(tiny), full = maps(everything);
+  EXPECT_EQ(grown.hazard_hash, full.hazard_hash);
+  EXPECT_NE(grown.hazard_hash, without.hazard_hash);
+  const LayerStack layers = read_layers(grown.folder.hazard_nc());
+  const std::vector<float>& reach = layers.find("probability_of_reach")->values;
+  EXPECT_TRUE(std::isnan(reach[map.index(1, 2)]));
+  EXPECT_EQ(reach[map.index(1, 1)], 0);
+
+  Recorder heard;
+  EXPECT_EQ(workflow::merge_members({grown.folder.root}, heard).hazard_hash, grown.hazard_hash);
+  std::filesystem::remove(path("dem.tif"));
+  try {
+    workflow::merge_members({grown.folder.root}, heard);
+    ADD_FAILURE() << "maps without knowing the ground";
+  } catch (const SetupError& refused) {
+    EXPECT_THAT(refused.what(), HasSubstr("maps say 0 only where the ground is known"));
+  }
 }
 
 TEST_F(Growing, ZonesGrowAlong) {

@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <set>
+#include <sstream>
 
 namespace sturz::test {
 namespace {
@@ -218,17 +220,21 @@ TEST_F(Safety, OnlyOurOwnMapsAreRemoved) {
   whole(other, heard);
   EXPECT_TRUE(exists("out/hazard/my_own.tif"));
   EXPECT_TRUE(exists("out/hazard/notes.txt"));
-  std::size_t ours = 0;
-  const nlohmann::json listed = manifest().at("map_files");
-  for (const auto& name : listed) {
-    EXPECT_TRUE(exists("out/hazard/" + name.get<std::string>())) << name;
-    ++ours;
+  std::set<std::string> listed{"index.csv", "my_own.tif", "notes.txt"};
+  std::istringstream index(read("out/hazard/index.csv"));
+  std::string line;
+  std::getline(index, line);  // names of the columns
+  while (std::getline(index, line)) {
+    const std::string tif = line.substr(0, line.find(','));
+    listed.insert(tif);
+    listed.insert(fs::path(tif).replace_extension(".qml").string());
   }
-  EXPECT_GT(ours, 3u);
-  EXPECT_EQ(static_cast<std::size_t>(std::distance(fs::directory_iterator(path("out/hazard")),
-                                                   fs::directory_iterator())),
-            ours + 2)
-      << "maps of the earlier threshold stayed";
+  EXPECT_GT(listed.size(), 9u);
+  std::set<std::string> there;
+  for (const auto& entry : fs::recursive_directory_iterator(path("out/hazard")))
+    if (entry.is_regular_file())
+      there.insert(entry.path().lexically_relative(path("out/hazard")).string());
+  EXPECT_EQ(there, listed) << "maps of the earlier threshold stayed";
 }
 
 TEST_F(Safety, OnlyOurOwnFramesAreRemoved) {

@@ -20,9 +20,10 @@ FinishedFolder open_finished(const fs::path& folder, Observer& observer) {
   found.manifest = Manifest::read(found.folder.manifest());
   found.scenario = read_scenario(found.folder.scenario());
   try {
-    found.elevation = load_scene_inputs(found.scenario).elevation;
+    found.inputs = std::make_shared<const SceneInputs>(load_scene_inputs(found.scenario));
   } catch (const SetupError& problem) {
-    observer.warning(fmt::format("the page will have no relief: {}", problem.what()));
+    observer.warning(
+        fmt::format("the terrain cannot be read, a page will have no relief: {}", problem.what()));
   }
   return found;
 }

@@ -2,11 +2,11 @@
 /// A results folder as a later command finds it.
 #pragma once
 
-#include "engine/terrain/raster.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
 #include "scenarios/scenario.hpp"
+#include "scenarios/scene_inputs.hpp"
 
 #include <memory>
 
@@ -16,7 +16,7 @@ struct FinishedFolder {
   OutputFolder folder;
   Manifest manifest;
   Scenario scenario;
-  std::shared_ptr<const Raster<double>> elevation;  ///< null when the input files are gone
+  std::shared_ptr<const SceneInputs> inputs;  ///< null when the input files are gone
 };
 
 /// Reads a folder back. Warns, and goes on without relief, when the terrain cannot be read any

@@ -85,7 +85,8 @@ std::shared_ptr<FolderLock> FolderLock::alone(const OutputFolder& folder,
   if (const auto other = take_lock(folder.lock(), holder)) refuse(folder, folder.lock(), *other);
   lock->main_ = {folder.lock(), holder.token};
   require_no_shards(folder);
-  for (const fs::path& part : {folder.root, folder.members(), folder.tif_folder()})
+  for (const fs::path& part :
+       {folder.root, folder.members(), folder.tif_folder(), folder.tif_folder() / "bounds"})
     remove_part_files(part);  // no other process writes there now
   known = lock;
   return lock;

@@ -17,7 +17,8 @@ MemberOrigin origin_of(const Manifest& manifest, const DesignTable& design, std:
 }
 
 MemberStore members_of(const OutputFolder& folder, const Manifest& manifest,
-                       const DesignTable& design, std::function<bool(std::int64_t)> wanted) {
+                       const DesignTable& design, std::function<bool(std::int64_t)> wanted,
+                       CancelFlag cancel) {
   MemberFilter filter;
   filter.wanted = std::move(wanted);
   filter.refusal = [&](const MemberSummary& member, const MemberOrigin& origin) -> std::string {
@@ -33,7 +34,7 @@ MemberStore members_of(const OutputFolder& folder, const Manifest& manifest,
                          build_text(build));
     return "";
   };
-  return MemberStore(folder.members(), filter);
+  return MemberStore(folder.members(), filter, cancel);
 }
 
 void warn_of_problems(const MemberStore& store, const std::string& consequence,

@@ -56,7 +56,6 @@ void Manifest::write(const fs::path& file) {
                     {"computed_by", builds_json},
                     {"hazard_hash", hazard_hash},
                     {"maps_of", maps_of},
-                    {"map_files", map_files},
                     {"censored", censored}};
   // Names of files are bytes, and JSON is UTF-8: what is not is replaced.
   write_text_atomic(file, all.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
@@ -122,7 +121,6 @@ Manifest Manifest::read(const fs::path& file) {
     m.design_hash = all.value("design_hash", "");
     m.design_hash_before = all.value("design_hash_before", "");
     m.maps_of = all.value("maps_of", "");
-    m.map_files = all.value("map_files", std::vector<std::string>{});
     for (const auto& build : all.value("computed_by", json::array()))
       m.builds.push_back(
           {build.at("version").get<std::string>(), build.at("git_commit").get<std::string>()});

@@ -35,13 +35,12 @@ struct Manifest {
   double compute_s = 0;     ///< wall time of all calls so far
   std::string hazard_hash;  ///< of every value of the maps; empty: none yet, or being made
   std::string maps_of;      ///< hash of the members that the maps were made from, as members_hash()
-  std::vector<std::string> map_files;  ///< in hazard/, ours to replace and to remove
-  std::string scenario_hash;           ///< as scenario_hash()
-  std::string scene_hash;              ///< as scene_hash(): what the members are computed from
-  std::string design_hash_before;      ///< of the table that this one replaces; empty: none
-  std::string design_hash;             ///< as design_hash(); empty for a single run
-  std::vector<Build> builds;           ///< all that computed members here, the first first
-  std::string censored;  ///< which of the maps' members are cut off; empty: no maps yet
+  std::string scenario_hash;       ///< as scenario_hash()
+  std::string scene_hash;          ///< as scene_hash(): what the members are computed from
+  std::string design_hash_before;  ///< of the table that this one replaces; empty: none
+  std::string design_hash;         ///< as design_hash(); empty for a single run
+  std::vector<Build> builds;       ///< all that computed members here, the first first
+  std::string censored;            ///< which of the maps' members are cut off; empty: no maps yet
   // Of the program that wrote it; filled in by write().
   std::string version, git_commit, compiler, build_type;
 

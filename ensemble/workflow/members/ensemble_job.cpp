@@ -41,7 +41,6 @@ void continue_folder(EnsembleJob& job, Observer& observer) {
   if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
   now.hazard_hash = before.hazard_hash;
   now.maps_of = before.maps_of;
-  now.map_files = before.map_files;
   now.builds = before.builds;
   if (now.builds.empty()) now.builds.push_back({before.version, before.git_commit});
   const Build mine = this_build();

@@ -14,6 +14,7 @@
 #include "io/members/member_store.hpp"
 #include "io/members/particle_frames.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
 
 #include <fmt/core.h>
 
@@ -101,11 +102,11 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
   manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
   const MemberSummary summary = summary_of(result);
-  LayerStack peaks = peak_layers(result);
+  const auto ground = ground_of_map(scene.medians, scene.inputs, map_grid(result));
+  LayerStack peaks = peak_layers(result, ground.get(), scene.inputs.terrain_grid());
   RunStored stored{censoring_report({&summary, 1}, 0),
                    member_warnings({&summary, 1}, manifest.warnings)};
-  if (const auto* ground = scene.inputs.elevation.get())
-    stored.censoring.where = where_mass_left(peaks, ground->grid);
+  stored.censoring.where = where_mass_left(peaks, scene.inputs.terrain_grid());
   manifest.censored = one_line(stored.censoring);
   manifest.write(folder.manifest());
   write_member(folder.members(), result,
@@ -121,7 +122,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   write_layers(folder.peaks_nc(), peaks, result.history);
   PageContent page;
   page.peaks = &peaks;
-  page.elevation = scene.inputs.elevation.get();
+  page.elevation = ground.get();
   page.members = {&summary, 1};
   page.run = &result;
   page.where_mass_left = stored.censoring.where;

@@ -7,20 +7,22 @@
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/text_files.hpp"
-#include "io/gdal/cog.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
+#include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <set>
 
 namespace sturz::workflow {
+namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -39,8 +41,8 @@ void add_members(MapsMade& made, const MemberStore& store, const Manifest& manif
                                       [](const MemberSummary& m) { return !m.warnings.empty(); });
 }
 
-LayerStack hazard_of(const MemberStore& store, const Manifest& manifest, const Scenario& scenario,
-                     const DesignTable& design) {
+HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
+                         const DesignTable& design) {
   HazardContext context;
   context.spacing_m = scenario.numerics.spacing_m;
   context.n_planned = design.n_members();
@@ -50,23 +52,18 @@ LayerStack hazard_of(const MemberStore& store, const Manifest& manifest, const S
                         {"censored_members", manifest.censored},
                         {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
                                                design.n_members(), design.seed)}};
-  return make_hazard_map(store, scenario.hazard, context);
+  return context;
 }
 
-/// The folder then holds these maps and none that an earlier call made, say of other thresholds.
-/// Files that the manifest does not list are the user's own and stay.
-void write_tifs(const OutputFolder& folder, const LayerStack& hazard, Manifest& manifest) {
-  const std::vector<std::string> before = manifest.map_files;
-  std::vector<std::string> now = cog_names(hazard);
-  std::set<std::string> ours(now.begin(), now.end());
-  // Listed before they are there: a run that is killed leaves none that no manifest lists.
-  manifest.map_files.insert(manifest.map_files.end(), now.begin(), now.end());
-  manifest.write(folder.manifest());
-  write_cogs(folder.tif_folder(), hazard);
-  std::error_code ignored;
-  for (const std::string& name : before)
-    if (!ours.contains(name)) std::filesystem::remove(folder.tif_folder() / name, ignored);
-  manifest.map_files = std::move(now);
+/// Writes hazard.nc as the members pass by. \return the maps' hash
+std::string write_hazard(const OutputFolder& folder, const MemberStore& store,
+                         const HazardSpec& spec, const HazardContext& context) {
+  LayersFileWriter file(folder.hazard_nc());
+  HashingSink hashed(file);
+  make_hazard_map(store, spec, context, hashed);
+  context.cancel.check();
+  file.commit();
+  return fmt::format("{:016x}", hashed.value());
 }
 
 /// A member may be lost or damaged between its computation and the maps.
@@ -89,13 +86,11 @@ bool MapsMade::too_many_failed() const {
   return share > max_failed_fraction;
 }
 
-MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenario& scenario,
-                   const DesignTable& design, const Raster<double>* elevation, Observer& observer,
-                   Missing missing) {
+MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observer& observer,
+                   CancelFlag cancel) {
   const auto begin = Clock::now();
+  const auto& [folder, manifest, scenario, design, inputs] = request;
   observer.maps_begin();
-  const MemberStore store = members_of(folder, manifest, design);
-  if (missing == Missing::refuse) require_complete(folder, store, design, observer);
   MapsMade made;
   made.folder = folder;
   made.max_failed_fraction = scenario.ensemble.max_failed_fraction;
@@ -103,42 +98,57 @@ MapsMade make_maps(const OutputFolder& folder, Manifest& manifest, const Scenari
   made.finished = static_cast<std::int64_t>(store.members().size());
   add_members(made, store, manifest, scenario);
   manifest.censored = one_line(made.censoring);
+  const Grid& grid = store.grid();  // no member, no maps: said before anything is written
+  const auto ground = ground_of_map(scenario, inputs,
+                                    grid_of(map_extent(MemberCells(store).touched(), grid), grid));
 
   // Until they are whole, no page is written over half of them.
   manifest.hazard_hash.clear();
   manifest.maps_of.clear();
   manifest.write(folder.manifest());
+
   write_text_atomic(folder.members_csv(), members_csv(design, store.members()));
-  const LayerStack hazard = hazard_of(store, manifest, scenario, design);
-  write_layers(folder.hazard_nc(), hazard);
-  write_tifs(folder, hazard, manifest);
-  manifest.hazard_hash = fmt::format("{:016x}", hash_of(hazard));
-  manifest.maps_of = members_hash(store, design.n_members());
-  if (elevation != nullptr) made.censoring.where = where_mass_left(hazard, elevation->grid);
-  manifest.write(folder.manifest());
+  ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
+  HazardContext context = context_of(manifest, scenario, design);
+  context.ground = ground.get();
+  context.whole_ground = inputs.terrain_grid();
+  context.convergence = &convergence;
+  context.cancel = cancel;
+  const std::string hash = write_hazard(folder, store, scenario.hazard, context);
+  const LayersFileReader maps(folder.hazard_nc());
+  const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
+  write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  made.censoring.where = where_mass_left(coarse, inputs.terrain_grid());
 
   PageContent page;
-  page.hazard = &hazard;
+  page.hazard = &coarse;
   page.design = &design;
-  page.elevation = elevation;
+  page.elevation = ground.get();
   page.members = store.members();
-  const auto convergence = probability_convergence(store);
-  page.convergence = convergence;
+  const auto points = made.valid > 0 ? convergence.points(grid.cell_m * grid.cell_m)
+                                     : std::vector<ConvergencePoint>{};
+  page.convergence = points;
+  page.cancel = cancel;
   page.where_mass_left = made.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
+  manifest.hazard_hash = hash;
+  manifest.maps_of = members_hash(store, design.n_members());
   write_page(folder, manifest, scenario, page);
-  made.hazard_hash = manifest.hazard_hash;
+  manifest.write(folder.manifest());
+  made.hazard_hash = hash;
   made.seconds = seconds_since(begin);
   return made;
 }
 
-MapsMade make_maps(EnsembleJob& job, Observer& observer) {
+MapsMade make_maps(EnsembleJob& job, Observer& observer, CancelFlag cancel) {
   job.manifest.compute_s += seconds_since(job.begin);
   // Members may have read more of the raster than the first look did.
   job.manifest.inputs = with_known_parts(job.manifest.inputs, job.scene.ground->now()->identities);
-  return make_maps(job.folder, job.manifest, job.scene.scenario, job.design,
-                   job.scene.inputs.elevation.get(), observer);
+  const MemberStore store = members_of(job.folder, job.manifest, job.design, {}, cancel);
+  require_complete(job.folder, store, job.design, observer);
+  return make_maps({job.folder, job.manifest, job.scene.scenario, job.design, job.scene.inputs},
+                   store, observer, cancel);
 }
 
 }  // namespace sturz::workflow

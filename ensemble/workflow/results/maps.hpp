@@ -2,14 +2,16 @@
 /// From the members of a folder to its maps, table and page.
 #pragma once
 
+#include "engine/core/cancel.hpp"
 #include "engine/core/error.hpp"
-#include "engine/terrain/raster.hpp"
 #include "ensemble/censoring/censoring_report.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/observer.hpp"
+#include "io/members/member_store.hpp"
+#include "scenarios/scene_inputs.hpp"
 
 #include <cstdint>
 #include <string>
@@ -39,18 +41,23 @@ class MembersMissing : public SetupError {
   using SetupError::SetupError;
 };
 
-/// What to do when members of the design are missing.
-enum class Missing { refuse, accept };
+/// Whose maps, and where they go.
+struct MapsRequest {
+  const OutputFolder& folder;
+  Manifest& manifest;  ///< gets the maps' hash and is saved
+  const Scenario& scenario;
+  const DesignTable& design;
+  const SceneInputs& inputs;  ///< for where the ground is known, and the page's relief
+};
 
-/// Reads all member files, writes hazard.nc, hazard/*.tif, members.csv and report.html, and puts
-/// the maps' hash into the manifest, which is saved.
-/// \param elevation for the page's relief; may be null
-/// \throws SetupError; MembersMissing before anything is written; IoError when the disk refuses
-///   (members are not touched)
-MapsMade make_maps(const OutputFolder&, Manifest&, const Scenario&, const DesignTable&,
-                   const Raster<double>* elevation, Observer&, Missing = Missing::refuse);
+/// Reads the members' maps, writes members.csv, hazard.nc, hazard/*.tif with their styles and list,
+/// and report.html. Memory holds a few hundred MB whatever the size of terrain and ensemble. When
+/// it is cancelled or fails, the manifest has no hash until all files belong together again.
+/// \throws SetupError; IoError when the disk refuses (members are not touched); Cancelled
+MapsMade make_maps(const MapsRequest&, const MemberStore&, Observer&, CancelFlag cancel = {});
 
 /// The same at the end of an ensemble, whose computing time so far goes into the manifest.
-MapsMade make_maps(EnsembleJob&, Observer&);
+/// \throws MembersMissing before anything is written
+MapsMade make_maps(EnsembleJob&, Observer&, CancelFlag cancel = {});
 
 }  // namespace sturz::workflow

@@ -13,30 +13,34 @@
 #include <string>
 
 namespace sturz::workflow {
-MapsMade merge_members(const MergeRequest& request, Observer& observer) {
+MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFlag cancel) {
   FinishedFolder finished = open_finished(request.folder, observer);
   const std::string where = request.folder.string();
   require(finished.manifest.kind == "ensemble",
           fmt::format("{} holds a single run (there is nothing to merge).", where));
+  require(finished.inputs != nullptr,
+          fmt::format("{}: its input files cannot be read (maps say 0 only where the ground is "
+                      "known, so they need the terrain). Put the files back where scenario.yaml "
+                      "names them.",
+                      where));
   const auto lock = FolderLock::alone(finished.folder, "merge " + where);
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   require_own_scenario(finished.folder, finished.manifest, finished.scenario);
   const DesignTable design = saved_design(finished.folder, finished.manifest, finished.scenario);
-  {
-    const MemberStore store = members_of(finished.folder, finished.manifest, design);
-    warn_of_problems(store, "It counts as missing.", observer);
-    const std::string missing = what_is_missing(store, design.n_members());
-    require(missing.empty() || request.partial,
-            fmt::format("{}: {}. Run their shards, or make maps from the others with --partial.",
-                        where, missing));
-    require(!store.members().empty(),
-            fmt::format("{} has no finished member (maps need at least one).", where));
-    if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");
-  }
+  const MemberStore store = members_of(finished.folder, finished.manifest, design, {}, cancel);
+  warn_of_problems(store, "It counts as missing.", observer);
+  const std::string missing = what_is_missing(store, design.n_members());
+  require(missing.empty() || request.partial,
+          fmt::format("{}: {}. Run their shards, or make maps from the others with --partial.",
+                      where, missing));
+  require(!store.members().empty(),
+          fmt::format("{} has no finished member (maps need at least one).", where));
+  if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");
   warn_of_builds(finished.manifest, observer);
   observer.folder_ready(finished.folder);
-  return make_maps(finished.folder, finished.manifest, finished.scenario, design,
-                   finished.elevation.get(), observer, Missing::accept);
+  return make_maps(
+      {finished.folder, finished.manifest, finished.scenario, design, *finished.inputs}, store,
+      observer, cancel);
 }
 
 }  // namespace sturz::workflow

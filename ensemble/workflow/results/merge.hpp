@@ -15,7 +15,8 @@ struct MergeRequest {
 };
 
 /// Maps from the members that shards have left in a folder. Warns of damaged and missing members.
-/// \throws SetupError when the folder holds no ensemble, no member, or not all without `partial`
-MapsMade merge_members(const MergeRequest&, Observer&);
+/// \throws SetupError when the folder holds no ensemble, no member, or not all without `partial`;
+///   Cancelled
+MapsMade merge_members(const MergeRequest&, Observer&, CancelFlag cancel = {});
 
 }  // namespace sturz::workflow

@@ -1,33 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/results/peak_layers.hpp"
 
+#include "engine/simulation/member_parts.hpp"
+#include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/known_ground.hpp"
+#include "ensemble/hazard/map_units.hpp"
+
 #include <cmath>
 
 namespace sturz::workflow {
+namespace {
 
-LayerStack peak_layers(const MemberResult& result) {
-  LayerStack stack;
-  stack.grid = result.grid;
+/// Of one layer, over `extent`.
+std::vector<float> values_of(const MemberResult& result, PeakLayer peak, const Window& extent,
+                             const KnownGround& ground) {
   const Window& w = result.window;
-  const auto& arrival = result.layer(PeakLayer::arrival);
+  const std::vector<float>& from = result.layer(peak);
+  const double factor = map_unit(peak).per_si;
+  std::vector<float> values;
+  values.reserve(extent.n_cells());
+  for (int row = extent.row0; row < end_row(extent); ++row)
+    for (int col = extent.col0; col < end_col(extent); ++col) {
+      const bool mine =
+          row >= w.row0 && row < end_row(w) && col >= w.col0 && col < end_col(w) && !from.empty();
+      const std::size_t i =
+          mine ? static_cast<std::size_t>(row - w.row0) * static_cast<std::size_t>(w.n_cols) +
+                     static_cast<std::size_t>(col - w.col0)
+               : 0;
+      const float v = mine ? from[i] : info(peak).untouched;
+      const bool came = mine && (v > 0 || !std::isnan(result.layer(PeakLayer::arrival)[i]));
+      values.push_back(came || ground.at(row, col) ? static_cast<float>(factor * v) : nan_f);
+    }
+  return values;
+}
+
+}  // namespace
+
+Grid map_grid(const MemberResult& result) {
+  return grid_of(map_extent(result.window, result.grid), result.grid);
+}
+
+LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground,
+                       const Grid& whole_ground) {
+  LayerStack stack;
+  const Window extent = map_extent(result.window, result.grid);
+  stack.grid = map_grid(result);
   for (int i = 0; i < n_peak_layers; ++i) {
-    const auto& values = result.layers[i];
-    if (values.empty() && static_cast<PeakLayer>(i) == PeakLayer::left) continue;
-    Layer layer;
     const auto peak = static_cast<PeakLayer>(i);
+    if (peak == PeakLayer::left && result.layer(peak).empty()) continue;  // nothing left
+    Layer layer;
     layer.name = info(peak).name;
     layer.meaning = {quantity_of(peak), Statistic::peak};
     layer.long_name = info(peak).long_name;
-    layer.units = info(peak).units;
-    layer.comment = "missing where the flow never came";
-    layer.values.assign(stack.grid.n_cells(), nan_f);
-    for (int row = 0; row < w.n_rows && !values.empty(); ++row)
-      for (int col = 0; col < w.n_cols; ++col) {
-        const std::size_t from = static_cast<std::size_t>(row) * w.n_cols + col;
-        const bool left = peak == PeakLayer::left && values[from] > 0;
-        if (left || !std::isnan(arrival[from]))
-          layer.values[stack.grid.index(w.row0 + row, w.col0 + col)] = values[from];
-      }
+    layer.units = map_unit(peak).name;
+    layer.comment = peak == PeakLayer::arrival
+                        ? "missing where the flow never came"
+                        : "0 where the flow never came; missing where the ground is not known";
+    layer.values = values_of(result, peak, extent, KnownGround(ground, whole_ground, result.grid));
     stack.layers.push_back(std::move(layer));
   }
   return stack;

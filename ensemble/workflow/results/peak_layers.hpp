@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The maps of one member over the whole hazard grid.
+/// The maps of one member around what it touched.
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
@@ -7,7 +7,14 @@
 
 namespace sturz::workflow {
 
-/// Six layers in SI units; cells that were never reached are NaN.
-LayerStack peak_layers(const MemberResult&);
+/// Every peak layer of the member in the units of hazard maps (energy kJ m-2, pressure kPa), over
+/// map_extent() of what it touched; 0 where the ground is known and no flow came, NaN where it is
+/// not known, arrival NaN where none came. \param ground elevations; null: known everywhere
+/// \param whole_ground of which `ground` is a window; empty: it is all
+LayerStack peak_layers(const MemberResult&, const Raster<double>* ground,
+                       const Grid& whole_ground = {});
+
+/// The grid of those maps.
+Grid map_grid(const MemberResult&);
 
 }  // namespace sturz::workflow

@@ -13,7 +13,9 @@
 #include "io/files/text_files.hpp"
 #include "io/members/member_file.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
 #include "reports/page/report.hpp"
+#include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/core.h>
 
@@ -88,6 +90,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.release = content.release;
   input.warnings = manifest.warnings;
   input.notes = manifest.notes;
+  input.cancel = content.cancel;
   input.description = manifest.description;
   if (content.run) {
     input.history = &content.run->history;
@@ -103,7 +106,8 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   write_text_atomic(folder.report(), make_report(input));
 }
 
-std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer) {
+std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
+                                   CancelFlag cancel) {
   FinishedFolder finished = open_finished(folder, observer);
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
@@ -114,26 +118,33 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
                       one_run ? "Run the scene again." : "Make it with `sturz merge`."));
   DesignTable design;
   if (!one_run) design = saved_design(finished.folder, finished.manifest, finished.scenario);
-  const MemberStore store = one_run ? MemberStore(finished.folder.members())
-                                    : members_of(finished.folder, finished.manifest, design);
+  const MemberStore store =
+      one_run ? MemberStore(finished.folder.members(), {}, cancel)
+              : members_of(finished.folder, finished.manifest, design, {}, cancel);
   warn_of_problems(store, "The page does without it.", observer);
   if (!one_run) require_maps_of(finished.folder, finished.manifest, store, design);
   if (seal_state(maps) == SealState::broken) require_sealed(maps);
-  const LayerStack stack = read_layers(maps);
+  observer.maps_begin();
+  const LayersFileReader reader(maps);
+  const LayerStack stack = coarse_layers(reader, page_cells, cancel);
+  std::shared_ptr<const Raster<double>> ground;
+  if (finished.inputs)
+    ground = ground_of_map(finished.scenario, *finished.inputs, reader.about().grid);
   std::vector<ConvergencePoint> convergence;
   MemberResult run;
   PageContent page;
+  page.cancel = cancel;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
     page.design = &design;
-    convergence = probability_convergence(store);
+    convergence = probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
     page.convergence = convergence;
   }
-  page.elevation = finished.elevation.get();
+  page.elevation = ground.get();
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
-  if (page.elevation != nullptr)
-    page.where_mass_left = where_mass_left(stack, page.elevation->grid);
+  if (finished.inputs)
+    page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
   page.members = store.members();
   if (one_run && !page.members.empty()) {
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));

@@ -2,6 +2,7 @@
 /// Collects what the page of a results folder needs, and writes it.
 #pragma once
 
+#include "engine/core/cancel.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
@@ -17,6 +18,9 @@
 
 namespace sturz::workflow {
 
+/// How many cells a page's maps have at most: more are joined, see coarse_layers().
+inline constexpr std::size_t page_cells = 450'000;
+
 /// What there is to show; absent parts are null or empty.
 struct PageContent {
   const LayerStack* hazard = nullptr;
@@ -25,16 +29,19 @@ struct PageContent {
   const Raster<double>* elevation = nullptr;
   std::span<const MemberSummary> members;
   std::span<const ConvergencePoint> convergence;
+  CancelFlag cancel;
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
   const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 
-/// Writes report.html. \throws IoError
+/// Writes report.html. \throws IoError; Cancelled
 void write_page(const OutputFolder&, const Manifest&, const Scenario&, const PageContent&);
 
 /// Writes the page of a results folder again, from its maps and members.
-/// \return the page's file. \throws SetupError when the folder has no maps
-std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer&);
+/// \return the page's file. \throws SetupError when the folder has no maps, or not those of its
+///   members; Cancelled
+std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer&,
+                                   CancelFlag cancel = {});
 
 }  // namespace sturz::workflow

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/machine/map_cost.hpp"
+
+#include "tests/workflow/workflow_fixture.hpp"
+
+namespace sturz::test {
+namespace {
+
+class MapCosts : public Workflow {};
+
+TEST_F(MapCosts, GrowWithWhatIsTouchedAndNotWithAnythingElse) {
+  const workflow::MapSpeed speed{1e-3, 1e-7, 5e-3, 1e-8};
+  const workflow::MapWork work{100, 1e4, 5e4, 68};
+  // 100 members opened twice, 1e6 touches, 68 planes, 3.4e6 cells of planes.
+  EXPECT_NEAR(predict_map_cost(work, speed).seconds, 0.2 + 0.1 + 0.34 + 0.034, 1e-12);
+  workflow::MapWork many = work;
+  many.members = 100000;  // 1e9 touches do not fit: more passes, the same memory
+  const workflow::MapCost cost = predict_map_cost(many, speed);
+  EXPECT_GT(cost.seconds, 1000 * predict_map_cost(work, speed).seconds / 2);
+  EXPECT_LT(cost.memory_bytes, 500e6);
+}
+
+TEST_F(MapCosts, KnowHowManyMapsASceneAsksFor) {
+  HazardSpec spec;
+  spec.thickness_m = {0.5, 1};
+  spec.speed_m_s = spec.energy_kj_m2 = spec.pressure_kpa = {};
+  spec.quantiles = {0.5, 0.95};
+  // Reach and two thresholds with bounds; a mean and two quantiles of five quantities; two
+  // quantiles of arrival; two intensities.
+  EXPECT_EQ(workflow::map_planes(spec), 3 + 6 + 5 * 3 + 2 + 2);
+}
+
+TEST_F(MapCosts, AreMeasuredOnceAMachine) {
+  const workflow::SpeedCache cache{path("cache/speed.json")};
+  const workflow::MapSpeed first = workflow::map_speed(cache);
+  EXPECT_GT(first.seconds_per_member, 0);
+  EXPECT_GT(first.seconds_per_touch, 0);
+  EXPECT_TRUE(exists("cache/map_speed.json"));
+  EXPECT_EQ(workflow::map_speed(cache).seconds_per_plane, first.seconds_per_plane);
+}
+
+}  // namespace
+}  // namespace sturz::test
