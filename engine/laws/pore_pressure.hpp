@@ -18,16 +18,16 @@ namespace sturz {
 
 /// Material of a mixture of grains and pore fluid.
 struct MixtureLaw {
-  double solid_density = 2700;         ///< rho_s [kg/m^3]
-  double fluid_density = 1000;         ///< rho_f [kg/m^3]
-  double fluid_viscosity = 0.005;      ///< mu [Pa s]
-  double critical_fraction = 0.64;     ///< m_crit: solid fraction that slow shear leaves as it is
-  double grain_diameter = 1e-3;        ///< delta [m]
-  double permeability = 1e-10;         ///< k_r [m^2], at reference_fraction
-  double reference_fraction = 0.6;     ///< m_r
-  double compressibility = 0.05;       ///< a [-]
-  double stress_offset = 1000;         ///< sigma_0 [Pa]
-  static constexpr double fold = 0.04; ///< change of m over which k falls to 1/e
+  double solid_density = 2700;          ///< rho_s [kg/m^3]
+  double fluid_density = 1000;          ///< rho_f [kg/m^3]
+  double fluid_viscosity = 0.005;       ///< mu [Pa s]
+  double critical_fraction = 0.64;      ///< m_crit: solid fraction that slow shear leaves as it is
+  double grain_diameter = 1e-3;         ///< delta [m]
+  double permeability = 1e-10;          ///< k_r [m^2], at reference_fraction
+  double reference_fraction = 0.6;      ///< m_r
+  double compressibility = 0.05;        ///< a [-]
+  double stress_offset = 1000;          ///< sigma_0 [Pa]
+  static constexpr double fold = 0.04;  ///< change of m over which k falls to 1/e
 
   double density(double m) const { return m * solid_density + (1 - m) * fluid_density; }
   double permeability_at(double m) const {
@@ -46,9 +46,9 @@ struct MixtureLaw {
 
 /// How much looser or denser than in steady shear a mixture is.
 struct Dilatancy {
-  double tangent = 0;         ///< tan psi = m - m_eq: it dilates where positive
-  double steady_fraction = 0; ///< m_eq
-  double slope = 0;           ///< d(tan psi)/d(p_b) [1/Pa]
+  double tangent = 0;          ///< tan psi = m - m_eq: it dilates where positive
+  double steady_fraction = 0;  ///< m_eq
+  double slope = 0;            ///< d(tan psi)/d(p_b) [1/Pa]
 };
 
 /// \param shear_rate gamma [1/s]; \param effective_stress sigma_e [Pa], not negative
@@ -73,9 +73,7 @@ struct WetColumn {
   double hydrostatic = 0;       ///< of the water in it [Pa]
   double normal_gravity = 0;    ///< g [m/s^2]
 
-  double effective_stress() const {
-    return std::max(0.0, normal_stress - hydrostatic - excess);
-  }
+  double effective_stress() const { return std::max(0.0, normal_stress - hydrostatic - excess); }
 };
 
 /// Coefficients of the two equations above.
@@ -94,8 +92,8 @@ inline PoreRates pore_rates(const MixtureLaw& law, const WetColumn& c, double pe
   const double bulk = law.density(c.solid_fraction);
   const double buoyancy =
       1.5 * law.fluid_density * c.normal_gravity * (bulk - law.fluid_density) / bulk;
-  return {mobility * std::max(0.0, stiffness - buoyancy), speed > 0 ? -speed * stiffness * d.tangent : 0,
-          2 * mobility / h};
+  return {mobility * std::max(0.0, stiffness - buoyancy),
+          speed > 0 ? -speed * stiffness * d.tangent : 0, 2 * mobility / h};
 }
 
 /// The same tangent to the curve: p_e changes sigma_e, and sigma_e changes 1/alpha and tan psi.

@@ -51,8 +51,7 @@ void warn_of_coarse_spacing(const Scenario& s, const ScenePlan& plan, Warnings& 
 /// Ground in the way at the lower end of the release. Under a tenth of the drive it is no matter.
 void warn_of_lip(const Scenario& s, const SceneInputs& in, const ScenePlan& plan, Warnings& out) {
   const bool dug_out = s.release.surface == ReleaseSurface::pre_failure;
-  const double friction =
-      s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  const double friction = typical_friction(s);
   const ReleaseLip lip =
       release_lip(*in.elevation, release_thickness(s.release, in), dug_out, friction);
   if (!s.domain.periodic.empty() || lip.share_of_drive < 0.1) return;

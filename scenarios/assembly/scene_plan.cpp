@@ -130,12 +130,30 @@ std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
   return bed;
 }
 
+MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) {
+  MixtureSettings wet;
+  wet.law.solid_density = grains.density_kg_m3.value;
+  wet.law.fluid_density = spec.fluid_density_kg_m3.value;
+  wet.law.fluid_viscosity = spec.fluid_viscosity_pa_s.value;
+  wet.law.critical_fraction = spec.critical_solid_fraction.value;
+  wet.law.grain_diameter = spec.shear_grain_diameter_m.value;
+  wet.law.permeability = spec.permeability_m2.value;
+  wet.law.reference_fraction = spec.permeability_fraction.value;
+  wet.law.compressibility = spec.compressibility.value;
+  wet.law.stress_offset = spec.stress_offset_pa.value;
+  wet.solid_fraction = grains.solid_fraction.value;
+  if (spec.initial_pressure == InitialPressure::liquefied) wet.pressure_ratio = 1;
+  if (spec.initial_pressure_ratio) wet.pressure_ratio = spec.initial_pressure_ratio->value;
+  return wet;
+}
+
 void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan& plan) {
   DepthAveragedSettings& c = plan.columns;
   c.spacing = s.numerics.spacing_m;
   c.density = plan.bulk_density_kg_m3;
   c.courant = s.numerics.courant;
   c.zones = plan.zones;
+  if (s.mixture) c.mixture = plan_mixture(*s.grains, *s.mixture);
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
   if (s.grains->earth_pressure == LateralPressure::active_passive) {
@@ -282,6 +300,9 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * plan.reference_fraction;
+  if (s.mixture)
+    plan.bulk_density_kg_m3 =
+        plan_mixture(*s.grains, *s.mixture).law.density(plan.reference_fraction);
   plan.release =
       release_particles(plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,

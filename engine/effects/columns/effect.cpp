@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/effects/arrivals.hpp"
+#include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
 
 #include <algorithm>
@@ -90,6 +91,7 @@ bool look_up_ground(const State& s, ParticleSet& p, const GroundColumns& ground,
 
 void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t first) {
   p.fate.resize(p.size());
+  if (flow.settings.mixture) enter_mixture(p, *flow.settings.mixture, first);
   FirstRates rates;
   for (std::size_t i = first; i < p.size(); ++i) start_column(s, p, flow, i, 0, rates);
   flow.fastest_wave = std::max(flow.fastest_wave, std::sqrt(rates.wave2));

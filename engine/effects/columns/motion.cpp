@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What gravity, lateral pressure and the bed do to a column, and its displacement.
 #include "engine/core/parallel.hpp"
+#include "engine/effects/columns/braking.hpp"
+#include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/losses.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace sturz {
 namespace {
@@ -24,46 +27,51 @@ class BedPass final : public Pass {
     const GroundColumns ground(p);
     const auto& g_n = p.scalar(fields::normal_gravity);
     const auto& thickness = p.scalar(fields::thickness);
+    std::optional<WetBed> wet;
+    if (flow_->settings.mixture) wet.emplace(p, *flow_->settings.mixture, flow_->strain_rate);
     const Works sums = ordered_reduce(
         p.size(), s.threads, Works{},
         [&](std::size_t begin, std::size_t end, Works& out) {
           for (std::size_t i = begin; i < end; ++i) {
             if (s.leaves(p, i)) continue;  // the ledger takes it as it was at the start of the step
-            const Works w = push(s, p, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
+            const Works w = push(s, p, i, ground[i].normal(), g_n[i], thickness[i], kick, dt,
+                                 wet ? &*wet : nullptr);
             out.friction += p.mass[i] * w.friction;
             out.contact += p.mass[i] * w.contact;
+            out.clipped += w.clipped;
           }
         },
         [](Works& total, const Works& block) {
           total.friction += block.friction;
           total.contact += block.contact;
+          total.clipped += block.clipped;
         });
     p.ledger.friction += sums.friction;
     p.ledger.contact_work += sums.contact;
+    p.ledger.clipped_work += sums.clipped;
   }
 
  private:
   struct Works {
     double friction = 0, contact = 0;  // taken by bed and walls; done by walls [J/kg], [J]
+    double clipped = 0;                // of pore pressures beyond their bounds [J]
   };
 
   /// \return works with the mean velocity of the step
   Works push(const State& s, MovingSet& p, std::size_t i, const Vec3& n, double normal_gravity,
-             double thickness, double kick, double drift) const {
+             double thickness, double kick, double drift, const WetBed* wet) const {
     const Vec3 before(p.vx[i], p.vy[i], p.vz[i]);
     Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
     const BasalResistance& bed = set.bed[flow_->zone_of(s.domain, p, i)];
-    const double plastic = bed.plastic(normal_gravity, thickness, set.density);
-    Vec3 after = braked(before, pull, plastic, 0, kick);
-    if (bed.has_rate()) {
-      // The rate at the mean speed of the step, found from the rate at its start: a steady flow
-      // keeps its exact speed at any length of step.
-      auto rate = [&](double v) { return bed.rate(v, thickness, set.density, s.gravity); };
-      const double v0 = before.norm();
-      const double v1 = braked(before, pull, plastic, rate(v0), kick).norm();
-      after = braked(before, pull, plastic, rate(0.5 * (v0 + v1)), kick);
+    double clipped = 0;
+    Vec3 after;
+    if (wet) {
+      const WetBed::Slid slid = wet->slide(i, bed, {before, pull, kick, s.gravity});
+      after = slid.after, clipped = slid.clipped_work;
+    } else {
+      after = slowed(bed, {normal_gravity, thickness, set.density, s.gravity}, before, pull, kick);
     }
     Vec3 taken = before + kick * pull - after, held(0, 0, 0);
     for (const Wall& wall : s.domain.walls) {
@@ -77,17 +85,23 @@ class BedPass final : public Pass {
     }
     p.vx[i] = after.x(), p.vy[i] = after.y(), p.vz[i] = after.z();
     const Vec3 mean = 0.5 * (before + after);
-    return {taken.dot(mean), held.dot(mean)};
+    return {taken.dot(mean), held.dot(mean), clipped};
   }
 
-  /// Exact solution of dv/dt = pull - plastic v/|v| - rate v with the direction frozen; the
-  /// plastic part stops the column and never turns it.
-  static Vec3 braked(const Vec3& v, const Vec3& pull, double plastic, double rate, double dt) {
-    const double x = rate * dt, decay = x > 0 ? std::exp(-x) : 1;
-    const double mean = x > 1e-8 ? (1 - decay) / x : 1;
-    const Vec3 trial = decay * v + (mean * dt) * pull;
-    const double speed = trial.norm(), stop = plastic * mean * dt;
-    return speed > stop ? Vec3((1 - stop / speed) * trial) : Vec3(0, 0, 0);
+  struct OnBed {
+    double normal_gravity, thickness, density, gravity;
+  };
+  /// By a bed whose pore pressure is a constant share of the weight.
+  static Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before,
+                     const Vec3& pull, double kick) {
+    const double plastic = bed.plastic(c.normal_gravity, c.thickness, c.density);
+    if (!bed.has_rate()) return braked(before, pull, plastic, 0, kick);
+    // The rate at the mean speed of the step, found from the rate at its start: a steady flow
+    // keeps its exact speed at any length of step.
+    auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
+    const double v0 = before.norm();
+    const double v1 = braked(before, pull, plastic, rate(v0), kick).norm();
+    return braked(before, pull, plastic, rate(0.5 * (v0 + v1)), kick);
   }
 
   std::shared_ptr<ColumnFlow> flow_;

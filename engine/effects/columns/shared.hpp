@@ -20,10 +20,11 @@ struct ColumnFlow {
   DepthAveragedSettings settings;
   ColumnCells cells;
   ColumnWalls walls;
-  std::vector<float> results[7];  ///< of the sweep, by record
-  double start_dt = 1e-3;         ///< of the first step [s]
-  double fastest_wave = 0;        ///< largest sqrt(K g_n h) / h_s [1/s]
-  double fastest_approach = 0;    ///< largest relative speed of neighbours / h_s [1/s]
+  std::vector<float> results[7];    ///< of the sweep, by record
+  std::vector<double> strain_rate;  ///< div v of each column [1/s]; empty without a mixture
+  double start_dt = 1e-3;           ///< of the first step [s]
+  double fastest_wave = 0;          ///< largest sqrt(K g_n h) / h_s [1/s]
+  double fastest_approach = 0;      ///< largest relative speed of neighbours / h_s [1/s]
 
   /// Column i beside a wall.
   ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;

@@ -1,81 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pore pressure of a dilating mixture against independent integrations of the same equations.
-// Here a column swells with the water that it takes up, as those integrations have it.
 #include "engine/laws/pore_pressure.hpp"
 
-#include "engine/core/constants.hpp"
+#include "tests/support/wet_box.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
-#include <numbers>
 #include <vector>
 
 namespace sturz {
 namespace {
 
+using test::flume_mixture;
+using test::WetBox;
+
 constexpr double g = standard_gravity;
 
-/// Mixture of the debris-flow flume of the U.S. Geological Survey.
-MixtureLaw flume() {
-  MixtureLaw law;
-  law.fluid_density = 1100;
-  return law;
-}
-
-/// One metre of mixture whose mass over area stays.
-struct Box {
-  MixtureLaw law = flume();
-  double gravity = g, tan_phi = std::tan(40 * std::numbers::pi / 180), slope_gravity = 0;
-  double m = 0.6, excess = 0, mass = 0;
-  double speed = 0, path = 0;
-
-  Box(const MixtureLaw& with, double solid_fraction, double slope_deg = 0) : law(with), m(solid_fraction) {
-    const double slope = slope_deg * std::numbers::pi / 180;
-    mass = law.density(m), gravity = g * std::cos(slope), slope_gravity = g * std::sin(slope);
-  }
-  WetColumn column() const {
-    const double h = mass / law.density(m);
-    return {m, excess, h, mass * gravity, law.fluid_density * gravity * h, gravity};
-  }
-  double lambda() const {
-    const WetColumn c = column();
-    return (c.hydrostatic + excess) / c.normal_stress;
-  }
-  PoreRates rates(double speed_now, bool tangent) const {
-    const WetColumn c = column();
-    const auto law_of = tangent ? tangent_rates : pore_rates;
-    return law_of(law, c, law.permeability_at(m), speed_now,
-                  dilatancy(law, m, 2 * speed_now / c.thickness, c.effective_stress()));
-  }
-  void drain(double speed_now, double dt, bool tangent = true) {
-    const PoreRates r = rates(speed_now, tangent);
-    const PoreChange change = advance(r, excess, dt);
-    m *= std::exp(r.compaction * change.mean_excess * dt);
-    const WetColumn c = column();
-    excess = std::clamp(change.excess, -c.hydrostatic, c.normal_stress - c.hydrostatic);
-  }
-  /// Down the slope, friction last.
-  void slide(double dt) {
-    const auto brake = [&] {
-      const WetColumn c = column();
-      const auto d = dilatancy(law, m, 2 * speed / c.thickness, c.effective_stress());
-      return c.effective_stress() * mixture_friction(tan_phi, d.tangent, m) / mass;
-    };
-    const double before = speed, first = brake();
-    const double guess = std::max(0.0, before + dt * (slope_gravity - first));
-    drain(0.5 * (before + guess), dt);
-    speed = guess;
-    const double mean = 0.5 * (first + brake());
-    const double h = mass / law.density(m);
-    speed = std::max(0.0, before + dt * (slope_gravity - mean)) *
-            std::exp(-(1 - m) * 2 * law.fluid_viscosity * dt / (h * mass));
-    path += 0.5 * (before + speed) * dt;
-  }
-};
-
 MixtureLaw permeable() {  // k = 1e-8 m^2 at m = 0.61
-  MixtureLaw law = flume();
+  MixtureLaw law = flume_mixture();
   law.permeability = 1e-8, law.reference_fraction = 0.61, law.compressibility = 0.02;
   return law;
 }
@@ -83,7 +26,7 @@ MixtureLaw permeable() {  // k = 1e-8 m^2 at m = 0.61
 constexpr std::array times{0.1, 0.5, 1.0, 2.0, 5.0};
 
 TEST(PorePressure, T1RelaxesAtRestWithFrozenCoefficients) {
-  Box box(permeable(), 0.61);
+  WetBox box(permeable(), 0.61);
   const double start = 0.5 * (box.law.density(0.61) - box.law.fluid_density) * g;
   box.excess = start;
   const PoreRates r = box.rates(0, false);
@@ -104,7 +47,7 @@ TEST(PorePressure, T1RelaxesAtRestWithFrozenCoefficients) {
 }
 
 TEST(PorePressure, T1RelaxesAtRestWithTheCoefficientsThatItHas) {
-  Box box(permeable(), 0.61);
+  WetBox box(permeable(), 0.61);
   const double start = 0.5 * (box.law.density(0.61) - box.law.fluid_density) * g;
   box.excess = start;
   const double ratio[] = {0.897951, 0.551537, 0.273617, 0.058413, 0.000462};
@@ -119,7 +62,7 @@ TEST(PorePressure, T1RelaxesAtRestWithTheCoefficientsThatItHas) {
 }
 
 TEST(PorePressure, T2ReachesTheSteadyPressureOfImposedShear) {
-  const Box box(permeable(), 0.62);
+  const WetBox box(permeable(), 0.62);
   const PoreRates r = box.rates(0.1, false);
   const double steady = advance(r, 0, 1e3).excess;
   EXPECT_NEAR(steady, 1280.71, 0.01 * 1280.71 * 0.01);
@@ -142,7 +85,7 @@ TEST(PorePressure, T3LiquefiesLooseAndDrawsInDenseMixturesUnderImposedShear) {
                       {0.66, {.4645, .2406, 0, 0, 0, 0}}};
   const double at[] = {0.1, 0.5, 1, 2, 5, 10};
   for (const Row& row : rows) {
-    Box box(flume(), row.m);
+    WetBox box(flume_mixture(), row.m);
     int n = 0;
     for (int k = 0; k < 6; ++k) {
       for (; n < static_cast<int>(std::lround(at[k] / 1e-3)); ++n) box.drain(1, 1e-3);
@@ -151,35 +94,16 @@ TEST(PorePressure, T3LiquefiesLooseAndDrawsInDenseMixturesUnderImposedShear) {
   }
 }
 
-struct Slide {
-  double u, x, lambda, m;
-};
-struct Sheet {
-  double m;
-  std::array<Slide, 4> at;  // 1, 2, 5, 10 s
-};
-const Sheet sheets[] = {
-    {.55, {{{4.059, 1.757, .9999, .5504}, {9.111, 8.342, .9998, .5509},
-            {24.264, 58.41, .9998, .5526}, {49.52, 242.9, 1.0, .5552}}}},
-    {.60, {{{3.242, 1.351, .9743, .6001}, {8.282, 7.110, .9990, .6003},
-            {23.398, 54.64, .9972, .6008}, {48.51, 234.5, .9945, .6018}}}},
-    {.62, {{{2.549, 1.105, .8121, .6200}, {7.250, 5.903, .9961, .6201},
-            {22.235, 50.18, .9876, .6205}, {46.80, 223.0, .9727, .6211}}}},
-    {.64, {{{1.623, .8184, .5059, .6400}, {3.022, 3.172, .4526, .6400},
-            {3.086, 14.20, .1193, .6399}, {0, 17.52, .0639, .6395}}}},
-    {.66, {{{.691, .5321, .2166, .6600}, {0, .7278, .0747, .6599},
-            {0, .7278, .0788, .6598}, {0, .7278, .0856, .6596}}}}};
-
 /// Largest relative error of speed and path over the sheets.
 double worst_error(double dt) {
   double worst = 0;
-  for (const Sheet& sheet : sheets) {
-    Box box(flume(), sheet.m, 31);
+  for (const test::WetSheet& sheet : test::wet_sheets) {
+    WetBox box(flume_mixture(), sheet.m, 31);
     int n = 0;
     const double at[] = {1, 2, 5, 10};
     for (int k = 0; k < 4; ++k) {
       for (; n < static_cast<int>(std::lround(at[k] / dt)); ++n) box.slide(dt);
-      const Slide& expected = sheet.at[k];
+      const test::WetSlide& expected = sheet.at[k];
       worst = std::max({worst, std::abs(box.speed - expected.u) / std::max(0.5, expected.u),
                         std::abs(box.path - expected.x) / expected.x});
       if (dt > 1e-3) continue;
@@ -196,7 +120,7 @@ TEST(PorePressure, T4DecidesWhetherASheetRunsOrSticks) {
 }
 
 TEST(PorePressure, T5StretchesUndrainedAsTheClosedForm) {
-  const MixtureLaw law = flume();
+  const MixtureLaw law = flume_mixture();
   const double bulk = law.density(0.61), r = (law.fluid_density + 3 * bulk) / (4 * bulk);
   EXPECT_NEAR(r, 0.88247, 5e-6);
   const double x[] = {.9, .75, .5, 1.5, 2};
@@ -212,7 +136,7 @@ TEST(PorePressure, T5StretchesUndrainedAsTheClosedForm) {
 }
 
 TEST(PorePressure, NothingDilatesAtRest) {
-  const Box dense(flume(), 0.7);
+  const WetBox dense(flume_mixture(), 0.7);
   EXPECT_EQ(dense.rates(0, false).source, 0);
   EXPECT_EQ(advance(dense.rates(0, true), 0, 100).excess, 0);
   // Slow shear is not far from rest.
@@ -220,17 +144,18 @@ TEST(PorePressure, NothingDilatesAtRest) {
 }
 
 TEST(PorePressure, StaysFiniteInTheThinnestFilm) {
-  const MixtureLaw law = flume();
+  const MixtureLaw law = flume_mixture();
   const WetColumn film{0.6, 0.5, 1e-7, 1.9e-3, 1.1e-3, g};
   for (double speed : {0.0, 1e-6, 30.0}) {
     const auto d = dilatancy(law, 0.6, 2 * speed / film.thickness, film.effective_stress());
-    for (const PoreRates& r : {pore_rates(law, film, 1e-9, speed, d), tangent_rates(law, film, 1e-9, speed, d)})
+    for (const PoreRates& r :
+         {pore_rates(law, film, 1e-9, speed, d), tangent_rates(law, film, 1e-9, speed, d)})
       EXPECT_TRUE(std::isfinite(advance(r, film.excess, 0.1).mean_excess)) << speed;
   }
 }
 
 TEST(PorePressure, TangentIsTheDerivative) {
-  const MixtureLaw law = flume();
+  const MixtureLaw law = flume_mixture();
   for (double excess : {-2000.0, 500.0, 7000.0})
     for (double speed : {0.0, 0.3, 12.0}) {
       WetColumn c{0.6, excess, 1.2, 1.2 * law.density(0.6) * g, 1.2 * law.fluid_density * g, g};
@@ -245,7 +170,8 @@ TEST(PorePressure, TangentIsTheDerivative) {
       const auto d = dilatancy(law, 0.6, 2 * speed / c.thickness, c.effective_stress());
       const PoreRates r = tangent_rates(law, c, 1e-9, speed, d);
       EXPECT_NEAR(-r.decay, slope, 1e-4 * std::abs(slope) + 1e-9) << excess << ", " << speed;
-      EXPECT_NEAR(r.source - r.decay * excess, change(excess), 1e-9 * std::abs(change(excess)) + 1e-9);
+      EXPECT_NEAR(r.source - r.decay * excess, change(excess),
+                  1e-9 * std::abs(change(excess)) + 1e-9);
     }
 }
 

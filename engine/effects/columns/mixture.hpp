@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A mixture of grains and pore fluid in columns: solid fraction and basal pore pressure of each
+/// column go with it, and the pressure decides how much of its weight the bed brakes.
+///
+/// A column keeps its grains and its water exactly. What it contracts by becomes a film of water on
+/// it, what it dilates by comes out of the film; once that is used up the pores fill with air and
+/// hold no pressure above that of the water left in them.
+#pragma once
+
+#include "engine/core/vec.hpp"
+#include "engine/effects/columns/mixture_settings.hpp"
+#include "engine/effects/state.hpp"
+#include "engine/laws/basal_resistance.hpp"
+
+#include <cstddef>
+#include <span>
+
+namespace sturz {
+
+/// Fields "solids_volume", "water_volume", "solid_fraction", "pore_pressure", "pore_gravity".
+void add_mixture(State&, std::size_t set, const MixtureSettings&);
+/// Fills them for columns from `first` on, which are new, and the ledger with their volumes.
+void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first);
+
+/// Where grains, pores and film of a column are.
+struct ColumnWater {
+  double share = 0;       ///< of the volume of grains and water that is grain
+  double thickness = 0;   ///< of grains and pores, along the normal [m]
+  double film = 0;        ///< of water on them [m]
+  double saturation = 1;  ///< of the pores
+  double level = 0;       ///< of the water: its pressure at rest over rho_f g [m]
+
+  /// \param whole thickness of grains and water [m]
+  ColumnWater(double solid_share, double solid_fraction, double whole);
+};
+
+/// The columns of a mixture as the bed meets them; looked up once per pass.
+class WetBed {
+ public:
+  /// \param strain_rate div v of each column [1/s]
+  WetBed(ParticleSet&, const MixtureSettings&, std::span<const double> strain_rate);
+
+  struct Push {
+    Vec3 before{0, 0, 0},
+        pull{0, 0, 0};   ///< velocity [m/s]; tangent acceleration without the bed [m/s^2]
+    double time = 0;     ///< [s]
+    double gravity = 0;  ///< [m/s^2], of turbulent drag
+  };
+  struct Slid {
+    Vec3 after{0, 0, 0};      ///< [m/s]
+    double clipped_work = 0;  ///< [J]
+  };
+  /// Moves column i's pore pressure, solid fraction and velocity on together: each decides the
+  /// others within a fraction of a second, faster than columns meet each other. Second order, in
+  /// parts in which the pressure changes by a twentieth of the weight.
+  Slid slide(std::size_t i, const BasalResistance&, const Push&) const;
+
+ private:
+  class Column;
+
+  const MixtureSettings& settings_;
+  const double *mass_, *thickness_, *normal_gravity_, *solids_, *water_, *strain_rate_;
+  double *fraction_, *pressure_, *gravity_seen_;
+};
+
+}  // namespace sturz

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes with a mixture and what does not; what a scene makes of it.
+#include "scenarios/assembly/formulation.hpp"
+#include "scenarios/catalogue.hpp"
+#include "scenarios/checks/validate.hpp"
+#include "scenarios/schema/schema.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace sturz {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::vector<std::string> messages(const Scenario& s) {
+  std::vector<std::string> texts;
+  for (const auto& problem : validate(s)) texts.push_back(problem.message);
+  return texts;
+}
+
+TEST(MixtureChecks, AFixedPorePressureIsRefusedWithTheReason) {
+  Scenario s = wet_ramp();
+  EXPECT_THAT(messages(s), IsEmpty());
+  s.basal.pore_pressure_ratio = 0.3;
+  EXPECT_THAT(messages(s), Contains(HasSubstr("mixture is there too, which computes the pore")));
+  s = wet_ramp();
+  s.basal.zones.push_back({"zone.shp", "", std::nullopt, 0.5, std::nullopt});
+  EXPECT_THAT(messages(s), Contains(HasSubstr("pore_pressure_ratio of a zone")));
+}
+
+TEST(MixtureChecks, OnlyColumnsKnowIt) {
+  Scenario s = wet_ramp();
+  s.formulation = Formulation::full_stress;
+  EXPECT_THAT(messages(s), Contains(HasSubstr("mixture (formulation is full_stress; only")));
+  s.formulation = Formulation::automatic;
+  EXPECT_THAT(messages(s), IsEmpty());
+  const Raster<double> thick{Grid{40, 40, 0, 40, 1, ""}, 30.0};
+  const FormulationChoice choice = choose_formulation(s, thick);
+  EXPECT_TRUE(choice.depth_averaged) << "although so many layers would resolve it";
+  EXPECT_THAT(choice.reason, HasSubstr("`mixture` acts on columns"));
+}
+
+TEST(MixtureChecks, SaysEverythingThatIsWrongAtOnce) {
+  Scenario s = wet_ramp();
+  s.basal.viscosity_pa_s = Uncertain(100);
+  s.basal.yield_stress_pa = Uncertain(100);
+  s.grains->earth_pressure = LateralPressure::active_passive;
+  s.mixture->initial_pressure = InitialPressure::liquefied;
+  s.mixture->initial_pressure_ratio = Uncertain(0.7);
+  s.mixture->fluid_density_kg_m3 = Uncertain(2000);
+  s.grains->density_kg_m3 = Uncertain(1900);
+  const auto all = messages(s);
+  for (const char* text :
+       {"Use mixture.fluid_viscosity_pa_s", "held by its grains", "it knows isotropic only",
+        "which is a ratio of 1", "must be below grains.density_kg_m3 = 1900"})
+    EXPECT_THAT(all, Contains(HasSubstr(text)));
+}
+
+TEST(MixtureChecks, EveryNumberMayBeUncertain) {
+  int n = 0;
+  for (const KeyInfo& key : schema())
+    if (key.path.starts_with("mixture.")) {
+      n += key.kind == ValueKind::uncertain;
+      Scenario s;
+      if (key.kind == ValueKind::uncertain) key.set(s, Uncertain(0.5));
+      EXPECT_EQ(s.mixture.has_value(), key.kind == ValueKind::uncertain) << key.path;
+    }
+  EXPECT_EQ(n, 9);
+}
+
+TEST(MixtureChecks, ALooseMixtureIsTakenAsNearlyLiquefied) {
+  const Scenario loose = wet_ramp(0.6), dense = wet_ramp(0.67);
+  EXPECT_NEAR(typical_friction(loose), liquefied_share * loose.basal.friction_coefficient.value,
+              1e-15);
+  EXPECT_GT(typical_friction(dense), 3 * typical_friction(loose));
+}
+
+}  // namespace
+}  // namespace sturz
