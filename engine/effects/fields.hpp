@@ -66,9 +66,10 @@ inline constexpr FieldKey solids_volume{"solids_volume", 1, "m3", "pore pressure
 inline constexpr FieldKey water_volume{"water_volume", 1, "m3", "pore pressure"};
 /// Of the mixture, without the film of water on it.
 inline constexpr FieldKey solid_fraction{"solid_fraction", 1, "1", "pore pressure"};
-/// At the base; negative until the first step has found the thickness.
-inline constexpr FieldKey pore_pressure{"pore_pressure", 1, "Pa", "pore pressure", -1.0};
-/// Normal gravity that the pore pressure was last brought to.
-inline constexpr FieldKey pore_gravity{"pore_gravity", 1, "m s-2", "pore pressure"};
+/// At the base.
+inline constexpr FieldKey pore_pressure{"pore_pressure", 1, "Pa", "pore pressure"};
+/// Normal gravity that the pore pressure was last brought to; negative until the first step has
+/// found the thickness.
+inline constexpr FieldKey pore_gravity{"pore_gravity", 1, "m s-2", "pore pressure", -1.0};
 
 }  // namespace sturz::fields

@@ -36,7 +36,7 @@ inline void add_mixture_of(const MovingSet& p, MixtureState& sums, double& mass,
     const double stress = p.mass[i] / (solids[i] + water[i]) * g_n[i] * thickness[i];
     mass += p.mass[i];
     sums.solid_fraction += p.mass[i] * m;
-    if (stress > 0) sums.pressure_ratio += p.mass[i] * std::max(0.0, pressure[i]) / stress;
+    if (stress > 0) sums.pressure_ratio += p.mass[i] * pressure[i] / stress;
     sums.film_m3 += film;
     solids_sum.add(solids[i]);
     water_sum.add(saturation * pores), water_sum.add(film);

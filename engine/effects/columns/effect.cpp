@@ -41,6 +41,7 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   p.scalar(fields::support_radius)[i] = support_radius;
   p.scalar(fields::thickness)[i] = thickness;
   p.scalar(fields::normal_gravity)[i] = g_n;
+  if (set.mixture) start_pressure(p, *set.mixture, i);
   const int zone = flow.zone_of(s.domain, p, i);
   if (Field* k = p.find(fields::earth_pressure)) {
     const EarthPressure& e = set.earth_pressure[zone];

@@ -19,6 +19,10 @@ constexpr double most_dilation = 0.02;
 /// Films without weight must not divide by it.
 constexpr double least_stress = 1e-12;
 
+double pressure_at_release(const MixtureSettings& settings, double stress, double hydrostatic) {
+  return settings.pressure_ratio < 0 ? hydrostatic : settings.pressure_ratio * stress;
+}
+
 }  // namespace
 
 void add_mixture(State& state, std::size_t set, const MixtureSettings& settings) {
@@ -43,6 +47,13 @@ void enter_mixture(MovingSet& p, const MixtureSettings& settings, std::size_t fi
   }
   p.ledger.released_solids += grains.value();
   p.ledger.released_water += fluid.value();
+}
+
+void start_pressure(ParticleSet& p, const MixtureSettings& settings, std::size_t i) {
+  const double depth = p.scalar(fields::normal_gravity)[i] * p.scalar(fields::thickness)[i];
+  const double volume = p.scalar(fields::solids_volume)[i] + p.scalar(fields::water_volume)[i];
+  p.scalar(fields::pore_pressure)[i] =
+      pressure_at_release(settings, p.mass[i] / volume * depth, settings.law.fluid_density * depth);
 }
 
 ColumnWater::ColumnWater(double solid_share, double m, double whole)
@@ -83,11 +94,13 @@ class WetBed::Column {
     permeability_ = law_.permeability_at(m_);
   }
 
-  /// What the weight did to the pressure while no water could move.
-  void load(double pressure, double gravity_seen, double strain_rate, double ratio) {
+  /// What the weight did to the pressure while no water could move. At the first step the column
+  /// learns how thick it is among the others.
+  void load(double pressure, double gravity_seen, double strain_rate,
+            const MixtureSettings& settings) {
     const ColumnWater water = geometry();
-    if (pressure < 0) {  // the first step: now the column knows how thick it is
-      pressure = ratio < 0 ? law_.fluid_density * g_ * water.level : ratio * stress_;
+    if (gravity_seen < 0) {
+      pressure = pressure_at_release(settings, stress_, hydrostatic(water));
     } else {
       // The thickness at the kick is that of its middle.
       const double half = std::clamp(0.5 * strain_rate * push_.time, -0.5, 0.5);
@@ -209,7 +222,7 @@ class WetBed::Column {
 
 WetBed::Slid WetBed::slide(std::size_t i, const BasalResistance& ground, const Push& push) const {
   Column column(*this, i, ground, push);
-  column.load(pressure_[i], gravity_seen_[i], strain_rate_[i], settings_.pressure_ratio);
+  column.load(pressure_[i], gravity_seen_[i], strain_rate_[i], settings_);
   column.move();
   fraction_[i] = column.solid_fraction();
   pressure_[i] = column.pressure();

@@ -22,6 +22,9 @@ void add_mixture(State&, std::size_t set, const MixtureSettings&);
 /// Fills them for columns from `first` on, which are new, and the ledger with their volumes.
 void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first);
 
+/// Sets column i's pore pressure to that of the release, for its present thickness.
+void start_pressure(ParticleSet&, const MixtureSettings&, std::size_t i);
+
 /// Where grains, pores and film of a column are.
 struct ColumnWater {
   double share = 0;       ///< of the volume of grains and water that is grain
