@@ -66,9 +66,11 @@ inline constexpr FieldKey solids_volume{"solids_volume", 1, "m3", "pore pressure
 inline constexpr FieldKey water_volume{"water_volume", 1, "m3", "pore pressure"};
 /// Of the mixture, without the film of water on it.
 inline constexpr FieldKey solid_fraction{"solid_fraction", 1, "1", "pore pressure"};
-/// At the base.
+/// At the base, over that of still water: what a column carries along.
+inline constexpr FieldKey excess_pressure{"excess_pressure", 1, "Pa", "pore pressure"};
+/// At the base: excess and still water at the last kick.
 inline constexpr FieldKey pore_pressure{"pore_pressure", 1, "Pa", "pore pressure"};
-/// Normal gravity that the pore pressure was last brought to; negative until the first step has
+/// Normal gravity that the excess was last brought to; negative until the first step has
 /// found the thickness.
 inline constexpr FieldKey pore_gravity{"pore_gravity", 1, "m s-2", "pore pressure", -1.0};
 

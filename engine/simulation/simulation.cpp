@@ -37,7 +37,7 @@ std::uint64_t hash_of(const State& state) {
     for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
       hash.add(std::span<const double>(*column));
     hash.add(std::span<const std::uint32_t>(p.id));
-    for (const FieldKey* key : {&fields::solid_fraction, &fields::pore_pressure})
+    for (const FieldKey* key : {&fields::solid_fraction, &fields::excess_pressure})
       if (const Field* f = p.find(*key)) hash.add(std::span<const double>(f->component[0]));
   }
   return hash.value();

@@ -118,9 +118,9 @@ DamBreak break_dam(const Scenario& s, double lambda) {
   while (state.time < 5) {
     if (lambda >= 0 && state.n_steps > 0)
       for (std::size_t i = 0; i < p.size(); ++i) {
-        p.scalar(fields::pore_pressure)[i] = lambda * p.bulk_density *
-                                             p.scalar(fields::normal_gravity)[i] *
-                                             p.scalar(fields::thickness)[i];
+        p.scalar(fields::excess_pressure)[i] =
+            (lambda * p.bulk_density - s.mixture->fluid_density_kg_m3.value) *
+            p.scalar(fields::normal_gravity)[i] * p.scalar(fields::thickness)[i];
         p.scalar(fields::solid_fraction)[i] = s.grains->solid_fraction.value;
       }
     const double dt = simulation.parts().step.limit(state).dt;

@@ -29,7 +29,7 @@ void add_mixture(State& state, std::size_t set, const MixtureSettings& settings)
   MovingSet& p = state.sets[set];
   for (const FieldKey* key :
        {&fields::solids_volume, &fields::water_volume, &fields::solid_fraction,
-        &fields::pore_pressure, &fields::pore_gravity})
+        &fields::excess_pressure, &fields::pore_pressure, &fields::pore_gravity})
     p.add(*key);
   enter_mixture(p, settings, 0);
 }
@@ -75,6 +75,7 @@ WetBed::WetBed(ParticleSet& p, const MixtureSettings& settings, std::span<const 
       water_(p.scalar(fields::water_volume).data()),
       strain_rate_(strain_rate.data()),
       fraction_(p.scalar(fields::solid_fraction).data()),
+      excess_(p.scalar(fields::excess_pressure).data()),
       pressure_(p.scalar(fields::pore_pressure).data()),
       gravity_seen_(p.scalar(fields::pore_gravity).data()) {}
 
@@ -95,18 +96,21 @@ class WetBed::Column {
   }
 
   /// What the weight did to the pressure while no water could move. At the first step the column
-  /// learns how thick it is among the others.
-  void load(double pressure, double gravity_seen, double strain_rate,
+  /// learns how thick it is among the others. Later the summed thickness moves by its own noise
+  /// too; still water takes that, the excess follows the strain alone.
+  void load(double excess, double gravity_seen, double strain_rate,
             const MixtureSettings& settings) {
     const ColumnWater water = geometry();
     if (gravity_seen < 0) {
-      pressure = pressure_at_release(settings, stress_, hydrostatic(water));
+      const double still = hydrostatic(water);
+      excess = pressure_at_release(settings, stress_, still) - still;
     } else {
       // The thickness at the kick is that of its middle.
       const double half = std::clamp(0.5 * strain_rate * push_.time, -0.5, 0.5);
-      pressure += law_.undrained(bulk_, h_ * (g_ * (1 - half) - gravity_seen * (1 + half)));
+      const double change = h_ * (g_ * (1 - half) - gravity_seen * (1 + half));
+      excess += law_.undrained(bulk_, change) - law_.fluid_density * change;
     }
-    excess_ = bounded(pressure - hydrostatic(water), water);
+    excess_ = bounded(excess, water);
   }
 
   void move() {
@@ -123,6 +127,7 @@ class WetBed::Column {
 
   Slid result() const { return {v_, clipped_work_}; }
   double solid_fraction() const { return m_; }
+  double excess() const { return excess_; }
   double pressure() const { return std::max(0.0, excess_ + hydrostatic(geometry())); }
 
  private:
@@ -222,9 +227,10 @@ class WetBed::Column {
 
 WetBed::Slid WetBed::slide(std::size_t i, const BasalResistance& ground, const Push& push) const {
   Column column(*this, i, ground, push);
-  column.load(pressure_[i], gravity_seen_[i], strain_rate_[i], settings_);
+  column.load(excess_[i], gravity_seen_[i], strain_rate_[i], settings_);
   column.move();
   fraction_[i] = column.solid_fraction();
+  excess_[i] = column.excess();
   pressure_[i] = column.pressure();
   gravity_seen_[i] = normal_gravity_[i];
   return column.result();

@@ -17,7 +17,8 @@
 
 namespace sturz {
 
-/// Fields "solids_volume", "water_volume", "solid_fraction", "pore_pressure", "pore_gravity".
+/// Fields "solids_volume", "water_volume", "solid_fraction", "excess_pressure",
+/// "pore_pressure", "pore_gravity".
 void add_mixture(State&, std::size_t set, const MixtureSettings&);
 /// Fills them for columns from `first` on, which are new, and the ledger with their volumes.
 void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first);
@@ -63,7 +64,7 @@ class WetBed {
 
   const MixtureSettings& settings_;
   const double *mass_, *thickness_, *normal_gravity_, *solids_, *water_, *strain_rate_;
-  double *fraction_, *pressure_, *gravity_seen_;
+  double *fraction_, *excess_, *pressure_, *gravity_seen_;
 };
 
 }  // namespace sturz

@@ -76,8 +76,9 @@ void expect_within_bounds(const MovingSet& p, const MixtureLaw& law) {
     const ColumnWater water(s / (s + w), p.scalar(fields::solid_fraction)[i], h);
     ASSERT_GE(pressure, 0);
     ASSERT_LE(pressure, stress * (1 + 1e-12));
-    if (water.saturation < 1)
+    if (water.saturation < 1) {
       ASSERT_LE(pressure, law.fluid_density * g_n * water.level * (1 + 1e-12));
+    }
     ASSERT_GT(p.scalar(fields::solid_fraction)[i], 0.1);
     ASSERT_LT(p.scalar(fields::solid_fraction)[i], 0.9);
   }
@@ -140,8 +141,9 @@ TEST(Mixture, ALakeOfUnequalFractionsStaysAtRest) {  // T9
   std::vector<double> thickness;
   for (const Vec3& at : positions) thickness.push_back(2 - bed(at.x(), at.y()));
   const MixtureSettings wet = settings_of(0.6);
-  HandMade made = wet_columns(Terrain(std::make_shared<Raster<double>>(std::move(z))), positions,
-                              thickness, wet, {0, 0, 0}, domain);
+  HandMade made =
+      wet_columns(Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow),
+                  positions, thickness, wet, {0, 0, 0}, domain);
   MovingSet& p = made.state.grains();
   auto &solids = p.scalar(fields::solids_volume), &water = p.scalar(fields::water_volume);
   for (std::size_t i = 0; i < p.size(); ++i) {  // the same volume, denser or looser
@@ -209,8 +211,9 @@ TEST(Mixture, IsNotThereWhereNothingAsksForIt) {
   HandMade made = test::columns_on(even_ground(20), test::block({3, 3, 1}), 1, {0, 0, 0});
   made.advance();
   const MovingSet& p = made.state.grains();
-  for (const FieldKey* key : {&fields::solid_fraction, &fields::solids_volume,
-                              &fields::water_volume, &fields::pore_pressure, &fields::pore_gravity})
+  for (const FieldKey* key :
+       {&fields::solid_fraction, &fields::solids_volume, &fields::water_volume,
+        &fields::excess_pressure, &fields::pore_pressure, &fields::pore_gravity})
     EXPECT_FALSE(p.has(*key)) << key->name;
   EXPECT_EQ(p.ledger.released_solids, 0);
   EXPECT_EQ(p.ledger.clipped_work, 0);
