@@ -30,6 +30,8 @@ struct MixtureLaw {
   static constexpr double fold = 0.04;  ///< change of m over which k falls to 1/e
 
   double density(double m) const { return m * solid_density + (1 - m) * fluid_density; }
+  /// Where grains hardly touch, nothing parts them further: half of critical.
+  double loosest_fraction() const { return 0.5 * critical_fraction; }
   double permeability_at(double m) const {
     return permeability * std::exp((reference_fraction - m) / fold);
   }
@@ -57,10 +59,11 @@ inline Dilatancy dilatancy(const MixtureLaw& law, double m, double shear_rate,
   if (!(shear_rate > 0)) return {m - law.critical_fraction, law.critical_fraction, 0};
   const double collisions = law.grain_diameter * shear_rate;
   const double stress = law.solid_density * collisions * collisions + effective_stress;
-  // Without any stress nothing keeps the grains together.
-  if (!(stress > 0)) return {m, 0, 0};
+  const double loosest = law.loosest_fraction();
+  if (!(stress > 0)) return {m - loosest, loosest, 0};
   const double root = std::sqrt(law.fluid_viscosity * shear_rate / stress), sum = 1 + root;
   const double steady = law.critical_fraction / sum;
+  if (steady < loosest) return {m - loosest, loosest, 0};
   return {m - steady, steady, 0.5 * steady * root / (stress * sum)};
 }
 

@@ -66,7 +66,12 @@ Simulation survive(const HardMember& m, int number, Worst& worst, MemberScalars&
   if (m.scenario.terrain.nodata == TerrainEdge::wall) {
     EXPECT_EQ(ledger.lost_mass, 0);
   }
-  EXPECT_LE(std::abs(s.energy_residual), 0.01);
+  // Of a mass that hardly fell the rest must be worth a hundredth of a spacing, as `doubts` has it.
+  const double least =
+      0.01 * m.scenario.numerics.spacing_m * standard_gravity * ledger.released_mass;
+  EXPECT_LE(std::abs(ledger.residual()),
+            std::max(0.01 * ledger.available_energy(), m.scenario.mixture ? least : 0))
+      << "released " << ledger.available_energy() << " J, " << s.com_drop_m << " m of fall";
   EXPECT_LE(s.max_speed_m_s, most);
   const double step = s.mean_dt_s / std::sqrt(m.scenario.numerics.spacing_m / standard_gravity);
   EXPECT_GT(step, 1e-3);
@@ -131,7 +136,7 @@ void expect_pressures_within_bounds(const ParticleSet& p) {
     ASSERT_LE(pressure, p.mass[i] / volume * p.scalar(fields::normal_gravity)[i] *
                                 p.scalar(fields::thickness)[i] * (1 + 1e-12) +
                             1e-9);
-    ASSERT_GT(m, 0.01);
+    ASSERT_GT(m, 0.15);
     ASSERT_LT(m, 0.95);
   }
 }
@@ -139,7 +144,7 @@ void expect_pressures_within_bounds(const ParticleSet& p) {
 TEST(SteepGround, WetColumnsSurviveEveryCorner) {
   const int n = hard_members(40);
   Worst dry, wet;
-  double volumes = 0, slowest = 0;
+  double volumes = 0, slowest = 0, steps_wet = 0, steps_dry = 0;
   for (int k = 0; k < n; ++k) {
     SCOPED_TRACE(fmt::format("member {}", k));
     MemberScalars with, without;
@@ -154,11 +159,13 @@ TEST(SteepGround, WetColumnsSurviveEveryCorner) {
     EXPECT_GT(with.mean_dt_s * std::max(1.0, with.max_speed_m_s / without.max_speed_m_s),
               without.mean_dt_s / 3);
     volumes = std::max({volumes, std::abs(with.solids_error), std::abs(with.water_error)});
+    steps_wet += with.n_steps * with.n_particles,
+        steps_dry += without.n_steps * without.n_particles;
     slowest = std::max(slowest, with.cpu_s / with.n_steps / (without.cpu_s / without.n_steps));
   }
   wet.print(n);
   fmt::print(
-      "grains and water to {:.1e}; a step at most {:.2f} times its dry twin's, all members "
+      "grains and water to {:.1e}; a step at most {:.2f} times its dry twin's, all steps "
       "{:.2f} times\n",
       volumes, slowest, wet.seconds / dry.seconds);
 }

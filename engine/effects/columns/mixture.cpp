@@ -195,6 +195,7 @@ class WetBed::Column {
     const double mean = bounded_only(part.change.mean_excess, before);
     double m = m_ * std::exp(std::clamp(part.rates.compaction * mean * part.time, -1.0, 1.0));
     m = std::clamp(m, m_ - most_dilation, m_ + most_dilation);
+    m = std::max(m, std::min(m_, law_.loosest_fraction()));
     const double steady = part.dilatancy.steady_fraction;
     // Thin fast films would swing about their steady fraction: they stop at it.
     if (part.rates.decay * part.time > 1 && part.speed > 0 && (m_ - steady) * (m - steady) < 0)
