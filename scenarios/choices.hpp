@@ -42,11 +42,16 @@ constexpr auto words_of(ReleaseFloor) {
   return std::array{Word{uniform, "uniform"}, Word{tapered, "tapered"}};
 }
 
-/// Lateral earth pressure of columns.
-enum class LateralPressure { isotropic, active_passive };
+/// Lateral earth pressure of columns; `automatic` is `active` for piles and isotropic for sheets.
+enum class LateralPressure { automatic, isotropic, active, active_passive };
 constexpr auto words_of(LateralPressure) {
   using enum LateralPressure;
-  return std::array{Word{isotropic, "isotropic"}, Word{active_passive, "active_passive"}};
+  return std::array{Word{automatic, "auto"}, Word{isotropic, "isotropic"}, Word{active, "active"},
+                    Word{active_passive, "active_passive"}};
+}
+
+constexpr bool asks_for_internal_friction(LateralPressure p) {
+  return p == LateralPressure::active || p == LateralPressure::active_passive;
 }
 
 /// Pore pressure that a mixture starts with: that of still water, or all of the weight.

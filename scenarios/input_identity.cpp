@@ -24,24 +24,32 @@ std::string difference(const InputIdentity& before, const InputIdentity& now) {
   if (before.shape != now.shape)
     return fmt::format("was {}; is {}", before.shape.empty() ? "something else" : before.shape,
                        now.shape);
-  std::size_t common = 0, other = 0;
+  std::size_t unread = 0, other = 0;
   std::string first;
-  for (const auto& [part, hash] : now.parts) {
-    const auto was = before.parts.find(part);
-    if (was == before.parts.end()) continue;
-    ++common;
-    if (was->second == hash) continue;
+  for (const auto& [part, hash] : before.parts) {
+    const auto is = now.parts.find(part);
+    if (is != now.parts.end() && is->second == hash) continue;
+    if (is == now.parts.end()) ++unread;
     if (other++ == 0) first = part;
   }
   if (other == 0) return {};
   if (first == "features") return "other polygons or values than before";
   return fmt::format(
-      "other values than before in {} of {} blocks of 256 x 256 cells, the first "
-      "block {} (row/column of blocks, from 0)",
-      other, common, first);
+      "{} in {} of {} blocks of 256 x 256 cells, the first block {} (row/column of blocks, from 0)",
+      unread == other ? "cannot be compared" : "other values than before", other,
+      before.parts.size(), first);
 }
 
 }  // namespace
+
+std::vector<std::string> parts_to_read(const InputIdentity& now,
+                                       const std::vector<InputIdentity>& before) {
+  std::vector<std::string> names;
+  if (const InputIdentity* was = find(before, now.role); was != nullptr)
+    for (const auto& [part, hash] : was->parts)
+      if (!now.parts.contains(part)) names.push_back(part);
+  return names;
+}
 
 std::vector<std::string> input_differences(const std::vector<InputIdentity>& before,
                                            const std::vector<InputIdentity>& now) {

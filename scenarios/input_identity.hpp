@@ -21,8 +21,13 @@ struct InputIdentity {
   bool operator==(const InputIdentity&) const = default;
 };
 
+/// Parts of an input of `before` that `now` has not read: it is to read them, to be compared.
+std::vector<std::string> parts_to_read(const InputIdentity& now,
+                                       const std::vector<InputIdentity>& before);
+
 /// What differs, one sentence for each input that does: named in one and not in the other, another
-/// shape, or other values in parts that both have read. Parts that only one has read do not differ.
+/// shape, other values in a part that both have read, or a part of `before` that `now` has not
+/// read. Parts that only `now` has read do not differ.
 std::vector<std::string> input_differences(const std::vector<InputIdentity>& before,
                                            const std::vector<InputIdentity>& now);
 

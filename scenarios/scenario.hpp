@@ -117,7 +117,7 @@ struct GrainsSpec {
       friction_angle_deg;  ///< ... or this: mu = tan(angle), no rate dependence
   Uncertain cohesion_pa{0};
   Uncertain poisson_ratio{0.3};
-  LateralPressure earth_pressure = LateralPressure::isotropic;  ///< depth_averaged only
+  LateralPressure earth_pressure = LateralPressure::automatic;  ///< depth_averaged only
   std::optional<GrainStatesSpec> states;                        ///< absent: every grain is dense
   bool operator==(const GrainsSpec&) const = default;
 };
@@ -207,6 +207,8 @@ struct HazardSpec {
   std::vector<double> energy_kj_m2{10, 100, 1000};
   std::vector<double> pressure_kpa{1, 10, 30};
   std::vector<double> quantiles{0.05, 0.5, 0.95};
+  std::string observed_polygon;  ///< any OGR polygon layer, drawn over the maps
+  std::string observed_note;     ///< what it is, in words
   bool operator==(const HazardSpec&) const = default;
 };
 

@@ -34,6 +34,8 @@ struct SceneInputs {
   std::shared_ptr<const Terrain> ground, column_ground;
   /// Zone of the bed per held cell: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;
+  /// Rings of hazard.observed_polygon in the terrain's system [m]; empty: none.
+  std::vector<std::vector<Vec2>> observed;
   Grid hazard_grid;           ///< the maps' common grid
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =

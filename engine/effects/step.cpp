@@ -85,6 +85,10 @@ std::vector<std::string> Step::pass_names() const {
   return names;
 }
 
+void Step::warnings(const State& state, std::vector<std::string>& out) const {
+  for (const auto& pass : passes_) pass->warnings(state, out);
+}
+
 std::size_t Step::bytes() const {
   std::size_t total = 0;
   for (const auto& pass : passes_) total += pass->bytes();

@@ -55,6 +55,9 @@ class Pass {
   /// Particles [first, size) of a set are new: a pass whose effect owns fields that must not start
   /// at their initial value fills them.
   virtual void entered(State&, std::size_t /*set*/, std::size_t /*first*/) {}
+  /// Appends what a reader of the result must know of this run, one sentence each without "; ";
+  /// asked at the end of the run.
+  virtual void warnings(const State&, std::vector<std::string>&) const {}
   /// Memory beyond the particle set's own fields [bytes].
   virtual std::size_t bytes() const { return 0; }
 };
@@ -90,6 +93,8 @@ class Step {
   void apply(State&, double dt);
 
   std::vector<std::string> pass_names() const;
+  /// Appends those of all passes, see Pass::warnings.
+  void warnings(const State&, std::vector<std::string>& out) const;
   const std::vector<PassTime>& timings() const { return timings_; }
   std::size_t bytes() const;
 

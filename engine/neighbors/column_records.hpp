@@ -16,10 +16,10 @@ struct alignas(16) ColumnRecord {
   float volume;          ///< [m^3]
   float vx, vy, vz;      ///< [m/s]
   float inverse_radius;  ///< one over the support radius [1/m]
-  float thickness;       ///< along the ground's normal [m]
+  float thickness;       ///< along the normal of the ground that pressure knows [m]
   float lateral;         ///< K g_n: lateral pressure over density and thickness [m/s^2]
   float wave_speed;      ///< sqrt(K g_n thickness) [m/s]
-  float spare;
+  float share;           ///< of the ground's slope that pressure knows [-]
 };
 static_assert(sizeof(ColumnRecord) == 48);
 
@@ -46,6 +46,7 @@ struct ColumnView {
 /// Constants of the pair terms of columns.
 struct ColumnConstants {
   double viscosity = 0.5;  ///< alpha of Monaghan's viscosity between approaching columns
+  bool steep = false;      ///< a share under one occurs
 };
 
 /// Sums per record, each [n_records]; see columns/sums.hpp.

@@ -70,7 +70,7 @@ void write_travel(const State& s, const ReleaseFacts& release, MemberScalars& m)
   const Ledger ledger = s.ledger();
   m.front_travel_m = std::max(m.front_travel_m, std::sqrt(sums.front2));
   m.com_travel_m = std::hypot(sums.mdx, sums.mdy) / sums.mass;
-  m.com_drop_m = -ledger.potential / (s.gravity * ledger.brought_mass());
+  m.com_drop_m = 0 - ledger.potential / (s.gravity * ledger.brought_mass());  // 0, not -0
   m.com_ratio = m.com_travel_m > 0 ? m.com_drop_m / m.com_travel_m : nan_d;
   m.drop_m = release.top_m - sums.lowest;
   m.end_moving_fraction = sums.fast / ledger.brought_mass();
@@ -78,23 +78,37 @@ void write_travel(const State& s, const ReleaseFacts& release, MemberScalars& m)
   m.deposit_com_y_m = sums.present > 0 ? sums.my / sums.present : nan_d;
 }
 
+std::vector<Vec2> places_left(const State& s) {
+  std::vector<Vec2> places;
+  for (const MovingSet& set : s.sets)
+    for (const Departure& gone : set.departures) places.emplace_back(gone.x, gone.y);
+  return places;
+}
+
 void write_crown_to_toe(const Terrain& ground, const ReleaseFacts& release,
-                        std::span<const PeakMaps::Cell> deposit, const Grid& grid,
-                        MemberScalars& m) {
+                        std::span<const PeakMaps::Cell> deposit, std::span<const Vec2> left,
+                        const Grid& grid, MemberScalars& m) {
   const Vec2 centre(release.x_m, release.y_m), crown(release.crown_x_m, release.crown_y_m);
   double front2 = -1, length2 = -1;
   Vec2 toe(0, 0);
-  for (const PeakMaps::Cell& cell : deposit) {
-    const Vec2 at(grid.x_center(cell.col), grid.y_center(cell.row));
+  const auto lies = [&](const Vec2& at) {
     front2 = std::max(front2, (at - centre).squaredNorm());
     const double from_crown = (at - crown).squaredNorm();
-    if (from_crown > length2) length2 = from_crown, toe = at;
-  }
+    if (from_crown <= length2) return false;
+    length2 = from_crown, toe = at;
+    return true;
+  };
+  for (const PeakMaps::Cell& cell : deposit)
+    lies({grid.x_center(cell.col), grid.y_center(cell.row)});
+  bool toe_is_beyond = false;
+  for (const Vec2& at : left)
+    if (lies(at)) toe_is_beyond = true;
   m.deposit_front_m = m.crown_to_toe_length_m = m.crown_to_toe_drop_m = m.crown_to_toe_ratio =
       nan_d;
   if (length2 < 0) return;
   m.deposit_front_m = std::sqrt(front2);
   m.crown_to_toe_length_m = std::sqrt(length2);
+  if (toe_is_beyond) return;
   m.crown_to_toe_drop_m = release.crown_z_m - ground.height(toe.x(), toe.y());
   if (length2 > 0) m.crown_to_toe_ratio = m.crown_to_toe_drop_m / m.crown_to_toe_length_m;
 }

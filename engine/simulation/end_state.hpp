@@ -23,9 +23,15 @@ void write_travel(const State&, const ReleaseFacts&, MemberScalars&);
 /// L is the straight horizontal distance between them, H the fall, H / L the tangent of Heim's
 /// Fahrboeschung (Heim 1932; Scheidegger 1973, eq. 1; Corominas 1996). It needs no centre of mass,
 /// and is larger than the friction that the mass met where the deposit is long.
-/// \param deposit  cells of `grid` that the deposit covers
+/// Mass that left counts where it was last seen: L and front are then at least that far, while H
+/// and H / L, which need the toe, are NaN where it lies beyond the edge. \param deposit  cells of
+/// `grid` that the deposit covers \param left     where mass was last seen before it left the known
+/// ground
 void write_crown_to_toe(const Terrain& ground, const ReleaseFacts&,
-                        std::span<const PeakMaps::Cell> deposit, const Grid& grid, MemberScalars&);
+                        std::span<const PeakMaps::Cell> deposit, std::span<const Vec2> left,
+                        const Grid& grid, MemberScalars&);
+/// The places of write_crown_to_toe.
+std::vector<Vec2> places_left(const State&);
 
 /// What a reader of the member has to doubt, one sentence each:
 /// - Detachment: more than 1 % of mass times time is on ground that curves away faster than the

@@ -3,14 +3,15 @@
 
 #include "engine/core/error.hpp"
 #include "engine/effects/fields.hpp"
-#include "engine/simulation/maps/spread_weights.hpp"
+#include "engine/simulation/maps/peak_row.hpp"
 #include "engine/terrain/terrain.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 namespace sturz {
@@ -21,6 +22,7 @@ constexpr double enough_cover = 0.75;
 /// Half the width of what a particle surely covers, in mean distances. A little less than a half,
 /// for at an edge columns seem farther apart than they are.
 constexpr double own_share = 0.4;
+float& sum_of(CellSums& cell, CellSum what) { return cell[static_cast<int>(what)]; }
 
 /// Width of a particle's spread [cells]: rounded alike wherever room for its weights is counted.
 double cells_wide(double width_m, double cell_m) { return std::max(1.0, width_m / cell_m); }
@@ -73,7 +75,6 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
     width_m = settings_.width_per_radius * *std::max_element(all.begin(), all.end());
   }
   w.cells = cells_wide(width_m, settings_.grid.cell_m);
-  w.n_weights = static_cast<int>(std::ceil(3 * w.cells));
   return w;
 }
 
@@ -87,18 +88,15 @@ double PeakMaps::Width::area(std::size_t i, double mass, double distance) const 
 
 /// Widths of all sets, and the cells that they can touch.
 Window PeakMaps::bounds_of(std::span<const MovingSet> sets) {
-  expect(!sets.empty() && (tiles_.n_sets() == 0 || tiles_.n_sets() == sets.size()),
-         "the sets stay the same");
-  tiles_.set_n_sets(sets.size());
+  expect(!sets.empty() && sets.size() <= 2, "one set, or two");
+  expect((n_sets_ == 0 || n_sets_ == sets.size()), "the sets stay the same");
+  n_sets_ = sets.size();
   widths_.clear();
   Window all;
   for (const MovingSet& set : sets) {
     expect(set.spacing > 0 && set.bulk_density > 0, "spacing and bulk density are positive");
     widths_.push_back(width_of(set));
     all = joined(all, cover(set, widths_.back()));
-    const auto n = static_cast<std::size_t>(widths_.back().n_weights);
-    weights_x_.resize(std::max(weights_x_.size(), n));
-    weights_y_.resize(std::max(weights_y_.size(), n));
   }
   return all;
 }
@@ -120,45 +118,50 @@ Window PeakMaps::cover(const ParticleSet& p, const Width& width) const {
                  std::ceil((east - g.west_m) * per_cell + support), g);
 }
 
-/// Adds what falls on the cells of one tile. \param part  rows and columns of the spread
-template <bool with_motion>
-inline void PeakMaps::add_part(std::size_t set, const Spread& p, const Window& part) {
-  constexpr int edge = PeakTiles::edge;
-  const int row0 = p.row + part.row0, col0 = p.col + part.col0;
-  const std::size_t slot = tiles_.slot_at(row0 / edge, col0 / edge);
-  const int in_col = col0 % edge;
-  const auto bits = static_cast<std::uint16_t>(((1U << part.n_cols) - 1U) << in_col);
-  const int first = row0 % edge * edge + in_col;
-  double* mass = tiles_.mass(set, slot) + first;
-  double* coverage = tiles_.coverage(slot) + first;
-  Motion* motion = tiles_.motion(slot) + first;
-  std::uint16_t* touched = tiles_.touched(slot) + row0 % edge;
-  const double* wx = &weights_x_[static_cast<std::size_t>(part.col0)];
-  const double* wy = &weights_y_[static_cast<std::size_t>(part.row0)];
-  for (int k = 0; k < part.n_rows; ++k, mass += edge, coverage += edge, motion += edge) {
-    touched[k] |= bits;
-    const double mass_in_row = p.mass * wy[k], area_in_row = p.area * wy[k];
-    for (int j = 0; j < part.n_cols; ++j) {
-      const double m = mass_in_row * wx[j];
-      mass[j] += m;
-      coverage[j] += area_in_row * wx[j];
-      if constexpr (with_motion) motion[j] += m * p.motion;
+double PeakMaps::share_of_record(std::span<const MovingSet> sets, double dt_s) const {
+  const double least = 0.5 * settings_.grid.cell_m;
+  double largest = 0;  // of the squares
+  for (const MovingSet& p : sets) {
+    const Field* support_radius = p.find(fields::support_radius);
+    if (!support_radius) {
+      const double distance = std::max(least, record_share * p.spacing);
+      const double share = p.motion.max_speed / distance;
+      largest = std::max(largest, share * share);
+      continue;
+    }
+    const double* radius = support_radius->component[0].data();
+    const double per_radius = record_share * settings_.width_per_radius;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double distance = std::max(least, per_radius * radius[i]);
+      const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
+      largest = std::max(largest, v2 / (distance * distance));
     }
   }
+  return dt_s * std::sqrt(largest);
 }
 
 /// Adds one particle to the cells on the grid that it touches, tile by tile.
-template <bool with_motion>
-inline void PeakMaps::add_one(std::size_t set, const Spread& p) {
-  constexpr int edge = PeakTiles::edge;
+void PeakMaps::add_one(const CellSums& whole) {
+  constexpr int edge = SumTiles::edge;
   const Grid& g = settings_.grid;
-  const int row1 = std::min(p.row + p.n, g.n_rows), col1 = std::min(p.col + p.n, g.n_cols);
-  const int from_col = std::max(p.col, 0);
-  for (int row = std::max(p.row, 0); row < row1;) {
+  const int row1 = std::min(down_.first() + down_.n(), g.n_rows);
+  const int col1 = std::min(across_.first() + across_.n(), g.n_cols);
+  const int from_col = std::max(across_.first(), 0);
+  for (int row = std::max(down_.first(), 0); row < row1;) {
     const int next_row = std::min(row1, (row / edge + 1) * edge);
+    const std::uint32_t rows = ((1U << (next_row - row)) - 1U) << row % edge;
     for (int col = from_col; col < col1;) {
       const int next_col = std::min(col1, (col / edge + 1) * edge);
-      add_part<with_motion>(set, p, {row - p.row, col - p.col, next_row - row, next_col - col});
+      const std::size_t slot = sums_.slot_at(row / edge, col / edge);
+      sums_.mark_rows(slot, rows);
+      CellSums* cells = sums_.cells(slot) + std::ptrdiff_t{edge} * (row % edge) + col % edge;
+      const float *down = down_.weights() + (row - down_.first()),
+                  *across = across_.weights() + (col - across_.first());
+      const int n = next_col - col;
+      for (int k = row; k < next_row; ++k, cells += edge) {
+        const CellSums in_row = whole * down[k - row];
+        for (int j = 0; j < n; ++j) cells[j] += in_row * across[j];
+      }
       col = next_col;
     }
     row = next_row;
@@ -172,110 +175,115 @@ void PeakMaps::cover_own(double x, double y, double half_width) {
   const int col0 = std::max(0, static_cast<int>(std::ceil(x - half_width)));
   const int row1 = std::min(g.n_rows, static_cast<int>(std::ceil(y + half_width)));
   const int col1 = std::min(g.n_cols, static_cast<int>(std::ceil(x + half_width)));
-  constexpr int edge = PeakTiles::edge;
+  constexpr int edge = SumTiles::edge;
   for (int row = row0; row < row1; ++row)
     for (int col = col0; col < col1; ++col)
-      tiles_.coverage(tiles_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge] +=
-          enough_cover;
+      sum_of(sums_.cells(sums_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge],
+             CellSum::coverage) += static_cast<float>(enough_cover);
 }
 
-template <bool with_motion>
 void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
   const Grid& g = settings_.grid;
   const Width& widest = widths_[set];
   const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
-  const double distance_per_radius = settings_.width_per_radius / 1.5, spacing = p.spacing;
-  double width = widest.cells;
-  Spread one;
-  one.n = widest.n_weights;
+  const double distance_per_radius = settings_.width_per_radius / 1.5;
+  const double volume_per_mass = 1 / p.bulk_density, in_first = set == 0 ? 1 : 0;
+  double width = widest.cells, distance = p.spacing;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double x = (p.x[i] - g.west_m) * per_cell - 0.5;
     const double y = (g.north_m - p.y[i]) * per_cell - 0.5;
-    const double vx = p.vx[i], vy = p.vy[i], vz = p.vz[i];
+    const double vx = p.vx[i], vy = p.vy[i], vz = p.vz[i], mass = p.mass[i];
     const double v2 = vx * vx + vy * vy + vz * vz;
     if (!(x > -far && x < g.n_cols + far && y > -far && y < g.n_rows + far) || !std::isfinite(v2))
       continue;
     if (widest.support_radius) {
+      distance = distance_per_radius * widest.support_radius[i];
       width = cells_wide(settings_.width_per_radius * widest.support_radius[i], g.cell_m);
-      one.n = static_cast<int>(std::ceil(3 * width));
     }
-    std::tie(one.row, one.col) = weights(x, y, width, one.n, weights_x_.data(), weights_y_.data());
-    one.mass = p.mass[i];
-    const double distance =
-        widest.support_radius ? distance_per_radius * widest.support_radius[i] : spacing;
-    one.area = widest.area(i, p.mass[i], distance) * per_cell * per_cell;
-    one.motion = Motion(vx, vy, vz, 0.5 * v2);
-    add_one<with_motion>(set, one);
+    across_.set(x, width);
+    down_.set(y, width);
+    const double area = widest.area(i, mass, distance) * per_cell * per_cell;
+    const Eigen::Array<double, n_cell_sums, 1> whole{
+        mass * volume_per_mass, mass, mass * vx,      mass * vy, mass * vz,
+        0.5 * mass * v2,        area, mass * in_first};
+    add_one(whole.cast<float>());
     cover_own(x, y, std::max(0.5, own_share * distance * per_cell));
   }
 }
 
-template <bool with_motion>
 void PeakMaps::scatter(std::span<const MovingSet> sets) {
-  for (std::size_t k = 0; k < sets.size(); ++k) scatter_set<with_motion>(sets[k], k);
+  for (std::size_t k = 0; k < sets.size(); ++k) scatter_set(sets[k], k);
 }
 
-/// Takes the instant's sums into the peaks and clears them.
-void PeakMaps::keep_peaks(std::span<const MovingSet> sets, float time_s) {
-  const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
-  const std::size_t n_sets = sets.size();
-  std::vector<double> thickness_per_mass(n_sets), layers_per_mass(n_sets * n_sets);
-  for (std::size_t m = 0; m < n_sets; ++m) {
-    thickness_per_mass[m] = per_area / sets[m].bulk_density;
-    for (std::size_t n = 0; n < n_sets; ++n)
-      layers_per_mass[n * n_sets + m] = per_area / sets[m].bulk_density / sets[n].spacing;
+/// Takes the instant's sums into the peaks.
+void PeakMaps::keep_peaks(double time_s) {
+  constexpr int edge = SumTiles::edge;
+  PeakRow row;
+  row.time_s = static_cast<float>(time_s);
+  row.runout_limit_m = static_cast<float>(settings_.runout_limit_m);
+  row.enough_cover = static_cast<float>(enough_cover);
+  row.per_area = static_cast<float>(1 / (settings_.grid.cell_m * settings_.grid.cell_m));
+  row.has_three = n_records_ >= 2;
+  if (time_s > last_s_) row.newer_s = static_cast<float>(time_s - last_s_);
+  if (last_s_ > before_s_) row.older_s = static_cast<float>(last_s_ - before_s_);
+  ++n_records_;
+  for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot) {
+    const SumTiles::Open& open = sums_.tiles()[slot];
+    PeakTile& peaks = peaks_.at(open.tile_row, open.tile_col);
+    if (peaks.n_seen + 1 != n_records_ && peaks.rows_seen != 0)
+      peaks.last = peaks.before = {}, peaks.rows_seen = 0;
+    peaks.n_seen = n_records_;
+    peaks.rows_seen |= open.rows;
+    for (unsigned rows = peaks.rows_seen; rows != 0; rows &= rows - 1) {
+      const int first = std::countr_zero(rows) * edge;
+      row.keep(sums_.cells(slot) + first, static_cast<std::size_t>(first), peaks);
+    }
   }
+  before_s_ = last_s_, last_s_ = time_s;
+}
+
+/// Of every set, over the cells: how many of its layers the cell's whole thickness is.
+void PeakMaps::count_layers(std::span<const MovingSet> sets) {
+  const double per_area = 1 / (settings_.grid.cell_m * settings_.grid.cell_m);
   double total = 0;
   histogram_.clear();
-  tiles_.take_sums([&](CellPeak& peak, std::size_t slot, std::size_t cell) {
-    double mass = 0, thickness = 0;
-    for (std::size_t n = 0; n < n_sets; ++n) {
-      const double of_set = tiles_.mass(n, slot)[cell];
-      mass += of_set;
-      thickness += of_set * thickness_per_mass[n];
+  for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot)
+    for (int k = 0; k < SumTiles::n_cells; ++k) {
+      CellSums& cell = sums_.cells(slot)[k];
+      const double mass = sum_of(cell, CellSum::mass), first = sum_of(cell, CellSum::first_mass);
+      if (mass == 0) continue;
+      const double thickness = per_area * sum_of(cell, CellSum::volume);
+      histogram_.add(thickness / sets.front().spacing, first);
+      if (sets.size() > 1) histogram_.add(thickness / sets[1].spacing, mass - first);
+      total += mass;
     }
-    if (mass == 0) return;
-    total += mass;
-    for (std::size_t n = 0; n < n_sets; ++n) {
-      double layers = 0;
-      for (std::size_t m = 0; m < n_sets; ++m)
-        layers += tiles_.mass(m, slot)[cell] * layers_per_mass[n * n_sets + m];
-      histogram_.add(layers, tiles_.mass(n, slot)[cell]);
-    }
-    peak.thickness = std::max(peak.thickness, static_cast<float>(thickness));
-    if (!(thickness > settings_.runout_limit_m)) return;
-    const double density =
-        n_sets == 1 ? sets[0].bulk_density : mass * per_area / thickness;  // of the mixture
-    const Motion& sums = tiles_.motion(slot)[cell];
-    const double speed = sums.matrix().head<3>().norm() / mass;
-    peak.speed = std::max(peak.speed, static_cast<float>(speed));
-    peak.energy = std::max(peak.energy, static_cast<float>(sums[3] * per_area));
-    peak.pressure = std::max(peak.pressure, static_cast<float>(density * speed * speed));
-    if (std::isnan(peak.arrival) && tiles_.coverage(slot)[cell] >= enough_cover)
-      peak.arrival = time_s;
-  });
   layers_ = histogram_.count(total);
 }
 
-void PeakMaps::record(std::span<const MovingSet> sets, double time_s) {
+void PeakMaps::record(std::span<const MovingSet> sets, double time_s, bool with_layers) {
   const Window w = bounds_of(sets);
   if (w.n_cells() == 0) return;
-  tiles_.cover(w);
-  scatter<true>(sets);
-  keep_peaks(sets, static_cast<float>(time_s));
+  sums_.cover(w);
+  peaks_.cover(w);
+  scatter(sets);
+  if (with_layers) count_layers(sets);
+  keep_peaks(time_s);
+  sums_.clear();
 }
 
-void PeakMaps::keep_deposit(std::span<const MovingSet> sets) {
-  const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
-  tiles_.take_sums([&](CellPeak& peak, std::size_t slot, std::size_t cell) {
-    double thickness = 0;
-    for (std::size_t n = 0; n < sets.size(); ++n)
-      thickness += tiles_.mass(n, slot)[cell] * (1 / (sets[n].bulk_density * cell_area));
-    peak.deposit = static_cast<float>(thickness);
-    peak.covered =
-        thickness > settings_.runout_limit_m && tiles_.coverage(slot)[cell] >= enough_cover;
-    peak.thickness = std::max(peak.thickness, peak.deposit);
-  });
+void PeakMaps::keep_deposit() {
+  const auto per_area = static_cast<float>(1 / (settings_.grid.cell_m * settings_.grid.cell_m));
+  for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot) {
+    PeakTile& peaks = peaks_.at(sums_.tiles()[slot].tile_row, sums_.tiles()[slot].tile_col);
+    for (std::size_t k = 0; k < SumTiles::n_cells; ++k) {
+      CellSums& cell = sums_.cells(slot)[k];
+      const float thickness = sum_of(cell, CellSum::volume) * per_area;
+      peaks.deposit[k] = thickness;
+      peaks.covered[k] =
+          thickness > settings_.runout_limit_m && sum_of(cell, CellSum::coverage) >= enough_cover;
+      peaks.thickness[k] = std::max(peaks.thickness[k], thickness);
+    }
+  }
 }
 
 void PeakMaps::write_left(std::span<const MovingSet> sets, MemberResult& result) const {
@@ -297,66 +305,67 @@ void PeakMaps::write_left(std::span<const MovingSet> sets, MemberResult& result)
 
 /// Writes layers; \return cells reached, cells covered at the end, and maxima.
 PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
-  constexpr int edge = PeakTiles::edge;
+  constexpr int edge = PeakTile::edge;
   const Window& w = result.window;
   for (int k = 0; k < n_peak_layers; ++k)
     result.layers[static_cast<std::size_t>(k)].assign(w.n_cells(),
                                                       info(static_cast<PeakLayer>(k)).untouched);
   Totals totals;
-  CellPeak& most = totals.most;
-  for (const PeakTiles::Tile& tile : tiles_.tiles())
-    for (int cell = 0; cell < PeakTiles::n_cells; ++cell) {
-      const CellPeak& p = tile.peak[static_cast<std::size_t>(cell)];
-      const int row = tile.row0 + cell / edge - w.row0, col = tile.col0 + cell % edge - w.col0;
+  for (const PeakTile& p : peaks_.tiles())
+    for (std::size_t cell = 0; cell < PeakTile::n_cells; ++cell) {
+      const int row = p.row0 + static_cast<int>(cell) / edge - w.row0;
+      const int col = p.col0 + static_cast<int>(cell) % edge - w.col0;
       if (row < 0 || row >= w.n_rows || col < 0 || col >= w.n_cols) continue;
       const std::size_t k = static_cast<std::size_t>(row) * w.n_cols + col;
-      result.layer(PeakLayer::thickness)[k] = p.thickness;
-      result.layer(PeakLayer::speed)[k] = p.speed;
-      result.layer(PeakLayer::energy)[k] = p.energy;
-      result.layer(PeakLayer::pressure)[k] = p.pressure;
-      result.layer(PeakLayer::arrival)[k] = p.arrival;
-      result.layer(PeakLayer::deposit)[k] = p.deposit;
-      totals.reached += !std::isnan(p.arrival);
-      totals.covered += p.covered;
-      most.thickness = std::max(most.thickness, p.thickness);
-      most.deposit = std::max(most.deposit, p.deposit);
-      most.energy = std::max(most.energy, p.energy);
-      most.pressure = std::max(most.pressure, p.pressure);
+      const bool reached = p.arrival[cell] < PeakTile::never;
+      result.layer(PeakLayer::thickness)[k] = p.thickness[cell];
+      result.layer(PeakLayer::speed)[k] = p.speed[cell];
+      result.layer(PeakLayer::energy)[k] = p.energy[cell];
+      result.layer(PeakLayer::pressure)[k] = p.pressure[cell];
+      if (reached) result.layer(PeakLayer::arrival)[k] = p.arrival[cell];
+      result.layer(PeakLayer::deposit)[k] = p.deposit[cell];
+      totals.reached += reached;
+      totals.covered += p.covered[cell];
+      totals.thickness = std::max(totals.thickness, p.thickness[cell]);
+      totals.deposit = std::max(totals.deposit, p.deposit[cell]);
+      totals.energy = std::max(totals.energy, p.energy[cell]);
+      totals.pressure = std::max(totals.pressure, p.pressure[cell]);
     }
   return totals;
 }
 
 std::vector<PeakMaps::Cell> PeakMaps::deposit_cells() const {
-  constexpr int edge = PeakTiles::edge;
+  constexpr int edge = PeakTile::edge;
   std::vector<Cell> cells;
-  for (const PeakTiles::Tile& tile : tiles_.tiles())
-    for (int k = 0; k < PeakTiles::n_cells; ++k)
-      if (tile.peak[static_cast<std::size_t>(k)].covered)
+  for (const PeakTile& tile : peaks_.tiles())
+    for (int k = 0; k < PeakTile::n_cells; ++k)
+      if (tile.covered[static_cast<std::size_t>(k)])
         cells.push_back({tile.row0 + k / edge, tile.col0 + k % edge});
   return cells;
 }
 
 void PeakMaps::finish(std::span<const MovingSet> final_state, MemberResult& result) {
-  for (PeakTiles::Tile& tile : tiles_.tiles())
-    for (CellPeak& peak : tile.peak) peak.deposit = 0, peak.covered = false;
+  for (PeakTile& tile : peaks_.tiles()) tile.deposit.fill(0), tile.covered.fill(false);
   const Window w = bounds_of(final_state);
   if (w.n_cells() > 0) {
-    tiles_.cover(w);
-    scatter<false>(final_state);
-    keep_deposit(final_state);
+    sums_.cover(w);
+    peaks_.cover(w);
+    scatter(final_state);
+    keep_deposit();
+    sums_.clear();
   }
   result.grid = settings_.grid;
-  result.window = joined(tiles_.window(), window_of_departures(final_state, settings_.grid));
+  result.window = joined(peaks_.window(), window_of_departures(final_state, settings_.grid));
   const Totals totals = write_layers(result);
   write_left(final_state, result);
   const double cell_area = settings_.grid.cell_m * settings_.grid.cell_m;
   MemberScalars& s = result.scalars;
   s.reached_area_m2 = static_cast<double>(totals.reached) * cell_area;
   s.deposit_area_m2 = static_cast<double>(totals.covered) * cell_area;
-  s.max_thickness_m = totals.most.thickness;
-  s.max_deposit_m = totals.most.deposit;
-  s.max_energy_j_m2 = totals.most.energy;
-  s.max_pressure_pa = totals.most.pressure;
+  s.max_thickness_m = totals.thickness;
+  s.max_deposit_m = totals.deposit;
+  s.max_energy_j_m2 = totals.energy;
+  s.max_pressure_pa = totals.pressure;
 }
 
 }  // namespace sturz

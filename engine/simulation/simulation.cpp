@@ -27,6 +27,9 @@ using Clock = std::chrono::steady_clock;
 /// its own size.
 double sample_interval(double spacing_m) { return 0.1 * std::sqrt(spacing_m / standard_gravity); }
 
+/// Layers are averaged over a member's life and change slowly: counted in one record of so many.
+constexpr std::size_t layers_every = 8;
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
@@ -118,9 +121,8 @@ class Run {
         result_.scalars.max_mach =
             std::max(result_.scalars.max_mach, set.motion.max_speed / set.sound_speed);
     }
-    travelled_ += s.max_speed() * s.previous_dt;
-    const double half_cell = 0.5 * parts_.peaks.settings().grid.cell_m;
-    if (travelled_ >= half_cell) record();
+    to_next_record_ += parts_.peaks.share_of_record(s.sets, s.previous_dt);
+    if (to_next_record_ >= 1) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
     if (s.time - sampled_at_ > sample_interval(parts_.facts.spacing_m) &&
         s.n_steps - sampled_step_ >= 4)
@@ -129,17 +131,17 @@ class Run {
     if (s.n_steps % 16 == 0) watch();
   }
 
-  /// Peak maps, whenever the fastest particle may have crossed half a cell.
+  /// Peak maps, whenever a particle may have moved by what they can tell apart.
   void record() {
     const double now = parts_.state.time;
-    parts_.peaks.record(parts_.state.sets, now);
+    parts_.peaks.record(parts_.state.sets, now, n_records_++ % layers_every == 0);
     const LayerCount& layers = parts_.peaks.layers();
     const double span = now - recorded_at_;
     thin_time_ += layers.thin_fraction * span;
     median_time_ += layers.median * span;
     p10_time_ += layers.p10 * span;
     recorded_at_ = now;
-    travelled_ = 0;
+    to_next_record_ = 0;
   }
 
   void sample_diagnostics() {
@@ -252,15 +254,16 @@ class Run {
     // The time may have ended a member that rest would have ended, had it been asked to.
     if (result_.outcome == Outcome::out_of_time && at_rest_) result_.outcome = Outcome::settled;
     result_.needs_more_ground = s.terrain.needs_more();
-    result_.member = parts_.facts.member;
-    result_.formulation = parts_.facts.formulation;
+    result_.member = parts_.facts.member, result_.formulation = parts_.facts.formulation;
     result_.warnings = parts_.facts.warnings;
     write_balance();
     result_.censoring =
         censoring_of(result_.scalars.lost_fraction > 0, result_.outcome == Outcome::out_of_time);
     write_averages();
-    for (const std::string& doubt : doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m))
-      result_.warnings += (result_.warnings.empty() ? "" : "; ") + doubt;
+    auto said = doubts(result_.scalars, s.ledger(), parts_.facts.spacing_m);
+    if (sound) parts_.step.warnings(s, said);
+    for (const std::string& text : said)
+      result_.warnings += (result_.warnings.empty() ? "" : "; ") + text;
     if (sound) write_final_state();
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
@@ -288,10 +291,7 @@ class Run {
     m.release_layers = release.layers;
     m.released_mass_kg = ledger.released_mass;
     m.lost_mass_kg = ledger.lost_mass;
-    double left_mass = 0;
-    for (const MovingSet& set : s.sets)
-      for (const Departure& gone : set.departures) left_mass += gone.mass;
-    m.lost_fraction = left_mass / brought;
+    m.lost_fraction = ledger.lost_mass / brought;
     m.mass_error = (mass_on_terrain(s) + ledger.lost_mass + ledger.taken_mass - brought) / brought;
     const double released = ledger.available_energy();
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
@@ -325,13 +325,14 @@ class Run {
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     result_.scalars.runout_m = runout();
-    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(), result_.grid,
-                       result_.scalars);
+    write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
+                       places_left(s), result_.grid, result_.scalars);
     result_.state_hash = hash_of(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
       result_.reason = std::to_string(100 * ledger.lost_mass / ledger.brought_mass()) +
                        " % of the mass left the terrain";
+      if (ledger.leaked_mass > 0) result_.reason += ", some of it through the ground";
     }
   }
 
@@ -384,8 +385,8 @@ class Run {
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
   bool ended_ = false, at_rest_ = false;
-  std::size_t sampled_step_ = 0;
-  double travelled_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
+  std::size_t sampled_step_ = 0, n_records_ = 0;
+  double to_next_record_ = 0, sampled_at_ = 0, recorded_at_ = 0, thin_time_ = 0, median_time_ = 0,
          p10_time_ = 0, progress_at_ = 0, next_frame_ = 0, peak_energy_ = 0;
   std::vector<ParticleTravel> each_;
   std::vector<double> loaded_;

@@ -71,6 +71,7 @@ struct NodeChange {
 class RaisedFlag {
  public:
   RaisedFlag() = default;
+  ~RaisedFlag() = default;
   RaisedFlag(const RaisedFlag& o) : up_(o.up()) {}
   RaisedFlag& operator=(const RaisedFlag& o) {
     up_.store(o.up(), std::memory_order_relaxed);

@@ -33,7 +33,7 @@ fs::path cases_folder() {
   const fs::path program = fs::read_symlink("/proc/self/exe", problem);
   require(!problem, "Cannot tell where the program lies (/proc/self/exe: " + problem.message() +
                         "), and the shipped cases lie beside it. Is /proc mounted?");
-  const fs::path folder = program.parent_path().parent_path() / "share/sturz/cases";
+  fs::path folder = program.parent_path().parent_path() / "share/sturz/cases";
   require(fs::is_directory(folder, problem),
           fmt::format("{} (no such folder: the shipped cases are not beside this program). "
                       "Install it with `cmake --install`.",

@@ -92,9 +92,9 @@ void announce(const EnsembleJob& job, const Options& options, Console& console) 
 
 /// An exit code other than ok when the members did not all come to an end.
 int how_it_ended(const workflow::MembersRun& run, Console& console) {
-  if (!run.store_error.empty()) {
+  if (!run.stop_error.empty()) {
     console.error(fmt::format("{} The {} finished members are kept; the same command will resume.",
-                              run.store_error, run.finished));
+                              run.stop_error, run.finished));
     return usage_or_scenario_error;
   }
   if (run.interrupted) {
@@ -116,13 +116,7 @@ int ensemble(const Options& options, Console& console) {
   const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
   console.clear_progress();
   if (const int code = how_it_ended(run, console); code != ok) return code;
-  if (!options.shard.empty()) {
-    console.event(
-        json_text(nlohmann::json{{"event", "shard_done"}, {"failed", run.failed.size()}}));
-    console.say(fmt::format("Shard {} is finished. When all are: sturz merge {}", options.shard,
-                            job.folder.root.string()));
-    return ok;
-  }
+  if (!options.shard.empty()) return shard_verdict(job, run, options.shard, console);
   return verdict(workflow::make_maps(job, observer, interrupt_flag()), console);
 }
 

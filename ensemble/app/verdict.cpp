@@ -25,14 +25,15 @@ nlohmann::json censoring_json(const CensoringReport& r) {
 }
 
 /// What is cut off, and what the members themselves warn of: most of it once, with counts.
-void warn_of_members(const workflow::MapsMade& made, Console& console) {
+void warn_of_members(const CensoringReport& censoring, const std::vector<MemberWarning>& warnings,
+                     std::int64_t members, Console& console) {
   std::string cut;
-  for (const std::string& sentence : censoring_sentences(made.censoring))
+  for (const std::string& sentence : censoring_sentences(censoring))
     cut += (cut.empty() ? "" : " ") + sentence;
-  if (!cut.empty() && made.censoring.too_many()) console.warn(cut);
-  if (!cut.empty() && !made.censoring.too_many()) console.note(cut);
-  for (const MemberWarning& w : made.warnings)
-    console.warn(fmt::format("{} of {} members: {}", w.count, made.finished, w.example));
+  if (!cut.empty() && censoring.too_many()) console.warn(cut);
+  if (!cut.empty() && !censoring.too_many()) console.note(cut);
+  for (const MemberWarning& w : warnings)
+    console.warn(fmt::format("{} of {} members: {}", w.count, members, w.example));
 }
 
 }  // namespace
@@ -57,7 +58,7 @@ int verdict(const workflow::MapsMade& made, Console& console) {
   console.say("  report.html   look here first");
   console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
   console.say("  members.csv   one row per member");
-  warn_of_members(made, console);
+  warn_of_members(made.censoring, made.warnings, made.finished, console);
   const bool too_many = made.too_many_failed();
   if (made.failed() > 0 && made.valid > 0 && !too_many)
     console.warn(
@@ -76,6 +77,31 @@ int verdict(const workflow::MapsMade& made, Console& console) {
                     "members.csv; the maps are made from the others.",
                     made.failed(), made.finished, made.max_failed_fraction));
   return too_many || made.valid == 0 ? too_many_failed : ok;
+}
+
+int shard_verdict(const workflow::EnsembleJob& job, const workflow::MembersRun& run,
+                  const std::string& shard, Console& console) {
+  const CensoringReport censoring =
+      censoring_report(run.computed, job.scene.scenario.ensemble.max_censored_fraction);
+  const auto n = static_cast<std::int64_t>(run.computed.size());
+  console.event(json_text(nlohmann::json{{"event", "shard_done"},
+                                         {"computed", n},
+                                         {"valid", censoring.valid},
+                                         {"failed", run.failed.size()},
+                                         {"censoring", censoring_json(censoring)}}));
+  std::string counts = n == 0 ? "nothing was left to do" : fmt::format("{} members computed", n);
+  if (censoring.valid > 0) counts += ": " + counts_text(censoring);
+  if (!run.failed.empty()) counts += fmt::format("; {} failed", run.failed.size());
+  console.say(fmt::format("Shard {} is finished ({}). When all are: sturz merge {}", shard, counts,
+                          job.folder.root.string()));
+  warn_of_members(censoring, member_warnings(run.computed, job.scene.description.warnings), n,
+                  console);
+  if (!run.failed.empty())
+    console.warn(
+        fmt::format("{} of {} members failed, the first of them {} ({}). They count "
+                    "against ensemble.max_failed_fraction when the maps are made.",
+                    run.failed.size(), n, run.failed.front().member, run.failed.front().reason));
+  return ok;
 }
 
 }  // namespace sturz::app

@@ -93,7 +93,14 @@ CensoredEstimate censored_quantile(std::span<const Observation> sample, double f
   const double smallest = quantile_of(least, fraction), largest = quantile_of(most, fraction);
   if (!std::isfinite(smallest)) return e;
   e.at_least = !std::isfinite(largest);
-  e.value = e.at_least ? smallest : kaplan_meier(std::move(known), fraction);
+  if (e.at_least) {
+    e.value = smallest;
+  } else if (e.n_not_at_all == 0 || smallest == largest) {
+    e.value = kaplan_meier(std::move(known), fraction);
+  } else {
+    e.least = smallest;
+    e.most = largest;
+  }
   return e;
 }
 

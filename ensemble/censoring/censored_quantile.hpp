@@ -26,6 +26,8 @@ struct Observation {
 struct CensoredEstimate {
   double value = nan_d;   ///< NaN: cannot be told
   bool at_least = false;  ///< `value` is a lower bound: the quantile lies beyond what was seen
+  double least = nan_d;   ///< where `value` cannot be told: the quantile of these n members lies
+  double most = nan_d;    ///< between these; NaN: even that is not known
   double lower = nan_d;   ///< NaN: too few values for the confidence; -inf: no lower end is known
   double upper = nan_d;   ///< NaN: too few values for the confidence; +inf: no upper end is known
   std::size_t n = 0, n_at_least = 0, n_not_at_all = 0;
@@ -37,7 +39,9 @@ struct CensoredEstimate {
 /// piece where the survival meets 1 - fraction exactly; so the ordinary median where nothing is
 /// censored. It supposes that what was censored would have gone on like the others that came as
 /// far. Where the sample cannot tell the quantile without that (all censored values infinite would
-/// make it infinite), the value is the least that it can be, and `at_least` is set.
+/// make it infinite), the value is the least that it can be, and `at_least` is set. Values that are
+/// not known at all are not left out of the sample, because they may be the longest: there is then
+/// no value, only the two ends between which it lies whatever they are.
 ///
 /// Interval: between two order statistics (binomial, no distribution supposed), the lower one of
 /// the sample with every censored value at where it was lost and every unknown one at -inf, the

@@ -79,10 +79,14 @@ std::vector<std::string> censoring_sentences(const CensoringReport& r) {
         one ? "Mass still moved at the end time."
             : fmt::format("In {} of them mass still moved at the end time.", r.moving()));
   lines.emplace_back(
-      "What they reached counts, as a lower bound: they may have gone farther, faster and thicker. "
-      "Where all of it would lie at rest is not known.");
+      one ? "What it reached counts, as a lower bound: it may have gone farther, faster and "
+            "thicker. "
+            "Where all of it would lie at rest is not known."
+          : "What they reached counts, as a lower bound: they may have gone farther, faster and "
+            "thicker. Where all of it would lie at rest is not known.");
   std::string cure;
-  if (r.left() > 0) cure = "take terrain that goes on beyond that edge (a larger terrain.raster)";
+  if (r.left() > 0)
+    cure = "take terrain that is known there, too (a larger terrain.raster, or holes filled)";
   if (r.moving() > 0)
     cure += std::string(cure.empty() ? "" : ", and ") + "a longer numerics.end_time_s";
   lines.push_back(fmt::format("To see the whole {}: {}.", one ? "runout" : "spread", cure));

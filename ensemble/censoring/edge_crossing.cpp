@@ -31,8 +31,9 @@ Side side_of(double x, double y, const Grid& terrain, double reach) {
 
 std::string text_of(const Crossing& c) {
   if (c.side == inside)
-    return fmt::format("at holes of the terrain (x {:.0f} to {:.0f}, y {:.0f} to {:.0f})", c.from_x,
-                       c.to_x, c.from_y, c.to_y);
+    return fmt::format(
+        "where the raster holds no elevation (x {:.0f} to {:.0f}, y {:.0f} to {:.0f})", c.from_x,
+        c.to_x, c.from_y, c.to_y);
   const bool along_x = c.side == north || c.side == south;
   return fmt::format("over the {} edge ({} {:.0f} to {:.0f})", names[c.side], along_x ? 'x' : 'y',
                      along_x ? c.from_x : c.from_y, along_x ? c.to_x : c.to_y);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 namespace sturz {
 
@@ -15,7 +16,7 @@ CellStatistics::CellStatistics(const HazardLayers& layers, std::size_t n_members
     : layers_(layers),
       n_(static_cast<std::int64_t>(n_members)),
       extent_(extent),
-      ground_(ground),
+      ground_(std::move(ground)),
       to_(to),
       values_(layers.stack.layers.size()) {
   for (std::int64_t hits = 0; hits <= n_; ++hits) bounds_.push_back(wilson_interval(hits, n_));

@@ -54,6 +54,19 @@ Layer made(std::string name, LayerMeaning meaning, std::string long_name, std::s
   return layer;
 }
 
+/// What a layer says of members of which mass left or still moved: what passed by can only become
+/// more, what lies or comes first at the end may go either way.
+const char* meaning_of_cut(const LayerMeaning& meaning) {
+  const bool either_way =
+      meaning.quantity == Quantity::deposit || meaning.quantity == Quantity::arrival ||
+      (meaning.quantity == Quantity::intensity && meaning.intensity == IntensityClass::medium);
+  if (meaning.quantity == Quantity::left) return "as far as it was seen";
+  if (meaning.quantity == Quantity::deposit)
+    return "with mass that still moved, without mass that left, so too large or too small";
+  if (meaning.statistic == Statistic::upper_bound) return "not an upper bound";
+  return either_way ? "may become more or less" : "a lower bound";
+}
+
 class Builder {
  public:
   Builder(const Grid& grid, const HazardSpec& spec, double spacing_m, std::int64_t n_members,
@@ -92,11 +105,10 @@ class Builder {
   std::size_t add(Layer layer, float fill) {
     const bool defined = n_members_ > 0 || layer.is_count();
     if (!layer.is_count()) layer.n_censored = static_cast<int>(n_censored_);
-    if (n_censored_ > 0 && layer.meaning.statistic == Statistic::probability)
-      layer.comment =
-          joined(layer.comment, fmt::format("a lower bound: the end of {} of {} members "
-                                            "was not seen",
-                                            n_censored_, n_members_));
+    if (n_censored_ > 0 && !layer.is_count())
+      layer.comment = joined(layer.comment,
+                             fmt::format("{}: the end of {} of {} members was not seen",
+                                         meaning_of_cut(layer.meaning), n_censored_, n_members_));
     out_.untouched.push_back(defined ? fill : nan_f);
     out_.stack.layers.push_back(std::move(layer));
     return out_.stack.layers.size() - 1;

@@ -15,14 +15,14 @@ namespace {
 std::string list_of(const std::vector<MemberSummary>& members, auto chosen) {
   std::vector<std::int64_t> numbers;
   for (const MemberSummary& m : members)
-    if (chosen(m.outcome)) numbers.push_back(m.member);
+    if (chosen(m)) numbers.push_back(m.member);
   std::sort(numbers.begin(), numbers.end());
   return fmt::format("{}", fmt::join(numbers, ","));
 }
 
 std::int64_t count_of(const std::vector<MemberSummary>& members, auto chosen) {
   return std::count_if(members.begin(), members.end(),
-                       [&](const MemberSummary& m) { return chosen(m.outcome); });
+                       [&](const MemberSummary& m) { return chosen(m); });
 }
 
 /// "depth_averaged" or, where members differ, "depth_averaged (30), full_stress (2)".
@@ -42,14 +42,16 @@ void add_attributes(LayerStack& stack, const std::vector<MemberSummary>& members
   const auto add = [&](const char* name, const std::string& text) {
     stack.attributes.emplace_back(name, text);
   };
-  const auto invalid = [](Outcome o) { return !is_valid(o); };
-  const auto late = [](Outcome o) { return o == Outcome::out_of_time; };
-  const auto gone = [](Outcome o) { return o == Outcome::left_terrain; };
+  const auto valid = [](const MemberSummary& m) { return is_valid(m.outcome); };
+  const auto invalid = [](const MemberSummary& m) { return !is_valid(m.outcome); };
+  // Any mass that left counts, as everywhere; the outcome names shares over 1 % only.
+  const auto late = [&](const MemberSummary& m) { return valid(m) && is_moving(m.censoring); };
+  const auto gone = [&](const MemberSummary& m) { return valid(m) && has_left(m.censoring); };
   const auto planned =
       context.n_planned > 0 ? context.n_planned : static_cast<std::int64_t>(members.size());
   add("number_of_planned_members", std::to_string(planned));
   add("number_of_finished_members", std::to_string(members.size()));
-  add("number_of_valid_members", std::to_string(count_of(members, is_valid)));
+  add("number_of_valid_members", std::to_string(count_of(members, valid)));
   add("number_of_failed_members", std::to_string(count_of(members, invalid)));
   add("failed_members", list_of(members, invalid));
   add("out_of_time_members", list_of(members, late));

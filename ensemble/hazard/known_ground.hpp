@@ -21,11 +21,12 @@ class KnownGround {
     held_ = window_of(elevation->grid, whole_);
   }
 
-  /// False where the elevations have a hole at the cell's centre. Beyond the elevations at hand
-  /// nothing is known to be one: they must hold all of the map that lies on the raster.
+  /// False where the elevations have a hole at the cell's centre, and beyond the raster. Elevations
+  /// at hand must hold all of the map that lies on it: what they do not hold counts as known.
   bool at(int row, int col) const {
     if (elevation_ == nullptr) return true;
     const int r = whole_.row_of(grid_.y_center(row)), c = whole_.col_of(grid_.x_center(col));
+    if (r < 0 || c < 0 || r >= whole_.n_rows || c >= whole_.n_cols) return false;
     return !held_.contains(r, c) || std::isfinite(elevation_->at(r - held_.row0, c - held_.col0));
   }
 

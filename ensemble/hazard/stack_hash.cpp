@@ -3,6 +3,7 @@
 
 #include "engine/core/hash.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <span>
 #include <string>
@@ -55,6 +56,31 @@ void StackHash::add(std::size_t layer, std::size_t plane, const Window& w,
       sum_ += mixed(mixed(place_of_plane + first + static_cast<std::size_t>(col)) +
                     std::bit_cast<std::uint32_t>(values[i]));
   }
+}
+
+void HashingSource::read(std::size_t layer, std::size_t plane, const Window& window,
+                         std::span<float> out) const {
+  from_.read(layer, plane, window, out);
+  hash_.add(layer, plane, window, out);
+  is_read_[layer] = true;
+}
+
+std::uint64_t HashingSource::value(CancelFlag cancel) const {
+  constexpr int band = 128;  // rows
+  const Grid& grid = about().grid;
+  std::vector<float> rows;
+  const std::vector<bool> is_read = is_read_;
+  for (std::size_t l = 0; l < about().layers.size(); ++l) {
+    if (is_read[l]) continue;
+    for (std::size_t plane = 0; plane < about().layers[l].n_planes(); ++plane)
+      for (int row0 = 0; row0 < grid.n_rows; row0 += band) {
+        cancel.check();
+        const Window w{row0, 0, std::min(band, grid.n_rows - row0), grid.n_cols};
+        rows.resize(w.n_cells());
+        read(l, plane, w, rows);
+      }
+  }
+  return hash_.value();
 }
 
 std::uint64_t hash_of(const LayerStack& stack) {

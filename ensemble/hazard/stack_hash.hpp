@@ -2,9 +2,12 @@
 /// One number that tells whether two maps hold the same bits.
 #pragma once
 
+#include "engine/core/cancel.hpp"
 #include "scenarios/layers/layer_stream.hpp"
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace sturz {
 
@@ -26,6 +29,25 @@ class StackHash {
 
 /// Of a stack in memory.
 std::uint64_t hash_of(const LayerStack&);
+
+/// Hands maps on from another source and hashes them on the way. Each layer is to be read either
+/// whole, every cell once, or not at all.
+class HashingSource final : public LayerSource {
+ public:
+  /// \param from outlives it
+  explicit HashingSource(const LayerSource& from)
+      : from_(from), hash_(from.about()), is_read_(from.about().layers.size(), false) {}
+  const LayerStack& about() const override { return from_.about(); }
+  void read(std::size_t layer, std::size_t plane, const Window& window,
+            std::span<float> out) const override;
+  /// Of all maps: reads what was not read. \throws Cancelled
+  std::uint64_t value(CancelFlag cancel = {}) const;
+
+ private:
+  const LayerSource& from_;
+  mutable StackHash hash_;
+  mutable std::vector<bool> is_read_;
+};
 
 /// Hands maps on to another sink and hashes them on the way.
 class HashingSink final : public LayerSink {

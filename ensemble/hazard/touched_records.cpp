@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -22,10 +23,10 @@ bool is_untouched(float value, float untouched) {
 
 }  // namespace
 
-TouchedRecords::TouchedRecords(const Window& extent, const std::vector<PeakLayer>& layers,
+TouchedRecords::TouchedRecords(const Window& extent, std::vector<PeakLayer> layers,
                                std::size_t memory_bytes)
     : extent_(extent),
-      layers_(layers),
+      layers_(std::move(layers)),
       memory_bytes_(memory_bytes),
       n_block_cols_(blocks_along(extent.n_cols)),
       n_blocks_(n_block_cols_ * blocks_along(extent.n_rows)) {
@@ -133,7 +134,7 @@ CellRows TouchedRecords::sorted(std::size_t number, int first_row, int end_row) 
                  rows.block.n_cols};
   const auto cell_of = [&](std::size_t i) {
     const int row = from.cells[i] / edge - first_row, col = from.cells[i] % edge;
-    return static_cast<std::size_t>(row * rows.window.n_cols + col);
+    return static_cast<std::size_t>(row) * rows.window.n_cols + col;
   };
   rows.begin.assign(rows.window.n_cells() + 1, 0);
   for (std::size_t i = 0; i < from.cells.size(); ++i) ++rows.begin[cell_of(i) + 1];

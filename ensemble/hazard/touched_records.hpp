@@ -14,8 +14,7 @@ namespace sturz {
 /// those at its end, for the next pass, whenever what it holds grows beyond the bound.
 class TouchedRecords {
  public:
-  TouchedRecords(const Window& extent, const std::vector<PeakLayer>& layers,
-                 std::size_t memory_bytes);
+  TouchedRecords(const Window& extent, std::vector<PeakLayer> layers, std::size_t memory_bytes);
 
   /// Forgets the last pass and begins the next; false when all cells have been handed out.
   bool next_pass();

@@ -26,13 +26,15 @@ MemberResult failed_member(std::int64_t member, std::string reason) {
   return result;
 }
 
-/// Any exception of a member becomes its outcome.
+/// Any exception of a member becomes its outcome, save one.
 MemberResult run_guarded(const RunCallbacks& callbacks, std::int64_t member,
                          const std::atomic<bool>& stop) {
   try {
     MemberResult result = callbacks.run_member(member, stop);
     result.member = member;
     return result;
+  } catch (const StopsRun&) {
+    throw;
   } catch (const std::bad_alloc&) {
     return failed_member(member, "out of memory");
   } catch (const std::exception& error) {
@@ -58,7 +60,7 @@ class Run {
     }  // the watcher ends here
     if (progress_error_) std::rethrow_exception(progress_error_);
     update_pace();
-    report_.interrupted = !report_.complete() && report_.store_error.empty();
+    report_.interrupted = !report_.complete() && report_.stop_error.empty();
     std::sort(report_.failed.begin(), report_.failed.end(),
               [](const auto& a, const auto& b) { return a.member < b.member; });
     return std::move(report_);
@@ -74,9 +76,16 @@ class Run {
       const std::lock_guard guard(lock_);
       ++report_.progress.n_running;
     }
-    const MemberResult result = run_guarded(callbacks_, plan_.members[i], stop_);
+    MemberResult result;
+    std::string stops;
+    try {
+      result = run_guarded(callbacks_, plan_.members[i], stop_);
+    } catch (const StopsRun& error) {
+      stops = error.what();
+    }
     const std::lock_guard guard(lock_);
     --report_.progress.n_running;
+    if (!stops.empty()) return stop_because(stops);
     if (result.outcome == Outcome::cancelled) {
       stop_ = true;  // a member is cancelled only when the user wants to stop
       return;
@@ -85,19 +94,23 @@ class Run {
     report_progress();
   }
 
+  /// Under the lock. The first reason is the one that is told.
+  void stop_because(const std::string& reason) {
+    if (report_.stop_error.empty()) report_.stop_error = reason.empty() ? "unknown reason" : reason;
+    stop_ = true;
+  }
+
   /// Under the lock. False: the result is lost, and the run stops.
   bool store(const MemberResult& result) {
-    if (!report_.store_error.empty()) return false;
+    if (!report_.stop_error.empty()) return false;
     try {
       callbacks_.store(result);
       return true;
     } catch (const std::exception& error) {
-      report_.store_error = error.what();
-      if (report_.store_error.empty()) report_.store_error = "unknown reason";
+      stop_because(error.what());
     } catch (...) {
-      report_.store_error = "unknown reason";
+      stop_because("");
     }
-    stop_ = true;
     return false;
   }
 

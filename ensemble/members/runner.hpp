@@ -5,6 +5,7 @@
 ///   watcher: every 50 ms looks at the caller's cancel flag and the clock -> stop flag
 #pragma once
 
+#include "engine/core/error.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "ensemble/members/executor.hpp"
 
@@ -15,6 +16,14 @@
 #include <vector>
 
 namespace sturz {
+
+/// What is wrong with all members alike, though only some of them meet it. Were these counted as
+/// failed, the maps would be those of the others, say of all that did not run far. So the run
+/// stops, and the member remains to be done.
+class StopsRun : public SetupError {
+ public:
+  using SetupError::SetupError;
+};
 
 /// What is to be run, and how.
 struct RunPlan {
@@ -38,7 +47,8 @@ struct RunnerProgress {
 
 struct RunCallbacks {
   /// Computes one member; on any thread, several at once. When `cancel` turns true it should come
-  /// back soon with Outcome::cancelled. Whatever it throws makes the member a failed one.
+  /// back soon with Outcome::cancelled. Whatever it throws makes the member a failed one, except
+  /// StopsRun.
   std::function<MemberResult(std::int64_t member, const std::atomic<bool>& cancel)> run_member;
   /// Keeps a finished member; one call at a time, in order of finishing. Cancelled members do not
   /// come here. If it throws, nothing more is stored and the run stops.
@@ -57,7 +67,7 @@ struct RunReport {
   RunnerProgress progress;           ///< at the end
   std::vector<FailedMember> failed;  ///< stored members that are not valid, ascending
   bool interrupted = false;          ///< cancelled or out of time before all members were done
-  std::string store_error;           ///< why storing failed; empty: it did not
+  std::string stop_error;            ///< why the run stopped by itself: storing failed, or StopsRun
   bool complete() const { return progress.n_done == progress.n_total; }
 };
 

@@ -124,7 +124,7 @@ std::vector<std::string> description_lines(const Scene& scene) {
               "grains"
             : "not in columns: vertical structure, dilute states, a resolved pore fluid "
               "(pore_pressure_ratio stands for it; `mixture` computes it)");
-  if (const auto idle = idle_keys(scene.scenario, columns); !idle.empty())
+  if (const auto idle = idle_keys(scene.scenario, columns, d.friction_inside); !idle.empty())
     lines.push_back(fmt::format("without effect in {}: {}", d.formulation, comma_separated(idle)));
   lines.push_back(
       fmt::format("memory: {:.1f} MB a member", static_cast<double>(d.memory_bytes) / 1e6));
@@ -147,7 +147,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.command = as_utf8(command);  // names of files in it are bytes
   m.design = to_string(scene.scenario.ensemble.design);
   m.seed = scene.scenario.ensemble.seed;
-  m.inputs = scene.inputs.identities;
+  m.inputs = scene.ground->identities();
   m.description = description_lines(scene);
   m.notes = scene.inputs.notes;
   m.warnings = scene.description.warnings;

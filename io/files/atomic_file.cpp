@@ -87,7 +87,7 @@ std::string free_space_text(const fs::path& folder) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path target) : target_(follow_links(target)) {
+AtomicFile::AtomicFile(const fs::path& target) : target_(follow_links(target)) {
   std::error_code ignored;
   if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored))
     throw IoError(

@@ -18,7 +18,7 @@ class AtomicFile {
  public:
   /// Opens the part file beside `target`, which may exist and then stays until commit().
   /// \throws IoError if the folder is missing or closed, or `target` is not a regular file
-  explicit AtomicFile(std::filesystem::path target);
+  explicit AtomicFile(const std::filesystem::path& target);
   /// Removes the part file unless committed.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;

@@ -77,8 +77,7 @@ void describe(GDALDataset& dataset, const Layer& layer, std::size_t plane,
   item("comment", layer.comment);
   if (layer.n_censored > 0) item("sturz_censored_members", std::to_string(layer.n_censored));
   if (!layer.axis.values.empty())
-    item(layer.axis.name.c_str(),
-         fmt::format("{:g} {}", layer.axis.values[plane], layer.axis.units));
+    item(layer.axis.name.c_str(), fmt::format("{} {}", layer.axis.values[plane], layer.axis.units));
 }
 
 CPLStringList cog_options() {

@@ -226,6 +226,7 @@ class ElevationRaster::Impl {
   }
 
   const Grid& grid() const { return working_.grid; }
+  OpenRaster& source() { return source_; }
 
   RasterRead read(const Window& w, bool identified) {
     expect(whole_of(grid()).contains(w), "a window lies on its grid");
@@ -368,6 +369,10 @@ RasterRead ElevationRaster::read(const Window& w) {
 Raster<double> ElevationRaster::look(const Window& w) {
   const GdalScope scope;
   return impl_->read(w, false).raster;
+}
+std::map<std::string, std::string> ElevationRaster::hashes_of(
+    const std::vector<std::string>& parts) {
+  return impl_->source().hashes_of(parts);
 }
 
 RasterRead read_elevation(const RasterRequest& request) {

@@ -6,6 +6,7 @@
 #include "io/gdal/raster_request.hpp"
 #include "scenarios/input_identity.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ class ElevationRaster {
   /// \throws SetupError; see read_elevation
   explicit ElevationRaster(const RasterRequest& request);
   ~ElevationRaster();
+  ElevationRaster(const ElevationRaster&) = delete;
+  ElevationRaster& operator=(const ElevationRaster&) = delete;
 
   /// The whole working grid.
   const Grid& grid() const;
@@ -35,6 +38,10 @@ class ElevationRaster {
   RasterRead read(const Window&);
   /// The same for a look: elevations alone.
   Raster<double> look(const Window&);
+  /// What parts of the file hold now, by the names that an identity gave them; without those that
+  /// are no parts of this file. Reads these parts alone. \throws SetupError when the file is not
+  /// complete
+  std::map<std::string, std::string> hashes_of(const std::vector<std::string>& parts);
 
  private:
   class Impl;

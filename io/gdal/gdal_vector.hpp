@@ -12,7 +12,8 @@
 namespace sturz {
 
 struct PolygonRelease {
-  Raster<double> pattern;     ///< on the terrain's grid: share 0..1, or thickness [m]
+  Raster<double>
+      pattern;  ///< on cells of the terrain around the polygons: share 0..1, or thickness [m]
   bool is_thickness = false;  ///< a thickness attribute was read
   double area_m2 = 0;         ///< exact, of all polygons together
   double volume_m3 = 0;       ///< exact, 0 without a thickness attribute

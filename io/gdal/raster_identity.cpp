@@ -6,6 +6,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <system_error>
 
 namespace sturz {
 namespace {
@@ -32,7 +35,40 @@ std::string part_name(int row, int col, const Span& rows, const Span& cols) {
   return name;
 }
 
+/// Reads "12" off the front of a text, and what follows it. False: it does not begin so.
+bool take_number(std::string_view& text, int& number, std::string_view then) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  if (!text.starts_with(then)) return false;
+  text.remove_prefix(then.size());
+  return true;
+}
+
 }  // namespace
+
+std::optional<ReadWindow> window_of_part(const std::string& name, int file_cols, int file_rows) {
+  std::string_view rest = name;
+  int row = 0, col = 0;
+  if (!take_number(rest, row, "/") || !take_number(rest, col, "")) return {};
+  const auto lies_in = [](int block, int n) {
+    return block >= 0 && block <= (n - 1) / identity_block;
+  };
+  if (!lies_in(row, file_rows) || !lies_in(col, file_cols)) return {};
+  Span rows = span_of(row, 0, file_rows, file_rows), cols = span_of(col, 0, file_cols, file_cols);
+  if (!rest.empty()) {
+    int r0 = 0, r1 = 0, c0 = 0, c1 = 0;
+    if (!rest.starts_with(" rows ")) return {};
+    rest.remove_prefix(6);
+    if (!take_number(rest, r0, "-") || !take_number(rest, r1, " columns ") ||
+        !take_number(rest, c0, "-") || !take_number(rest, c1, "") || !rest.empty())
+      return {};
+    if (r0 < rows.from || r1 < r0 || r1 >= rows.end || c0 < cols.from || c1 < c0 || c1 >= cols.end)
+      return {};
+    rows = {r0, r1 + 1, false}, cols = {c0, c1 + 1, false};
+  }
+  return ReadWindow{cols.from, rows.from, cols.end - cols.from, rows.end - rows.from};
+}
 
 std::map<std::string, std::string> block_hashes(std::span<const double> values,
                                                 const ReadWindow& window, int file_cols,

@@ -5,6 +5,7 @@
 #include "io/gdal/raster_source.hpp"
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -17,6 +18,9 @@ inline constexpr int identity_block = 256;
 struct ReadWindow {
   int col0 = 0, row0 = 0, n_cols = 0, n_rows = 0;
 };
+
+/// The part that block_hashes() calls so; empty: such a file has no such part.
+std::optional<ReadWindow> window_of_part(const std::string& name, int file_cols, int file_rows);
 
 /// The hash of each block that the window holds, or of the part of it. The blocks lie on a lattice
 /// of the file, so a larger window has the same hashes where the smaller one held whole blocks.

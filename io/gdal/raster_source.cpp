@@ -268,6 +268,30 @@ RasterSource OpenRaster::read(const Window& w, bool identified) {
   return source;
 }
 
+std::map<std::string, std::string> OpenRaster::hashes_of(const std::vector<std::string>& parts) {
+  const GdalScope scope;
+  std::map<std::pair<int, int>, std::vector<ReadWindow>> in_order;  // as files mostly store them
+  for (const std::string& name : parts)
+    if (const auto at = window_of_part(name, about_.n_cols, about_.n_rows))
+      in_order[{at->row0, at->col0}].push_back(*at);
+  std::map<std::string, std::string> hashes;
+  RasterSource part = about_;
+  GDALRasterBand& band = *dataset_->GetRasterBand(1);
+  for (const auto& [first, windows] : in_order)
+    for (const ReadWindow& at : windows) {
+      part.col0 = at.col0, part.row0 = at.row0;
+      part.n_cols = at.n_cols, part.n_rows = at.n_rows;
+      read_values(part, band);
+      blank_marks(part, band.GetRasterDataType(), band.GetScale() != 1 || band.GetOffset() != 0);
+      convert_to_metres(part, band, unit_);
+      if (quantity_ == RasterQuantity::elevation)
+        for (double& v : part.values)  // whether that is all there is was asked of larger parts
+          if (v < lowest_ground_m || v > highest_ground_m) v = nan_d;
+      hashes.merge(block_hashes(part.values, at, about_.n_cols, about_.n_rows));
+    }
+  return hashes;
+}
+
 RasterSource read_source(const RasterRequest& request, RasterQuantity quantity, bool crs_optional) {
   OpenRaster raster(request, quantity, crs_optional);
   return raster.read(raster.whole());

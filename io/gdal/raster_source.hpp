@@ -12,6 +12,7 @@
 #include "scenarios/input_identity.hpp"
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,10 @@ class OpenRaster {
   /// Cells of a window, counted north up, with their own placement, notes and, where wanted,
   /// identity. \throws SetupError when it is not complete or holds more than request.max_cells
   RasterSource read(const Window&, bool identified = true);
+  /// The hashes that parts of the file have now, by the names that an identity gave them; without
+  /// those that are no parts of this file. Reads part by part and holds one. \throws SetupError
+  /// when the file is not complete
+  std::map<std::string, std::string> hashes_of(const std::vector<std::string>& parts);
 
  private:
   void turn_north_up();

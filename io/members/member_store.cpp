@@ -7,11 +7,13 @@
 #include "io/members/member_file.hpp"
 #include "io/members/member_netcdf.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
+#include "io/netcdf/netcdf_file.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <charconv>
+#include <mutex>
 #include <optional>
 
 namespace sturz {
@@ -104,7 +106,7 @@ void MemberStore::read_part(std::size_t index, PeakLayer layer, const Window& pa
     std::fill(out.begin(), out.end(), info(layer).untouched);
     return;
   }
-  const std::lock_guard lock(mutex_);
+  const std::lock_guard lock(netcdf_mutex());  // a writer of maps meanwhile holds it, too
   read_member_part(reader(index), w, layer, part, out);
 }
 

@@ -10,7 +10,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -58,7 +57,7 @@ class MemberStore final : public MemberParts {
   std::vector<std::string> problems_;
   Grid grid_;
 
-  mutable std::mutex mutex_;  ///< guards all below
+  // What follows is guarded by netcdf_mutex().
   mutable std::unique_ptr<NetcdfReader> last_reader_;
   mutable std::size_t last_index_ = 0;
 };

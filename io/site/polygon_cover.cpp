@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz {
 
@@ -27,8 +28,8 @@ Window cells_under(double west, double east, double south, double north, const G
                         cell((east - g.west_m) / g.cell_m, g.n_cols) + 2, g);
 }
 
-PolygonCover::PolygonCover(const Grid& grid, const Window& window)
-    : grid_(grid),
+PolygonCover::PolygonCover(Grid grid, const Window& window)
+    : grid_(std::move(grid)),
       window_(window),
       steps_(static_cast<std::size_t>(window.n_cols + 1) * window.n_rows, 0.0) {}
 

@@ -26,7 +26,7 @@ class PolygonCover {
   explicit PolygonCover(const Grid& grid) : PolygonCover(grid, whole_of(grid)) {}
   /// The same for a part of the grid, which must hold all rings as far as they lie on the grid.
   /// Counted from the corner of the whole grid, so that every cell gets the same bits.
-  PolygonCover(const Grid& grid, const Window& window);
+  PolygonCover(Grid grid, const Window& window);
 
   /// Adds `weight` times the share of each cell inside the ring, whatever its orientation.
   /// Holes: the negative weight of their polygon. Rings must not cross themselves; what lies

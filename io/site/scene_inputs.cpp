@@ -8,8 +8,10 @@
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
 #include "io/site/hazard_grid.hpp"
+#include "io/site/observed/observed_outline.hpp"
 #include "io/site/release_hash.hpp"
 #include "io/site/release_shapes.hpp"
+#include "io/site/stand_in_crs.hpp"
 #include "io/site/terrain_request.hpp"
 #include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
@@ -19,7 +21,7 @@
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -38,7 +40,6 @@ struct Loading {
   SceneInputs inputs;
   std::string release_label;  ///< for messages about the release
   std::optional<Raster<double>> synthetic_source;
-
   std::unique_ptr<ElevationRaster> raster;  ///< of terrain.raster
   std::vector<std::string> problems;        ///< of files that cannot be used
 
@@ -63,9 +64,7 @@ struct Loading {
     }
   }
   void refuse_problems() const {
-    std::string all;
-    for (const std::string& problem : problems) all += (all.empty() ? "" : "\n") + problem;
-    require(all.empty(), all);
+    require(problems.empty(), fmt::format("{}", fmt::join(problems, "\n")));
   }
   void set_release(Raster<double> pattern, ReleasePattern kind) {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
@@ -147,6 +146,13 @@ void load_ground(Loading& loading) {
   in.first_window = first.window;
   if (!loading.raster) return;
   RasterRead read = loading.raster->read(first.window);
+  if (first.reach) {
+    // The longest time of a run follows from it, also where terrain.window is smaller. One cell
+    // more: beyond its edge the energy line lies under the ground.
+    const Window seen = widened(first.reach->window, 1, loading.grid());
+    if (!first.window.contains(seen))
+      read.identity.parts.merge(loading.raster->read(seen).identity.parts);
+  }
   take_ground(loading, read);
 }
 
@@ -162,15 +168,6 @@ void note_rasterised(Loading& loading, double exact_m2) {
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
                         exact_m2 * release.thickness_m->value, laid * release.thickness_m->value);
   loading.inputs.notes.push_back(text);
-}
-
-/// Where the terrain's file had no system, the files beside it mostly share the lack, and the user
-/// has named the system once.
-template <class Request>
-void stand_in_with_terrain(Request& request, const TerrainSpec& terrain) {
-  if (terrain.crs == local_crs) return;
-  request.fallback_crs = terrain.crs;
-  request.fallback_crs_key = "terrain.crs";
 }
 
 PolygonRequest polygon_request(const Scenario& scenario) {
@@ -302,6 +299,17 @@ void load_zones(Loading& loading) {
   loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
 }
 
+/// What holds whatever part of the terrain is read: release, observed outline, grids, reach.
+SceneInputs without_ground(SceneInputs inputs) {
+  inputs.elevation = nullptr;
+  inputs.ground = inputs.column_ground = nullptr;
+  inputs.zones = nullptr;
+  inputs.notes.clear();
+  inputs.warnings.clear();
+  inputs.identities.clear();
+  return inputs;
+}
+
 /// What can be said of zones when no ground is known.
 void check_zones(Loading& loading) {
   for (std::size_t i = 0; i < loading.scenario.basal.zones.size(); ++i)
@@ -310,6 +318,16 @@ void check_zones(Loading& loading) {
       request.without_terrain = true;
       read_zone_cells(request, {});
     });
+}
+
+/// An empty grid, where the terrain cannot be read: then it is only checked.
+void load_observed(Loading& loading) {
+  if (loading.scenario.hazard.observed_polygon.empty()) return;
+  loading.attempt([&] {
+    ObservedOutline read = read_observed_outline(loading.scenario, loading.grid());
+    loading.inputs.observed = std::move(read.rings);
+    loading.take(read);
+  });
 }
 
 /// What can be said of release and zones when the terrain cannot be read.
@@ -325,6 +343,7 @@ void check_without_terrain(Loading& loading) {
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
   check_zones(loading);
+  load_observed(loading);
 }
 
 }  // namespace
@@ -347,6 +366,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     load_zones(loading);
   else
     check_zones(loading);
+  load_observed(loading);
   loading.refuse_problems();
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
   if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
@@ -365,14 +385,9 @@ SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& firs
                       "members were computed). Take the file back and go on.",
                       scenario.terrain.raster));
   RasterRead read = loading.raster->read(larger_window(first.first_window, level, inputs.whole));
-  inputs.release = first.release;
-  inputs.pattern = first.pattern;
-  inputs.hazard_grid = first.hazard_grid;
-  inputs.source_area_m2 = first.source_area_m2;
-  inputs.source_volume_m3 = first.source_volume_m3;
-  inputs.normal_over_vertical = first.normal_over_vertical;
-  inputs.reach = first.reach;
-  inputs.first_window = first.first_window;
+  const Grid whole = std::move(inputs.whole);
+  inputs = without_ground(first);
+  inputs.whole = whole;
   inputs.level = level;
   take_ground(loading, read);
   load_zones(loading);

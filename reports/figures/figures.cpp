@@ -99,7 +99,11 @@ std::string north_arrow(const Frame& frame) {
 }
 
 std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks& marks) {
-  std::string outline, cells;
+  std::string outline, cells, observed;
+  for (const auto& ring : marks.observed)
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      observed += fmt::format("{}{:.1f} {:.1f}", i == 0 ? 'M' : 'L', frame.x(ring[i].x()),
+                              frame.y(ring[i].y()));
   for (const MapLine& l : marks.release)
     outline += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", frame.x(l.x0), frame.y(l.y0),
                            frame.x(l.x1), frame.y(l.y1));
@@ -107,10 +111,10 @@ std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks&
   const double side = g.cell_m * frame.scale();
   for (std::size_t i = 0; i < marks.left.size(); ++i) {
     if (!(marks.left[i] > 0)) continue;
-    const auto row = static_cast<double>(i / g.n_cols), col = static_cast<double>(i % g.n_cols);
-    cells +=
-        fmt::format("M{0:.1f} {1:.1f}h{2:.2f}v{2:.2f}h-{2:.2f}Z",
-                    frame.x(g.west_m + col * g.cell_m), frame.y(g.north_m - row * g.cell_m), side);
+    const std::size_t row = i / g.n_cols, col = i % g.n_cols;
+    cells += fmt::format("M{0:.1f} {1:.1f}h{2:.2f}v{2:.2f}h-{2:.2f}Z",
+                         frame.x(g.west_m + static_cast<double>(col) * g.cell_m),
+                         frame.y(g.north_m - static_cast<double>(row) * g.cell_m), side);
   }
   std::string svg;
   if (!cells.empty())
@@ -123,6 +127,12 @@ std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks&
         "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3.2\"/>"
         "<path d=\"{0}\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.4\"/>",
         outline);
+  if (!observed.empty())
+    svg += fmt::format(
+        "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3.6\"/>"
+        "<path d=\"{0}\" fill=\"none\" stroke=\"#0a58ca\" stroke-width=\"1.8\" "
+        "stroke-dasharray=\"7 4\"/>",
+        observed);
   return svg;
 }
 
@@ -163,12 +173,19 @@ MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
   return marks;
 }
 
+std::string observed_label(const std::string& note) {
+  return note.empty() ? "observed" : "observed: " + note;
+}
+
 std::string marks_legend_html(const MapMarks& marks) {
   const bool left =
       std::any_of(marks.left.begin(), marks.left.end(), [](float v) { return v > 0; });
-  if (marks.release.empty() && !left) return {};
+  if (marks.release.empty() && marks.observed.empty() && !left) return {};
   std::string html = "<ul class=\"legend marks\">";
   if (!marks.release.empty()) html += "<li><span class=\"swatch release\"></span>release</li>";
+  if (!marks.observed.empty())
+    html += "<li><span class=\"swatch observed\"></span>" +
+            html_escape(observed_label(marks.observed_note)) + "</li>";
   if (left) html += "<li><span class=\"swatch left\"></span>mass left the terrain here</li>";
   return html + "</ul>";
 }

@@ -2,11 +2,13 @@
 /// Still pictures of one map over hillshade, for pages without script, for print, for other texts.
 #pragma once
 
+#include "engine/core/vec.hpp"
 #include "reports/figures/cell_outline.hpp"
 #include "reports/figures/legend.hpp"
 #include "reports/figures/map_scene.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,16 @@ namespace sturz {
 
 /// What is drawn over every map.
 struct MapMarks {
-  std::vector<MapLine> release;  ///< outline of the cells covered at the start
-  std::vector<float> left;       ///< [scene.cells], > 0 where mass left the terrain; may be empty
+  std::vector<MapLine> release;                 ///< outline of the cells covered at the start
+  std::span<const std::vector<Vec2>> observed;  ///< closed rings of a mapped event [m]
+  std::string observed_note;                    ///< what they are; may be empty
+  std::vector<float> left;  ///< [scene.cells], > 0 where mass left the terrain; may be empty
 };
+/// All but the observed outline.
 MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
                    const Raster<std::uint8_t>* release);
+/// "observed: NOTE"
+std::string observed_label(const std::string& note);
 
 /// Hidden SVG that holds the hillshade picture once, under the id `hillshade`, and the pattern
 /// `hatch`; every figure of a page refers to them.

@@ -153,9 +153,10 @@ std::string motion_chart_svg(const MotionChart& chart, const std::vector<double>
       "aria-label=\"{}\">",
       width, height, html_escape(chart.title));
   if (chart.stacked) {  // the uppermost first: each covers what is not its own
-    for (auto line = chart.lines.rbegin(); line != chart.lines.rend(); ++line)
-      svg += fmt::format("<path class=\"area paint-{}\" d=\"{}V{:.1f}H{:.1f}Z\"/>", line->paint,
-                         path_of(axes, times, line->values), axes.y(0), axes.x(times.front()));
+    std::for_each(chart.lines.rbegin(), chart.lines.rend(), [&](const MotionLine& line) {
+      svg += fmt::format("<path class=\"area paint-{}\" d=\"{}V{:.1f}H{:.1f}Z\"/>", line.paint,
+                         path_of(axes, times, line.values), axes.y(0), axes.x(times.front()));
+    });
     return svg + grid_svg(axes, chart.unit) + "</svg>";
   }
   svg += grid_svg(axes, chart.unit);

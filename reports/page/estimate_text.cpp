@@ -11,6 +11,10 @@
 namespace sturz {
 
 std::string value_text(const CensoredEstimate& e, const NumberWriter& number) {
+  if (!std::isnan(e.least)) {
+    const std::string least = number(e.least), most = number(e.most);
+    return least == most ? least : least + " to " + most;
+  }
   if (std::isnan(e.value)) return e.n > 0 ? "not known" : "\u2013";
   return (e.at_least ? "\u2265\u00A0" : "") + number(e.value);
 }

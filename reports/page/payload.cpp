@@ -5,6 +5,7 @@
 #include "ensemble/censoring/scalar_censoring.hpp"
 #include "reports/figures/cell_outline.hpp"
 #include "reports/figures/codec.hpp"
+#include "reports/figures/figures.hpp"
 #include "reports/figures/legend.hpp"
 #include "reports/figures/motion_charts.hpp"
 #include "reports/page/headline.hpp"
@@ -80,6 +81,18 @@ Json release_json(const Raster<std::uint8_t>* release) {
   return lines;
 }
 
+/// {"label": ..., "rings": [[[x, y], ...], ...]}; null where nothing was observed.
+Json observed_json(const ReportInput& input) {
+  if (input.observed.empty()) return nullptr;
+  Json rings = Json::array();
+  for (const auto& ring : input.observed) {
+    Json points = Json::array();
+    for (const Vec2& p : ring) points.push_back({p.x(), p.y()});
+    rings.push_back(std::move(points));
+  }
+  return {{"label", observed_label(input.observed_note)}, {"rings", std::move(rings)}};
+}
+
 Json legend_json(const Legend& legend) {
   Json classes = Json::array();
   for (const auto& c : legend.classes)
@@ -137,9 +150,13 @@ Json maps_json(const ReportInput& input, const MapScene& scene, const LayerStack
     if (layer == first) start = static_cast<int>(layers.size());
     layers.push_back(layer_json(scene, maps, *layer, input, n_valid));
   }
-  return {{"cells", grid_json(scene.cells)},        {"ground", ground_json(scene.ground)},
-          {"view", grid_json(scene.ground.grid)},   {"start", start},
-          {"release", release_json(input.release)}, {"layers", std::move(layers)}};
+  return {{"cells", grid_json(scene.cells)},
+          {"ground", ground_json(scene.ground)},
+          {"view", grid_json(scene.ground.grid)},
+          {"start", start},
+          {"release", release_json(input.release)},
+          {"observed", observed_json(input)},
+          {"layers", std::move(layers)}};
 }
 
 /// Whether the runout grows with sampled key `k`, over the shown members.
@@ -158,10 +175,8 @@ Json agreement_json(const ReportInput& input, const std::vector<std::size_t>& ro
 
 /// An end that is not known becomes null, like one that cannot be told.
 Json median_json(const CensoredEstimate& e) {
-  return {{"median", rounded(e.value)},
-          {"atLeast", e.at_least},
-          {"lower", rounded(e.lower)},
-          {"upper", rounded(e.upper)},
+  return {{"median", rounded(e.value)}, {"least", rounded(e.least)}, {"most", rounded(e.most)},
+          {"atLeast", e.at_least},      {"lower", rounded(e.lower)}, {"upper", rounded(e.upper)},
           {"open", std::isinf(e.upper)}};
 }
 

@@ -3,12 +3,14 @@
 #pragma once
 
 #include "engine/core/cancel.hpp"
+#include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,9 +43,12 @@ struct ReportInput {
   NamedSeconds pass_timings;                  ///< by pass of a step, shown folded; may be empty [s]
   double elapsed_s = 0;                       ///< wall time of the whole run; 0 = unknown
   CancelFlag cancel;                 ///< looked at between maps; make_report then throws Cancelled
+  std::int64_t n_planned = 0;        ///< members of the whole ensemble; 0: those that are here
   double max_censored_fraction = 0;  ///< of members; above it the page begins with a banner
   std::string where_mass_left;       ///< in words, may be empty
   const Raster<std::uint8_t>* release = nullptr;  ///< 1: covered at the start; may be null
+  std::span<const std::vector<Vec2>> observed;    ///< closed rings of a mapped event [m]
+  std::string observed_note;                      ///< what they are, in words; may be empty
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

@@ -64,7 +64,9 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
 
 std::string still_figures(const ReportInput& input, const MapScene& scene, const LayerStack& maps) {
   std::string html = "<div id=\"still-maps\" class=\"stills\">";
-  const MapMarks marks = map_marks(scene, maps, input.release);
+  MapMarks marks = map_marks(scene, maps, input.release);
+  marks.observed = input.observed;
+  marks.observed_note = input.observed_note;
   for (const Layer* layer : still_layers(maps)) {
     input.cancel.check();
     html += still_figure(scene, maps, *layer, input.resolved_thickness_m, marks);

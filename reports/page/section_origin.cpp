@@ -84,10 +84,10 @@ std::string reading_html(const ReportInput& input) {
   std::vector<std::string> lines;
   if (input.hazard != nullptr) {
     lines = {
-        "Probability is the share of the valid simulations (members): it answers \u201Cgiven the "
-        "ranges in the "
-        "scenario file\u201D, not \u201Chow often does such a slide occur\u201D. It says nothing "
-        "about the chance that the slope fails.",
+        ("Probability is the share of the valid simulations (members): it answers \u201Cgiven the "
+         "ranges in the scenario file\u201D, not \u201Chow often does such a slide occur\u201D. It "
+         "says nothing "
+         "about the chance that the slope fails."),
         "Intervals at " + level +
             " of probabilities are Wilson's, for members drawn independently: they tell how much "
             "the "

@@ -20,6 +20,15 @@ std::string manifest_value(const ReportInput& input, const std::string& key) {
   return {};
 }
 
+std::int64_t missing(const ReportInput& input) {
+  return std::max<std::int64_t>(0, input.n_planned - std::ssize(input.members));
+}
+
+/// "40", or "3 of 40" where some have not been computed.
+std::string of_planned(const ReportInput& input, int n) {
+  return missing(input) > 0 ? fmt::format("{} of {}", n, input.n_planned) : std::to_string(n);
+}
+
 std::string card(const std::string& label, const std::string& value, const std::string& detail) {
   return fmt::format(
       "<div class=\"card\"><dt>{}</dt><dd class=\"value\">{}</dd><dd "
@@ -40,11 +49,12 @@ std::string sentence(std::string text) {
   return text;
 }
 
-std::string outcome_counts(const Headline& h) {
+std::string outcome_counts(const ReportInput& input, const Headline& h) {
   std::string out = h.n_valid > 0 ? counts_text(h.censoring) : "";
   for (const auto& [outcome, n] : h.outcomes)
     if (!is_valid(outcome))
       out += (out.empty() ? "" : ", ") + std::to_string(n) + " " + words(to_string(outcome));
+  if (missing(input) > 0) out += fmt::format(", {} not computed yet", missing(input));
   return out;
 }
 
@@ -67,14 +77,15 @@ std::string header_html(const ReportInput& input, const Headline& h) {
     origin += (origin.empty() ? "" : " \u00B7 ") + text;
   };
   if (input.hazard != nullptr)
-    add(fmt::format("Ensemble of {} member{}", h.n_members, h.n_members == 1 ? "" : "s"));
+    add(fmt::format("Ensemble of {} member{}", of_planned(input, h.n_members),
+                    h.n_members == 1 ? "" : "s"));
   else
     add("Single run");
   add(formulations(input.members));
   add(words(manifest_value(input, "design")));
-  add(manifest_value(input, "date"));
-  const std::string version = manifest_value(input, "version");
-  add(version.empty() ? "sturz" : "sturz " + version);
+  add(manifest_value(input, "started"));
+  const std::string program = manifest_value(input, "program");
+  add(program.empty() ? "sturz" : program);
   return fmt::format(
       "<header class=\"top\"><p class=\"kind\">{}</p><h1>{}</h1><p "
       "class=\"origin\">{}</p></header>",
@@ -92,7 +103,12 @@ std::string warnings_html(const ReportInput& input, const Headline& h) {
         h.n_members == 1
             ? std::string("The run is not valid: its maps must not be used.")
             : fmt::format("None of the {} members is valid: there is no hazard map.", h.n_members));
-  else if (lost > 0)
+  if (missing(input) > 0)
+    lines.push_back(fmt::format(
+        "{} of the {} planned members are missing here: maps and numbers are of a part of the "
+        "ensemble.",
+        missing(input), input.n_planned));
+  if (h.n_valid > 0 && lost > 0)
     lines.push_back(
         fmt::format("{} of {} members failed and {} left out of every map and number "
                     "below; the table of members gives the reasons.",
@@ -207,7 +223,7 @@ std::string headline_html(const ReportInput& input, const Headline& h) {
                      : input.members.front().reason);
   else
     html += card("Valid simulations", fmt::format("{} of {}", h.n_valid, h.n_members),
-                 outcome_counts(h));
+                 outcome_counts(input, h));
   if (h.n_valid > 0) {
     html += area_card(input, h, single);
     html +=

@@ -235,6 +235,7 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.needs_more_ground = state.terrain.needs_more() || plan.bed.needs_more();
   d.narrow_side_m = plan.release_narrow_side_m;
   d.other_formulation_cost = other_cost(s, inputs, plan);
+  d.friction_inside = plan.formulation.depth_averaged && knows_internal_friction(plan.columns);
   return d;
 }
 

@@ -45,6 +45,7 @@ struct SceneDescription {
   /// Cost of a member in the other formulation over that in this one, roughly; 0 where the scene
   /// cannot have the other.
   double other_formulation_cost = 0;
+  bool friction_inside = false;  ///< columns whose thrust knows the grains' friction
   double reference_speed_m_s = 0, sound_speed_m_s = 0;
   double dt_s = 0, n_steps = 0;  ///< estimates
   std::string binding_limit;

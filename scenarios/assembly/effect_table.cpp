@@ -12,6 +12,8 @@
 #include "engine/effects/motion/gravity.hpp"
 #include "scenarios/schema/number_text.hpp"
 
+#include <algorithm>
+
 namespace sturz {
 namespace {
 
@@ -64,9 +66,17 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
-  if (s.grains->earth_pressure == LateralPressure::isotropic)
-    return {true, "`grains.earth_pressure: isotropic`, K = 1"};
-  return {true, "`grains.earth_pressure: active_passive`"};
+  if (s.mixture) return {true, "`mixture`: isotropic, K = 1, piles too"};
+  const std::string key =
+      "`grains.earth_pressure: " + std::string(to_string(s.grains->earth_pressure)) + "`";
+  if (plan.columns.spent_inside.empty())
+    return {true, knows_internal_friction(plan.columns) ? key : key + ", K = 1"};
+  const double most =
+      *std::max_element(plan.columns.spent_inside.begin(), plan.columns.spent_inside.end());
+  return {true, key + ": the release is " +
+                    short_number(plan.release.median_thickness_m / plan.release_narrow_side_m) +
+                    " times as thick as it is wide; internal friction takes up to " +
+                    short_number(100 * most) + " % of the thrust that drives"};
 }
 Called mixture_called(const Scenario& s, const ScenePlan&) {
   if (!s.mixture) return by_key("mixture", false);

@@ -28,7 +28,7 @@ std::string column_key(const Scenario& s) {
   if (s.mixture) return "mixture";
   if (s.basal.turbulent_coefficient_m_s2) return "basal.turbulent_coefficient_m_s2";
   if (s.basal.viscosity_pa_s) return "basal.viscosity_pa_s";
-  if (s.grains && s.grains->earth_pressure != LateralPressure::isotropic)
+  if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
   return "";
 }

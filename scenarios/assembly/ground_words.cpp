@@ -38,7 +38,7 @@ std::vector<std::string> ground_warnings(const Scenario& s, const SceneInputs& i
       " Mass that passes there is lost, and such members count as censored: their runout, deposit "
       "and area are lower bounds.";
   if (reach.above_end_m > 0)
-    out.push_back("edge of the terrain: " + line_text(reach) + " still stands " +
+    out.push_back(std::string(edge_warning) + line_text(reach) + " still stands " +
                   short_number(reach.above_end_m) + " m above the ground at its " + reach.end +
                   "ern end." + then + " Use a terrain that goes on there.");
   if (reach.above_unknown_m > 0)

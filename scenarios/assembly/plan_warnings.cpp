@@ -73,6 +73,24 @@ void warn_of_lip(const Scenario& s, const SceneInputs& in, const ScenePlan& plan
       cure);
 }
 
+/// Columns that know the bed only let a pile run out several times too far.
+void warn_of_smooth_pile(const Scenario& s, const ScenePlan& plan, Warnings& out) {
+  if (!plan.formulation.depth_averaged || knows_internal_friction(plan.columns) ||
+      pile_share(s, plan) <= 0)
+    return;
+  // A bed as rough as the grains gives them nothing to add.
+  const bool isotropic = s.grains->earth_pressure == LateralPressure::isotropic;
+  if (!isotropic && plan.columns.internal_friction > 0 && !s.mixture) return;
+  out.push_back("a pile in columns without internal friction: the release is " +
+                short_number(plan.release.median_thickness_m / plan.release_narrow_side_m) +
+                " times as thick as it is wide, and only its bed holds it. On gentle ground it may "
+                "run several times too far. " +
+                (s.mixture   ? "A mixture knows no friction inside; without `mixture`, "
+                               "grains.earth_pressure: auto and basal.pore_pressure_ratio do"
+                 : isotropic ? "Use grains.earth_pressure: auto, or formulation: full_stress"
+                             : "Give grains.friction_angle_deg"));
+}
+
 void warn_of_states(const Scenario& s, const ScenePlan& plan, Warnings& out) {
   if (!s.grains->states) return;
   if (plan.formulation.depth_averaged) {
@@ -101,6 +119,7 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
                   " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
                   " m: the grains act as a parameter only");
   warn_of_states(s, plan, out);
+  warn_of_smooth_pile(s, plan, out);
   if (plan.release.dropped_fraction > 0.01)
     out.push_back(
         "thin edge: " + short_number(100 * plan.release.dropped_fraction) +

@@ -156,13 +156,24 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   if (s.mixture) c.mixture = plan_mixture(*s.grains, *s.mixture);
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
-  if (s.grains->earth_pressure == LateralPressure::active_passive) {
-    const double internal = make_law(*s.grains).static_friction;
-    for (std::size_t k = 0; k < bed.size(); ++k)
-      // Only the grains' part of the stress is anisotropic (Iverson & Denlinger 2001).
-      c.earth_pressure[k] = EarthPressure(internal, bed[k].effective_friction())
-                                .with_pore_pressure(bed[k].pore_pressure_ratio);
-  }
+  const bool known = s.grains->friction || s.grains->friction_angle_deg;
+  c.internal_friction = known ? make_law(*s.grains).static_friction : 0;
+  // Only the grains' part of the stress is anisotropic (Iverson & Denlinger 2001).
+  const auto pressure = [&](const BasalResistance& b) {
+    return EarthPressure(c.internal_friction, b.effective_friction())
+        .with_pore_pressure(b.pore_pressure_ratio);
+  };
+  if (s.grains->earth_pressure == LateralPressure::active_passive)
+    for (std::size_t k = 0; k < bed.size(); ++k) c.earth_pressure[k] = pressure(bed[k]);
+  // Water carries part of a mixture's load: pressure is isotropic in it (Iverson & George 2014).
+  const bool by_shape = s.grains->earth_pressure == LateralPressure::automatic && known;
+  const double share = s.mixture                                             ? 0
+                       : s.grains->earth_pressure == LateralPressure::active ? 1
+                       : by_shape                                            ? pile_share(s, plan)
+                                                                             : 0;
+  if (share > 0)
+    for (const BasalResistance& b : bed)
+      c.spent_inside.push_back(share * std::max(0.0, 1 - pressure(b).active));
   c.bed = std::move(bed);
 }
 
@@ -263,6 +274,20 @@ double time_to_weigh(const Scenario& s, const SceneInputs& in, const Raster<doub
 }
 
 }  // namespace
+
+double pile_share(const Scenario& s, const ScenePlan& plan) {
+  if (!s.domain.walls.empty() || !s.domain.periodic.empty() || !(plan.release_narrow_side_m > 0))
+    return 0;
+  const double aspect = plan.release.median_thickness_m / plan.release_narrow_side_m;
+  return std::clamp((aspect - sheet_aspect) / (pile_aspect - sheet_aspect), 0.0, 1.0);
+}
+
+bool knows_internal_friction(const DepthAveragedSettings& c) {
+  const auto varies = [](const EarthPressure& e) { return e.varies(); };
+  const auto acts = [](double spent) { return spent > 0; };
+  return std::any_of(c.spent_inside.begin(), c.spent_inside.end(), acts) ||
+         std::any_of(c.earth_pressure.begin(), c.earth_pressure.end(), varies);
+}
 
 ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
   require(s.grains.has_value(),

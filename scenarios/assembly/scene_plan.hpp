@@ -39,6 +39,14 @@ struct ScenePlan {
   explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
 };
 
+/// How much of a pile a release is [-]: none under a fifth as thick (median) as its narrow side in
+/// the map, one from two fifths on, in proportion between. None where walls or periods stand.
+double pile_share(const Scenario&, const ScenePlan&);
+inline constexpr double sheet_aspect = 0.2, pile_aspect = 0.4;
+
+/// Internal friction is given and takes or changes some of the thrust between columns.
+bool knows_internal_friction(const DepthAveragedSettings&);
+
 /// \throws SetupError naming the key
 ScenePlan plan_scene(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member);
 

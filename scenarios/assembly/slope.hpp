@@ -34,8 +34,8 @@ inline Vec2 gradient_at(const Raster<double>& z, int row, int col) {
   const double bx = sxz - sx * sz / n, by = syz - sy * sz / n;
   const double det = axx * ayy - axy * axy;
   if (det > 1e-9) return Vec2(bx * ayy - by * axy, by * axx - bx * axy) / (det * g.cell_m);
-  if (axx > 1e-9) return Vec2(bx / axx / g.cell_m, 0);
-  if (ayy > 1e-9) return Vec2(0, by / ayy / g.cell_m);
+  if (axx > 1e-9) return {bx / axx / g.cell_m, 0};
+  if (ayy > 1e-9) return {0, by / ayy / g.cell_m};
   return {0, 0};
 }
 

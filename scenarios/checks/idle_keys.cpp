@@ -8,7 +8,7 @@
 namespace sturz {
 namespace {
 
-std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged) {
+std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged, bool friction_inside) {
   if (!depth_averaged) {
     // Without rate dependence the inertial number, and with it the diameter, has no say; collisions
     // and contacts have.
@@ -22,7 +22,7 @@ std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged) {
   // Lateral pressure takes the slow internal friction only.
   paths.emplace_back("grains.friction.dynamic");
   paths.emplace_back("grains.friction.inertial_number_scale");
-  if (s.grains && s.grains->earth_pressure == LateralPressure::isotropic) {
+  if (s.grains && !friction_inside && !asks_for_internal_friction(s.grains->earth_pressure)) {
     paths.emplace_back("grains.friction.static");
     paths.emplace_back("grains.friction_angle_deg");
   }
@@ -31,8 +31,8 @@ std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged) {
 
 }  // namespace
 
-std::vector<std::string> idle_keys(const Scenario& s, bool depth_averaged) {
-  const std::vector<std::string> paths = idle_paths(s, depth_averaged);
+std::vector<std::string> idle_keys(const Scenario& s, bool depth_averaged, bool friction_inside) {
+  const std::vector<std::string> paths = idle_paths(s, depth_averaged, friction_inside);
   Scenario bare;
   bare.grains.emplace().friction.emplace();
   std::vector<std::string> given;

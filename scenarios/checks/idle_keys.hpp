@@ -11,6 +11,9 @@ namespace sturz {
 
 /// Paths of the schema whose value differs from the default (or is there at all, for those without
 /// one) and is read by nothing in columns, or in full stress. In the order of the schema.
-std::vector<std::string> idle_keys(const Scenario&, bool depth_averaged);
+/// \param friction_inside  the release is a pile that `earth_pressure: auto` gives internal
+/// friction
+std::vector<std::string> idle_keys(const Scenario&, bool depth_averaged,
+                                   bool friction_inside = false);
 
 }  // namespace sturz

@@ -15,7 +15,7 @@ using Problems = std::vector<Problem>;
 /// Isotropic columns slide on the bed and know no friction inside.
 bool needs_internal_friction(const Scenario& s) {
   return s.formulation == Formulation::full_stress ||
-         s.grains->earth_pressure == LateralPressure::active_passive;
+         asks_for_internal_friction(s.grains->earth_pressure);
 }
 
 void check_grains(const Scenario& s, Problems& problems) {
@@ -30,11 +30,13 @@ void check_grains(const Scenario& s, Problems& problems) {
                         "them."});
   if (!g.friction && !g.friction_angle_deg && needs_internal_friction(s))
     problems.push_back(
-        {"grains", "grains (no internal friction, which " +
-                       std::string(s.formulation == Formulation::full_stress
-                                       ? "full_stress needs). "
-                                       : "grains.earth_pressure: active_passive needs). ") +
-                       "Add grains.friction or grains.friction_angle_deg."});
+        {"grains",
+         "grains (no internal friction, which " +
+             std::string(s.formulation == Formulation::full_stress
+                             ? "full_stress needs). "
+                             : "grains.earth_pressure: " +
+                                   std::string(to_string(s.grains->earth_pressure)) + " needs). ") +
+             "Add grains.friction or grains.friction_angle_deg."});
   if (!g.friction) return;
   const double most_static = support(g.friction->static_coefficient).second;
   const double least_dynamic = support(g.friction->dynamic_coefficient).first;
@@ -79,8 +81,7 @@ void check_formulation(const Scenario& s, Problems& problems) {
                                     "Remove it or set formulation: depth_averaged."});
   };
   const auto& b = s.basal;
-  refuse(s.grains && s.grains->earth_pressure == LateralPressure::active_passive,
-         "grains.earth_pressure");
+  refuse(s.grains && asks_for_internal_friction(s.grains->earth_pressure), "grains.earth_pressure");
   refuse(b.turbulent_coefficient_m_s2.has_value(), "basal.turbulent_coefficient_m_s2");
   refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
   refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");
@@ -104,8 +105,7 @@ void check_mixture(const Scenario& s, Problems& problems) {
          " (mixture is there too, whose fluid has a viscosity). Use mixture.fluid_viscosity_pa_s.");
   refuse(s.basal.yield_stress_pa.has_value(), "basal.yield_stress_pa",
          " (mixture is there too, which is held by its grains). Remove it.");
-  refuse(s.grains && s.grains->earth_pressure == LateralPressure::active_passive,
-         "grains.earth_pressure",
+  refuse(s.grains && asks_for_internal_friction(s.grains->earth_pressure), "grains.earth_pressure",
          " (mixture is there too, in which water carries part of the load; it knows isotropic "
          "only). Remove it.");
   for (const BasalZone& zone : s.basal.zones)

@@ -21,11 +21,18 @@ std::string suffix_of(std::string_view udunits) {
   return text;
 }
 
-/// Six significant digits at most: 0.5, 95, 1500.
+/// 0.5, 1500: as few digits as tell it from every other number.
 std::string digits(double value) {
   std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 6);
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  return {text.data(), end.ptr};
+}
+
+/// 95 of 0.95.
+std::string percentage(double fraction) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), 100 * fraction,
+                                 std::chars_format::general, 12);
   return {text.data(), end.ptr};
 }
 
@@ -44,7 +51,7 @@ std::string plane_name(const Layer& layer, std::size_t plane) {
   const double value = layer.axis.values[plane];
   if (layer.meaning.statistic == Statistic::quantile) {
     cut(stem, "_quantile");
-    return stem + "_p" + digits(100 * value) + suffix_of(layer.units);
+    return stem + "_p" + percentage(value) + suffix_of(layer.units);
   }
   if (layer.meaning.is_bound())
     for (const char* bound : {"_lower", "_upper"})

@@ -47,7 +47,8 @@ void add_grains(std::vector<KeyInfo>& keys) {
       grains, &GrainsSpec::poisson_ratio,
       {"grains.poisson_ratio", uncertain, "1", 0, 0.49, "Poisson's ratio of the elastic part."}));
   keys.push_back(choice_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
-                            "Lateral earth pressure of depth_averaged flow."));
+                            "Lateral earth pressure of depth_averaged flow; auto: active where the "
+                            "release is a pile, isotropic where it is a sheet."));
 }
 
 void add_states(std::vector<KeyInfo>& keys) {

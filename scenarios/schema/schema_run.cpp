@@ -115,6 +115,12 @@ void add_hazard(std::vector<KeyInfo>& keys) {
   keys.push_back(above_min(key(
       hazard, &HazardSpec::quantiles,
       {"hazard.quantiles", number_list, "1", 0, 1, "Quantile levels between 0 and 1, rising."})));
+  keys.push_back(text_key(hazard, &HazardSpec::observed_polygon, "hazard.observed_polygon", path,
+                          "Polygon layer of what a mapped event covered, any format that OGR "
+                          "reads: drawn over the maps of the page, nothing is computed from it."));
+  keys.push_back(text_key(hazard, &HazardSpec::observed_note, "hazard.observed_note", text,
+                          "What the observed outline is, for the legend: event, source, how it "
+                          "was made."));
 }
 
 }  // namespace

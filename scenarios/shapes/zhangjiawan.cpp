@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ground like that of the Zhangjiawan (Pusa) rock avalanche of 28 August 2017: a cliff, an apron, a
 // small hill across the path. Drawn from published heights, lengths and slopes, not surveyed.
-// s = map x - 500000 runs downhill from the crown, n = map y - 2900000 across.
+// Beyond s = 1300 nothing is published: a valley floor and the foot of an opposite slope, so that
+// mass of any friction above 0.14 comes to rest on known ground. s = map x - 500000 runs downhill
+// from the crown, n = map y - 2900000 across.
 #include "scenarios/shapes/profile.hpp"
 #include "scenarios/shapes/shape.hpp"
 
@@ -12,17 +14,17 @@ namespace sturz::shapes {
 namespace {
 
 const Profile& surface_before_failure() {
-  static const Profile p = {{-400, 2040}, {-150, 2092}, {-40, 2115},  {0, 2120},
-                            {30, 2113},   {60, 2085},   {100, 2010},  {160, 1950},
-                            {215, 1918},  {280, 1896},  {340, 1880},  {400, 1868},
-                            {840, 1815},  {1000, 1799}, {1300, 1772}, {1700, 1740}};
+  static const Profile p = {{-400, 2040}, {-150, 2092}, {-40, 2115},  {0, 2120},    {30, 2113},
+                            {60, 2085},   {100, 2010},  {160, 1950},  {215, 1918},  {280, 1896},
+                            {340, 1880},  {400, 1868},  {840, 1815},  {1000, 1799}, {1300, 1772},
+                            {1700, 1745}, {2000, 1733}, {2200, 1733}, {2400, 1745}, {3000, 1805}};
   return p;
 }
 const Profile& failure_surface() {
-  static const Profile p = {{-400, 2040}, {-150, 2092}, {-40, 2115},  {0, 2120},
-                            {25, 2060},   {60, 2026},   {115, 1983},  {160, 1950},
-                            {215, 1918},  {280, 1896},  {340, 1880},  {400, 1868},
-                            {840, 1815},  {1000, 1799}, {1300, 1772}, {1700, 1740}};
+  static const Profile p = {{-400, 2040}, {-150, 2092}, {-40, 2115},  {0, 2120},    {25, 2060},
+                            {60, 2026},   {115, 1983},  {160, 1950},  {215, 1918},  {280, 1896},
+                            {340, 1880},  {400, 1868},  {840, 1815},  {1000, 1799}, {1300, 1772},
+                            {1700, 1745}, {2000, 1733}, {2200, 1733}, {2400, 1745}, {3000, 1805}};
   return p;
 }
 
@@ -43,7 +45,7 @@ double hill(double s, double n) {
 
 SyntheticScene build(const Numbers& p, double cell_m) {
   const double half_width = p.at("source_width_m") / 2;
-  const Grid grid = landslide_grid(-300, 1600, 400, cell_m);
+  const Grid grid = landslide_grid(-300, 2700, 400, cell_m);
   SyntheticScene scene{Raster<double>(grid), Raster<double>(grid)};
   auto& thickness = *scene.thickness;
   for (int row = 0; row < grid.n_rows; ++row)

@@ -2,10 +2,10 @@
 // The exit code and the words never claim more than what was done.
 #include "tests/app/app_fixture.hpp"
 
-#include <signal.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 namespace sturz::test {

@@ -3,9 +3,8 @@
 // the right code, and the same command ends with the same bits.
 #include "tests/app/app_fixture.hpp"
 
-#include <signal.h>
-
 #include <chrono>
+#include <csignal>
 #include <random>
 #include <thread>
 

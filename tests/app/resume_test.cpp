@@ -76,6 +76,8 @@ TEST_F(Resume, ShardsAndMergeEqualOneRun) {
     const Ended ended =
         sturz({"ensemble", path("scene.yaml"), "-o", path("out"), "--shard", shard});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out,
+                HasSubstr(std::string("Shard ") + shard + " is finished (2 members computed: 2 "));
     EXPECT_FALSE(exists("out/hazard.nc")) << "a shard made maps";
   }
   const Ended merged = sturz({"merge", path("out")});

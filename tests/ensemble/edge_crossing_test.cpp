@@ -35,7 +35,7 @@ TEST(EdgeCrossing, PutsTheSideFirstThatMostCrossed) {
 
 TEST(EdgeCrossing, KnowsHolesFromSides) {
   EXPECT_EQ(where_mass_left(map_with({{40, 50}}), terrain),
-            "at holes of the terrain (x 500500 to 500510, y 4000390 to 4000400)");
+            "where the raster holds no elevation (x 500500 to 500510, y 4000390 to 4000400)");
 }
 
 TEST(EdgeCrossing, IsSilentWhereNothingLeft) {

@@ -150,12 +150,26 @@ TEST_P(EveryRunner, StopsOnceWhenStoringFails) {
     keep(r);
   };
   const RunReport report = run();
-  EXPECT_EQ(report.store_error, "members/000006.nc: no space left on device");
+  EXPECT_EQ(report.stop_error, "members/000006.nc: no space left on device");
   EXPECT_EQ(attempts, 1);
   EXPECT_THAT(stored_, SizeIs(6));
   EXPECT_EQ(report.progress.n_done, 6);
   EXPECT_FALSE(report.interrupted);
   EXPECT_FALSE(report.complete());
+}
+
+TEST_P(EveryRunner, StopsForWhatIsWrongWithAllMembersAlike) {
+  callbacks_.run_member = [](std::int64_t member, const std::atomic<bool>& cancel) {
+    if (member == 5) throw StopsRun("the terrain is gone");
+    return member < 5 ? finished(member) : endless(member, cancel);
+  };
+  const RunReport report = run();
+  EXPECT_EQ(report.stop_error, "the terrain is gone");
+  EXPECT_THAT(report.failed, IsEmpty()) << "the member remains to be done";
+  EXPECT_LE(stored_.size(), 5U);
+  EXPECT_FALSE(report.interrupted);
+  EXPECT_FALSE(report.complete());
+  EXPECT_EQ(report.progress.n_running, 0);
 }
 
 TEST_P(EveryRunner, StoresNothingMoreAfterAFailureEvenWhatWasComputedMeanwhile) {

@@ -30,7 +30,7 @@ bool is_plain(const std::string& word) { return word.find_first_of("\" \t\r") ==
 bool comes_back(const sturz::DesignTable& table) {
   for (const auto* words : {&table.keys, &table.units})
     if (!std::all_of(words->begin(), words->end(), is_plain)) return true;
-  if (!is_plain(table.design) || table.keys.empty()) return true;
+  if (table.keys.empty()) return true;
   return sturz::from_csv(sturz::to_csv(table)) == table;
 }
 

@@ -28,7 +28,9 @@ void run(Read read) {
 
 void read_release(const sturz::PolygonRequest& request, const Grid& grid) {
   const auto release = sturz::read_release_polygons(request, grid);
-  if (release.pattern.values.size() != grid.n_cells()) std::abort();
+  const Grid& own = release.pattern.grid;  // cells of the terrain's grid around the polygons
+  if (own.n_cells() > grid.n_cells() || release.pattern.values.size() != own.n_cells())
+    std::abort();
   for (const double v : release.pattern.values)
     if (!(v >= 0) || std::isinf(v)) std::abort();
 }

@@ -17,14 +17,18 @@ sturz::MemberResult small_member(std::int64_t number) {
 sturz::LayerStack maps() {
   sturz::LayerStack stack;
   stack.grid = {3, 2, 500000, 4600000, 10, ""};
-  sturz::Layer plain{"peak_thickness_max", "Largest thickness", "", "m", "", "", {}, false, {}};
+  sturz::Layer plain;
+  plain.name = "thickness_mean";
+  plain.meaning = {sturz::Quantity::thickness, sturz::Statistic::mean};
+  plain.units = "m";
   plain.values.assign(6, 1.5F);
   sturz::Layer counted = plain;
-  counted.name = "n_reached";
-  counted.is_count = true;
+  counted.name = "number_of_members";
+  counted.meaning = {sturz::Quantity::members, sturz::Statistic::count};
   counted.values.assign(6, 2.0F);
   sturz::Layer planes = plain;
-  planes.name = "probability";
+  planes.name = "thickness_exceedance";
+  planes.meaning = {sturz::Quantity::thickness, sturz::Statistic::probability};
   planes.axis = {"thickness_threshold", "", "m", {0.5, 1}};
   planes.values.assign(12, 0.25F);
   stack.layers = {plain, counted, planes};

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace sturz::test {
 namespace {
@@ -164,11 +165,94 @@ TEST_F(Identity, AGrownWindowAgreesWhereBothHaveRead) {
   EXPECT_EQ(large.parts.size(), 9U);
   EXPECT_EQ(large.parts.at("1/1"), small.parts.at("1/1"));
   EXPECT_THAT(input_differences({small}, {large}), IsEmpty());
-  EXPECT_THAT(input_differences({odd}, {large}), IsEmpty());
+  // Parts of blocks have names of their own: whether they differ is not known before they are read.
+  EXPECT_EQ(parts_to_read(large, {odd}).size(), 6U);
+  EXPECT_THAT(input_differences({odd}, {large}),
+              ElementsAre(HasSubstr("cannot be compared in 6 of 6 blocks")));
   all[300 * n_cols + 300] += 1;
   EXPECT_EQ(input_differences({small}, {hashes({0, 0, n_cols, n_rows})}).size(), 1U);
   EXPECT_EQ(input_differences({odd}, {hashes({200, 10, 333, 500})}).size(), 1U);
   EXPECT_EQ(with_known_parts({small}, {large})[0].parts.size(), 9U);
+}
+
+TEST_F(Identity, PartsAreFoundByTheirNamesAndNoOthers) {
+  const auto is = [](const ReadWindow& w) {
+    return std::vector<int>{w.col0, w.row0, w.n_cols, w.n_rows};
+  };
+  const auto at = [&](const char* name) {
+    const auto w = window_of_part(name, 700, 600);
+    return w ? is(*w) : std::vector<int>{};
+  };
+  EXPECT_THAT(at("0/1"), ElementsAre(256, 0, 256, 256));
+  EXPECT_THAT(at("2/2"), ElementsAre(512, 512, 188, 88));
+  EXPECT_THAT(at("1/0 rows 300-301 columns 7-7"), ElementsAre(7, 300, 1, 2));
+  for (const char* name :
+       {"", "features", "3/0", "0/3", "-1/0", "0/0x", "0/0 rows 0-256 columns 0-1",
+        "0/0 rows 5-4 columns 0-1", "0/1 rows 0-1 columns 255-256", "0/0 rows 1-2", "0 / 0",
+        "0/0 rows 1-2 columns 3-4 ", "99999999999/0", "0/0 rows 1-2 columns 3-99999999999"})
+    EXPECT_THAT(at(name), IsEmpty()) << name;
+}
+
+/// Rasters of which a window is read: the names of its parts find the same cells again.
+class IdentityOfParts : public Identity {
+ protected:
+  ElevationRaster open(std::optional<double> cell = {}) const {
+    RasterRequest r;
+    r.path = "dem.tif";
+    r.directory = folder().string();
+    r.cell_size_m = cell;
+    return ElevationRaster(r);
+  }
+  static std::vector<std::string> names(const InputIdentity& identity) {
+    std::vector<std::string> all;
+    for (const auto& [name, hash] : identity.parts) all.push_back(name);
+    return all;
+  }
+  /// \param row,col a cell of the file that the middle of the working grid was made from
+  void expect_found_again(TypedRaster raster, int row, int col, std::optional<double> cell = {}) {
+    write_typed(path("dem.tif"), raster);
+    const Grid& g = open(cell).grid();
+    const Window w = window_between(g.n_rows / 2 - 40, g.n_rows / 2 + 40, g.n_cols / 2 - 45,
+                                    g.n_cols / 2 + 45, g);
+    const InputIdentity read = open(cell).read(w).identity;
+    EXPECT_THAT(names(read), ::testing::Contains(HasSubstr("rows")));
+    EXPECT_EQ(open(cell).hashes_of(names(read)), read.parts);
+    raster.values[static_cast<std::size_t>(row) * raster.n_cols + col] += 0.5;
+    write_typed(path("dem.tif"), raster);
+    EXPECT_NE(open(cell).hashes_of(names(read)), read.parts);
+    EXPECT_THAT(open(cell).hashes_of({"9/9", "features"}), IsEmpty());
+  }
+};
+
+TEST_F(IdentityOfParts, OfARasterKeptCellByCell) { expect_found_again(slope(600), 300, 300); }
+
+TEST_F(IdentityOfParts, OfARasterResampled) { expect_found_again(slope(1500), 750, 750, 7.0); }
+
+TEST_F(IdentityOfParts, OfARasterInDegrees) {
+  TypedRaster r = slope(1500);
+  r.crs = "EPSG:4326";
+  r.west = 14, r.north = 42, r.cell = 1e-4;
+  expect_found_again(r, 750, 750);
+}
+
+TEST_F(IdentityOfParts, OfScaledWholeNumbersWithMarks) {
+  TypedRaster r = slope(600);
+  for (double& v : r.values) v = std::nearbyint(10 * v);
+  r.type = GDT_Int32;
+  r.scale = 0.1;
+  for (std::size_t i = 0; i < r.values.size(); i += 7) r.values[i] = 2147483647;
+  expect_found_again(r, 300, 301);
+}
+
+TEST_F(IdentityOfParts, ABlockWithoutAnyGroundIsNoError) {
+  TypedRaster r = slope(600);
+  for (int row = 256; row < 512; ++row)  // more than the highest mountain, no mark
+    for (int col = 256; col < 512; ++col)
+      r.values[static_cast<std::size_t>(row) * 600 + col] = 20000;
+  write_typed(path("dem.tif"), r);
+  ElevationRaster raster = open();
+  const InputIdentity read = raster.read(whole_of(raster.grid())).identity;
+  EXPECT_EQ(raster.hashes_of({"1/1"}).at("1/1"), read.parts.at("1/1"));
 }
 
 TEST_F(Identity, NotANumberAndZeroHaveOneHashEach) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/io/io_fixture.hpp"
 
+#include "io/gdal/cog.hpp"
+
 #include <gdal_priv.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -79,6 +81,14 @@ Raster<double> plane(int n_cols, int n_rows, double cell, double west, double no
   for (int row = 0; row < n_rows; ++row)
     for (int col = 0; col < n_cols; ++col) raster.at(row, col) = 100 + col - 2 * row;
   return raster;
+}
+
+SceneOnAPlane::SceneOnAPlane() {
+  scene.directory = folder().string();
+  scene.terrain.raster = "bed.tif";
+  scene.release.box = ReleaseBox{{500200, 500250}, {4600200, 4600250}};
+  scene.release.thickness_m = Uncertain(4);
+  write_geotiff(path("bed.tif"), plane(50, 40, 10, 500000, 4600400), {});
 }
 
 SmallDisk::SmallDisk(std::size_t bytes) {
@@ -179,7 +189,7 @@ std::string wkt2(int epsg) {
   char* text = nullptr;
   const char* options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   crs.exportToWkt(&text, options);
-  const std::string wkt = text;
+  std::string wkt = text;
   CPLFree(text);
   return wkt;
 }

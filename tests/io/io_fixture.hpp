@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
+#include "scenarios/scenario.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,11 +19,13 @@
 namespace sturz::test {
 
 class IoTest : public ::testing::Test {
+ public:
+  IoTest(const IoTest&) = delete;
+  IoTest& operator=(const IoTest&) = delete;
+
  protected:
   IoTest();
   ~IoTest() override;
-  IoTest(const IoTest&) = delete;
-  IoTest& operator=(const IoTest&) = delete;
 
   std::filesystem::path folder() const { return folder_; }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
@@ -34,6 +37,13 @@ class IoTest : public ::testing::Test {
 
  private:
   std::filesystem::path folder_;
+};
+
+/// A scene on 50 x 40 cells of 10 m, south-west corner at 500000, 4600000 of UTM 33N.
+class SceneOnAPlane : public IoTest {
+ protected:
+  SceneOnAPlane();
+  Scenario scene;
 };
 
 /// What a raster file shall hold.

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -139,7 +140,8 @@ TEST_F(GeoTiff, RoundTripsElevationsAndMetadata) {
   r.path = path("bed.tif");
   const RasterRead read = read_elevation(r);
   EXPECT_TRUE(read.raster.grid.same_place(bed.grid));
-  EXPECT_EQ(std::memcmp(&read.raster.values[0], &bed.values[0], 8), 0);
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(read.raster.values[0]),
+            std::bit_cast<std::uint64_t>(bed.values[0]));
   EXPECT_TRUE(std::isnan(read.raster.at(2, 3)));
   GDALDataset* data = GDALDataset::Open(path("bed.tif").c_str());
   EXPECT_STREQ(data->GetMetadataItem("SYNTHETIC"), "YES");
@@ -257,7 +259,6 @@ TEST_F(GeoTiff, AFullDiskLeavesNothing) {
 
 class ParticleFrames : public IoTest {
  protected:
-  static constexpr std::size_t n = 4;
   std::vector<double> x{403000.123456789, 2, 3, 4}, y{4, 3, 2, 1}, z{9, 9, 9, 9};
   std::vector<double> vx{3, 0, 0, 0}, vy{4, 0, 0, 0}, vz{0, 0, 0, 1}, mass{1, 2, 3, 4};
   std::vector<double> density{2600, 2601, 2602, 2603}, pressure{0, 10, 20, 30};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Zones of the bed from their files to the terrain's cells.
-#include "io/gdal/cog.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
 #include "tests/io/io_fixture.hpp"
@@ -18,16 +17,8 @@ std::string polygons(const std::string& rings, const std::string& crs = "EPSG::3
   return collection(feature("Polygon", "[" + rings + "]"), crs);
 }
 
-class ZoneInputs : public IoTest {
+class ZoneInputs : public SceneOnAPlane {
  protected:
-  /// 50 x 40 cells of 10 m, south-west corner at 500000, 4600000.
-  ZoneInputs() {
-    scene.directory = folder().string();
-    scene.terrain.raster = "bed.tif";
-    scene.release.box = ReleaseBox{{500200, 500250}, {4600200, 4600250}};
-    scene.release.thickness_m = Uncertain(4);
-    write_geotiff(path("bed.tif"), plane(50, 40, 10, 500000, 4600400), {});
-  }
   void add_zone(const std::string& file, const std::string& text, const std::string& layer = "") {
     write(file, text);
     scene.basal.zones.push_back({file, layer, 0.3, {}, {}});
@@ -38,7 +29,6 @@ class ZoneInputs : public IoTest {
   static std::int64_t count(const SceneInputs& in, int zone) {
     return std::count(in.zones->values.begin(), in.zones->values.end(), zone);
   }
-  Scenario scene;
 };
 
 TEST_F(ZoneInputs, WithoutZonesThereIsNoRaster) {
@@ -72,9 +62,9 @@ TEST_F(ZoneInputs, TheLaterOfTwoHolds) {
 }
 
 TEST_F(ZoneInputs, HolesAndSeveralFeaturesOfALayer) {
-  const std::string ring =
-      feature("Polygon", "[" + square(0, 0, 50) + "," + square(10, 10, 30) + "]");
-  const std::string overlapping = feature("Polygon", "[" + square(40, 0, 50) + "]");
+  const auto list = [](std::string rings) { return rings.insert(0, 1, '[').append(1, ']'); };
+  const std::string ring = feature("Polygon", list(square(0, 0, 50) + "," + square(10, 10, 30)));
+  const std::string overlapping = feature("Polygon", list(square(40, 0, 50)));
   add_zone("many.geojson", collection(ring + "," + overlapping));
   const SceneInputs in = load_scene_inputs(scene);
   EXPECT_EQ(count(in, 1), (25 - 9) + 25 - 5);

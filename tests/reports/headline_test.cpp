@@ -26,6 +26,11 @@ TEST(ReportEstimate, IsWrittenAsFarAsItIsKnown) {
   e.value = nan_d, e.lower = -INFINITY;
   EXPECT_EQ(value_text(e, metres), "not known");
   EXPECT_EQ(interval_text(e, metres), "no interval: too many are cut off");
+  e.least = 2400, e.most = 2471.4;
+  EXPECT_EQ(value_text(e, metres), "2400 m to 2471 m");
+  e.most = 2400.04;
+  EXPECT_EQ(value_text(e, metres), "2400 m");
+  e.least = e.most = nan_d;
   e.lower = e.upper = nan_d;
   EXPECT_EQ(interval_text(e, metres), "too few simulations for an interval");
   EXPECT_EQ(value_text({}, metres), "\u2013");

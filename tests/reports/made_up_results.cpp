@@ -260,13 +260,11 @@ ReportInput MadeUpResults::ensemble_input() const {
       "title: Gully above the made-up village\nterrain: {raster: ground.tif}\n"
       "basal:\n  friction_coefficient: {uniform: [0.15, 0.4]}\n"
       "numerics: {spacing_m: 7, end_time_s: 120}   # </script><b>not markup</b>\n";
-  in.manifest = {{"version", "0.1.0"},
-                 {"git_hash", "9f31c02"},
+  in.manifest = {{"program", "sturz 0.1.0 (9f31c02)"},
                  {"compiler", "GNU 12.2.0, -O3"},
-                 {"design", "latin_hypercube"},
-                 {"seed", "1"},
-                 {"date", "2026-05-04 09:12 UTC"},
+                 {"started", "2026-05-04 09:12 UTC"},
                  {"command", "sturz ensemble scenario.yaml -n 32"},
+                 {"design", "latin_hypercube, 32 members, seed 1"},
                  {"checksum of ground.tif", "sha256 4be1d9a2c07f55e0918f3c2ab6d47e10fe33"}};
   in.elevation = &elevation;
   in.hazard = &hazard;

@@ -94,7 +94,7 @@ TEST(Report, HoldsWhatAReaderNeeds) {
        {"Gully above the made-up village", "31 of 32", "Read this first", "Median runout",
         "95\u00A0% interval", "not resolved", "WGS 84 / UTM zone 33N", "friction_coefficient",
         "simulations per hour", "Median crown to toe, L", "H/L", "Median centre-of-mass travel",
-        "(EPSG:32633)", "Share of the valid simulations", "git hash",
+        "(EPSG:32633)", "Share of the valid simulations", "sturz 0.1.0 (9f31c02)",
         "Probability that the flow arrives"})
     EXPECT_TRUE(holds(page, text));
   EXPECT_TRUE(holds(page, "bound by &lt;terrain contact&gt;")) << "why member 11 failed";
@@ -148,6 +148,17 @@ TEST(Report, BeginsWithWhatIsCutOffWhereThatIsMuch) {
   EXPECT_TRUE(holds(page, "at least: the member is cut off"));
   EXPECT_TRUE(holds(page, "11 settled, 20 out of time, 1 diverged"));
   EXPECT_EQ(nesting_error(page), "");
+}
+
+TEST(Report, APartOfAnEnsembleSaysSo) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  EXPECT_EQ(make_report(input).find("are missing here"), std::string::npos);
+  input.n_planned = 40;
+  const std::string page = make_report(input);
+  EXPECT_NE(page.find("8 of the 40 planned members are missing here"), std::string::npos);
+  EXPECT_NE(page.find("Ensemble of 32 of 40 members"), std::string::npos);
+  EXPECT_NE(page.find(", 8 not computed yet"), std::string::npos);
 }
 
 TEST(Report, SaysWhatIsCutOffAmongTheWarningsWhereItIsLittle) {
@@ -282,6 +293,23 @@ TEST(ReportFigures, DrawReleaseAndNorthOnEveryMap) {
   EXPECT_EQ(count(page, "<span class=\"swatch release\"></span>release"), 6U);
   if (!report_has_script()) return;
   EXPECT_EQ(data_of(page)["maps"]["release"].size(), cell_outline(results.release).size());
+}
+
+TEST(ReportFigures, DrawTheObservedOutlineAndSayWhatItIs) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  EXPECT_EQ(count(make_report(input), "swatch observed\"></span>"), 0U);
+  const std::vector<std::vector<Vec2>> rings = {{{100, 40}, {160, 40}, {160, 90}, {100, 40}}};
+  input.observed = rings;
+  input.observed_note = "mapped <2017>";
+  const std::string page = make_report(input);
+  EXPECT_EQ(count(page, "swatch observed\"></span>observed: mapped &lt;2017&gt;</li>"), 6U);
+  EXPECT_EQ(count(page, "stroke-dasharray=\"7 4\""), 6U);
+  if (!report_has_script()) return;
+  const auto observed = data_of(page)["maps"]["observed"];
+  EXPECT_EQ(observed["label"], "observed: mapped <2017>");
+  EXPECT_EQ(observed["rings"][0][2], nlohmann::json({160, 90}));
+  EXPECT_EQ(observed["rings"][0].size(), 4U);
 }
 
 TEST(ReportFigures, ShowTheMostSevereOfJoinedCells) {

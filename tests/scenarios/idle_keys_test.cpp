@@ -31,6 +31,7 @@ TEST(IdleKeys, InternalFrictionDoesNothingInIsotropicColumns) {
   s.grains->friction_angle_deg = Uncertain(30);
   EXPECT_THAT(idle_keys(s, true), ElementsAre("grains.friction_angle_deg"));
   EXPECT_THAT(idle_keys(s, false), IsEmpty());
+  EXPECT_THAT(idle_keys(s, true, true), IsEmpty()) << "a pile";
   s.grains->earth_pressure = LateralPressure::active_passive;
   EXPECT_THAT(idle_keys(s, true), IsEmpty());
 }

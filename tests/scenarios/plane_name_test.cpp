@@ -20,6 +20,10 @@ TEST(PlaneName, SaysValueAndUnit) {
       pressures{"pressure_threshold", "", "kPa", {30}}, levels{"quantile", "", "1", {0.05, 0.5}};
   EXPECT_EQ(plane_name(layer("thickness_exceedance", Statistic::probability, "1", metres), 0),
             "thickness_exceedance_0.1_m");
+  const LayerAxis close{"thickness_threshold", "", "m", {0.1, 0.10000001}};
+  EXPECT_EQ(plane_name(layer("thickness_exceedance", Statistic::probability, "1", close), 1),
+            "thickness_exceedance_0.10000001_m")
+      << "two thresholds, two files";
   EXPECT_EQ(plane_name(layer("thickness_exceedance_lower", Statistic::lower_bound, "1", metres), 1),
             "thickness_exceedance_2_m_lower");
   EXPECT_EQ(

@@ -62,6 +62,17 @@ TEST(SyntheticTerrain, ZhangjiawanFalls305MetresAndClimbsAHill) {
   EXPECT_NEAR(on_axes(scene.bed, 482.5, 0) - on_axes(scene.bed, 427.5, 0), 12, 0.5);
 }
 
+TEST(SyntheticTerrain, ZhangjiawanGoesOnUntilTheLeastFrictionOfTheShippedCaseEnds) {
+  const auto scene = make_synthetic({"zhangjiawan", 5, {}});
+  const Grid& g = scene.bed.grid;
+  const double least = 0.20 * (1 - 0.3);  // basal friction and pore-pressure ratio
+  bool met = false;
+  for (double s = 2.5; s < 2600 && !met; s += 5)  // 100 m before the end
+    met = on_axes(scene.bed, s, 2.5) > 2120 - least * s;
+  EXPECT_TRUE(met);
+  EXPECT_EQ(g.east_m(), 502700);
+}
+
 TEST(SyntheticTerrain, ZhangjiawanSourceHasItsVolumeAtAnyCellSize) {
   for (const double cell : {2.5, 5.0, 10.0}) {
     const auto scene = make_synthetic({"zhangjiawan", cell, {}});
@@ -112,7 +123,7 @@ TEST(SyntheticTerrain, SourceVolumeIsAParameter) {
 TEST(SyntheticTerrain, LandslideGroundsCarryAMapLabelAndLieNorthUp) {
   const auto scene = make_synthetic({"zhangjiawan", 10, {}});
   const Grid& g = scene.bed.grid;
-  EXPECT_EQ(g.n_cols, 190);
+  EXPECT_EQ(g.n_cols, 300);
   EXPECT_EQ(g.n_rows, 80);
   EXPECT_EQ(g.west_m, 499700);
   EXPECT_EQ(g.north_m, 2900400);

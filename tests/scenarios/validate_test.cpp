@@ -254,8 +254,9 @@ TEST(Validate, UnknownWordsAreNamedAndChangeNothing) {
   EXPECT_EQ(refusal("formulation", "depth_average"),
             "formulation = depth_average (must be one of auto, full_stress, depth_averaged). Did "
             "you mean depth_averaged?");
-  EXPECT_EQ(refusal("grains.earth_pressure", "passive"),
-            "grains.earth_pressure = passive (must be one of isotropic, active_passive).");
+  EXPECT_EQ(
+      refusal("grains.earth_pressure", "passive"),
+      "grains.earth_pressure = passive (must be one of auto, isotropic, active, active_passive).");
 }
 
 TEST(Validate, ThresholdsRiseAndQuantilesLieInside) {

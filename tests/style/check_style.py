@@ -286,8 +286,19 @@ def citation(root):
     yield "CITATION.cff:1: no version."
 
 
+def decisions(root):
+    """Decisions are cited by number: no two share one."""
+    first = {}
+    for path in sorted((root / "docs/decisions").glob("*.md")):
+        number = re.match(r"(\d{4})-[a-z0-9-]+\.md$", path.name)
+        if not number:
+            yield f"docs/decisions/{path.name}:1: is no NNNN-what-was-decided.md."
+        elif first.setdefault(number.group(1), path.name) != path.name:
+            yield f"docs/decisions/{path.name}:1: has the number of {first[number.group(1)]}. Take the next free one."
+
+
 CHECKS = {f.__name__: f for f in (length, folders, functions, silence, words, headers, machine_paths, equations,
-                                  references, citation)}
+                                  references, citation, decisions)}
 
 
 def main(which, root):

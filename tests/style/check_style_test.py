@@ -122,6 +122,18 @@ class CheckStyle(unittest.TestCase):
         (self.root / "docs/physics.md").unlink()
         self.assertTrue(self.findings("references", "engine/a.hpp", "// B.9"))
 
+    def test_decisions_have_numbers_of_their_own(self):
+        folder = self.root / "docs/decisions"
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "0002-two.md").write_text("")
+        for name in ("0001-one.md", "0004-a-gap.md"):
+            self.assertFalse(self.findings("decisions", "docs/decisions/" + name, "x"), name)
+        self.assertTrue(self.findings("decisions", "docs/decisions/0002-other.md", "x"))
+
+    def test_decisions_without_a_number_are_found(self):
+        (self.root / "docs/decisions").mkdir(parents=True, exist_ok=True)
+        self.assertTrue(self.findings("decisions", "docs/decisions/why.md", "x"))
+
     def test_documents_outside_the_repository_are_found(self):
         self.with_physics()
         (self.root / "docs/studies/cost.md").write_text("")

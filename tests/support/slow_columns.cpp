@@ -13,11 +13,19 @@ namespace {
 
 double wave_speed(const SlowColumn& c) { return std::sqrt(c.lateral * c.thickness); }
 
+/// r_ij with the rise times the shares of both columns to some power: 1 in distances, 2 in
+/// gradients.
+Vec3 known(const SlowColumn& a, const SlowColumn& b, int power) {
+  const Vec3 r = a.position - b.position;
+  return {r.x(), r.y(), std::pow(a.share * b.share, power) * r.z()};
+}
+
 /// Monaghan's viscosity between approaching columns: Pi = -alpha c_ij mu / h_ij for mu < 0.
 double viscous(const SlowColumn& a, const SlowColumn& b, double support_radius, double alpha) {
-  const Vec3 r = a.position - b.position, v = a.velocity - b.velocity;
+  const Vec3 r = known(a, b, 1), v = a.velocity - b.velocity;
+  const Vec3 rises = known(a, b, 2);
   const double smoothing = 0.5 * support_radius;
-  const double mu = smoothing * v.dot(r) / (r.squaredNorm() + 0.01 * smoothing * smoothing);
+  const double mu = smoothing * v.dot(rises) / (r.squaredNorm() + 0.01 * smoothing * smoothing);
   if (mu >= 0) return 0;
   const double speed = 0.5 * (wave_speed(a) + wave_speed(b));
   const double thickness = 0.5 * (a.thickness + b.thickness);
@@ -26,13 +34,13 @@ double viscous(const SlowColumn& a, const SlowColumn& b, double support_radius, 
 
 void add_pair(const SlowColumn& a, const SlowColumn& b, const ColumnConstants& k,
               ColumnRates& out) {
-  const Vec3 r = a.position - b.position;
-  const double distance = r.norm(), support_radius = std::min(a.support_radius, b.support_radius);
+  const double distance = known(a, b, 1).norm(),
+               support_radius = std::min(a.support_radius, b.support_radius);
   if (distance >= support_radius) return;
   const ColumnSmoothing w{support_radius};
   out.thickness += b.volume * w.value(distance);
   out.density += w.value(distance);
-  const Vec3 gradient = -w.gradient(distance) * r;
+  const Vec3 gradient = -w.gradient(distance) * known(a, b, 2);
   const double lateral = 0.5 * (a.lateral + b.lateral);
   const Vec3 pair = -b.volume * (lateral + viscous(a, b, support_radius, k.viscosity)) * gradient;
   out.acceleration += pair;
@@ -50,6 +58,7 @@ ColumnRecord record_of(const SlowColumn& c, ColumnRecord r) {
   r.thickness = static_cast<float>(c.thickness);
   r.lateral = static_cast<float>(c.lateral);
   r.wave_speed = static_cast<float>(wave_speed(c));
+  r.share = static_cast<float>(c.share);
   return r;
 }
 

@@ -17,6 +17,7 @@ struct SlowColumn {
   double support_radius = 4;  ///< support radius R [m]
   double thickness = 1;       ///< h [m]
   double lateral = 9.81;      ///< K g_n [m/s^2]
+  double share = 1;           ///< of the ground's slope that pressure knows [-]
 };
 
 struct ColumnRates {

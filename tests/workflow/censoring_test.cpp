@@ -145,6 +145,11 @@ TEST_F(CensoredEnsemble, SaysWhatIsCutWhereverItIsRead) {
   EXPECT_THAT(page, HasSubstr("upper end not known"));
   EXPECT_THAT(read("short/members.csv"), HasSubstr(",left_terrain,"));
   EXPECT_THAT(read("long/report.html"), Not(HasSubstr("<section class=\"banner\"")));
+  // Said of both before, answered where no member came to the edge.
+  for (const char* folder : {"long", "short"})
+    EXPECT_THAT(read(std::string(folder) + "/manifest.json"), HasSubstr("edge of the terrain: "));
+  EXPECT_THAT(page, HasSubstr("edge of the terrain: "));
+  EXPECT_THAT(read("long/report.html"), Not(HasSubstr("edge of the terrain: ")));
   EXPECT_EQ(workflow::Manifest::read(path("long") / "manifest.json").censored,
             "0 of 24 valid members (24 settled)");
 }

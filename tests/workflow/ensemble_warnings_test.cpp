@@ -40,8 +40,9 @@ TEST_F(EnsembleWarnings, NothingUncertainIsOneMemberManyTimes) {
 }
 
 TEST_F(EnsembleWarnings, ADistributionWithoutEffectIsNamed) {
-  EXPECT_THAT(said({"grains.friction_angle_deg={uniform: [25, 35]}"}),
-              ElementsAre("drawn but without effect in depth_averaged: grains.friction_angle_deg"));
+  EXPECT_THAT(
+      said({"grains.friction_angle_deg={uniform: [25, 35]}", "grains.earth_pressure=isotropic"}),
+      ElementsAre("drawn but without effect in depth_averaged: grains.friction_angle_deg"));
 }
 
 TEST_F(EnsembleWarnings, WhatHardlyBrakesIsCountedOverTheMembersNotTheMedian) {

@@ -133,6 +133,17 @@ TEST_F(Lock, AnotherMachineCannotBeAsked) {
   EXPECT_EQ(refusal(), "not refused");
 }
 
+TEST_F(Lock, ATokenThatIsNoNameOfAFileIsDamage) {
+  for (const char* token : {"../../elsewhere", "a/b", ""}) {
+    leave([&](nlohmann::json& lock) {
+      lock["boot"] = "an earlier start of this machine";
+      lock["token"] = token;
+    });
+    EXPECT_THAT(refusal(), HasSubstr("not a lock that sturz wrote, or damaged")) << token;
+    std::filesystem::remove(path("out/lock.json"));
+  }
+}
+
 TEST_F(Lock, SomethingElseOfThatNameIsNotRemoved) {
   std::filesystem::create_directory(path("out"));
   write("out/lock.json", "{\"mine\": 1}");

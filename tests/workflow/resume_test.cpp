@@ -84,7 +84,7 @@ TEST_F(ResumeWorkflow, AListenerThatThrowsStopsTheRunAndLosesNoMember) {
   };
   Thrower first;
   const workflow::MembersRun stopped = run(request("out"), first);
-  EXPECT_THAT(stopped.store_error, HasSubstr("the observer is gone"));
+  EXPECT_THAT(stopped.stop_error, HasSubstr("the observer is gone"));
   EXPECT_FALSE(stopped.interrupted);
   EXPECT_EQ(n_members("out"), 2u);
   Recorder second;

@@ -3,10 +3,13 @@
 #include "ensemble/workflow/members/single_run.hpp"
 
 #include "engine/core/error.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
 namespace sturz::test {
 namespace {
+
+using ::testing::HasSubstr;
 
 class RunWorkflow : public Workflow {
  protected:
@@ -30,6 +33,23 @@ TEST_F(RunWorkflow, ComputesTheMediansAndKeepsThem) {
   moved.scene = scene({"basal.friction_coefficient=0.5", "basal.pore_pressure_ratio=0.15"});
   workflow::SingleRun medians = workflow::prepare_run(moved, heard);
   EXPECT_EQ(workflow::compute_run(medians, heard, heard.cancel).state_hash, result.state_hash);
+}
+
+TEST_F(RunWorkflow, WhatItWarnsOfStandsInFileAndPage) {
+  Recorder heard;
+  workflow::RunRequest early = run_request("out");
+  early.scene = scene({"numerics.end_time_s=0.4"});
+  workflow::SingleRun run = workflow::prepare_run(early, heard);
+  const MemberResult result = workflow::compute_run(run, heard, heard.cancel);
+  ASSERT_EQ(result.censoring, Censoring::still_moving);
+  workflow::store_run(run, result);
+  std::string said;
+  const LayersFileReader peaks(path("out/peaks.nc"));
+  for (const auto& [name, text] : peaks.about().attributes)
+    if (name == "warnings") said = text;
+  EXPECT_THAT(said, HasSubstr("longer numerics.end_time_s"));
+  for (const std::string& warning : run.manifest.warnings) EXPECT_THAT(said, HasSubstr(warning));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("longer numerics.end_time_s"));
 }
 
 TEST_F(RunWorkflow, ACancelledOneSaysSo) {

@@ -24,7 +24,7 @@ struct FirstRates {
 };
 
 /// Puts column i on the ground with the thickness that it was released with.
-void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::size_t i,
+void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
                   double vertical_thickness, FirstRates& first) {
   const GroundColumns ground(p);
   const DepthAveragedSettings& set = flow.settings;
@@ -32,11 +32,14 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   p.fate[i] = known ? Fate::stays : Fate::off_terrain;
   p.any_leaving |= !known;
   const Vec3 n = ground[i].normal();
+  const double slope2 = ground[i].slope2(), share = known_share(slope2);
+  const double known_z = share < 1 ? 1 / std::sqrt(1 + share * share * slope2) : n.z();
   // A map lattice on a slope stands 1/n_z farther apart along it.
   const double support_radius =
-      set.radius_per_spacing * set.spacing * std::min(set.most_radius, std::sqrt(1 / n.z()));
-  const double thickness = std::max(vertical_thickness * n.z(),
-                                    single_thickness(p.mass[i] / set.density, support_radius));
+      set.radius_per_spacing * set.spacing * std::min(set.most_radius, std::sqrt(1 / known_z));
+  const double known_thickness = std::max(
+      vertical_thickness * known_z, single_thickness(p.mass[i] / set.density, support_radius));
+  const double thickness = known_thickness * thinned(share, slope2);
   const double g_n = s.gravity * n.z();
   p.scalar(fields::support_radius)[i] = support_radius;
   p.scalar(fields::thickness)[i] = thickness;
@@ -51,7 +54,11 @@ void start_column(const State& s, MovingSet& p, const ColumnFlow& flow, std::siz
   const Velocity v = Velocity{p.vx[i], p.vy[i], p.vz[i]}.in_plane(ground[i].east, ground[i].north);
   first.rate = std::max(
       first.rate, set.bed[zone].rate(std::sqrt(v.norm2()), thickness, set.density, s.gravity));
-  first.wave2 = std::max(first.wave2, g_n * thickness * 4 / (support_radius * support_radius));
+  first.wave2 = std::max(
+      first.wave2, s.gravity * known_z * known_thickness * 4 / (support_radius * support_radius));
+  flow.release_thickness = std::max(flow.release_thickness, vertical_thickness);
+  flow.release_top =
+      std::max(flow.release_top, p.z[i] + thickness / n.z() + 0.5 * v.norm2() / s.gravity);
   p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
 }
 
@@ -72,12 +79,13 @@ void start_columns(const State& s, MovingSet& p, ColumnFlow& flow,
 
 ColumnAtWall ColumnFlow::at_wall(ParticleSet& p, std::size_t i) const {
   const Field* k = p.find(fields::earth_pressure);
-  const double g_n = p.scalar(fields::normal_gravity)[i];
+  const double g = lateral_gravity[i];
+  const ColumnGround ground = GroundColumns(p)[i];
   return {{p.x[i], p.y[i], p.z[i]},
-          GroundColumns(p)[i].normal(),
+          ground.normal(),
           p.scalar(fields::support_radius)[i],
-          p.scalar(fields::thickness)[i],
-          k ? k->component[0][i] * g_n : g_n};
+          p.scalar(fields::thickness)[i] / thinned(share[i], ground.slope2()),
+          k ? known_earth_pressure(k->component[0][i], share[i]) * g : g};
 }
 
 bool look_up_ground(const State& s, ParticleSet& p, const GroundColumns& ground, std::size_t i) {

@@ -7,6 +7,7 @@
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/losses.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -64,14 +65,19 @@ class BedPass final : public Pass {
     Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
-    const BasalResistance& bed = set.bed[flow_->zone_of(s.domain, p, i)];
+    const int zone = flow_->zone_of(s.domain, p, i);
+    const BasalResistance& bed = set.bed[zone];
     double clipped = 0;
     Vec3 after;
     if (wet) {
       const WetBed::Slid slid = wet->slide(i, bed, {before, pull, kick, s.gravity});
       after = slid.after, clipped = slid.clipped_work;
     } else {
-      after = slowed(bed, {normal_gravity, thickness, set.density, s.gravity}, before, pull, kick);
+      double plastic = bed.plastic(normal_gravity, thickness, set.density);
+      if (!set.spent_inside.empty())
+        plastic +=
+            flow_->share[i] * set.spent_inside[zone] * driving_thrust(p, i, n, pull, before, kick);
+      after = slowed(bed, {plastic, thickness, set.density, s.gravity}, before, pull, kick);
     }
     Vec3 taken = before + kick * pull - after, held(0, 0, 0);
     for (const Wall& wall : s.domain.walls) {
@@ -89,19 +95,30 @@ class BedPass final : public Pass {
   }
 
   struct OnBed {
-    double normal_gravity, thickness, density, gravity;
+    double plastic, thickness, density, gravity;
   };
   /// By a bed whose pore pressure is a constant share of the weight.
   static Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before,
                      const Vec3& pull, double kick) {
-    const double plastic = bed.plastic(c.normal_gravity, c.thickness, c.density);
-    if (!bed.has_rate()) return braked(before, pull, plastic, 0, kick);
+    if (!bed.has_rate()) return braked(before, pull, c.plastic, 0, kick);
     // The rate at the mean speed of the step, found from the rate at its start: a steady flow
     // keeps its exact speed at any length of step.
     auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
     const double v0 = before.norm();
-    const double v1 = braked(before, pull, plastic, rate(v0), kick).norm();
-    return braked(before, pull, plastic, rate(0.5 * (v0 + v1)), kick);
+    const double v1 = braked(before, pull, c.plastic, rate(v0), kick).norm();
+    return braked(before, pull, c.plastic, rate(0.5 * (v0 + v1)), kick);
+  }
+
+  /// What pressure adds to the motion that it drives, or would start [m/s^2]; what it takes to hold
+  /// the column against the fall of the ground drives nothing.
+  static double driving_thrust(const MovingSet& p, std::size_t i, const Vec3& n, const Vec3& pull,
+                               const Vec3& before, double kick) {
+    Vec3 thrust(p.ax[i], p.ay[i], p.az[i]);
+    thrust -= thrust.dot(n) * n;
+    const Vec3 along = before + kick * pull;
+    const double speed = along.norm();
+    if (!(speed > 0)) return 0;
+    return std::max(0.0, std::min(thrust.dot(along), pull.dot(along)) / speed);
   }
 
   std::shared_ptr<ColumnFlow> flow_;

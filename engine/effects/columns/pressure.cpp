@@ -40,6 +40,9 @@ class CellPass final : public Pass {
 /// The reaction of the ground is g cos + v.kappa.v, spread along the path over the column's own
 /// thickness or the smoothing length: a flow thicker than a corner's radius goes round it, and
 /// still takes the whole momentum of the turn, q' = v.kappa.v - q |v|/l.
+///
+/// Pressure knows steep ground flatter than it is (ADR 0026): the mass between a wall and a floor
+/// has one pressure, however little of it lies on the wall.
 class GatherPass final : public Pass {
  public:
   explicit GatherPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
@@ -51,21 +54,35 @@ class GatherPass final : public Pass {
     MovingSet& p = s.sets[flow_->set];
     const GroundColumns ground(p);
     const double kick = kick_interval(s, dt);
-    p.ledger.detachment += ordered_reduce(
-        p.size(), s.threads, 0.0,
-        [&](std::size_t begin, std::size_t end, double& off) {
-          press(p, ground, s.gravity, kick, begin, end, off);
+    flow_->share.resize(p.size());
+    flow_->lateral_gravity.resize(p.size());
+    const Pressed pressed = ordered_reduce(
+        p.size(), s.threads, Pressed{},
+        [&](std::size_t begin, std::size_t end, Pressed& out) {
+          press(p, ground, s.gravity, kick, begin, end, out);
         },
-        [](double& total, double block) { total += block; });
+        [](Pressed& total, const Pressed& block) {
+          total.off += block.off;
+          total.least_share = std::min(total.least_share, block.least_share);
+          total.highest = std::max(total.highest, block.highest);
+        });
+    p.ledger.detachment += pressed.off;
+    flow_->steep = pressed.least_share < 1;
+    flow_->highest_surface = std::max(flow_->highest_surface, pressed.highest);
     gather_records(p, s.threads);
   }
 
  private:
-  /// How hard the ground presses on columns [begin, end); adds mass times time of those that it
-  /// lets go of. Plain loops over plain arrays, so that the compiler puts four columns side by
-  /// side.
-  static void press(ParticleSet& p, const GroundColumns& ground, double gravity, double kick,
-                    std::size_t begin, std::size_t end, double& off) {
+  struct Pressed {
+    double off = 0;           // mass times time of columns that the ground lets go of [kg s]
+    double least_share = 1;   // of a slope that pressure knows [-]
+    double highest = -1e300;  // surface [m]
+  };
+
+  /// How hard the ground presses on columns [begin, end). Plain loops over plain arrays, so that
+  /// the compiler puts four columns side by side.
+  void press(ParticleSet& p, const GroundColumns& ground, double gravity, double kick,
+             std::size_t begin, std::size_t end, Pressed& out) {
     const double *east = ground.component[0], *north = ground.component[1];
     const double *ee = ground.component[2], *en = ground.component[3], *nn = ground.component[4];
     const double *vx = p.vx.data(), *vy = p.vy.data(), *vz = p.vz.data(), *mass = p.mass.data();
@@ -75,8 +92,10 @@ class GatherPass final : public Pass {
     double* centripetal = p.scalar(fields::centripetal_momentum).data();
     const double* support_radius = p.scalar(fields::support_radius).data();
     const double* thickness = p.scalar(fields::thickness).data();
-    double airborne = 0;
-#pragma omp simd reduction(+ : airborne)
+    const double* height = p.z.data();
+    double *shares = flow_->share.data(), *lateral = flow_->lateral_gravity.data();
+    double airborne = 0, least = 1, highest = -1e300;
+#pragma omp simd reduction(+ : airborne) reduction(min : least) reduction(max : highest)
     for (std::size_t i = begin; i < end; ++i) {
       const double x = vx[i], y = vy[i], z = vz[i];
       bx[i] = x, by[i] = y, bz[i] = z;
@@ -87,16 +106,30 @@ class GatherPass final : public Pass {
       const double turned = (centripetal[i] + kick * upright * curvature) / (1 + kick * per_s);
       centripetal[i] = turned;
       const double reaction = upright * gravity + per_s * turned;
-      normal_gravity[i] = reaction > 0 ? reaction : 0;
+      const double presses = reaction > 0 ? reaction : 0;
+      normal_gravity[i] = presses;
       airborne += reaction < 0 ? mass[i] * kick : 0;
+      const double slope2 = east[i] * east[i] + north[i] * north[i];
+      const double share = known_share(slope2);
+      const double level = 1 / std::sqrt(1 + share * share * slope2);
+      const double flatter = reaction + gravity * (level - upright);
+      shares[i] = share;
+      lateral[i] = share < 1 ? (flatter > 0 ? flatter : 0) : presses;
+      least = share < least ? share : least;
+      const double top = height[i] + h * (1 + slope2) * upright;
+      // On a wall the smoothed thickness is that of the floor below it.
+      highest = share == 1 && top > highest ? top : highest;
     }
-    off += airborne;
+    out.off += airborne;
+    out.least_share = std::min(out.least_share, least);
+    out.highest = std::max(out.highest, highest);
   }
 
-  void gather_records(const MovingSet& p, int threads) {
+  void gather_records(MovingSet& p, int threads) {
     const auto& support_radius = p.scalar(fields::support_radius);
     const auto& thickness = p.scalar(fields::thickness);
-    const auto& g_n = p.scalar(fields::normal_gravity);
+    const auto &g = flow_->lateral_gravity, &share = flow_->share;
+    const GroundColumns ground(p);
     const Field* k_field = p.find(fields::earth_pressure);
     const double* k = k_field ? k_field->component[0].data() : nullptr;
     const bool wet = flow_->settings.mixture.has_value();
@@ -104,23 +137,26 @@ class GatherPass final : public Pass {
     const double* water = wet ? p.scalar(fields::water_volume).data() : nullptr;
     ColumnCells& cells = flow_->cells;
     ColumnRecord* records = cells.records();
-    parallel_ranges(cells.size(), reduction_block, threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t c = begin; c < end; ++c) {
-                        const std::size_t i = cells.source(c);
-                        ColumnRecord& r = records[c];
-                        const double lateral = k ? k[i] * g_n[i] : g_n[i];
-                        r.volume = static_cast<float>(solids ? solids[i] + water[i]
-                                                             : p.mass[i] / flow_->settings.density);
-                        r.vx = static_cast<float>(p.vx[i]);
-                        r.vy = static_cast<float>(p.vy[i]);
-                        r.vz = static_cast<float>(p.vz[i]);
-                        r.inverse_radius = static_cast<float>(1 / support_radius[i]);
-                        r.thickness = static_cast<float>(thickness[i]);
-                        r.lateral = static_cast<float>(lateral);
-                        r.wave_speed = static_cast<float>(std::sqrt(lateral * thickness[i]));
-                      }
-                    });
+    parallel_ranges(
+        cells.size(), reduction_block, threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t c = begin; c < end; ++c) {
+            const std::size_t i = cells.source(c);
+            ColumnRecord& r = records[c];
+            const double lateral = k ? known_earth_pressure(k[i], share[i]) * g[i] : g[i];
+            const double known =
+                share[i] < 1 ? thickness[i] / thinned(share[i], ground[i].slope2()) : thickness[i];
+            r.volume = static_cast<float>(solids ? solids[i] + water[i]
+                                                 : p.mass[i] / flow_->settings.density);
+            r.vx = static_cast<float>(p.vx[i]);
+            r.vy = static_cast<float>(p.vy[i]);
+            r.vz = static_cast<float>(p.vz[i]);
+            r.inverse_radius = static_cast<float>(1 / support_radius[i]);
+            r.thickness = static_cast<float>(known);
+            r.lateral = static_cast<float>(lateral);
+            r.wave_speed = static_cast<float>(std::sqrt(lateral * known));
+            r.share = static_cast<float>(share[i]);
+          }
+        });
   }
 
   std::shared_ptr<ColumnFlow> flow_;
@@ -149,7 +185,7 @@ class SweepPass final : public Pass {
     MovingSet& p = s.sets[flow_->set];
     const ColumnView view = flow_->cells.view();
     const ColumnSweepOutput out = flow_->output();
-    const ColumnConstants constants{flow_->settings.viscosity};
+    const ColumnConstants constants{flow_->settings.viscosity, flow_->steep};
     const Sweeps& loops = sweeps(flow_->settings.instruction_set);
     constexpr std::size_t groups_per_range = 16;
     parallel_ranges(flow_->cells.n_groups(), groups_per_range, s.threads,
@@ -158,6 +194,9 @@ class SweepPass final : public Pass {
                     });
     accumulate(s, p, out, dt);
     if (!s.domain.walls.empty()) mirror_at_walls(s, p);
+  }
+  void warnings(const State& s, std::vector<std::string>& out) const override {
+    warn_of_implausible(s, *flow_, out);
   }
   std::size_t bytes() const override { return 7 * sizeof(float) * flow_->cells.size(); }
 
@@ -168,7 +207,8 @@ class SweepPass final : public Pass {
     const DepthAveragedSettings& set = flow_->settings;
     auto& thickness = p.scalar(fields::thickness);
     auto& support_radius = p.scalar(fields::support_radius);
-    const auto& g_n = p.scalar(fields::normal_gravity);
+    const auto &g = flow_->lateral_gravity, &share = flow_->share;
+    const GroundColumns ground(p);
     Field* k_field = p.find(fields::earth_pressure);
     double* k = k_field ? k_field->component[0].data() : nullptr;
     const double first = set.radius_per_spacing * set.spacing;
@@ -186,13 +226,15 @@ class SweepPass final : public Pass {
                 walls ? flow_->walls.thickness_factor(s.domain, s.time, {p.x[i], p.y[i], p.z[i]},
                                                       support_radius[i])
                       : 1;
-            thickness[i] = whole * out.thickness[c];
+            const double known = whole * out.thickness[c];
+            const bool steep = share[i] < 1;
+            thickness[i] = steep ? known * thinned(share[i], ground[i].slope2()) : known;
             if (strain_rate) strain_rate[i] = double(out.divergence[c]) / out.thickness[c];
             if (k)
-              k[i] = strained(s.domain, p, i, k[i], out.divergence[c] / thickness[i] * dt,
-                              thickness[i]);
+              k[i] = strained(s.domain, p, i, k[i], out.divergence[c] / known * dt, thickness[i]);
             const double per_h = 2 / support_radius[i];
-            const double wave2 = (k ? k[i] : 1.0) * g_n[i] * thickness[i] * per_h * per_h;
+            const double wave2 =
+                (k ? known_earth_pressure(k[i], share[i]) : 1.0) * g[i] * known * per_h * per_h;
             most.wave = std::max(most.wave, wave2);
             most.approach2 = std::max(most.approach2, out.approach[c] * per_h * per_h);
             support_radius[i] = adapted(support_radius[i], whole * out.density[c], first);

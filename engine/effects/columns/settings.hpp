@@ -26,6 +26,10 @@ struct DepthAveragedSettings {
   double earth_pressure_stiffness = 200;
   std::vector<BasalResistance> bed{1};           ///< by zone, [0] where there is none
   std::vector<EarthPressure> earth_pressure{1};  ///< by zone, as `bed`
+  /// Share of the thrust that drives a column which internal friction takes, by zone: 1 - K_active
+  /// (ADR 0026). Empty: none.
+  std::vector<double> spent_inside;
+  double internal_friction = 0;  ///< tan phi of the grains, to judge deposits by; 0: unknown
   ZoneMap zones;
   std::optional<MixtureSettings> mixture;  ///< absent: a dry mass, or one with a constant ratio
   InstructionSet instruction_set = InstructionSet::plain;

@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,10 +22,16 @@ struct ColumnFlow {
   ColumnCells cells;
   ColumnWalls walls;
   std::vector<float> results[7];    ///< of the sweep, by record
+  std::vector<double> share,        ///< of the ground's slope that pressure knows, by column [-]
+      lateral_gravity;              ///< pressure over density and thickness where K = 1 [m/s^2]
   std::vector<double> strain_rate;  ///< div v of each column [1/s]; empty without a mixture
+  bool steep = false;               ///< some share is under one
   double start_dt = 1e-3;           ///< of the first step [s]
   double fastest_wave = 0;          ///< largest sqrt(K g_n h) / h_s [1/s]
   double fastest_approach = 0;      ///< largest relative speed of neighbours / h_s [1/s]
+  double release_thickness = 0;     ///< largest vertical thickness at release [m]
+  double release_top = -1e300;      ///< energy head of the release: surface and v^2/2g [m]
+  double highest_surface = -1e300;  ///< over the run so far [m]
 
   /// Column i beside a wall.
   ColumnAtWall at_wall(ParticleSet&, std::size_t i) const;
@@ -49,12 +56,33 @@ struct ColumnGround {
   double east, north, curvature_ee, curvature_en, curvature_nn;
 
   Vec3 normal() const { return upward_normal(east, north); }
+  double slope2() const { return east * east + north * north; }
   /// The slopes a horizontal displacement (x, y) farther on.
   ColumnGround ahead(double x, double y) const {
     return {east + curvature_ee * x + curvature_en * y, north + curvature_en * x + curvature_nn * y,
             curvature_ee, curvature_en, curvature_nn};
   }
 };
+
+/// Share of the ground's slope that pressure knows: one up to 40 degrees, none from 55 on (ADR
+/// 0026).
+inline double known_share(double slope2) {
+  constexpr double gentle = 0.70408819, wall = 2.0396072;  // tan^2 of 40 and 55 degrees
+  double t = (slope2 - gentle) * (1 / (wall - gentle));
+  t = t < 0 ? 0 : t > 1 ? 1 : t;
+  return 1 - t * t * (3 - 2 * t);
+}
+
+/// How many times as thick a column is along the normal of the true ground as along that of the
+/// ground that pressure knows; exactly one on gentle ground.
+inline double thinned(double share, double slope2) {
+  return share < 1 ? std::sqrt((1 + share * share * slope2) / (1 + slope2)) : 1.0;
+}
+
+/// K of a column: walls bear what K would add or take.
+inline double known_earth_pressure(double k, double share) {
+  return share < 1 ? 1 + share * (k - 1) : k;
+}
 
 /// The arrays of field "ground", looked up once per pass.
 struct GroundColumns {
@@ -102,6 +130,16 @@ inline double kick_interval(const State& s, double dt) { return 0.5 * (s.previou
 
 /// Puts columns from `first` on that entered during the run on the ground, without neighbours yet.
 void enter_columns(const State&, ColumnFlow&, MovingSet&, std::size_t first);
+
+/// Mass at rest under a free surface steeper than `limit` [-], and the steepest one.
+struct SteepRest {
+  double share = 0, steepest = 0;  ///< of the whole mass [-]; slope [-]
+};
+SteepRest steep_rest(const State&, const ColumnFlow&, double limit);
+
+/// Says what no mass of grains does: a surface above the energy head of the release, a rest steeper
+/// than friction allows.
+void warn_of_implausible(const State&, const ColumnFlow&, std::vector<std::string>&);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
 void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< bed, drift

@@ -87,8 +87,7 @@ std::string hint_on_words(const CLI::App& program, const std::vector<std::string
       continue;
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     if (name[1] != '-' && std::isdigit(static_cast<unsigned char>(name[1]))) continue;
-    const std::string hint =
-        hint_on_option(*command, words[i], i + 1 < words.size() ? words[i + 1] : "");
+    std::string hint = hint_on_option(*command, words[i], i + 1 < words.size() ? words[i + 1] : "");
     if (!hint.empty()) return hint;
   }
   return {};

@@ -2,6 +2,7 @@
 #include "ensemble/workflow/folder/finished_folder.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/workflow/folder/input_check.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
 
@@ -20,10 +21,13 @@ FinishedFolder open_finished(const fs::path& folder, Observer& observer) {
   found.manifest = Manifest::read(found.folder.manifest());
   found.scenario = read_scenario(found.folder.scenario());
   try {
-    found.inputs = std::make_shared<const SceneInputs>(load_scene_inputs(found.scenario));
+    const auto inputs = std::make_shared<const SceneInputs>(load_scene_inputs(found.scenario));
+    found.changed = changed_inputs(found.scenario, inputs->identities, found.manifest.inputs);
+    found.inputs = inputs;
   } catch (const SetupError& problem) {
-    observer.warning(
-        fmt::format("the terrain cannot be read, a page will have no relief: {}", problem.what()));
+    found.unreadable =
+        fmt::format("the terrain cannot be read, a page will have no relief: {}", problem.what());
+    observer.warning(found.unreadable);
   }
   return found;
 }

@@ -9,6 +9,8 @@
 #include "scenarios/scene_inputs.hpp"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace sturz::workflow {
 
@@ -16,11 +18,14 @@ struct FinishedFolder {
   OutputFolder folder;
   Manifest manifest;
   Scenario scenario;
-  std::shared_ptr<const SceneInputs> inputs;  ///< null when the input files are gone
+  std::shared_ptr<const SceneInputs> inputs;  ///< null when the input files cannot be read
+  std::string unreadable;                     ///< why not
+  std::vector<std::string> changed;  ///< how they differ from what the members were computed from
 };
 
-/// Reads a folder back. Warns, and goes on without relief, when the terrain cannot be read any
-/// more. \throws SetupError when the folder holds no results
+/// Reads a folder back, and compares today's input files with what its members read of them. That
+/// they differ is left to the caller; warns when they cannot be read (any more). \throws SetupError
+/// when the folder holds no results
 FinishedFolder open_finished(const std::filesystem::path& folder, Observer&);
 
 }  // namespace sturz::workflow

@@ -61,6 +61,18 @@ void require_no_shards(const OutputFolder& folder) {
   }
 }
 
+/// Waits a minute for the folder's own lock.
+/// \param behind_all also behind a process that stays alone; false: refuse then
+void take_in_turn(const OutputFolder& folder, const LockHolder& holder, bool behind_all) {
+  constexpr std::chrono::seconds patience{60};
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (const auto other = take_lock(folder.lock(), holder)) {
+    if (!(other->brief || behind_all) || std::chrono::steady_clock::now() > end)
+      refuse(folder, folder.lock(), *other);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 /// The locks of this process that are held now, by the folder's true path.
 struct Mine {
   std::mutex mutex;
@@ -80,7 +92,7 @@ std::shared_ptr<FolderLock> FolderLock::alone(const OutputFolder& folder,
   make_folder(folder.root);
   auto& known = mine().alone[fs::weakly_canonical(folder.root).string()];
   if (auto held = known.lock()) return held;
-  const std::shared_ptr<FolderLock> lock(new FolderLock);
+  std::shared_ptr<FolderLock> lock(new FolderLock);
   const LockHolder holder = me(purpose, false);
   if (const auto other = take_lock(folder.lock(), holder)) refuse(folder, folder.lock(), *other);
   lock->main_ = {folder.lock(), holder.token};
@@ -95,20 +107,21 @@ std::shared_ptr<FolderLock> FolderLock::alone(const OutputFolder& folder,
 std::shared_ptr<FolderLock> FolderLock::shard(const OutputFolder& folder, const Shard& shard,
                                               const std::string& purpose) {
   make_folder(folder.root);
-  const std::shared_ptr<FolderLock> lock(new FolderLock);
+  std::shared_ptr<FolderLock> lock(new FolderLock);
   const LockHolder beginning = me(purpose, true), computing = me(purpose, false);
-  constexpr std::chrono::seconds patience{60};
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (const auto other = take_lock(folder.lock(), beginning)) {
-    if (!other->brief || std::chrono::steady_clock::now() > end)
-      refuse(folder, folder.lock(), *other);
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
+  take_in_turn(folder, beginning, false);
   lock->main_ = {folder.lock(), beginning.token};
   const fs::path file = shard_file(folder, shard);
   if (const auto other = take_lock(file, computing)) refuse(folder, file, *other);
   lock->shard_ = {file, computing.token};
   return lock;
+}
+
+void FolderLock::others_wait(const OutputFolder& folder) {
+  if (shard_.token.empty() || !main_.token.empty()) return;
+  const LockHolder holder = me("a shard", true);
+  take_in_turn(folder, holder, true);  // a merge looks around, sees this shard and goes away
+  main_ = {folder.lock(), holder.token};
 }
 
 void FolderLock::others_may_come() {

@@ -30,6 +30,10 @@ class FolderLock {
 
   /// A shard has begun: others may begin too. Nothing for a lock of the other kind.
   void others_may_come();
+  /// A shard is alone again for a moment, until others_may_come(): to change what all share. Waits
+  /// while another one is. Nothing for a lock of the other kind. \throws SetupError when it takes
+  /// a minute
+  void others_wait(const OutputFolder&);
 
  private:
   FolderLock() = default;

@@ -53,6 +53,9 @@ std::optional<LockHolder> parsed(const std::string& text) {
     h.purpose = all.at("purpose").get<std::string>();
     h.brief = all.at("brief").get<bool>();
     h.token = all.at("token").get<std::string>();
+    // It becomes part of a file's name.
+    if (h.token.empty() || h.token.find_first_not_of("0123456789abcdef") != std::string::npos)
+      return std::nullopt;
     return h;
   } catch (const json::exception&) {
     return std::nullopt;
@@ -135,7 +138,7 @@ std::optional<LockHolder> take_lock(const fs::path& file, const LockHolder& mine
       remember_unfinished(file);  // not before: it may be of another process
       return std::nullopt;
     }
-    const auto holder = holder_in(file);
+    auto holder = holder_in(file);
     if (!holder) continue;  // given back just now
     if (liveness_of(holder->process) != Liveness::gone) return holder;
     if (take_over(file, *holder, mine)) {

@@ -2,6 +2,7 @@
 #include "ensemble/workflow/folder/scene_identity.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/workflow/folder/input_check.hpp"
 #include "io/files/checksum.hpp"
 #include "io/scenario/scenario_file.hpp"
 #include "scenarios/schema/value_text.hpp"
@@ -51,12 +52,9 @@ std::vector<std::string> differences(const Scenario& before, const Scenario& now
 
 void require_same_scene(const OutputFolder& folder, const Scenario& now,
                         const std::vector<InputIdentity>& inputs) {
-  std::string what;
-  for (const std::string& line : differences(read_scenario(folder.scenario()), now))
-    what += "\n  " + line;
-  for (const std::string& line :
-       input_differences(Manifest::read(folder.manifest()).inputs, inputs))
-    what += "\n  " + line;
+  const std::string what =
+      as_lines(differences(read_scenario(folder.scenario()), now)) +
+      as_lines(changed_inputs(now, inputs, Manifest::read(folder.manifest()).inputs));
   require(what.empty(),
           fmt::format("{} was begun with another scene (its results would be mixed or lost). "
                       "Choose another folder with --out, or take these changes back:{}",
@@ -83,7 +81,7 @@ std::string scenario_hash(const Scenario& scenario) {
 
 std::string scene_hash(const Scenario& scenario, const std::vector<InputIdentity>& inputs) {
   std::string text = scenario_hash(scenario) + "\n";
-  for (const InputIdentity& input : inputs) {
+  for (const InputIdentity& input : of_members(inputs)) {
     text += fmt::format("{}: {}\n", input.role, input.shape);
     for (const auto& [part, hash] : input.parts) text += fmt::format("{}={}\n", part, hash);
   }

@@ -8,8 +8,8 @@
 #include "scenarios/assembly/assemble.hpp"
 
 #include <nlohmann/json.hpp>
-#include <time.h>
 
+#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -65,7 +65,7 @@ std::string processor() {
 /// What is stored for this machine and build.
 nlohmann::json stored_speeds(const fs::path& file, const std::string& key) {
   std::ifstream in(file);
-  const auto all = nlohmann::json::parse(in, nullptr, false);
+  auto all = nlohmann::json::parse(in, nullptr, false);
   if (all.is_object() && all.value("measured_on", "") == key) return all;
   return {{"measured_on", key}};
 }

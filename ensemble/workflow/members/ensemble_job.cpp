@@ -5,6 +5,7 @@
 #include "ensemble/members/shards.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
@@ -64,6 +65,28 @@ void begin_folder(const EnsembleJob& job) {
   save_scenario(job.folder, job.scene.scenario);
 }
 
+/// Whatever part of the ground members read, the manifest knows it before one of them is stored:
+/// also for shards, and when the run is stopped.
+void keep_what_is_read(EnsembleJob& job) {
+  const auto lock = job.lock;
+  const auto keep = [folder = job.folder, scenario = job.scene.scenario,
+                     lock](const std::vector<InputIdentity>& read) {
+    lock->others_wait(folder);
+    try {
+      Manifest manifest = Manifest::read(folder.manifest());  // another shard may have read more
+      const auto changed = changed_inputs(scenario, read, manifest.inputs);
+      require(changed.empty(), "another shard has read another input:" + as_lines(changed) + "\n");
+      manifest.inputs = with_known_parts(manifest.inputs, read);
+      manifest.write(folder.manifest());
+    } catch (...) {
+      lock->others_may_come();
+      throw;
+    }
+    lock->others_may_come();
+  };
+  job.scene.ground->remember(job.manifest.inputs, keep);
+}
+
 /// Members of this call's share that are not finished.
 void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer& observer) {
   const MemberStore store = members_of(job.folder, job.manifest, job.design, [&](std::int64_t k) {
@@ -91,7 +114,7 @@ void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
                     "other.",
                     wanted_workers, cores, cores));
   job.workers = std::min({wanted_workers > 0 ? wanted_workers : cores, cores, n});
-  const double memory = static_cast<double>(job.scene.description.memory_bytes);
+  const auto memory = static_cast<double>(job.scene.description.memory_bytes);
   const double free = available_memory_bytes();
   if (memory > 0 && free > 0 && memory * job.workers > 0.9 * free) {
     const int fewer = std::max(1, static_cast<int>(0.9 * free / memory));
@@ -134,6 +157,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   job.manifest.members = job.design.n_members();
   job.manifest.design_hash = design_hash(job.design);
   begin_folder(job);
+  keep_what_is_read(job);
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
   find_work(job, shard, request.retry_failed, observer);

@@ -40,7 +40,8 @@ void warn_of_copies(const Scene& scene, const DesignTable& design, Warnings& out
 void warn_of_idle_draws(const Scene& scene, Warnings& out) {
   const bool columns = scene.description.formulation == to_string(Formulation::depth_averaged);
   std::vector<std::string> idle;
-  for (const std::string& path : idle_keys(scene.scenario, columns))
+  for (const std::string& path :
+       idle_keys(scene.scenario, columns, scene.description.friction_inside))
     for (const UncertainKey& key : uncertain_keys(scene.scenario))
       if (key.path == path) idle.push_back(path);
   if (!idle.empty())

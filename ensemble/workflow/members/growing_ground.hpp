@@ -6,8 +6,10 @@
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
 
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace sturz::workflow {
 
@@ -17,12 +19,23 @@ namespace sturz::workflow {
 /// members still use.
 class GrowingGround {
  public:
-  GrowingGround(const Scenario& scenario, SceneInputs first);
+  /// Hears of inputs when more of them was read; called under the ground's lock. Throws when they
+  /// may not be used.
+  using Hearer = std::function<void(const std::vector<InputIdentity>&)>;
+
+  GrowingGround(Scenario scenario, SceneInputs first);
+
+  /// Larger windows have to agree with `known` too, what a results folder says was read before, and
+  /// `hearer` hears of each.
+  void remember(const std::vector<InputIdentity>& known, Hearer hearer);
+  /// What was read so far, by any member, and what is known besides.
+  std::vector<InputIdentity> identities() const;
 
   /// What a member starts with. From any thread.
   std::shared_ptr<const SceneInputs> now() const;
   /// More than `held`, read from the files where none did before. From any thread; the others
-  /// wait. \pre `held` is not the whole raster \throws SetupError when it cannot be read or held
+  /// wait. \pre `held` is not the whole raster \throws StopsRun when it cannot be read or held, or
+  ///   the files hold something else than before
   std::shared_ptr<const SceneInputs> more_than(const SceneInputs& held);
 
   /// Computes, and computes again with more ground until the result needs no more.
@@ -36,8 +49,12 @@ class GrowingGround {
   }
 
  private:
+  void grow_to(int level);
+
   Scenario scenario_;
   std::shared_ptr<const SceneInputs> first_, largest_;
+  std::vector<InputIdentity> known_;
+  Hearer hearer_;
   mutable std::mutex lock_;
 };
 

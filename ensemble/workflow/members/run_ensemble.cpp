@@ -3,6 +3,7 @@
 
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/member_order.hpp"
+#include "ensemble/workflow/members/member_summary.hpp"
 #include "io/members/member_file.hpp"
 
 #include <utility>
@@ -37,23 +38,24 @@ MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
   plan.members = start_order(job);
   plan.workers = job.workers;
   RunCallbacks callbacks;
+  MembersRun run;
   callbacks.run_member = [&job](std::int64_t member, const std::atomic<bool>& stop) {
     return run_member(job, member, stop);
   };
   callbacks.store = [&](const MemberResult& result) {
     store_member(job, result);
+    run.computed.push_back(summary_of(result));
     observer.member_stored(result);
   };
   callbacks.on_progress = [&](const RunnerProgress& progress) {
     observer.ensemble_progress(progress, job.finished_before);
   };
   RunReport report = run_members(plan, callbacks, cancel);
-  MembersRun run;
   run.finished = job.finished_before + report.progress.n_done;
   run.total = job.finished_before + report.progress.n_total;
   run.failed = std::move(report.failed);
   run.interrupted = report.interrupted;
-  run.store_error = std::move(report.store_error);
+  run.stop_error = std::move(report.stop_error);
   return run;
 }
 

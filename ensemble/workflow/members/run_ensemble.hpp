@@ -16,9 +16,10 @@ namespace sturz::workflow {
 /// How the members of this call's share came out, those of earlier calls included.
 struct MembersRun {
   std::int64_t finished = 0, total = 0;
-  std::vector<FailedMember> failed;  ///< of this call; stored, and not valid
-  bool interrupted = false;          ///< cancelled before all were finished
-  std::string store_error;           ///< why storing failed and the run stopped; empty: it did not
+  std::vector<MemberSummary> computed;  ///< of this call, as they were stored
+  std::vector<FailedMember> failed;     ///< of `computed`: not valid
+  bool interrupted = false;             ///< cancelled before all were finished
+  std::string stop_error;  ///< why the run stopped by itself, as RunReport says; empty: it did not
 };
 
 /// Runs what is to do. The same request, prepared anew, goes on after whatever stopped this one.

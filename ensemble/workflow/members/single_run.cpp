@@ -3,9 +3,11 @@
 
 #include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
+#include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/members/member_summary.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -16,7 +18,7 @@
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <string>
 
@@ -31,16 +33,19 @@ std::string as_text(const NamedSeconds& times) {
   return text;
 }
 
-MemberSummary summary_of(const MemberResult& r) {
-  return {r.member,   r.outcome,    r.censoring, r.reason, r.formulation,   r.binding_limit,
-          r.warnings, r.state_hash, r.scalars,   r.window, r.effect_seconds};
-}
-
 /// So that a run which is stopped does not leave the results of one scene under the name of
 /// another.
 void remove_results(const OutputFolder& folder) {
   for (const auto& file : {folder.peaks_nc(), folder.report(), folder.members() / "000000.nc"})
     std::filesystem::remove(file);
+}
+
+/// What is cut off, what was warned of before and what the run itself found: a line each.
+std::string warnings_text(const RunStored& stored, const std::vector<std::string>& before) {
+  std::vector<std::string> lines = censoring_sentences(stored.censoring);
+  lines.insert(lines.end(), before.begin(), before.end());
+  for (const MemberWarning& w : stored.warnings) lines.push_back(w.example);
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
 }  // namespace
@@ -65,6 +70,7 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.manifest.builds = {this_build()};
   run.manifest.scenario_hash = scenario_hash(run.scene.medians);
   run.manifest.scene_hash = scene_hash(run.scene.medians, inputs);
+  run.scene.ground->remember(run.manifest.inputs, {});
   make_folder(run.folder.root);
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
@@ -100,7 +106,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   Manifest& manifest = run.manifest;
   manifest.compute_s =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - run.begin).count();
-  manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->now()->identities);
+  manifest.inputs = with_known_parts(manifest.inputs, run.scene.ground->identities());
   const MemberSummary summary = summary_of(result);
   const auto ground = ground_of_map(scene.medians, scene.inputs, map_grid(result));
   LayerStack peaks = peak_layers(result, ground.get(), scene.inputs.terrain_grid());
@@ -108,6 +114,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
                    member_warnings({&summary, 1}, manifest.warnings)};
   stored.censoring.where = where_mass_left(peaks, scene.inputs.terrain_grid());
   manifest.censored = one_line(stored.censoring);
+  manifest.hazard_hash = fmt::format("{:016x}", hash_of(peaks));
   manifest.write(folder.manifest());
   write_member(folder.members(), result,
                {member_hash(manifest.scene_hash), workflow::version, workflow::git_commit});
@@ -119,6 +126,8 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
       {"censored", std::string(to_string(result.censoring))},
       {"formulation", result.formulation},
       {"computing_time_by_effect", as_text(result.effect_seconds)}};
+  if (const std::string said = warnings_text(stored, manifest.warnings); !said.empty())
+    peaks.attributes.emplace_back("warnings", said);
   write_layers(folder.peaks_nc(), peaks, result.history);
   PageContent page;
   page.peaks = &peaks;
@@ -128,6 +137,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   page.where_mass_left = stored.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(MemberStore(folder.members()));
   page.release = &release;
+  page.observed = scene.inputs.observed;
   write_page(folder, manifest, scene.medians, page);
   return stored;
 }

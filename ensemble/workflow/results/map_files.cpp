@@ -44,7 +44,7 @@ std::string line_of(const std::string& name, const Layer& layer, std::size_t pla
   return fmt::format(
       "{},{},{},{},{},{},{},{},\"{}\"\n", name, layer.name, to_string(layer.meaning.quantity),
       to_string(layer.meaning.statistic), layer.units, layer.axis.name,
-      axis ? fmt::format("{:g}", layer.axis.values[plane]) : "", layer.axis.units, layer.long_name);
+      axis ? fmt::format("{}", layer.axis.values[plane]) : "", layer.axis.units, layer.long_name);
 }
 
 /// What an earlier list and a list in the making name, so that no file of ours is ever unlisted.

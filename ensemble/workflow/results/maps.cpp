@@ -132,6 +132,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   page.where_mass_left = made.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
+  page.observed = inputs.observed;
   manifest.hazard_hash = hash;
   manifest.maps_of = members_hash(store, design.n_members());
   write_page(folder, manifest, scenario, page);
@@ -144,7 +145,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
 MapsMade make_maps(EnsembleJob& job, Observer& observer, CancelFlag cancel) {
   job.manifest.compute_s += seconds_since(job.begin);
   // Members may have read more of the raster than the first look did.
-  job.manifest.inputs = with_known_parts(job.manifest.inputs, job.scene.ground->now()->identities);
+  job.manifest.inputs = with_known_parts(job.manifest.inputs, job.scene.ground->identities());
   const MemberStore store = members_of(job.folder, job.manifest, job.design, {}, cancel);
   require_complete(job.folder, store, job.design, observer);
   return make_maps({job.folder, job.manifest, job.scene.scenario, job.design, job.scene.inputs},

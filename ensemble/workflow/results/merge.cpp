@@ -5,6 +5,7 @@
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 
@@ -23,6 +24,11 @@ MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFl
                       "known, so they need the terrain). Put the files back where scenario.yaml "
                       "names them.",
                       where));
+  require(
+      finished.changed.empty(),
+      fmt::format("{}: its members were computed from other inputs (maps say 0 only where the "
+                  "ground is known, and would take it from today's). Take these changes back:{}",
+                  where, as_lines(finished.changed)));
   const auto lock = FolderLock::alone(finished.folder, "merge " + where);
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   require_own_scenario(finished.folder, finished.manifest, finished.scenario);

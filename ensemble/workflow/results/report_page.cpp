@@ -4,9 +4,11 @@
 #include "engine/core/error.hpp"
 #include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
+#include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/seal.hpp"
@@ -15,6 +17,7 @@
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
 #include "reports/page/report.hpp"
+#include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/core.h>
@@ -53,6 +56,44 @@ NamedSeconds largest_first(NamedSeconds passes) {
   return passes;
 }
 
+/// Relief of another ground than the members' would mislead, and a page without it says why.
+void leave_out_relief(FinishedFolder& finished, Observer& observer) {
+  std::string why = finished.unreadable;
+  if (!finished.changed.empty()) {
+    why =
+        "the input files are not what the members were computed from any more, so the page has no "
+        "relief:" +
+        as_lines(finished.changed);
+    observer.warning(why);
+    finished.inputs.reset();
+  }
+  if (!why.empty()) finished.manifest.warnings.push_back(as_utf8(why));  // for the page alone
+}
+
+/// What the file holds is what was made: the manifest knows its hash.
+void require_own_maps(const std::filesystem::path& file, const Manifest& manifest,
+                      const HashingSource& maps, CancelFlag cancel) {
+  if (manifest.hazard_hash.empty()) return;  // runs of versions before
+  const std::string hash = fmt::format("{:016x}", maps.value(cancel));
+  require(hash == manifest.hazard_hash,
+          fmt::format("{} does not hold the maps that were made of this folder's members (their "
+                      "hash is {}, manifest.json says {}). {}",
+                      file.string(), hash, manifest.hazard_hash,
+                      manifest.kind == "run" ? "Run the scene again."
+                                             : "Make them again with `sturz merge`."));
+}
+
+/// What was said of the edge before is answered where every member kept all its mass.
+std::vector<std::string> still_true(std::vector<std::string> warnings,
+                                    std::span<const MemberSummary> members) {
+  const bool left = std::any_of(members.begin(), members.end(), [](const MemberSummary& m) {
+    return !is_valid(m.outcome) || has_left(m.censoring);
+  });
+  if (!left && !members.empty())
+    std::erase_if(warnings, [](const std::string& w) { return w.starts_with(edge_warning); });
+  return warnings;
+}
+
 /// A page of some members over the maps of others would mislead.
 void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const MemberStore& store,
                      const DesignTable& design) {
@@ -84,11 +125,14 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.members.assign(content.members.begin(), content.members.end());
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);
+  if (content.design) input.n_planned = content.design->n_members();
   input.convergence.assign(content.convergence.begin(), content.convergence.end());
   input.max_censored_fraction = scenario.ensemble.max_censored_fraction;
   input.where_mass_left = content.where_mass_left;
   input.release = content.release;
-  input.warnings = manifest.warnings;
+  input.observed = content.observed;
+  input.observed_note = scenario.hazard.observed_note;
+  input.warnings = still_true(manifest.warnings, content.members);
   input.notes = manifest.notes;
   input.cancel = content.cancel;
   input.description = manifest.description;
@@ -111,6 +155,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   FinishedFolder finished = open_finished(folder, observer);
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
+  leave_out_relief(finished, observer);
   const bool one_run = finished.manifest.kind == "run";
   const auto maps = one_run ? finished.folder.peaks_nc() : finished.folder.hazard_nc();
   require(std::filesystem::exists(maps),
@@ -126,7 +171,9 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   if (seal_state(maps) == SealState::broken) require_sealed(maps);
   observer.maps_begin();
   const LayersFileReader reader(maps);
-  const LayerStack stack = coarse_layers(reader, page_cells, cancel);
+  const HashingSource hashed(reader);
+  const LayerStack stack = coarse_layers(hashed, page_cells, cancel);
+  require_own_maps(maps, finished.manifest, hashed, cancel);
   std::shared_ptr<const Raster<double>> ground;
   if (finished.inputs)
     ground = ground_of_map(finished.scenario, *finished.inputs, reader.about().grid);
@@ -143,6 +190,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   page.elevation = ground.get();
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
+  if (finished.inputs) page.observed = finished.inputs->observed;
   if (finished.inputs)
     page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
   page.members = store.members();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/cancel.hpp"
+#include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sturz::workflow {
 
@@ -32,6 +34,7 @@ struct PageContent {
   CancelFlag cancel;
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
+  std::span<const std::vector<Vec2>> observed;    ///< rings of the observed outline [m]
   const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 

@@ -15,6 +15,8 @@ class PlaneDataset final : public GDALDataset {
   /// \param source must outlive it
   PlaneDataset(const LayerSource& source, std::size_t layer, std::size_t plane);
   ~PlaneDataset() override;
+  PlaneDataset(const PlaneDataset&) = delete;
+  PlaneDataset& operator=(const PlaneDataset&) = delete;
 
   CPLErr GetGeoTransform(double* affine) override;
   const OGRSpatialReference* GetSpatialRef() const override;

@@ -150,6 +150,9 @@ export async function startMaps(page) {
     const marks = element('ul', {class: 'legend marks'});
     if (maps.release.length > 0)
       marks.append(element('li', {}, element('span', {class: 'swatch release'}), 'release'));
+    if (maps.observed)
+      marks.append(element('li', {}, element('span', {class: 'swatch observed'}),
+                           maps.observed.label));
     if (left?.values.some((v) => v > 0))
       marks.append(element('li', {}, element('span', {class: 'swatch left'}),
                            'mass left the terrain here'));

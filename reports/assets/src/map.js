@@ -139,7 +139,7 @@ function cellShape(values, grid) {
   return squares.length > 0 ? new Feature(new MultiPolygon(squares)) : null;
 }
 
-/** Outline of the release and cells where mass left: what every map of the page shows. */
+/** Outlines of the release and of a mapped event, and cells where mass left: what every map of the page shows. */
 function marksLayer(maps, leftValues) {
   const source = new VectorSource();
   if (maps.release.length > 0) {
@@ -150,6 +150,14 @@ function marksLayer(maps, leftValues) {
       new Style({stroke: new Stroke({color: '#111', width: 1.8})}),
     ]);
     source.addFeature(outline);
+  }
+  if (maps.observed) {
+    const mapped = new Feature(new MultiLineString(maps.observed.rings));
+    mapped.setStyle([
+      new Style({stroke: new Stroke({color: 'rgba(255,255,255,0.9)', width: 4.5})}),
+      new Style({stroke: new Stroke({color: '#0a58ca', width: 2.2, lineDash: [9, 6]})}),
+    ]);
+    source.addFeature(mapped);
   }
   const left = leftValues ? cellShape(leftValues, maps.cells) : null;
   if (left) {

@@ -8,10 +8,10 @@
 #include <fmt/core.h>
 #include <malloc.h>
 #include <sched.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 

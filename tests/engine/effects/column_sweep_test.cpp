@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -88,6 +89,47 @@ TEST(ColumnSweep, EqualsTheSlowTwin) {
   }
 }
 
+/// Steep ground in part of the flow: rises count by the shares of both columns.
+std::vector<SlowColumn> flow_at_a_wall() {
+  auto flow = rough_flow(600, 50, 40);
+  for (SlowColumn& c : flow) {
+    c.share = std::clamp((30 - c.position.x()) / 15, 0.0, 1.0);
+    if (c.position.x() > 30) c.position.z() += 4 * (c.position.x() - 30);
+  }
+  return flow;
+}
+
+TEST(ColumnSweep, EqualsTheSlowTwinAtAWall) {
+  const auto flow = flow_at_a_wall();
+  const auto slow = test::slow_columns(flow, {}, constants);
+  for (auto isa : supported()) expect_equal(test::fast_columns(flow, {0.5, true}, isa).rates, slow);
+}
+
+TEST(ColumnSweep, OnAWallNoRiseCounts) {
+  auto flow = rough_flow(300, 30, 20);
+  for (SlowColumn& c : flow) c.share = 0;
+  const ColumnConstants steep{0.5, true};
+  const auto isa = best_instruction_set();
+  const auto uneven = test::fast_columns(flow, steep, isa).rates;
+  for (SlowColumn& c : flow) c.position.z() = 0;
+  const auto level = test::fast_columns(flow, steep, isa).rates;
+  for (std::size_t i = 0; i < flow.size(); ++i) {
+    // Fixed-point units differ with the extent.
+    EXPECT_NEAR(uneven[i].thickness, level[i].thickness, 1e-5 * level[i].thickness);
+    EXPECT_EQ(uneven[i].acceleration.z(), 0);
+  }
+}
+
+/// Bits of scenes without steep ground are those of the loop that knows no share.
+TEST(ColumnSweep, WholeSharesChangeNoBit) {
+  const auto flow = rough_flow(600, 50, 40);
+  for (auto isa : supported()) {
+    const auto a = test::fast_columns(flow, {0.5, false}, isa).raw;
+    const auto b = test::fast_columns(flow, {0.5, true}, isa).raw;
+    EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(float)), 0) << to_string(isa);
+  }
+}
+
 TEST(ColumnSweep, IsAsExactFarFromTheOrigin) {
   auto flow = rough_flow(600, 50, 40);
   for (SlowColumn& c : flow) c.position += utm_corner;
@@ -149,10 +191,10 @@ TEST(ColumnSweep, ALoneColumnMeetsOnlyItself) {
 }
 
 TEST(ColumnSweep, PairForcesCancel) {
-  const auto flow = rough_flow(600, 50, 40);
+  const auto flow = flow_at_a_wall();
   const auto slow = test::slow_columns(flow, {}, constants);
   for (auto isa : supported()) {
-    const auto fast = test::fast_columns(flow, constants, isa).rates;
+    const auto fast = test::fast_columns(flow, {0.5, true}, isa).rates;
     Vec3 sum(0, 0, 0);
     double scale = 0;
     for (std::size_t i = 0; i < flow.size(); ++i) {

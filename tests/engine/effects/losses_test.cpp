@@ -84,7 +84,7 @@ TEST(Losses, ElasticEnergyIsAccountedForWhenItsParticleLeaves) {
 TEST(Losses, WhatSinksUnderTheGroundIsRemovedOnceWhateverTheBoundary) {
   for (NodataRule rule : {NodataRule::outflow, NodataRule::wall}) {
     auto positions = block({2, 2, 1});
-    positions.push_back({-3, -3, -2.5});  // two and a half spacings under the ground
+    positions.emplace_back(-3, -3, -2.5);  // two and a half spacings under the ground
     auto made = test::particles_on(even_ground(16, 0, rule), positions, {0, 0, 0});
     for (int n = 0; n < 20; ++n) made.advance();
     EXPECT_EQ(made.state.grains().size(), 4u);

@@ -121,8 +121,7 @@ TEST(ColumnRelease, KeepsToItsLatticeWithoutJitterAndFollowsTheMemberWithIt) {
   const Terrain ground = bed();
   const auto thickness = raster_of(mound, ground_grid);
   const Release still = release_particles(ground, thickness, columns(3, 0));
-  for (std::size_t i = 0; i < still.x.size(); ++i)
-    EXPECT_NEAR(std::remainder(still.x[i] - 1.5, 3), 0, 1e-9);
+  for (const double x : still.x) EXPECT_NEAR(std::remainder(x - 1.5, 3), 0, 1e-9);
   EXPECT_EQ(release_particles(ground, thickness, columns(3, 0.1, 4)).x,
             release_particles(ground, thickness, columns(3, 0.1, 4)).x);
   EXPECT_NE(release_particles(ground, thickness, columns(3, 0.1, 4)).x,

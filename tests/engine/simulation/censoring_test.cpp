@@ -11,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <vector>
 
 namespace sturz {
@@ -60,6 +61,7 @@ TEST(Censoring, AMemberWhoseMassIsAllGoneHasComeToTheEdge) {
     EXPECT_GT(m.drop_m, 0.8 * (edge - 26) * std::tan(std::asin(1.0) / 3));
     EXPECT_NEAR(m.com_drop_m, m.com_travel_m * std::tan(std::asin(1.0) / 3), 3);
     EXPECT_TRUE(std::isnan(m.crown_to_toe_ratio)) << "there is no deposit";
+    EXPECT_GT(m.crown_to_toe_length_m, edge - 23) << "it came as far as the edge";
     EXPECT_TRUE(std::isnan(m.deposit_com_x_m));
     // All of it left over the eastern edge.
     for (int row = 0; row < r.window.n_rows; ++row)
@@ -107,6 +109,26 @@ TEST(Censoring, AnyMassThatLeftCensors) {
   EXPECT_GT(r.scalars.lost_fraction, 0);
 }
 
+TEST(Censoring, MassThatSankThroughTheGroundCensorsToo) {
+  for (const std::size_t sunk : {1U, 12U}) {
+    Scenario s = slide_over_the_edge(Formulation::full_stress);
+    s.terrain.synthetic->parameters["length_m"] = 400;
+    s.numerics.end_time_s = 0.5;
+    SceneInputs in = load_scene_inputs(s);
+    Simulation simulation = assemble(s, in, 0, 1);
+    MovingSet& grains = simulation.parts().state.grains();
+    for (std::size_t i = 0; i < sunk; ++i) grains.z[i] -= 40;
+    const MemberResult r = simulation.run();
+    EXPECT_GT(r.scalars.lost_mass_kg, 0);
+    EXPECT_DOUBLE_EQ(r.scalars.lost_fraction, r.scalars.lost_mass_kg / r.scalars.released_mass_kg);
+    EXPECT_TRUE(has_left(r.censoring));
+    EXPECT_EQ(r.outcome == Outcome::left_terrain, r.scalars.lost_fraction > 0.01);
+    if (r.outcome == Outcome::left_terrain) {
+      EXPECT_NE(r.reason.find("some of it through the ground"), std::string::npos);
+    }
+  }
+}
+
 TEST(CrownToToe, IsMeasuredFromTheHighestSourceToTheFarthestDeposit) {
   const Grid grid{20, 10, 0, 100, 10, ""};
   auto z = std::make_shared<Raster<double>>(grid);
@@ -118,12 +140,22 @@ TEST(CrownToToe, IsMeasuredFromTheHighestSourceToTheFarthestDeposit) {
   release.crown_x_m = 15, release.crown_y_m = 55, release.crown_z_m = 97.5;  // 5 m above the bed
   MemberScalars m;
   const std::vector<PeakMaps::Cell> deposit{{4, 8}, {4, 15}, {2, 12}};
-  write_crown_to_toe(ground, release, deposit, grid, m);
+  write_crown_to_toe(ground, release, deposit, {}, grid, m);
   EXPECT_DOUBLE_EQ(m.crown_to_toe_length_m, 140);        // 155 - 15
   EXPECT_DOUBLE_EQ(m.crown_to_toe_drop_m, 97.5 - 22.5);  // ground at x = 155
   EXPECT_DOUBLE_EQ(m.crown_to_toe_ratio, 75.0 / 140);
   EXPECT_DOUBLE_EQ(m.deposit_front_m, 120);
-  write_crown_to_toe(ground, release, {}, grid, m);
+  // Mass that left nearer than the toe changes nothing; farther, the toe is not known.
+  const std::vector<Vec2> near{{100, 55}}, far{{100, 55}, {195, 55}};
+  write_crown_to_toe(ground, release, deposit, near, grid, m);
+  EXPECT_DOUBLE_EQ(m.crown_to_toe_length_m, 140);
+  EXPECT_DOUBLE_EQ(m.crown_to_toe_ratio, 75.0 / 140);
+  write_crown_to_toe(ground, release, deposit, far, grid, m);
+  EXPECT_DOUBLE_EQ(m.crown_to_toe_length_m, 180);
+  EXPECT_DOUBLE_EQ(m.deposit_front_m, 160);
+  EXPECT_TRUE(std::isnan(m.crown_to_toe_drop_m));
+  EXPECT_TRUE(std::isnan(m.crown_to_toe_ratio));
+  write_crown_to_toe(ground, release, {}, {}, grid, m);
   EXPECT_TRUE(std::isnan(m.crown_to_toe_length_m));
   EXPECT_TRUE(std::isnan(m.deposit_front_m));
 }

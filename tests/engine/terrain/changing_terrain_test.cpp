@@ -19,7 +19,7 @@ Raster<double> waves(int n) {
 }
 
 Terrain terrain_of(Raster<double> z) {
-  return Terrain(std::make_shared<const Raster<double>>(std::move(z)), NodataRule::outflow);
+  return {std::make_shared<const Raster<double>>(std::move(z)), NodataRule::outflow};
 }
 
 /// Random nodes of a spot that grows and wanders, lowered by up to 3 m.
@@ -88,7 +88,7 @@ TEST(ChangingTerrain, DoesNotMoveThePatchEveryTime) {
     bytes = t.patch_bytes();
   }
   EXPECT_LE(moves, 20);
-  EXPECT_LT(bytes, 200 * 200 * sizeof(double)) << "the patch follows what changed";
+  EXPECT_LT(bytes, sizeof(double) * 200 * 200) << "the patch follows what changed";
 }
 
 TEST(ChangingTerrain, RefusesNodesOffTheGridOrWithoutAHeight) {

@@ -109,7 +109,7 @@ TEST(ZonesOfTheBed, AParticleBeyondThePeriodFeelsTheZoneOfItsImage) {
   EXPECT_NEAR(made.state.grains().x[0], 9 + travel, 0.01 * travel);
 }
 
-DepthAveragedSettings column_bases(std::vector<double> friction, ZoneMap zones) {
+DepthAveragedSettings column_bases(const std::vector<double>& friction, ZoneMap zones) {
   DepthAveragedSettings s;
   s.bed.clear();
   for (double mu : friction) s.bed.emplace_back().friction_coefficient = mu;

@@ -51,7 +51,7 @@ struct Fall {
 Fall let_go(double height, double times, States states) {
   const Scenario s = with_states(bank(height, times), states);
   Simulation simulation = build(s);
-  const ParticleSet start = simulation.parts().state.grains();
+  const MovingSet start = simulation.parts().state.grains();
   std::vector<Vec3> at(start.size());
   for (std::size_t i = 0; i < start.size(); ++i)
     at[start.id[i]] = Vec3(start.x[i], start.y[i], start.z[i]);
