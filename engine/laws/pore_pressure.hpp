@@ -8,8 +8,11 @@
 ///   compaction = 2 k/(h^2 mu)
 ///   1/alpha   = m (sigma_e + sigma_0)/a        k = k_r exp(-(m - m_r)/0.04)
 ///   tan psi   = m - m_crit/(1 + sqrt N)        N = mu gamma/(rho_s gamma^2 delta^2 + sigma_e)
-/// with the shear rate gamma = 2 |u|/h. All pure functions of one column's numbers, SI.
+/// with the shear rate gamma = 2 |u|/h. All pure functions of one column's numbers, SI; without
+/// branches, so that loops of them run four columns side by side.
 #pragma once
+
+#include "engine/core/plain_exp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +36,7 @@ struct MixtureLaw {
   /// Where grains hardly touch, nothing parts them further: half of critical.
   double loosest_fraction() const { return 0.5 * critical_fraction; }
   double permeability_at(double m) const {
-    return permeability * std::exp((reference_fraction - m) / fold);
+    return permeability * plain_exp((reference_fraction - m) * (1 / fold));
   }
   /// 1/alpha, stiffness of the grain skeleton [Pa].
   double stiffness(double m, double effective_stress) const {
@@ -53,18 +56,17 @@ struct Dilatancy {
   double slope = 0;            ///< d(tan psi)/d(p_b) [1/Pa]
 };
 
-/// \param shear_rate gamma [1/s]; \param effective_stress sigma_e [Pa], not negative
-inline Dilatancy dilatancy(const MixtureLaw& law, double m, double shear_rate,
-                           double effective_stress) {
-  if (!(shear_rate > 0)) return {m - law.critical_fraction, law.critical_fraction, 0};
+/// \param shear_rate gamma [1/s]; \param effective_stress sigma_e [Pa]; neither is negative
+[[gnu::always_inline]] inline Dilatancy dilatancy(const MixtureLaw& law, double m,
+                                                  double shear_rate, double effective_stress) {
   const double collisions = law.grain_diameter * shear_rate;
-  const double stress = law.solid_density * collisions * collisions + effective_stress;
-  const double loosest = law.loosest_fraction();
-  if (!(stress > 0)) return {m - loosest, loosest, 0};
+  const double all = law.solid_density * collisions * collisions + effective_stress;
+  const double stress = all > 1e-300 ? all : 1e-300;
   const double root = std::sqrt(law.fluid_viscosity * shear_rate / stress), sum = 1 + root;
-  const double steady = law.critical_fraction / sum;
-  if (steady < loosest) return {m - loosest, loosest, 0};
-  return {m - steady, steady, 0.5 * steady * root / (stress * sum)};
+  const double sheared = law.critical_fraction / sum, loosest = law.loosest_fraction();
+  const bool part = sheared < loosest;
+  const double steady = part ? loosest : sheared;
+  return {m - steady, steady, part ? 0 : 0.5 * sheared * root / (stress * sum)};
 }
 
 /// A column of the mixture as its pore pressure meets it.
@@ -76,7 +78,10 @@ struct WetColumn {
   double hydrostatic = 0;       ///< of the water in it [Pa]
   double normal_gravity = 0;    ///< g [m/s^2]
 
-  double effective_stress() const { return std::max(0.0, normal_stress - hydrostatic - excess); }
+  double effective_stress() const {
+    const double borne = normal_stress - hydrostatic - excess;
+    return borne > 0 ? borne : 0;
+  }
 };
 
 /// Coefficients of the two equations above.
@@ -88,30 +93,33 @@ struct PoreRates {
 
 /// As published, for coefficients that stay as they are.
 /// \param permeability k(m) [m^2]; \param speed |u| [m/s]; \param d dilatancy at this speed
-inline PoreRates pore_rates(const MixtureLaw& law, const WetColumn& c, double permeability,
-                            double speed, const Dilatancy& d) {
+[[gnu::always_inline]] inline PoreRates pore_rates(const MixtureLaw& law, const WetColumn& c,
+                                                   double permeability, double speed,
+                                                   const Dilatancy& d) {
   const double h = c.thickness, mobility = permeability / (h * law.fluid_viscosity);
   const double stiffness = 3 * law.stiffness(c.solid_fraction, c.effective_stress()) / h;
   const double bulk = law.density(c.solid_fraction);
   const double buoyancy =
       1.5 * law.fluid_density * c.normal_gravity * (bulk - law.fluid_density) / bulk;
-  return {mobility * std::max(0.0, stiffness - buoyancy),
-          speed > 0 ? -speed * stiffness * d.tangent : 0, 2 * mobility / h};
+  const double drains = stiffness - buoyancy;
+  return {drains > 0 ? mobility * drains : 0, -speed * stiffness * d.tangent, 2 * mobility / h};
 }
 
 /// The same tangent to the curve: p_e changes sigma_e, and sigma_e changes 1/alpha and tan psi.
 /// Near liquefaction that is hundreds of times faster than anything else. Decay may be negative:
 /// a mixture that dilates stiffens itself.
-inline PoreRates tangent_rates(const MixtureLaw& law, const WetColumn& c, double permeability,
-                               double speed, const Dilatancy& d) {
+[[gnu::always_inline]] inline PoreRates tangent_rates(const MixtureLaw& law, const WetColumn& c,
+                                                      double permeability, double speed,
+                                                      const Dilatancy& d) {
   PoreRates rates = pore_rates(law, c, permeability, speed, d);
-  if (!(c.effective_stress() > 0) && !(speed > 0)) return rates;
   const double h = c.thickness, mobility = permeability / (h * law.fluid_viscosity);
   const double stiffness = 3 * law.stiffness(c.solid_fraction, c.effective_stress()) / h;
   const double softening = 3 * c.solid_fraction / (law.compressibility * h);  // -d(stiffness)/dp
-  double slope = -rates.decay;
-  if (speed > 0) slope += speed * (softening * d.tangent - stiffness * d.slope);
-  if (rates.decay > 0) slope += mobility * softening * c.excess;
+  const double sheared = speed * (softening * d.tangent - stiffness * d.slope);
+  // Under a liquefied mass at rest nothing softens.
+  const double held = c.effective_stress() + speed, soft = held > 0 ? softening : 0;
+  const double drains = rates.decay > 0 ? mobility : 0;
+  const double slope = sheared + drains * soft * c.excess - rates.decay;
   const double change = rates.source - rates.decay * c.excess;
   rates.decay = -slope;
   rates.source = change - slope * c.excess;
@@ -126,28 +134,28 @@ struct PoreChange {
 
 /// Exact and without a limit of the step:
 ///   p_e -> s/d + (p_e - s/d) exp(-d t).
-inline PoreChange advance(const PoreRates& rates, double excess, double time) {
+[[gnu::always_inline]] inline PoreChange advance(const PoreRates& rates, double excess,
+                                                 double time) {
   // What grows beyond e^30 is at its bounds long before.
-  const double x = std::max(-30.0, rates.decay * time);
-  double first, second;  // (1 - e^-x)/x, (x - 1 + e^-x)/x^2
-  if (std::abs(x) > 1e-3) {
-    const double decayed = -std::expm1(-x);
-    first = decayed / x, second = (1 - first) / x;
-  } else {
-    first = 1 - x * (0.5 - x * (1.0 / 6 - x / 24));
-    second = 0.5 - x * (1.0 / 6 - x * (1.0 / 24 - x / 120));
-  }
+  const double foreseen = rates.decay * time, x = foreseen < -30 ? -30 : foreseen;
+  const Decay d = decay_over(x);
   const double gained = rates.source * time;
-  return {excess + (gained - x * excess) * first, excess * first + gained * second};
+  return {excess + (gained - x * excess) * d.mean, excess * d.mean + gained * d.lag};
 }
 
-/// tan(phi + psi) of the grain skeleton, and how much of it is left where grains hardly touch.
-inline double mixture_friction(double tan_phi, double tan_psi, double solid_fraction) {
+/// Share of friction that is left where grains hardly touch: 1/2 (1 + tanh 100 (m - 0.1)), one from
+/// touching_fraction on.
+constexpr double touching_fraction = 0.3;
+inline double grains_touching(double solid_fraction) {
+  return 1 / (1 + plain_exp(-200 * (solid_fraction - 0.1)));
+}
+
+/// tan(phi + psi) of the grain skeleton.
+inline double mixture_friction(double tan_phi, double tan_psi, double touching = 1) {
   // Steep sums have no tangent; a friction beyond ten is a wall anyway.
-  const double below = std::max(0.1, 1 - tan_phi * tan_psi);
-  const double touching =
-      solid_fraction > 0.3 ? 1 : 0.5 * (1 + std::tanh(100 * (solid_fraction - 0.1)));
-  return std::max(0.0, (tan_phi + tan_psi) / below) * touching;
+  const double between = 1 - tan_phi * tan_psi, below = between > 0.1 ? between : 0.1;
+  const double friction = (tan_phi + tan_psi) / below;
+  return friction > 0 ? friction * touching : 0;
 }
 
 }  // namespace sturz

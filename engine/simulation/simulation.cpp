@@ -3,9 +3,9 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/cpu_time.hpp"
-#include "engine/core/hash.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/effects/state_hash.hpp"
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/mixture_state.hpp"
@@ -32,18 +32,6 @@ constexpr std::size_t layers_every = 8;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::uint64_t hash_of(const State& state) {
-  Hash64 hash;
-  for (const MovingSet& p : state.sets) {
-    for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
-      hash.add(std::span<const double>(*column));
-    hash.add(std::span<const std::uint32_t>(p.id));
-    for (const FieldKey* key : {&fields::solid_fraction, &fields::excess_pressure})
-      if (const Field* f = p.find(*key)) hash.add(std::span<const double>(f->component[0]));
-  }
-  return hash.value();
 }
 
 std::size_t n_created(const State& state) {

@@ -147,6 +147,12 @@ MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) 
   return wet;
 }
 
+/// Of the grains, and of the water between them where there is a mixture.
+double bulk_density(const Scenario& s, double solid_fraction) {
+  return s.mixture ? plan_mixture(*s.grains, *s.mixture).law.density(solid_fraction)
+                   : s.grains->density_kg_m3.value * solid_fraction;
+}
+
 void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan& plan) {
   DepthAveragedSettings& c = plan.columns;
   c.spacing = s.numerics.spacing_m;
@@ -324,10 +330,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
     plan.reference_fraction = dense_fraction;
   }
-  plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * plan.reference_fraction;
-  if (s.mixture)
-    plan.bulk_density_kg_m3 =
-        plan_mixture(*s.grains, *s.mixture).law.density(plan.reference_fraction);
+  plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
   plan.release =
       release_particles(plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,

@@ -7,6 +7,8 @@
 #include "engine/effects/fields.hpp"
 #include "engine/simulation/parts.hpp"
 #include "scenarios/assembly/assemble.hpp"
+#include "tests/hard/priors.hpp"
+#include "tests/hard/random_members.hpp"
 #include "tests/hard/steep_ground.hpp"
 
 #include <fmt/core.h>
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -141,16 +144,15 @@ void expect_pressures_within_bounds(const ParticleSet& p) {
   }
 }
 
-TEST(SteepGround, WetColumnsSurviveEveryCorner) {
-  const int n = hard_members(40);
+/// Wet members and the same ones dry.
+struct Twins {
   Worst dry, wet;
-  double volumes = 0, slowest = 0, steps_wet = 0, steps_dry = 0;
-  for (int k = 0; k < n; ++k) {
-    SCOPED_TRACE(fmt::format("member {}", k));
+  double volumes = 0, slowest = 0;
+
+  void survive_both(const HardMember& plain, int number) {
     MemberScalars with, without;
-    const HardMember plain = hard_member(static_cast<std::uint64_t>(k));
-    const Simulation simulation = survive(soaked(plain, k), k, wet, with);
-    survive(plain, k, dry, without);
+    const Simulation simulation = survive(soaked(plain, number), number, wet, with);
+    survive(plain, number, dry, without);
     expect_pressures_within_bounds(simulation.parts().state.grains());
     EXPECT_LE(std::abs(with.solids_error), 1e-12);
     EXPECT_LE(std::abs(with.water_error), 1e-12);
@@ -159,15 +161,45 @@ TEST(SteepGround, WetColumnsSurviveEveryCorner) {
     EXPECT_GT(with.mean_dt_s * std::max(1.0, with.max_speed_m_s / without.max_speed_m_s),
               without.mean_dt_s / 3);
     volumes = std::max({volumes, std::abs(with.solids_error), std::abs(with.water_error)});
-    steps_wet += with.n_steps * with.n_particles,
-        steps_dry += without.n_steps * without.n_particles;
-    slowest = std::max(slowest, with.cpu_s / with.n_steps / (without.cpu_s / without.n_steps));
+    if (std::min(with.cpu_s, without.cpu_s) < 0.02) return;  // no clock is so fine
+    const double slower = with.cpu_s / with.n_steps / (without.cpu_s / without.n_steps);
+    EXPECT_LT(slower, 3);
+    slowest = std::max(slowest, slower);
   }
-  wet.print(n);
-  fmt::print(
-      "grains and water to {:.1e}; a step at most {:.2f} times its dry twin's, all steps "
-      "{:.2f} times\n",
-      volumes, slowest, wet.seconds / dry.seconds);
+  void print(int n) const {
+    wet.print(n);
+    fmt::print(
+        "grains and water to {:.1e}; a step at most {:.2f} times its dry twin's, all members "
+        "{:.2f} times\n",
+        volumes, slowest, wet.seconds / dry.seconds);
+  }
+};
+
+TEST(SteepGround, WetColumnsSurviveEveryCorner) {
+  const int n = hard_members(40);
+  Twins twins;
+  for (int k = 0; k < n; ++k) {
+    SCOPED_TRACE(fmt::format("member {}", k));
+    twins.survive_both(hard_member(static_cast<std::uint64_t>(k)), k);
+  }
+  twins.print(n);
+}
+
+TEST(SteepGround, WetColumnsSurviveMonteMarsicano) {
+  const std::string folder = STURZ_SHARED_DIR "/data/marsicano_tinitaly";
+  if (!std::filesystem::exists(folder + "/marsicano_10m.tif"))
+    GTEST_SKIP() << "shared data marsicano_tinitaly is not there";
+  const RandomMembers mountain = RandomMembers::on_marsicano(folder);
+  const int n = hard_members(20);
+  Twins twins;
+  for (int k = 0; k < n; ++k) {
+    SCOPED_TRACE(fmt::format("member {}", k));
+    HardMember m = mountain.member(k * 23 % n_points);
+    m.scenario.formulation = Formulation::depth_averaged;
+    m.scenario.numerics.end_time_s = 90;
+    twins.survive_both(m, k);
+  }
+  twins.print(n);
 }
 
 }  // namespace

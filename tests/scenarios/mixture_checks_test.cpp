@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes with a mixture and what does not; what a scene makes of it.
 #include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/catalogue.hpp"
 #include "scenarios/checks/validate.hpp"
 #include "scenarios/schema/schema.hpp"
+#include "tests/support/formula_ground.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -47,7 +52,7 @@ TEST(MixtureChecks, SaysEverythingThatIsWrongAtOnce) {
   Scenario s = wet_ramp();
   s.basal.viscosity_pa_s = Uncertain(100);
   s.basal.yield_stress_pa = Uncertain(100);
-  s.grains->earth_pressure = LateralPressure::active_passive;
+  s.grains->earth_pressure = LateralPressure::active;
   s.mixture->initial_pressure = InitialPressure::liquefied;
   s.mixture->initial_pressure_ratio = Uncertain(0.7);
   s.mixture->fluid_density_kg_m3 = Uncertain(2000);
@@ -57,6 +62,28 @@ TEST(MixtureChecks, SaysEverythingThatIsWrongAtOnce) {
        {"Use mixture.fluid_viscosity_pa_s", "held by its grains", "it knows isotropic only",
         "which is a ratio of 1", "must be below grains.density_kg_m3 = 1900"})
     EXPECT_THAT(all, Contains(HasSubstr(text)));
+}
+
+TEST(MixtureChecks, APileHasNoFrictionInsideWhereWaterCarriesPartOfIt) {
+  Scenario s;
+  s.formulation = Formulation::depth_averaged;
+  s.grains.emplace().friction_angle_deg = Uncertain(35);
+  s.basal.friction_coefficient = 0.3;
+  SceneInputs in;
+  in.elevation = std::make_shared<const Raster<double>>(
+      test::raster_of([](double x, double) { return -0.1 * x; }, Grid{60, 60, 0, 60, 1, ""}));
+  Raster<double> pile(in.elevation->grid);
+  for (int r = 20; r < 40; ++r)
+    for (int c = 20; c < 40; ++c) pile.at(r, c) = 10;
+  in.release = std::make_shared<const Raster<double>>(std::move(pile));
+  in.pattern = ReleasePattern::thickness;
+  const ScenePlan dry = plan_scene(s, in, 0);
+  ASSERT_TRUE(knows_internal_friction(dry.columns)) << "the same pile of dry grains";
+  s.mixture.emplace();
+  const ScenePlan wet = plan_scene(s, in, 0);
+  EXPECT_FALSE(knows_internal_friction(wet.columns));
+  EXPECT_TRUE(wet.columns.spent_inside.empty());
+  EXPECT_NEAR(wet.bulk_density_kg_m3, dry.bulk_density_kg_m3 + 0.4 * 1000, 1e-9);
 }
 
 TEST(MixtureChecks, EveryNumberMayBeUncertain) {

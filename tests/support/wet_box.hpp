@@ -61,7 +61,7 @@ struct WetBox {
     const auto brake = [&] {
       const WetColumn c = column();
       const auto d = dilatancy(law, m, 2 * speed / c.thickness, c.effective_stress());
-      return c.effective_stress() * mixture_friction(tan_phi, d.tangent, m) / mass;
+      return c.effective_stress() * mixture_friction(tan_phi, d.tangent) / mass;
     };
     const double before = speed, first = brake();
     const double guess = std::max(0.0, before + dt * (slope_gravity - first));

@@ -114,6 +114,11 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   expect(thickness.size() == p.size(), "one thickness per column");
   expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
          "bed and earth pressure for every zone");
+  const auto fluid = [](const BasalResistance& b) {
+    return b.pore_pressure_ratio > 0 || b.viscosity_pa_s > 0 || b.yield_stress_pa > 0;
+  };
+  expect(!settings.mixture || std::none_of(settings.bed.begin(), settings.bed.end(), fluid),
+         "a mixture has its own pore pressure and viscosity");
   for (const FieldKey* key :
        {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
         &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
@@ -126,6 +131,7 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   auto flow = std::make_shared<ColumnFlow>(set, settings);
   start_columns(state, p, *flow, thickness);
   add_column_pressure(step, flow);
+  add_column_bed(step, flow);
   add_column_motion(step, flow);
 }
 

@@ -7,10 +7,9 @@
 /// hold no pressure above that of the water left in them.
 #pragma once
 
-#include "engine/core/vec.hpp"
 #include "engine/effects/columns/mixture_settings.hpp"
+#include "engine/effects/columns/wet_block.hpp"
 #include "engine/effects/state.hpp"
-#include "engine/laws/basal_resistance.hpp"
 
 #include <cstddef>
 #include <span>
@@ -22,6 +21,18 @@ namespace sturz {
 void add_mixture(State&, std::size_t set, const MixtureSettings&);
 /// Fills them for columns from `first` on, which are new, and the ledger with their volumes.
 void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first);
+
+/// Mass that joins a column from below, e.g. bed that a flow takes along.
+struct AddedMixture {
+  double solids_m3 = 0, water_m3 = 0;
+  double solid_fraction = 0.6;  ///< of its grains and pores, full or not
+  /// What it adds to the excess pressure at the column's base: its own pore pressure less that of
+  /// still water in it; zero where it is hydrostatic [Pa].
+  double excess_pa = 0;
+};
+/// Mixes it into column i, its volumes into the ledger. Mass and momentum are the caller's;
+/// pressure comes within its bounds at the next kick.
+void add_to_mixture(MovingSet&, std::size_t i, const AddedMixture&);
 
 /// Sets column i's pore pressure to that of the release, for its present thickness.
 void start_pressure(ParticleSet&, const MixtureSettings&, std::size_t i);
@@ -44,24 +55,13 @@ class WetBed {
   /// \param strain_rate div v of each column [1/s]
   WetBed(ParticleSet&, const MixtureSettings&, std::span<const double> strain_rate);
 
-  struct Push {
-    Vec3 before{0, 0, 0},
-        pull{0, 0, 0};   ///< velocity [m/s]; tangent acceleration without the bed [m/s^2]
-    double time = 0;     ///< [s]
-    double gravity = 0;  ///< [m/s^2], of turbulent drag
-  };
-  struct Slid {
-    Vec3 after{0, 0, 0};      ///< [m/s]
-    double clipped_work = 0;  ///< [J]
-  };
-  /// Moves column i's pore pressure, solid fraction and velocity on together: each decides the
-  /// others within a fraction of a second, faster than columns meet each other. Second order, in
-  /// parts in which the pressure changes by a twentieth of the weight.
-  Slid slide(std::size_t i, const BasalResistance&, const Push&) const;
+  /// Fills what the columns know of themselves, for columns begin ... begin + block.n.
+  void read(WetBlock&, std::size_t begin) const;
+  void slide(WetBlock&) const;
+  /// Column i takes over what became of column k of the block, but for its velocity.
+  void keep(const WetBlock&, std::size_t k, std::size_t i) const;
 
  private:
-  class Column;
-
   const MixtureSettings& settings_;
   const double *mass_, *thickness_, *normal_gravity_, *solids_, *water_, *strain_rate_;
   double *fraction_, *excess_, *pressure_, *gravity_seen_;

@@ -1,128 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gravity, lateral pressure and the bed do to a column, and its displacement.
+// The displacement of a column along the ground.
 #include "engine/core/parallel.hpp"
-#include "engine/effects/columns/braking.hpp"
-#include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/losses.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace sturz {
 namespace {
-
-/// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the bed acts last and can stop it.
-class BedPass final : public Pass {
- public:
-  explicit BedPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
-  std::string_view name() const override { return "gravity and bed"; }
-  std::string_view effect() const override { return EffectName::bed; }
-  Stage stage() const override { return Stage::contact; }
-
-  void apply(State& s, double dt) override {
-    const double kick = kick_interval(s, dt);
-    MovingSet& p = s.sets[flow_->set];
-    const GroundColumns ground(p);
-    const auto& g_n = p.scalar(fields::normal_gravity);
-    const auto& thickness = p.scalar(fields::thickness);
-    std::optional<WetBed> wet;
-    if (flow_->settings.mixture) wet.emplace(p, *flow_->settings.mixture, flow_->strain_rate);
-    const Works sums = ordered_reduce(
-        p.size(), s.threads, Works{},
-        [&](std::size_t begin, std::size_t end, Works& out) {
-          for (std::size_t i = begin; i < end; ++i) {
-            if (s.leaves(p, i)) continue;  // the ledger takes it as it was at the start of the step
-            const Works w = push(s, p, i, ground[i].normal(), g_n[i], thickness[i], kick, dt,
-                                 wet ? &*wet : nullptr);
-            out.friction += p.mass[i] * w.friction;
-            out.contact += p.mass[i] * w.contact;
-            out.clipped += w.clipped;
-          }
-        },
-        [](Works& total, const Works& block) {
-          total.friction += block.friction;
-          total.contact += block.contact;
-          total.clipped += block.clipped;
-        });
-    p.ledger.friction += sums.friction;
-    p.ledger.contact_work += sums.contact;
-    p.ledger.clipped_work += sums.clipped;
-  }
-
- private:
-  struct Works {
-    double friction = 0, contact = 0;  // taken by bed and walls; done by walls [J/kg], [J]
-    double clipped = 0;                // of pore pressures beyond their bounds [J]
-  };
-
-  /// \return works with the mean velocity of the step
-  Works push(const State& s, MovingSet& p, std::size_t i, const Vec3& n, double normal_gravity,
-             double thickness, double kick, double drift, const WetBed* wet) const {
-    const Vec3 before(p.vx[i], p.vy[i], p.vz[i]);
-    Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
-    pull -= pull.dot(n) * n;
-    const DepthAveragedSettings& set = flow_->settings;
-    const int zone = flow_->zone_of(s.domain, p, i);
-    const BasalResistance& bed = set.bed[zone];
-    double clipped = 0;
-    Vec3 after;
-    if (wet) {
-      const WetBed::Slid slid = wet->slide(i, bed, {before, pull, kick, s.gravity});
-      after = slid.after, clipped = slid.clipped_work;
-    } else {
-      double plastic = bed.plastic(normal_gravity, thickness, set.density);
-      if (!set.spent_inside.empty())
-        plastic +=
-            flow_->share[i] * set.spent_inside[zone] * driving_thrust(p, i, n, pull, before, kick);
-      after = slowed(bed, {plastic, thickness, set.density, s.gravity}, before, pull, kick);
-    }
-    Vec3 taken = before + kick * pull - after, held(0, 0, 0);
-    for (const Wall& wall : s.domain.walls) {
-      if (s.time >= wall.remove_at_s) continue;
-      const ColumnAtWall column = flow_->at_wall(p, i);
-      const double pressed = kick * flow_->walls.pressure(s.domain, s.time, wall, column).norm();
-      const auto impulse = flow_->walls.impulse(wall, column, after, pressed, drift);
-      after += impulse.normal + impulse.friction;
-      taken -= impulse.friction;
-      held += impulse.normal;
-    }
-    p.vx[i] = after.x(), p.vy[i] = after.y(), p.vz[i] = after.z();
-    const Vec3 mean = 0.5 * (before + after);
-    return {taken.dot(mean), held.dot(mean), clipped};
-  }
-
-  struct OnBed {
-    double plastic, thickness, density, gravity;
-  };
-  /// By a bed whose pore pressure is a constant share of the weight.
-  static Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before,
-                     const Vec3& pull, double kick) {
-    if (!bed.has_rate()) return braked(before, pull, c.plastic, 0, kick);
-    // The rate at the mean speed of the step, found from the rate at its start: a steady flow
-    // keeps its exact speed at any length of step.
-    auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
-    const double v0 = before.norm();
-    const double v1 = braked(before, pull, c.plastic, rate(v0), kick).norm();
-    return braked(before, pull, c.plastic, rate(0.5 * (v0 + v1)), kick);
-  }
-
-  /// What pressure adds to the motion that it drives, or would start [m/s^2]; what it takes to hold
-  /// the column against the fall of the ground drives nothing.
-  static double driving_thrust(const MovingSet& p, std::size_t i, const Vec3& n, const Vec3& pull,
-                               const Vec3& before, double kick) {
-    Vec3 thrust(p.ax[i], p.ay[i], p.az[i]);
-    thrust -= thrust.dot(n) * n;
-    const Vec3 along = before + kick * pull;
-    const double speed = along.norm();
-    if (!(speed > 0)) return 0;
-    return std::max(0.0, std::min(thrust.dot(along), pull.dot(along)) / speed);
-  }
-
-  std::shared_ptr<ColumnFlow> flow_;
-};
 
 struct DriftSums {
   double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a domain boundary that is a wall
@@ -292,7 +178,6 @@ class ColumnMotion final : public Pass {
 }  // namespace
 
 void add_column_motion(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
-  step.add(std::make_unique<BedPass>(flow));
   step.add(std::make_unique<ColumnMotion>(flow));
 }
 

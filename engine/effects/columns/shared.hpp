@@ -142,6 +142,7 @@ SteepRest steep_rest(const State&, const ColumnFlow&, double limit);
 void warn_of_implausible(const State&, const ColumnFlow&, std::vector<std::string>&);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
-void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< bed, drift
+void add_column_bed(Step&, const std::shared_ptr<ColumnFlow>&);       ///< gravity and bed
+void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< drift
 
 }  // namespace sturz

@@ -207,6 +207,27 @@ TEST(Mixture, WhatArrivesIsAsWetAsTheRest) {
   EXPECT_NEAR(now.water / p.ledger.released_water, 1, 1e-13);
 }
 
+TEST(Mixture, BedThatJoinsAColumnBringsItsGrainsItsWaterAndItsPressure) {
+  const MixtureSettings wet = settings_of(0.62);
+  HandMade made = wet_columns(even_ground(40), test::block({4, 4, 1}, {-2, -2, 0}),
+                              std::vector<double>(16, 1), wet);
+  made.advance();
+  MovingSet& p = made.state.grains();
+  const double excess = p.scalar(fields::excess_pressure)[5];
+  // A third of a cubic metre of loose bed, its pores nine tenths full and liquefied.
+  const AddedMixture bed{0.15, 0.9 * (0.3 - 0.15), 0.5, 1200};
+  add_to_mixture(p, 5, bed);
+  p.mass[5] += wet.law.solid_density * bed.solids_m3 + wet.law.fluid_density * bed.water_m3;
+  EXPECT_NEAR(p.scalar(fields::solids_volume)[5], 0.62 + 0.15, 1e-12);
+  EXPECT_NEAR(p.scalar(fields::solid_fraction)[5], (0.62 + 0.15) / (1 + 0.3), 1e-12);
+  EXPECT_NEAR(p.scalar(fields::excess_pressure)[5] - excess, 1200, 1e-9);
+  for (int n = 0; n < 5; ++n) made.advance();
+  const Volumes now(p);
+  EXPECT_NEAR(now.solids / p.ledger.released_solids, 1, 1e-13);
+  EXPECT_NEAR(now.water / p.ledger.released_water, 1, 1e-13);
+  expect_within_bounds(p, wet.law);
+}
+
 TEST(Mixture, IsNotThereWhereNothingAsksForIt) {
   HandMade made = test::columns_on(even_ground(20), test::block({3, 3, 1}), 1, {0, 0, 0});
   made.advance();

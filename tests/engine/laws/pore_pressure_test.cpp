@@ -177,10 +177,13 @@ TEST(PorePressure, TangentIsTheDerivative) {
 
 TEST(PorePressure, FrictionIsThatOfTheSummedAngles) {
   const double phi = 0.6, psi = -0.05;
-  EXPECT_NEAR(mixture_friction(std::tan(phi), std::tan(psi), 0.6), std::tan(phi + psi), 1e-14);
-  EXPECT_EQ(mixture_friction(0.1, -0.3, 0.6), 0) << "never drives";
-  EXPECT_LT(mixture_friction(0.8, 0, 0.05), 1e-3) << "grains that do not touch";
-  EXPECT_NEAR(mixture_friction(0.8, 0, 0.1), 0.4, 1e-14);
+  EXPECT_NEAR(mixture_friction(std::tan(phi), std::tan(psi)), std::tan(phi + psi), 1e-14);
+  EXPECT_EQ(mixture_friction(0.1, -0.3), 0) << "never drives";
+  EXPECT_LT(mixture_friction(0.8, 0, grains_touching(0.05)), 1e-3) << "grains that do not touch";
+  EXPECT_NEAR(mixture_friction(0.8, 0, grains_touching(0.1)), 0.4, 1e-14);
+  for (double m : {0.02, 0.09, 0.13, 0.25})
+    EXPECT_NEAR(grains_touching(m), 0.5 * (1 + std::tanh(100 * (m - 0.1))), 1e-14) << m;
+  EXPECT_NEAR(grains_touching(touching_fraction), 1, 1e-15) << "no jump";
 }
 
 }  // namespace
