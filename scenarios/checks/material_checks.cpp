@@ -98,6 +98,10 @@ void check_mixture(const Scenario& s, Problems& problems) {
     problems.push_back({"mixture",
                         "mixture (formulation is full_stress; only depth_averaged knows "
                         "it). Remove it or set formulation: depth_averaged."});
+  refuse(
+      !s.material.empty(), "material",
+      " (mixture is there too; a material's friction is that of the whole flow with its water, a "
+      "mixture's that of the grains alone). Keep one of them.");
   refuse(s.basal.pore_pressure_ratio != Uncertain(0), "basal.pore_pressure_ratio",
          " (mixture is there too, which computes the pore pressure). Remove it; "
          "mixture.initial_pressure_ratio sets the pressure at the start.");

@@ -53,14 +53,16 @@ TEST(MixtureChecks, SaysEverythingThatIsWrongAtOnce) {
   s.basal.viscosity_pa_s = Uncertain(100);
   s.basal.yield_stress_pa = Uncertain(100);
   s.grains->earth_pressure = LateralPressure::active;
+  s.material = "debris_flow";
   s.mixture->initial_pressure = InitialPressure::liquefied;
   s.mixture->initial_pressure_ratio = Uncertain(0.7);
   s.mixture->fluid_density_kg_m3 = Uncertain(2000);
   s.grains->density_kg_m3 = Uncertain(1900);
   const auto all = messages(s);
   for (const char* text :
-       {"Use mixture.fluid_viscosity_pa_s", "held by its grains", "it knows isotropic only",
-        "which is a ratio of 1", "must be below grains.density_kg_m3 = 1900"})
+       {"material = debris_flow (mixture is there too", "Use mixture.fluid_viscosity_pa_s",
+        "held by its grains", "it knows isotropic only", "which is a ratio of 1",
+        "must be below grains.density_kg_m3 = 1900"})
     EXPECT_THAT(all, Contains(HasSubstr(text)));
 }
 

@@ -120,7 +120,7 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_THAT(names_in_block("grains.friction"),
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
-              ElementsAre("title", "terrain", "release", "grains", "mixture", "basal",
+              ElementsAre("title", "terrain", "release", "material", "grains", "mixture", "basal",
                           "formulation", "numerics", "domain", "ensemble", "hazard"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
