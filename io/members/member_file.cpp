@@ -18,7 +18,7 @@
 namespace sturz {
 namespace {
 
-constexpr int format_version = 3;
+constexpr int format_version = 4;
 /// Few rows to a chunk: the statistics read members in bands of rows.
 constexpr int rows_per_chunk = 64, cols_per_chunk = 512;
 
