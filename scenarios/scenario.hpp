@@ -142,6 +142,25 @@ struct BasalSpec {
   bool operator==(const BasalSpec&) const = default;
 };
 
+/// A bed that the flow takes along; depth_averaged only. What a law does not know is not given.
+struct ErosionSpec {
+  ErosionLaw law = ErosionLaw::exponential;
+  ErosionSupply supply = ErosionSupply::limited;
+  std::optional<Uncertain> depth_m;       ///< vertical, everywhere or inside `polygon`
+  std::string polygon;                    ///< any OGR polygon layer: where the bed can be taken
+  std::string layer;                      ///< layer name inside `polygon`; empty: the first
+  std::string depth_raster;               ///< metres, vertical; nodata means zero
+  std::optional<Uncertain> depth_factor;  ///< of `depth_raster`
+  std::string crs;                        ///< where polygon or raster has none
+  std::optional<Uncertain> bed_density_kg_m3;  ///< bulk; absent: the flow's own
+  std::optional<Uncertain> growth_rate_per_m;  ///< E_s of `exponential`
+  std::optional<Uncertain> rate_m_per_s;       ///< of `shear_stress`, as are the next two
+  std::optional<Uncertain> depth_per_stress_m_per_kpa, critical_stress_kpa;
+  std::optional<Uncertain> bed_friction_coefficient,
+      bed_pore_pressure_ratio;  ///< of `momentum_jump`: what the bed itself resists with
+  bool operator==(const ErosionSpec&) const = default;
+};
+
 struct NumericsSpec {
   double spacing_m = 0;              ///< initial particle spacing dx; 0 = not given (an error)
   std::optional<double> end_time_s;  ///< absent: to rest, see scenarios/assembly/time_cap.hpp
@@ -189,6 +208,7 @@ struct HazardSpec {
   std::vector<double> speed_m_s{1, 5, 10};
   std::vector<double> energy_kj_m2{10, 100, 1000};
   std::vector<double> pressure_kpa{1, 10, 30};
+  std::vector<double> eroded_depth_m{0.1, 0.5, 1, 2};  ///< where the scene has `erosion`
   std::vector<double> quantiles{0.05, 0.5, 0.95};
   std::string observed_polygon;  ///< any OGR polygon layer, drawn over the maps
   std::string observed_note;     ///< what it is, in words
@@ -201,6 +221,7 @@ struct Scenario {
   ReleaseSpec release;
   std::optional<GrainsSpec> grains;
   BasalSpec basal;
+  std::optional<ErosionSpec> erosion;
   Formulation formulation = Formulation::automatic;
   NumericsSpec numerics;
   DomainSpec domain;

@@ -60,4 +60,8 @@ inline constexpr FieldKey ground{"ground", 5, "mixed", "column pressure"};
 /// Lateral over normal stress.
 inline constexpr FieldKey earth_pressure{"earth_pressure", 1, "1", "column pressure", 1.0};
 
+// Of a bed that the flow takes along (erosion/).
+/// Part of a column's mass that was bed.
+inline constexpr FieldKey entrained_mass{"entrained_mass", 1, "kg", "erosion"};
+
 }  // namespace sturz::fields

@@ -3,11 +3,11 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/cpu_time.hpp"
-#include "engine/core/hash.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
+#include "engine/simulation/maps/erosion_result.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "engine/simulation/travel.hpp"
@@ -31,16 +31,6 @@ constexpr std::size_t layers_every = 8;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::uint64_t hash_of(const State& state) {
-  Hash64 hash;
-  for (const MovingSet& p : state.sets) {
-    for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
-      hash.add(std::span<const double>(*column));
-    hash.add(std::span<const std::uint32_t>(p.id));
-  }
-  return hash.value();
 }
 
 std::size_t n_created(const State& state) {
@@ -288,6 +278,7 @@ class Run {
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
     m.take_off_fraction = s.time > 0 ? ledger.detachment / (brought * s.time) : 0;
     m.n_particles = static_cast<double>(n_created(s) - removed_before_);
+    if (s.bed_supply) write_erosion(*s.bed_supply, ledger, m);
   }
 
   /// What is averaged over the run's time.
@@ -314,10 +305,11 @@ class Run {
     const State& s = parts_.state;
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
+    write_eroded_depth(s, result_);
     result_.scalars.runout_m = runout();
     write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
                        places_left(s), result_.grid, result_.scalars);
-    result_.state_hash = hash_of(s);
+    result_.state_hash = state_hash(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
       result_.reason = std::to_string(100 * ledger.lost_mass / ledger.brought_mass()) +

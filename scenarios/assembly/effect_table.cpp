@@ -4,11 +4,13 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/erosion/effect.hpp"
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/effects/isolated/effect.hpp"
 #include "engine/effects/kinetic/effect.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
+#include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -73,6 +75,10 @@ Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
                     " times as thick as it is wide; internal friction takes up to " +
                     short_number(100 * most) + " % of the thrust that drives"};
 }
+Called erosion_called(const Scenario& s, const ScenePlan&) {
+  if (!s.erosion) return by_key("erosion", false);
+  return {true, erosion_text(*s.erosion)};
+}
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
   return by_key("basal.turbulent_coefficient_m_s2", s.basal.turbulent_coefficient_m_s2.has_value());
 }
@@ -118,6 +124,7 @@ void add_contacts(SceneParts& p) {
 void add_columns(SceneParts& p) {
   add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);
 }
+void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.plan.erosion); }
 
 constexpr EffectRow table[] = {
     {EffectName::gravity, always, add_kick},
@@ -129,6 +136,7 @@ constexpr EffectRow table[] = {
     {EffectName::isolated, isolated_called, add_isolated},
     {EffectName::isolated_contacts, contacts_called, add_contacts},
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
+    {EffectName::erosion, erosion_called, add_eroded_bed, erosion_bytes_per_particle},
     {"turbulent bed", turbulence_called},
     {"viscous bed", viscosity_called},
     {"zones of the bed", zones_called},

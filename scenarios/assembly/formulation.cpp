@@ -29,6 +29,7 @@ std::string column_key(const Scenario& s) {
   if (s.basal.viscosity_pa_s) return "basal.viscosity_pa_s";
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
+  if (s.erosion) return "erosion";
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
@@ -315,9 +316,13 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   plan.release_narrow_side_m = narrow_side(thickness, in.source_area_m2);
   require_before_walls(plan.release, domain, formulation.depth_averaged);
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
-  if (plan.formulation.depth_averaged)
+  if (plan.formulation.depth_averaged) {
     plan_columns(s, bed, plan);
-  else
+    if (s.erosion)
+      plan.erosion = plan_erosion(s, in,
+                                  {periodic ? in.terrain_grid() : plan.bed.grid(),
+                                   plan.bulk_density_kg_m3, bed, plan.zones});
+  } else
     plan_full_stress(s, bed, plan);
 
   const auto& v0 = s.release.velocity_m_s;

@@ -16,6 +16,7 @@ std::vector<KeyInfo> all_keys() {
   std::vector<KeyInfo> keys;
   schema_rows::add_site_keys(keys);
   schema_rows::add_material_keys(keys);
+  schema_rows::add_erosion_keys(keys);
   schema_rows::add_run_keys(keys);
   return keys;
 }
@@ -24,6 +25,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   std::vector<BlockInfo> blocks;
   schema_rows::add_site_blocks(blocks);
   schema_rows::add_material_blocks(blocks);
+  schema_rows::add_erosion_blocks(blocks);
   return blocks;
 }
 
