@@ -21,7 +21,8 @@ struct ScalarColumn {
   const char* label;
   const char* units;
   double MemberScalars::*field;
-  bool percent = false;  ///< a share, shown to compare members, where some member has one
+  bool percent = false;   ///< a share, shown to compare members, where some member has one
+  bool optional = false;  ///< shown where some member has one
 };
 constexpr ScalarColumn scalar_columns[] = {
     {"runout", "m", &MemberScalars::runout_m},
@@ -32,6 +33,8 @@ constexpr ScalarColumn scalar_columns[] = {
     {"max speed", "m s-1", &MemberScalars::max_speed_m_s},
     {"max thickness", "m", &MemberScalars::max_thickness_m},
     {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
+    {"eroded", "m3", &MemberScalars::eroded_volume_m3, false, true},
+    {"growth V_f/V_0", "1", &MemberScalars::volume_growth, false, true},
     {"layers", "1", &MemberScalars::release_layers},
     {"dilated", "1", &MemberScalars::parted_fraction, true},
     {"in transition", "1", &MemberScalars::transition_fraction, true},
@@ -73,6 +76,10 @@ std::vector<ScalarColumn> shown_columns(const std::vector<MemberSummary>& member
   std::vector<ScalarColumn> shown;
   std::copy_if(std::begin(scalar_columns), std::end(scalar_columns), std::back_inserter(shown),
                [&](const ScalarColumn& c) {
+                 if (c.optional)
+                   return std::any_of(members.begin(), members.end(), [&](const MemberSummary& m) {
+                     return !std::isnan(m.scalars.*c.field);
+                   });
                  if (!c.percent) return true;
                  return members.size() > 1 &&
                         std::any_of(members.begin(), members.end(),

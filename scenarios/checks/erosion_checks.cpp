@@ -68,6 +68,11 @@ class Check {
       for (const char* path : {"erosion.depth_m", "erosion.depth_raster"})
         if (given(path))
           add(path, std::string(path) + " (erosion.supply is unlimited). Remove one of the two.");
+      if (e_.law == ErosionLaw::momentum_jump)
+        add("erosion.supply",
+            "erosion.supply = unlimited (erosion.law is momentum_jump, whose rate grows without "
+            "bound "
+            "where the flow is slow). Give depth_m or depth_raster.");
     } else if (!depth && !raster) {
       add("erosion.depth_m",
           "erosion.depth_m (missing: nothing says how much bed there is). Give depth_m in metres, "

@@ -50,7 +50,7 @@ TEST(ErosionChecks, AcceptWhatGoesTogether) {
   EXPECT_THAT(paths(with(stress)), IsEmpty());
   ErosionSpec jump;
   jump.law = ErosionLaw::momentum_jump;
-  jump.supply = ErosionSupply::unlimited;
+  jump.depth_m = Uncertain(1);
   jump.polygon = "channel.gpkg", jump.layer = "bed";
   jump.bed_friction_coefficient = Uncertain(0.7), jump.bed_pore_pressure_ratio = Uncertain(1);
   EXPECT_THAT(paths(with(jump)), IsEmpty());
@@ -70,6 +70,11 @@ TEST(ErosionChecks, NameWhatContradicts) {
   ErosionSpec e = good();
   e.supply = ErosionSupply::unlimited;
   EXPECT_THAT(paths(with(e)), ElementsAre("erosion.depth_m"));
+  e = good(), e.law = ErosionLaw::momentum_jump, e.growth_rate_per_m.reset(), e.depth_m.reset();
+  e.bed_friction_coefficient = Uncertain(0.5), e.bed_pore_pressure_ratio = Uncertain(1);
+  e.supply = ErosionSupply::unlimited;
+  EXPECT_THAT(paths(with(e)), ElementsAre("erosion.supply"))
+      << "a slow flow would take all there is";
   e = good(), e.depth_raster = "bed.tif", e.polygon = "bed.gpkg";
   EXPECT_THAT(paths(with(e)), ElementsAre("erosion.depth_raster", "erosion.polygon"));
   e = good(), e.depth_factor = Uncertain(2), e.layer = "bed", e.crs = "EPSG:32633";

@@ -36,7 +36,6 @@ class MixingPass final : public Pass {
   void apply(State& s, double) override {
     MovingSet& p = s.sets[erosion_->set];
     mix_half(s, p, *erosion_, true);
-    if (erosion_->settings.received) erosion_->settings.received(p, erosion_->gained);
   }
 
  private:
@@ -75,6 +74,7 @@ void mix_half(const State& s, MovingSet& p, Erosion& erosion, bool keeps_works) 
   erosion.entrained.add(mixed.mass.value());
   p.ledger.entrained_mass = erosion.entrained.value();
   p.ledger.entrainment_loss += mixed.energy;
+  if (erosion.settings.received) erosion.settings.received(p, gained, 0.5);
 }
 
 void add_mixing(Step& step, const std::shared_ptr<Erosion>& erosion) {

@@ -21,9 +21,10 @@ struct ErosionSettings {
   ZoneMap zones;
   Grid cells;  ///< of the ground that the columns feel; one period of it where it repeats itself
   BedSource source;
-  /// Told what each column took up, by storage index [kg], after its mass and velocity are those of
-  /// the mixture: where a column has more than mass, what the bed brings of it enters here.
-  std::function<void(MovingSet&, std::span<const double>)> received = {};
+  /// Told, twice a step, that each column took up this share of so much mass [kg], by storage
+  /// index, and that mass and velocity are those of the whole now: where a column has more than
+  /// these, what the bed brings of it enters here.
+  std::function<void(MovingSet&, std::span<const double> mass, double share)> received = {};
 };
 
 }  // namespace sturz

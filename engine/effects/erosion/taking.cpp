@@ -60,7 +60,7 @@ class TakingPass final : public Pass {
     appetites_.resize(p.size());
     erosion_->gained.resize(p.size());
     find_appetites(s, p, 0.5 * (s.previous_dt + dt));
-    const double cell = s.bed_supply->grid().cell_m;
+    const double cell = erosion_->settings.cells.cell_m;
     const double mass_per_depth = erosion_->settings.bed_density * cell * cell;
     ask(*s.bed_supply, mass_per_depth);
     share_out(*s.bed_supply, s.threads, mass_per_depth);
@@ -92,8 +92,22 @@ class TakingPass final : public Pass {
   }
 
  private:
+  /// Arrays of the columns, looked up once.
+  struct Columns {
+    const double *thickness, *normal_gravity, *east, *north, *before[3];
+
+    explicit Columns(const MovingSet& p)
+        : thickness(p.scalar(fields::thickness).data()),
+          normal_gravity(p.scalar(fields::normal_gravity).data()),
+          east(p.components(fields::ground)[0].data()),
+          north(p.components(fields::ground)[1].data()) {
+      const auto& last = p.components(fields::velocity_before);
+      for (int k = 0; k < 3; ++k) before[k] = last[static_cast<std::size_t>(k)].data();
+    }
+  };
+
   void find_appetites(const State& s, const MovingSet& p, double interval) {
-    const auto& before = p.components(fields::velocity_before);
+    const Columns columns(p);
     parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         appetites_[i] = {};
@@ -103,32 +117,30 @@ class TakingPass final : public Pass {
         if (!(speed > 0)) continue;
         // Velocities belong to the middle of the last step; what is taken in this one, to its
         // start.
-        const Vec3 last(before[0][i], before[1][i], before[2][i]);
+        const Vec3 last(columns.before[0][i], columns.before[1][i], columns.before[2][i]);
         const double gain = s.n_steps > 0 ? 0.5 * (speed - last.norm()) : 0;
-        appetites_[i] =
-            appetite(s, p, i, v / speed, std::clamp(speed + gain, 0.0, 2 * speed), interval);
+        FlowOverBed flow;
+        flow.thickness = columns.thickness[i];
+        flow.speed = std::clamp(speed + gain, 0.0, 2 * speed);
+        flow.density = p.bulk_density;
+        flow.normal_gravity = columns.normal_gravity[i];
+        flow.drive = -s.gravity * v.z() / speed;
+        const double upright = upward_normal(columns.east[i], columns.north[i]).z();
+        appetites_[i] = appetite(s, p, i, flow, upright, interval);
       }
     });
   }
 
-  Appetite appetite(const State& s, const MovingSet& p, std::size_t i, const Vec3& along,
-                    double speed, double interval) const {
+  Appetite appetite(const State& s, const MovingSet& p, std::size_t i, FlowOverBed flow,
+                    double upright, double interval) const {
     const ErosionSettings& set = erosion_->settings;
     Appetite a;
     double z = 0;
     a.x = p.x[i], a.y = p.y[i];
     s.domain.wrap(a.x, a.y, z);
-    const auto& slope = p.components(fields::ground);
-    const double upright = upward_normal(slope[0][i], slope[1][i]).z();
     const BasalResistance& bed = set.bed[static_cast<std::size_t>(set.zones.at(a.x, a.y))];
-    FlowOverBed flow;
-    flow.thickness = p.scalar(fields::thickness)[i];
-    flow.speed = speed;
-    flow.density = p.bulk_density;
-    flow.normal_gravity = p.scalar(fields::normal_gravity)[i];
-    flow.drive = -s.gravity * along.z();
     flow.brake = bed.plastic(flow.normal_gravity, flow.thickness, flow.density) +
-                 speed * bed.rate(speed, flow.thickness, flow.density, s.gravity);
+                 flow.speed * bed.rate(flow.speed, flow.thickness, flow.density, s.gravity);
     const double depth_rate = set.law.erosion_rate(flow, set.bed_density);
     if (!(depth_rate > 0)) return a;
     // In proportion to the column's own mass: over a step it grows by compound interest.
@@ -136,7 +148,7 @@ class TakingPass final : public Pass {
     a.mass = p.mass[i] * std::expm1(std::min(growth, most_growth));
     a.most_depth = set.law.most_depth(flow) / upright;
     const double side = std::sqrt(p.mass[i] / flow.density * upright / flow.thickness);
-    const double cell = s.bed_supply->grid().cell_m;
+    const double cell = set.cells.cell_m;
     a.side = std::clamp(side, 1e-3 * cell, widest * cell);
     return a;
   }
