@@ -54,6 +54,13 @@ constexpr bool asks_for_internal_friction(LateralPressure p) {
   return p == LateralPressure::active || p == LateralPressure::active_passive;
 }
 
+/// Pore pressure that a mixture starts with: that of still water, or all of the weight.
+enum class InitialPressure { hydrostatic, liquefied };
+constexpr auto words_of(InitialPressure) {
+  using enum InitialPressure;
+  return std::array{Word{hydrostatic, "hydrostatic"}, Word{liquefied, "liquefied"}};
+}
+
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
 enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {

@@ -122,6 +122,23 @@ struct GrainsSpec {
   bool operator==(const GrainsSpec&) const = default;
 };
 
+/// A mixture of grains and water whose pore pressure follows from its shear: depth_averaged only.
+/// Its grains and their share at the start are those of `grains`, its friction angle that of
+/// `basal`.
+struct MixtureSpec {
+  Uncertain fluid_density_kg_m3{1000};
+  Uncertain fluid_viscosity_pa_s{0.005};
+  InitialPressure initial_pressure = InitialPressure::hydrostatic;
+  std::optional<Uncertain> initial_pressure_ratio;  ///< p_b over total normal stress, instead
+  Uncertain critical_solid_fraction{0.64};
+  Uncertain permeability_m2{1e-10};  ///< at `permeability_fraction`
+  Uncertain permeability_fraction{0.6};
+  Uncertain compressibility{0.05};
+  Uncertain stress_offset_pa{1000};
+  Uncertain shear_grain_diameter_m{0.001};
+  bool operator==(const MixtureSpec&) const = default;
+};
+
 /// A part of the ground with values of its own; what it does not give is that of `basal`.
 struct BasalZone {
   std::string polygon;  ///< any OGR polygon layer
@@ -156,8 +173,10 @@ struct ErosionSpec {
   std::optional<Uncertain> growth_rate_per_m;  ///< E_s of `exponential`
   std::optional<Uncertain> rate_m_per_s;       ///< of `shear_stress`, as are the next two
   std::optional<Uncertain> depth_per_stress_m_per_kpa, critical_stress_kpa;
-  std::optional<Uncertain> bed_friction_coefficient,
-      bed_pore_pressure_ratio;  ///< of `momentum_jump`: what the bed itself resists with
+  /// Of `momentum_jump`: what the bed itself resists with. The pressure is also what a bed brings
+  /// into a mixture; hydrostatic when absent.
+  std::optional<Uncertain> bed_friction_coefficient, bed_pore_pressure_ratio;
+  std::optional<Uncertain> bed_solid_fraction;  ///< with `mixture`; absent: its critical fraction
   bool operator==(const ErosionSpec&) const = default;
 };
 
@@ -221,6 +240,7 @@ struct Scenario {
   TerrainSpec terrain;
   ReleaseSpec release;
   std::optional<GrainsSpec> grains;
+  std::optional<MixtureSpec> mixture;  ///< absent: dry, or with basal.pore_pressure_ratio
   BasalSpec basal;
   std::optional<ErosionSpec> erosion;
   Formulation formulation = Formulation::automatic;

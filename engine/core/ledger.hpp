@@ -52,6 +52,11 @@ struct Ledger {
   double detachment =
       0;  ///< mass times time on ground that curves away faster than it falls [kg s]
 
+  double released_solids = 0, lost_solids = 0;  ///< grains of a mixture [m^3]
+  double released_water = 0, lost_water = 0;    ///< water in its pores and on it [m^3]
+  /// Elastic energy of pore pressures that their bounds cut off (docs/physics.md F.7).
+  double clipped_work = 0;
+
   /// Sum of m a dt of pair forces alone: zero but for rounding.
   Vec3 stress_impulse{0, 0, 0};
   double stress_impulse_scale = 0;  ///< sum of |m a dt|
@@ -101,7 +106,10 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
                                &Ledger::isolated_elastic, &Ledger::friction,
                                &Ledger::rest_damping,     &Ledger::lost_energy,
                                &Ledger::detachment,       &Ledger::stress_impulse_scale,
-                               &Ledger::entrained_mass,   &Ledger::entrainment_loss};
+                               &Ledger::released_solids,  &Ledger::lost_solids,
+                               &Ledger::released_water,   &Ledger::lost_water,
+                               &Ledger::clipped_work,     &Ledger::entrained_mass,
+                               &Ledger::entrainment_loss};
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));
   for (const Entry entry : entries) this->*entry += other.*entry;

@@ -60,6 +60,20 @@ inline constexpr FieldKey ground{"ground", 5, "mixed", "column pressure"};
 /// Lateral over normal stress.
 inline constexpr FieldKey earth_pressure{"earth_pressure", 1, "1", "column pressure", 1.0};
 
+// Mixture of grains and pore fluid in columns (columns/mixture.hpp).
+/// Volumes of grains and of water in a column, both constant.
+inline constexpr FieldKey solids_volume{"solids_volume", 1, "m3", "pore pressure"};
+inline constexpr FieldKey water_volume{"water_volume", 1, "m3", "pore pressure"};
+/// Of the mixture, without the film of water on it.
+inline constexpr FieldKey solid_fraction{"solid_fraction", 1, "1", "pore pressure"};
+/// At the base, over that of still water: what a column carries along.
+inline constexpr FieldKey excess_pressure{"excess_pressure", 1, "Pa", "pore pressure"};
+/// At the base: excess and still water at the last kick.
+inline constexpr FieldKey pore_pressure{"pore_pressure", 1, "Pa", "pore pressure"};
+/// Normal gravity that the excess was last brought to; negative until the first step has
+/// found the thickness.
+inline constexpr FieldKey pore_gravity{"pore_gravity", 1, "m s-2", "pore pressure", -1.0};
+
 // Of a bed that the flow takes along (erosion/).
 /// Part of a column's mass that was bed.
 inline constexpr FieldKey entrained_mass{"entrained_mass", 1, "kg", "erosion"};

@@ -2,7 +2,7 @@
 #include "engine/simulation/end_state.hpp"
 
 #include "engine/core/constants.hpp"
-#include "engine/core/hash.hpp"
+#include "engine/core/sum.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,17 +83,11 @@ void write_travel(const State& s, const ReleaseFacts& release, MemberScalars& m)
   m.deposit_com_y_m = sums.present > 0 ? sums.my / sums.present : nan_d;
 }
 
-std::uint64_t state_hash(const State& state) {
-  Hash64 hash;
-  for (const MovingSet& p : state.sets) {
-    for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
-      hash.add(std::span<const double>(*column));
-    hash.add(std::span<const std::uint32_t>(p.id));
-  }
-  if (state.bed_supply)
-    state.bed_supply->visit_eroded(
-        [&](int row, int col, double depth) { hash.add(row).add(col).add(depth); });
-  return hash.value();
+double mass_on_terrain(const State& s) {
+  Sum total;
+  for (const MovingSet& set : s.sets)
+    for (double m : set.mass) total.add(m);
+  return total.value();
 }
 
 std::vector<Vec2> places_left(const State& s) {

@@ -5,7 +5,6 @@
 #include "engine/simulation/member_result.hpp"
 #include "engine/simulation/parts.hpp"
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,11 +30,10 @@ void write_travel(const State&, const ReleaseFacts&, MemberScalars&);
 void write_crown_to_toe(const Terrain& ground, const ReleaseFacts&,
                         std::span<const PeakMaps::Cell> deposit, std::span<const Vec2> left,
                         const Grid& grid, MemberScalars&);
+/// Of all that is still there [kg].
+double mass_on_terrain(const State&);
 /// The places of write_crown_to_toe.
 std::vector<Vec2> places_left(const State&);
-
-/// Of all that a member's particles and the bed below them are, bitwise.
-std::uint64_t state_hash(const State&);
 
 /// What a reader of the member has to doubt, one sentence each:
 /// - Detachment: more than 1 % of mass times time is on ground that curves away faster than the

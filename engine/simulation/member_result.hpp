@@ -85,6 +85,14 @@ struct MemberScalars {
   double ultradilute_fraction = 0;  ///< the same
   double max_granular_temperature_m2_s2 = 0;
   double granular_ratio = 0;  ///< that over max_speed_m_s squared
+  // Of a mixture; NaN without one.
+  double max_pore_pressure_ratio = 0;  ///< of its mass mean over time
+  double end_pore_pressure_ratio = 0;  ///< basal pore pressure / total normal stress, mass mean
+  double end_solid_fraction = 0;       ///< mass mean
+  double end_film_m3 = 0;              ///< water that it has given off and carries
+  double solids_error = 0;             ///< (kept + lost - released) / released volume of grains
+  double water_error = 0;              ///< the same of water, in pores and film
+  double pore_clipped_fraction = 0;    ///< work of pore pressures beyond bounds / released energy
   // Of a bed that the flow takes along; NaN without one.
   double eroded_volume_m3 = nan_d;           ///< of the bed, at its own density
   double entrained_mass_kg = nan_d;          ///< taken up by the flow

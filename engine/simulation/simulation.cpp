@@ -3,11 +3,12 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/cpu_time.hpp"
-#include "engine/core/sum.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/effects/state_hash.hpp"
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/maps/erosion_result.hpp"
+#include "engine/simulation/mixture_state.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "engine/simulation/travel.hpp"
@@ -134,6 +135,8 @@ class Run {
   void sample_diagnostics() {
     const State& s = parts_.state;
     now_ = measure(s, each_);
+    mixture_ = mixture_state(s.sets);
+    most_pressure_ratio_ = std::max(most_pressure_ratio_, mixture_.pressure_ratio);
     const StateShares shares = state_shares(s.sets);
     state_times_.add(shares, s.time - sampled_at_);
     if (s.n_particles() > 0 && history_.wants(s.time)) history_.add(history_row(shares));
@@ -172,6 +175,9 @@ class Run {
     row.ultradilute = static_cast<float>(shares.ultradilute);
     row.mean_granular_temperature_m2_s2 = static_cast<float>(shares.mean_theta);
     row.max_granular_temperature_m2_s2 = static_cast<float>(shares.max_theta);
+    row.mean_solid_fraction = static_cast<float>(mixture_.solid_fraction);
+    row.mean_pore_pressure_ratio = static_cast<float>(mixture_.pressure_ratio);
+    row.film_m3 = static_cast<float>(mixture_.film_m3);
     return row;
   }
 
@@ -253,6 +259,7 @@ class Run {
     result_.history.rows.assign(rows.begin(), rows.end());
     result_.history.has_states = any_has(s, fields::state);
     result_.history.has_temperature = any_has(s, fields::granular_temperature);
+    result_.history.has_mixture = any_has(s, fields::solid_fraction);
     result_.scalars.wall_s = seconds_since(start_);
     result_.scalars.cpu_s = team_cpu_seconds(s.threads) - cpu_start_;
     share_out(result_.scalars.wall_s);
@@ -290,6 +297,7 @@ class Run {
     m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
     m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
     state_times_.write(m);
+    write_mixture(mixture_state(s.sets), most_pressure_ratio_, s.ledger(), m);
     double largest_temperature = 0;
     for (const MovingSet& set : s.sets)
       largest_temperature = std::max(largest_temperature, set.largest_granular_temperature);
@@ -309,7 +317,7 @@ class Run {
     result_.scalars.runout_m = runout();
     write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
                        places_left(s), result_.grid, result_.scalars);
-    result_.state_hash = state_hash(s);
+    result_.state_hash = hash_of(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
       result_.reason = std::to_string(100 * ledger.lost_mass / ledger.brought_mass()) +
@@ -347,13 +355,6 @@ class Run {
     return std::sqrt(far2);
   }
 
-  static double mass_on_terrain(const State& s) {
-    Sum total;
-    for (const MovingSet& set : s.sets)
-      for (double m : set.mass) total.add(m);
-    return total.value();
-  }
-
   SimulationParts& parts_;
   const RunControl& control_;
   Clock::time_point start_;
@@ -362,6 +363,8 @@ class Run {
   std::size_t removed_before_;           // particles that a set was cut by before its run
   MemberResult result_;
   Displacement now_;
+  MixtureState mixture_;
+  double most_pressure_ratio_ = 0;
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
   bool ended_ = false, at_rest_ = false;

@@ -131,12 +131,36 @@ std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
   return bed;
 }
 
+MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) {
+  MixtureSettings wet;
+  wet.law.solid_density = grains.density_kg_m3.value;
+  wet.law.fluid_density = spec.fluid_density_kg_m3.value;
+  wet.law.fluid_viscosity = spec.fluid_viscosity_pa_s.value;
+  wet.law.critical_fraction = spec.critical_solid_fraction.value;
+  wet.law.grain_diameter = spec.shear_grain_diameter_m.value;
+  wet.law.permeability = spec.permeability_m2.value;
+  wet.law.reference_fraction = spec.permeability_fraction.value;
+  wet.law.compressibility = spec.compressibility.value;
+  wet.law.stress_offset = spec.stress_offset_pa.value;
+  wet.solid_fraction = grains.solid_fraction.value;
+  if (spec.initial_pressure == InitialPressure::liquefied) wet.pressure_ratio = 1;
+  if (spec.initial_pressure_ratio) wet.pressure_ratio = spec.initial_pressure_ratio->value;
+  return wet;
+}
+
+/// Of the grains, and of the water between them where there is a mixture.
+double bulk_density(const Scenario& s, double solid_fraction) {
+  return s.mixture ? plan_mixture(*s.grains, *s.mixture).law.density(solid_fraction)
+                   : s.grains->density_kg_m3.value * solid_fraction;
+}
+
 void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan& plan) {
   DepthAveragedSettings& c = plan.columns;
   c.spacing = s.numerics.spacing_m;
   c.density = plan.bulk_density_kg_m3;
   c.courant = s.numerics.courant;
   c.zones = plan.zones;
+  if (s.mixture) c.mixture = plan_mixture(*s.grains, *s.mixture);
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
   const bool known = s.grains->friction || s.grains->friction_angle_deg;
@@ -148,10 +172,12 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   };
   if (s.grains->earth_pressure == LateralPressure::active_passive)
     for (std::size_t k = 0; k < bed.size(); ++k) c.earth_pressure[k] = pressure(bed[k]);
-  const double share = s.grains->earth_pressure == LateralPressure::active ? 1
-                       : s.grains->earth_pressure == LateralPressure::automatic && known
-                           ? pile_share(s, plan)
-                           : 0;
+  // Water carries part of a mixture's load: pressure is isotropic in it (Iverson & George 2014).
+  const bool by_shape = s.grains->earth_pressure == LateralPressure::automatic && known;
+  const double share = s.mixture                                             ? 0
+                       : s.grains->earth_pressure == LateralPressure::active ? 1
+                       : by_shape                                            ? pile_share(s, plan)
+                                                                             : 0;
   if (share > 0)
     for (const BasalResistance& b : bed)
       c.spent_inside.push_back(share * std::max(0.0, 1 - pressure(b).active));
@@ -305,7 +331,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
     plan.reference_fraction = dense_fraction;
   }
-  plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * plan.reference_fraction;
+  plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
   plan.release =
       release_particles(plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
@@ -319,9 +345,10 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   if (plan.formulation.depth_averaged) {
     plan_columns(s, bed, plan);
     if (s.erosion)
-      plan.erosion = plan_erosion(s, in,
-                                  {periodic ? in.terrain_grid() : plan.bed.grid(),
-                                   plan.bulk_density_kg_m3, bed, plan.zones});
+      plan.erosion =
+          plan_erosion(s, in,
+                       {periodic ? in.terrain_grid() : plan.bed.grid(), plan.bulk_density_kg_m3,
+                        bed, plan.zones, plan.columns.mixture ? &*plan.columns.mixture : nullptr});
   } else
     plan_full_stress(s, bed, plan);
 

@@ -22,6 +22,7 @@ class Check {
           "it "
           "or set formulation: depth_averaged.");
     laws();
+    mixture();
     supply();
   }
 
@@ -51,8 +52,8 @@ class Check {
     for (const char* path : {"erosion.rate_m_per_s", "erosion.depth_per_stress_m_per_kpa",
                              "erosion.critical_stress_kpa"})
       belongs(path, shear_stress);
-    for (const char* path : {"erosion.bed_friction_coefficient", "erosion.bed_pore_pressure_ratio"})
-      belongs(path, momentum_jump);
+    belongs("erosion.bed_friction_coefficient", momentum_jump);
+    if (!s_.mixture) belongs("erosion.bed_pore_pressure_ratio", momentum_jump);
     if (e_.law == exponential)
       needs("erosion.growth_rate_per_m", "ln(V_f/V_0) over the length of the path, e.g. 0.001 1/m");
     if (e_.law == momentum_jump) {
@@ -60,6 +61,17 @@ class Check {
       needs("erosion.bed_pore_pressure_ratio",
             "its pore pressure over the normal stress, 1 for a liquefied bed");
     }
+  }
+
+  void mixture() {
+    if (s_.mixture && e_.bed_density_kg_m3)
+      add("erosion.bed_density_kg_m3",
+          "erosion.bed_density_kg_m3 (mixture is there too: the density of a saturated bed follows "
+          "from its grains). Use erosion.bed_solid_fraction.");
+    if (!s_.mixture && e_.bed_solid_fraction)
+      add("erosion.bed_solid_fraction",
+          "erosion.bed_solid_fraction (there is no mixture that it would join). Use "
+          "erosion.bed_density_kg_m3.");
   }
 
   void supply() {

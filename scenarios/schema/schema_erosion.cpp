@@ -61,8 +61,13 @@ void add_laws(std::vector<KeyInfo>& keys) {
                       "Friction coefficient inside the bed, law momentum_jump."}));
   keys.push_back(key(erosion, &ErosionSpec::bed_pore_pressure_ratio,
                      {"erosion.bed_pore_pressure_ratio", uncertain, "1", 0, 1,
-                      "Pore pressure over normal stress in the bed, law momentum_jump; 1: "
-                      "liquefied."}));
+                      "Pore pressure over normal stress in the bed, 1: liquefied; for law "
+                      "momentum_jump, and for what a bed brings into a mixture (hydrostatic when "
+                      "absent)."}));
+  keys.push_back(key(erosion, &ErosionSpec::bed_solid_fraction,
+                     {"erosion.bed_solid_fraction", uncertain, "1", 0.05, 0.85,
+                      "Share of the saturated bed that is grain, with mixture; "
+                      "mixture.critical_solid_fraction when absent."}));
 }
 
 }  // namespace

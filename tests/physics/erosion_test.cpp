@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 
 namespace sturz::test {
@@ -311,6 +312,40 @@ TEST(Erosion, HoldsAtHugeRatesAndTinySupplies) {
       expect_accounts(f);
       for (const float v : f.result.layer(PeakLayer::eroded)) ASSERT_GE(v, 0);
     }
+}
+
+/// A mixture whose bed brings grains, water and pressure of its own.
+Scenario wet_sheet(std::optional<double> bed_pressure_ratio) {
+  Scenario s = sheet(20, std::tan(36 * degree), 2, 10);
+  s.mixture.emplace();
+  s.mixture->permeability_m2 = Uncertain(1e-9);
+  s.grains->solid_fraction = Uncertain(0.58);
+  s.erosion = limited(growing(0.01), 2);
+  if (bed_pressure_ratio) s.erosion->bed_pore_pressure_ratio = Uncertain(*bed_pressure_ratio);
+  return s;
+}
+
+TEST(Erosion, OfASaturatedBedKeepsGrainsAndWater) {
+  const Finished f = run(wet_sheet(std::nullopt));
+  const MemberScalars& m = f.result.scalars;
+  EXPECT_GT(m.volume_growth, 1.02);
+  EXPECT_LT(std::abs(m.solids_error), 1e-12);
+  EXPECT_LT(std::abs(m.water_error), 1e-12);
+  const MovingSet& p = f.simulation.parts().state.grains();
+  const auto &solids = p.scalar(fields::solids_volume), &water = p.scalar(fields::water_volume);
+  const GrainsSpec grains = *wet_sheet(std::nullopt).grains;
+  double mass = 0;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    mass += grains.density_kg_m3.value * solids[i] + 1000 * water[i];
+  EXPECT_NEAR(mass, mass_of(f), 1e-11 * mass) << "mass and volumes say the same";
+  const double bed = 0.64 * grains.density_kg_m3.value + 0.36 * 1000;
+  EXPECT_NEAR(m.entrained_mass_kg, bed * m.eroded_volume_m3, 1e-11 * mass);
+  EXPECT_LT(std::abs(m.energy_residual), 0.01);
+}
+
+TEST(Erosion, OfALiquefiedBedLetsAMixtureRunFarther) {
+  const Finished still = run(wet_sheet(std::nullopt)), liquefied = run(wet_sheet(1.0));
+  EXPECT_GT(liquefied.result.scalars.front_travel_m, still.result.scalars.front_travel_m);
 }
 
 TEST(Erosion, SaysWhenFewColumnsStandForMuchMass) {

@@ -86,6 +86,18 @@ TEST(ErosionChecks, NameWhatContradicts) {
                                              "exponential; only shear_stress knows it)"));
 }
 
+TEST(ErosionChecks, ASaturatedBedBelongsToAMixture) {
+  ErosionSpec e = good();
+  e.bed_solid_fraction = Uncertain(0.6);
+  EXPECT_THAT(paths(with(e)), ElementsAre("erosion.bed_solid_fraction"));
+  Scenario wet = with(e);
+  wet.mixture.emplace();
+  wet.erosion->bed_pore_pressure_ratio = Uncertain(0.8);
+  EXPECT_THAT(paths(wet), IsEmpty());
+  wet.erosion->bed_density_kg_m3 = Uncertain(1900);
+  EXPECT_THAT(paths(wet), ElementsAre("erosion.bed_density_kg_m3"));
+}
+
 TEST(ErosionChecks, NumbersHaveRanges) {
   ErosionSpec e = good();
   e.growth_rate_per_m = Uncertain(0), e.depth_m = Uncertain(-1), e.bed_density_kg_m3 = Uncertain(5);

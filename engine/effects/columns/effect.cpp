@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/effects/arrivals.hpp"
+#include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
 
 #include <algorithm>
@@ -43,6 +44,7 @@ void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
   p.scalar(fields::support_radius)[i] = support_radius;
   p.scalar(fields::thickness)[i] = thickness;
   p.scalar(fields::normal_gravity)[i] = g_n;
+  if (set.mixture) start_pressure(p, *set.mixture, i);
   const int zone = flow.zone_of(s.domain, p, i);
   if (Field* k = p.find(fields::earth_pressure)) {
     const EarthPressure& e = set.earth_pressure[zone];
@@ -98,6 +100,7 @@ bool look_up_ground(const State& s, ParticleSet& p, const GroundColumns& ground,
 
 void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t first) {
   p.fate.resize(p.size());
+  if (flow.settings.mixture) enter_mixture(p, *flow.settings.mixture, first);
   FirstRates rates;
   for (std::size_t i = first; i < p.size(); ++i) start_column(s, p, flow, i, 0, rates);
   flow.fastest_wave = std::max(flow.fastest_wave, std::sqrt(rates.wave2));
@@ -111,6 +114,11 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   expect(thickness.size() == p.size(), "one thickness per column");
   expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
          "bed and earth pressure for every zone");
+  const auto fluid = [](const BasalResistance& b) {
+    return b.pore_pressure_ratio > 0 || b.viscosity_pa_s > 0 || b.yield_stress_pa > 0;
+  };
+  expect(!settings.mixture || std::none_of(settings.bed.begin(), settings.bed.end(), fluid),
+         "a mixture has its own pore pressure and viscosity");
   for (const FieldKey* key :
        {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
         &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
@@ -123,6 +131,7 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   auto flow = std::make_shared<ColumnFlow>(set, settings);
   start_columns(state, p, *flow, thickness);
   add_column_pressure(step, flow);
+  add_column_bed(step, flow);
   add_column_motion(step, flow);
 }
 

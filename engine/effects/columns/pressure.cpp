@@ -132,6 +132,9 @@ class GatherPass final : public Pass {
     const GroundColumns ground(p);
     const Field* k_field = p.find(fields::earth_pressure);
     const double* k = k_field ? k_field->component[0].data() : nullptr;
+    const bool wet = flow_->settings.mixture.has_value();
+    const double* solids = wet ? p.scalar(fields::solids_volume).data() : nullptr;
+    const double* water = wet ? p.scalar(fields::water_volume).data() : nullptr;
     ColumnCells& cells = flow_->cells;
     ColumnRecord* records = cells.records();
     parallel_ranges(
@@ -142,7 +145,8 @@ class GatherPass final : public Pass {
             const double lateral = k ? known_earth_pressure(k[i], share[i]) * g[i] : g[i];
             const double known =
                 share[i] < 1 ? thickness[i] / thinned(share[i], ground[i].slope2()) : thickness[i];
-            r.volume = static_cast<float>(p.mass[i] / flow_->settings.density);
+            r.volume = static_cast<float>(solids ? solids[i] + water[i]
+                                                 : p.mass[i] / flow_->settings.density);
             r.vx = static_cast<float>(p.vx[i]);
             r.vy = static_cast<float>(p.vy[i]);
             r.vz = static_cast<float>(p.vz[i]);
@@ -209,6 +213,8 @@ class SweepPass final : public Pass {
     double* k = k_field ? k_field->component[0].data() : nullptr;
     const double first = set.radius_per_spacing * set.spacing;
     const bool walls = !s.domain.walls.empty();
+    if (set.mixture) flow_->strain_rate.resize(p.size());
+    double* strain_rate = set.mixture ? flow_->strain_rate.data() : nullptr;
     const Fastest fastest = ordered_reduce(
         cells.size(), s.threads, Fastest{},
         [&](std::size_t begin, std::size_t end, Fastest& most) {
@@ -223,6 +229,7 @@ class SweepPass final : public Pass {
             const double known = whole * out.thickness[c];
             const bool steep = share[i] < 1;
             thickness[i] = steep ? known * thinned(share[i], ground[i].slope2()) : known;
+            if (strain_rate) strain_rate[i] = double(out.divergence[c]) / out.thickness[c];
             if (k)
               k[i] = strained(s.domain, p, i, k[i], out.divergence[c] / known * dt, thickness[i]);
             const double per_h = 2 / support_radius[i];

@@ -2,11 +2,13 @@
 /// Numbers of a depth-averaged flow.
 #pragma once
 
+#include "engine/effects/columns/mixture_settings.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
 #include "engine/laws/basal_resistance.hpp"
 #include "engine/laws/earth_pressure.hpp"
 #include "engine/terrain/zone_map.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace sturz {
@@ -29,6 +31,7 @@ struct DepthAveragedSettings {
   std::vector<double> spent_inside;
   double internal_friction = 0;  ///< tan phi of the grains, to judge deposits by; 0: unknown
   ZoneMap zones;
+  std::optional<MixtureSettings> mixture;  ///< absent: a dry mass, or one with a constant ratio
   InstructionSet instruction_set = InstructionSet::plain;
 };
 

@@ -95,6 +95,7 @@ class TakingPass final : public Pass {
   /// Arrays of the columns, looked up once.
   struct Columns {
     const double *thickness, *normal_gravity, *east, *north, *before[3];
+    const double *solids = nullptr, *water = nullptr, *pressure = nullptr;  ///< of a mixture
 
     explicit Columns(const MovingSet& p)
         : thickness(p.scalar(fields::thickness).data()),
@@ -103,6 +104,10 @@ class TakingPass final : public Pass {
           north(p.components(fields::ground)[1].data()) {
       const auto& last = p.components(fields::velocity_before);
       for (int k = 0; k < 3; ++k) before[k] = last[static_cast<std::size_t>(k)].data();
+      if (!p.has(fields::pore_pressure)) return;
+      solids = p.scalar(fields::solids_volume).data();
+      water = p.scalar(fields::water_volume).data();
+      pressure = p.scalar(fields::pore_pressure).data();
     }
   };
 
@@ -122,23 +127,28 @@ class TakingPass final : public Pass {
         FlowOverBed flow;
         flow.thickness = columns.thickness[i];
         flow.speed = std::clamp(speed + gain, 0.0, 2 * speed);
-        flow.density = p.bulk_density;
+        flow.density =
+            columns.solids ? p.mass[i] / (columns.solids[i] + columns.water[i]) : p.bulk_density;
         flow.normal_gravity = columns.normal_gravity[i];
         flow.drive = -s.gravity * v.z() / speed;
         const double upright = upward_normal(columns.east[i], columns.north[i]).z();
-        appetites_[i] = appetite(s, p, i, flow, upright, interval);
+        appetites_[i] = appetite(s, p, i, flow, upright, interval,
+                                 columns.pressure ? columns.pressure + i : nullptr);
       }
     });
   }
 
   Appetite appetite(const State& s, const MovingSet& p, std::size_t i, FlowOverBed flow,
-                    double upright, double interval) const {
+                    double upright, double interval, const double* pore_pressure) const {
     const ErosionSettings& set = erosion_->settings;
     Appetite a;
     double z = 0;
     a.x = p.x[i], a.y = p.y[i];
     s.domain.wrap(a.x, a.y, z);
-    const BasalResistance& bed = set.bed[static_cast<std::size_t>(set.zones.at(a.x, a.y))];
+    BasalResistance bed = set.bed[static_cast<std::size_t>(set.zones.at(a.x, a.y))];
+    const double stress = flow.density * flow.normal_gravity * flow.thickness;
+    if (pore_pressure && stress > 0)
+      bed.pore_pressure_ratio = std::clamp(*pore_pressure / stress, 0.0, 1.0);
     flow.brake = bed.plastic(flow.normal_gravity, flow.thickness, flow.density) +
                  flow.speed * bed.rate(flow.speed, flow.thickness, flow.density, s.gravity);
     const double depth_rate = set.law.erosion_rate(flow, set.bed_density);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 
+#include "engine/effects/columns/wet_bed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <cmath>
@@ -86,6 +87,16 @@ ErosionSettings plan_erosion(const Scenario& s, const SceneInputs& in, const Ero
   ErosionSettings out;
   out.law = law_of(spec);
   out.bed_density = or_else(spec.bed_density_kg_m3, place.flow_density);
+  if (place.mixture) {
+    const MixtureLaw law = place.mixture->law;
+    SaturatedBed bed;
+    bed.solid_fraction = or_else(spec.bed_solid_fraction, law.critical_fraction);
+    bed.pressure_ratio = or_else(spec.bed_pore_pressure_ratio, -1);
+    out.bed_density = law.density(bed.solid_fraction);
+    out.received = [law, bed](MovingSet& p, std::span<const double> mass, double share) {
+      take_up(p, law, bed, mass, share);
+    };
+  }
   out.bed = place.bed;
   out.zones = place.zones;
   out.cells = place.ground;

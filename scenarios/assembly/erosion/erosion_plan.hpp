@@ -2,6 +2,7 @@
 /// The bed that a flow takes along: numbers and supply of one member.
 #pragma once
 
+#include "engine/effects/columns/mixture_settings.hpp"
 #include "engine/effects/erosion/settings.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
@@ -16,6 +17,7 @@ struct ErosionPlace {
   double flow_density = 1;           ///< bulk [kg/m^3]
   std::vector<BasalResistance> bed;  ///< by zone
   ZoneMap zones;
+  const MixtureSettings* mixture = nullptr;  ///< of the flow
 };
 
 /// \pre the scene has `erosion`
