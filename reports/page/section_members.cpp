@@ -71,20 +71,21 @@ std::string unit_of(const ReportTable& table, std::size_t k) {
   return k < table.units.size() ? table.units[k] : "1";
 }
 
+/// Whether some member's value says yes.
+template <class Says>
+bool some(const std::vector<MemberSummary>& members, const ScalarColumn& c, Says says) {
+  return std::any_of(members.begin(), members.end(),
+                     [&](const MemberSummary& m) { return says(m.scalars.*c.field); });
+}
+
 /// Columns that say something about these members.
 std::vector<ScalarColumn> shown_columns(const std::vector<MemberSummary>& members) {
   std::vector<ScalarColumn> shown;
-  std::copy_if(std::begin(scalar_columns), std::end(scalar_columns), std::back_inserter(shown),
-               [&](const ScalarColumn& c) {
-                 if (c.optional)
-                   return std::any_of(members.begin(), members.end(), [&](const MemberSummary& m) {
-                     return !std::isnan(m.scalars.*c.field);
-                   });
-                 if (!c.percent) return true;
-                 return members.size() > 1 &&
-                        std::any_of(members.begin(), members.end(),
-                                    [&](const MemberSummary& m) { return m.scalars.*c.field > 0; });
-               });
+  for (const ScalarColumn& c : scalar_columns) {
+    if (c.optional && !some(members, c, [](double v) { return !std::isnan(v); })) continue;
+    const bool compares = members.size() > 1 && some(members, c, [](double v) { return v > 0; });
+    if (!c.percent || compares) shown.push_back(c);
+  }
   return shown;
 }
 

@@ -280,6 +280,17 @@ double time_to_weigh(const Scenario& s, const SceneInputs& in, const Raster<doub
   return 0.25 * time_cap(s, in, n > 0 ? sum / n : 0, density).end_time_s;
 }
 
+/// Columns of a periodic ground feel one period and a margin; what is taken is that of the period.
+void plan_eroded_bed(const Scenario& s, const SceneInputs& in,
+                     const std::vector<BasalResistance>& bed, ScenePlan& plan) {
+  if (!s.erosion) return;
+  const bool periodic = plan.domain.x.active || plan.domain.y.active;
+  plan.erosion =
+      plan_erosion(s, in,
+                   {periodic ? in.terrain_grid() : plan.bed.grid(), plan.bulk_density_kg_m3, bed,
+                    plan.zones, plan.columns.mixture ? &*plan.columns.mixture : nullptr});
+}
+
 }  // namespace
 
 double pile_share(const Scenario& s, const ScenePlan& plan) {
@@ -344,11 +355,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
   if (plan.formulation.depth_averaged) {
     plan_columns(s, bed, plan);
-    if (s.erosion)
-      plan.erosion =
-          plan_erosion(s, in,
-                       {periodic ? in.terrain_grid() : plan.bed.grid(), plan.bulk_density_kg_m3,
-                        bed, plan.zones, plan.columns.mixture ? &*plan.columns.mixture : nullptr});
+    plan_eroded_bed(s, in, bed, plan);
   } else
     plan_full_stress(s, bed, plan);
 

@@ -2,8 +2,8 @@
 /// A flow of columns that takes its bed along (docs/physics.md F.8).
 ///
 /// What is taken enters at rest: a column keeps its momentum and loses speed, and what the mixing
-/// takes of its kinetic energy is booked as such. No law pushes the flow. Columns share what a cell
-/// of the ground still has in proportion to what they would take.
+/// takes of its kinetic energy is accounted for as such. No law pushes the flow. Columns share what
+/// a cell of the ground still has in proportion to what they would take.
 #pragma once
 
 #include "engine/effects/erosion/settings.hpp"
