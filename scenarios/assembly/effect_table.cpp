@@ -94,6 +94,8 @@ Called erosion_called(const Scenario& s, const ScenePlan&) {
   return {true, erosion_text(*s.erosion)};
 }
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
+  if (const auto zone = zone_with_turbulence(s.basal); zone && !s.basal.turbulent_coefficient_m_s2)
+    return {true, "`basal.zones[" + std::to_string(*zone) + "].turbulent_coefficient_m_s2`"};
   return by_key("basal.turbulent_coefficient_m_s2", s.basal.turbulent_coefficient_m_s2.has_value());
 }
 Called viscosity_called(const Scenario& s, const ScenePlan&) {

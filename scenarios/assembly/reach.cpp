@@ -149,9 +149,10 @@ double least_friction(const Scenario& s) {
   // A mixture may liquefy on its way; what runs farther than this asks for more ground.
   if (s.mixture) pore_pressure = 1 - liquefied_share;
   for (const BasalZone& zone : basal.zones) {
-    if (zone.friction_coefficient) friction = std::min(friction, *zone.friction_coefficient);
+    if (zone.friction_coefficient)
+      friction = std::min(friction, drawn_range(*zone.friction_coefficient).first);
     if (zone.pore_pressure_ratio)
-      pore_pressure = std::max(pore_pressure, *zone.pore_pressure_ratio);
+      pore_pressure = std::max(pore_pressure, drawn_range(*zone.pore_pressure_ratio).second);
   }
   return std::max(0.0, friction) * std::clamp(1 - pore_pressure, 0.0, 1.0);
 }
