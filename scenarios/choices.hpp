@@ -75,6 +75,21 @@ constexpr auto words_of(IsolatedContactLaw) {
   return std::array{Word{none, "none"}, Word{hertz_mindlin, "hertz_mindlin"}};
 }
 
+/// How fast the flow takes its bed along.
+enum class ErosionLaw { exponential, shear_stress, momentum_jump };
+constexpr auto words_of(ErosionLaw) {
+  using enum ErosionLaw;
+  return std::array{Word{exponential, "exponential"}, Word{shear_stress, "shear_stress"},
+                    Word{momentum_jump, "momentum_jump"}};
+}
+
+/// How much bed there is to take: a depth, or as much as the flow can.
+enum class ErosionSupply { limited, unlimited };
+constexpr auto words_of(ErosionSupply) {
+  using enum ErosionSupply;
+  return std::array{Word{limited, "limited"}, Word{unlimited, "unlimited"}};
+}
+
 /// How the uncertain values of an ensemble are drawn; `table` brings its own.
 enum class Design { monte_carlo, latin_hypercube, sobol, table };
 constexpr auto words_of(Design) {

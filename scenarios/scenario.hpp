@@ -167,6 +167,27 @@ inline std::optional<std::size_t> zone_with_turbulence(const BasalSpec& basal) {
   return std::nullopt;
 }
 
+/// A bed that the flow takes along; depth_averaged only. What a law does not know is not given.
+struct ErosionSpec {
+  ErosionLaw law = ErosionLaw::exponential;
+  ErosionSupply supply = ErosionSupply::limited;
+  std::optional<Uncertain> depth_m;       ///< vertical, everywhere or inside `polygon`
+  std::string polygon;                    ///< any OGR polygon layer: where the bed can be taken
+  std::string layer;                      ///< layer name inside `polygon`; empty: the first
+  std::string depth_raster;               ///< metres, vertical; nodata means zero
+  std::optional<Uncertain> depth_factor;  ///< of `depth_raster`
+  std::string crs;                        ///< where polygon or raster has none
+  std::optional<Uncertain> bed_density_kg_m3;  ///< bulk; absent: the flow's own
+  std::optional<Uncertain> growth_rate_per_m;  ///< E_s of `exponential`
+  std::optional<Uncertain> rate_m_per_s;       ///< of `shear_stress`, as are the next two
+  std::optional<Uncertain> depth_per_stress_m_per_kpa, critical_stress_kpa;
+  /// Of `momentum_jump`: what the bed itself resists with. The pressure is also what a bed brings
+  /// into a mixture; hydrostatic when absent.
+  std::optional<Uncertain> bed_friction_coefficient, bed_pore_pressure_ratio;
+  std::optional<Uncertain> bed_solid_fraction;  ///< with `mixture`; absent: its critical fraction
+  bool operator==(const ErosionSpec&) const = default;
+};
+
 struct NumericsSpec {
   double spacing_m = 0;              ///< initial particle spacing dx; 0 = not given (an error)
   std::optional<double> end_time_s;  ///< absent: to rest, see scenarios/assembly/time_cap.hpp
@@ -214,6 +235,7 @@ struct HazardSpec {
   std::vector<double> speed_m_s{1, 5, 10};
   std::vector<double> energy_kj_m2{10, 100, 1000};
   std::vector<double> pressure_kpa{1, 10, 30};
+  std::vector<double> eroded_depth_m{0.1, 0.5, 1, 2};  ///< where the scene has `erosion`
   std::vector<double> quantiles{0.05, 0.5, 0.95};
   std::string observed_polygon;  ///< any OGR polygon layer, drawn over the maps
   std::string observed_note;     ///< what it is, in words
@@ -228,6 +250,7 @@ struct Scenario {
   std::optional<GrainsSpec> grains;
   std::optional<MixtureSpec> mixture;  ///< absent: dry, or with basal.pore_pressure_ratio
   BasalSpec basal;
+  std::optional<ErosionSpec> erosion;
   Formulation formulation = Formulation::automatic;
   NumericsSpec numerics;
   DomainSpec domain;

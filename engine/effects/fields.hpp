@@ -74,4 +74,8 @@ inline constexpr FieldKey pore_pressure{"pore_pressure", 1, "Pa", "pore pressure
 /// found the thickness.
 inline constexpr FieldKey pore_gravity{"pore_gravity", 1, "m s-2", "pore pressure", -1.0};
 
+// Of a bed that the flow takes along (erosion/).
+/// Part of a column's mass that was bed.
+inline constexpr FieldKey entrained_mass{"entrained_mass", 1, "kg", "erosion"};
+
 }  // namespace sturz::fields

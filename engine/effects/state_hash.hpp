@@ -20,6 +20,9 @@ inline std::uint64_t hash_of(const State& state) {
     for (const FieldKey* key : {&fields::solid_fraction, &fields::excess_pressure})
       if (const Field* f = p.find(*key)) hash.add(std::span<const double>(f->component[0]));
   }
+  if (state.bed_supply)
+    state.bed_supply->visit_eroded(
+        [&](int row, int col, double depth) { hash.add(row).add(col).add(depth); });
   return hash.value();
 }
 

@@ -47,7 +47,8 @@ class PeakMaps {
   /// At most two sets. \param with_layers  count the layers too; else those of the last time stay
   void record(std::span<const MovingSet>, double time_s, bool with_layers = true);
   /// Writes window, layers (deposit and mass left from `final_state`) and the map scalars (reached
-  /// and deposit area, maxima) into `result`. Record the final state first, as any other instant.
+  /// and deposit area, maxima) into `result`; what was eroded is not theirs. Record the final state
+  /// first, as any other instant.
   void finish(std::span<const MovingSet> final_state, MemberResult& result);
   struct Cell {
     int row = 0, col = 0;

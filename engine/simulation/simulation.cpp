@@ -3,11 +3,11 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/cpu_time.hpp"
-#include "engine/core/sum.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/effects/state_hash.hpp"
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
+#include "engine/simulation/maps/erosion_result.hpp"
 #include "engine/simulation/mixture_state.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
@@ -285,6 +285,7 @@ class Run {
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
     m.take_off_fraction = s.time > 0 ? ledger.detachment / (brought * s.time) : 0;
     m.n_particles = static_cast<double>(n_created(s) - removed_before_);
+    if (s.bed_supply) write_erosion(*s.bed_supply, ledger, m);
   }
 
   /// What is averaged over the run's time.
@@ -312,6 +313,7 @@ class Run {
     const State& s = parts_.state;
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
+    write_eroded_depth(s, result_);
     result_.scalars.runout_m = runout();
     write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
                        places_left(s), result_.grid, result_.scalars);
@@ -351,13 +353,6 @@ class Run {
         far2 = std::max(far2, dx * dx + dy * dy);
       }
     return std::sqrt(far2);
-  }
-
-  static double mass_on_terrain(const State& s) {
-    Sum total;
-    for (const MovingSet& set : s.sets)
-      for (double m : set.mass) total.add(m);
-    return total.value();
   }
 
   SimulationParts& parts_;

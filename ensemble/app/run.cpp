@@ -105,6 +105,17 @@ void print_mixture(const MemberResult& r, Console& console) {
              console);
 }
 
+/// What the flow took of its bed.
+void print_erosion(const MemberResult& r, Console& console) {
+  const MemberScalars& s = r.scalars;
+  if (std::isnan(s.eroded_volume_m3)) return;
+  print_line(
+      "erosion",
+      fmt::format("{} m3 of the bed, up to {:.2f} m deep; the flow grew {:.2f} times (V_f/V_0)",
+                  grouped(s.eroded_volume_m3), s.max_eroded_depth_m, s.volume_growth),
+      console);
+}
+
 /// The effects by what they cost, as shares of the computing time.
 void print_effects(const MemberResult& r, Console& console) {
   NamedSeconds times = r.effect_seconds;
@@ -188,6 +199,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                                      s.max_pressure_pa / 1e3));
   print_states(r, console);
   print_mixture(r, console);
+  print_erosion(r, console);
   line("particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,

@@ -7,6 +7,7 @@
 #include "io/gdal/gdal_raster.hpp"
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
+#include "io/site/bed/bed_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "io/site/observed/observed_outline.hpp"
 #include "io/site/release_hash.hpp"
@@ -24,12 +25,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
-#include <span>
 
 namespace sturz {
 namespace {
@@ -262,21 +261,6 @@ void load_release(Loading& loading) {
   load_synthetic_source(loading);
 }
 
-PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
-  const BasalZone& zone = scenario.basal.zones[i];
-  const std::string name = fmt::format("basal.zones[{}]", i);
-  PolygonRequest request;
-  request.path = zone.polygon;
-  request.layer = zone.layer;
-  request.key = name + ".polygon";
-  request.directory = scenario.directory;
-  request.crs_key.clear();  // no key of its own
-  stand_in_with_terrain(request, scenario.terrain);
-  request.layer_key = name + ".layer";
-  request.what = "zone";
-  return request;
-}
-
 void load_zone(Loading& loading, std::size_t i, Raster<std::uint8_t>& numbers) {
   const Grid& grid = loading.grid();
   ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid, loading.inputs.held());
@@ -297,11 +281,23 @@ void load_zones(Loading& loading) {
   loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
 }
 
+/// Where a bed can be taken along, or how deep; only checked while no ground is known.
+void load_bed_supply(Loading& loading) {
+  if (!has_bed_supply_file(loading.scenario)) return;
+  loading.attempt([&] {
+    if (!loading.inputs.elevation) return check_bed_supply(loading.scenario);
+    BedSupplyInput read = read_bed_supply(loading.scenario, loading.grid(), loading.inputs.held());
+    loading.inputs.bed_supply = std::make_shared<const Raster<double>>(std::move(read.pattern));
+    loading.take(read);
+  });
+}
+
 /// What holds whatever part of the terrain is read: release, observed outline, grids, reach.
 SceneInputs without_ground(SceneInputs inputs) {
   inputs.elevation = nullptr;
   inputs.ground = inputs.column_ground = nullptr;
   inputs.zones = nullptr;
+  inputs.bed_supply = nullptr;
   inputs.notes.clear();
   inputs.warnings.clear();
   inputs.identities.clear();
@@ -341,6 +337,7 @@ void check_without_terrain(Loading& loading) {
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
   check_zones(loading);
+  load_bed_supply(loading);
   load_observed(loading);
 }
 
@@ -364,6 +361,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     load_zones(loading);
   else
     check_zones(loading);
+  load_bed_supply(loading);
   load_observed(loading);
   loading.refuse_problems();
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
@@ -389,6 +387,7 @@ SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& firs
   inputs.level = level;
   take_ground(loading, read);
   load_zones(loading);
+  load_bed_supply(loading);
   loading.refuse_problems();
   inputs.release_hash = hash_of_release(inputs);
   prepare_grounds(scenario, inputs);

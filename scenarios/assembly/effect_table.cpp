@@ -5,11 +5,13 @@
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/erosion/effect.hpp"
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/effects/isolated/effect.hpp"
 #include "engine/effects/kinetic/effect.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
+#include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -87,6 +89,10 @@ Called mixture_called(const Scenario& s, const ScenePlan&) {
   return {true, m < critical ? "`mixture`: looser" + than + ", shear makes pore pressure"
                              : "`mixture`: not looser" + than + ", shear takes pore pressure away"};
 }
+Called erosion_called(const Scenario& s, const ScenePlan&) {
+  if (!s.erosion) return by_key("erosion", false);
+  return {true, erosion_text(*s.erosion)};
+}
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
   if (const auto zone = zone_with_turbulence(s.basal); zone && !s.basal.turbulent_coefficient_m_s2)
     return {true, "`basal.zones[" + std::to_string(*zone) + "].turbulent_coefficient_m_s2`"};
@@ -135,6 +141,7 @@ void add_pores(SceneParts& p) { add_mixture(p.state, grains, *p.plan.columns.mix
 void add_columns(SceneParts& p) {
   add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);
 }
+void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.plan.erosion); }
 
 constexpr EffectRow table[] = {
     {EffectName::gravity, always, add_kick},
@@ -147,6 +154,7 @@ constexpr EffectRow table[] = {
     {EffectName::isolated_contacts, contacts_called, add_contacts},
     {EffectName::pore_pressure, mixture_called, add_pores},
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
+    {EffectName::erosion, erosion_called, add_eroded_bed, erosion_bytes_per_particle},
     {"turbulent bed", turbulence_called},
     {"viscous bed", viscosity_called},
     {"zones of the bed", zones_called},

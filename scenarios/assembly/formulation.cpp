@@ -31,6 +31,7 @@ std::string column_key(const Scenario& s) {
   if (zone_with_turbulence(s.basal)) return "basal.zones";
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
+  if (s.erosion) return "erosion";
   return "";
 }
 

@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
@@ -281,6 +282,17 @@ double time_to_weigh(const Scenario& s, const SceneInputs& in, const Raster<doub
   return 0.25 * time_cap(s, in, n > 0 ? sum / n : 0, density).end_time_s;
 }
 
+/// Columns of a periodic ground feel one period and a margin; what is taken is that of the period.
+void plan_eroded_bed(const Scenario& s, const SceneInputs& in,
+                     const std::vector<BasalResistance>& bed, ScenePlan& plan) {
+  if (!s.erosion) return;
+  const bool periodic = plan.domain.x.active || plan.domain.y.active;
+  plan.erosion =
+      plan_erosion(s, in,
+                   {periodic ? in.terrain_grid() : plan.bed.grid(), plan.bulk_density_kg_m3, bed,
+                    plan.zones, plan.columns.mixture ? &*plan.columns.mixture : nullptr});
+}
+
 }  // namespace
 
 double pile_share(const Scenario& s, const ScenePlan& plan) {
@@ -343,9 +355,10 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   plan.release_narrow_side_m = narrow_side(thickness, in.source_area_m2);
   require_before_walls(plan.release, domain, formulation.depth_averaged);
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
-  if (plan.formulation.depth_averaged)
+  if (plan.formulation.depth_averaged) {
     plan_columns(s, bed, plan);
-  else
+    plan_eroded_bed(s, in, bed, plan);
+  } else
     plan_full_stress(s, bed, plan);
 
   const auto& v0 = s.release.velocity_m_s;

@@ -121,7 +121,7 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
               ElementsAre("title", "terrain", "release", "material", "grains", "mixture", "basal",
-                          "formulation", "numerics", "domain", "ensemble", "hazard"));
+                          "formulation", "erosion", "numerics", "domain", "ensemble", "hazard"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

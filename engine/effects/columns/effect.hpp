@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Depth-averaged flow (DAN3D family: McDougall & Hungr 2004; AvaFrame com1DFA): each particle is
-/// a column of constant volume that slides on the ground. No stress, no layers, no sound waves.
+/// a column of constant density that slides on the ground. No stress, no layers, no sound waves.
 #pragma once
 
 #include "engine/effects/columns/settings.hpp"
