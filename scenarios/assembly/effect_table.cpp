@@ -116,7 +116,8 @@ void add_contacts(SceneParts& p) {
   add_isolated_contacts(p.step, p.state, grains, *p.plan.isolated_contacts);
 }
 void add_columns(SceneParts& p) {
-  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);
+  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness,
+                     p.plan.release.covered);
 }
 
 constexpr EffectRow table[] = {
