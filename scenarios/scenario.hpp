@@ -197,6 +197,7 @@ struct HazardSpec {
 
 struct Scenario {
   std::string title;
+  std::string material;  ///< name of ready-made priors, see scenarios/materials; empty: none
   TerrainSpec terrain;
   ReleaseSpec release;
   std::optional<GrainsSpec> grains;

@@ -127,20 +127,23 @@ void warn_of_run(const workflow::RunStored& stored, Console& console) {
   for (const MemberWarning& w : stored.warnings) console.warn(w.example);
 }
 
+/// The last line, so that a reader may stop there.
+std::string done_event(const MemberResult& r, const workflow::OutputFolder& folder) {
+  nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
+  for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = r.scalars.*scalar.field;
+  return json_text(nlohmann::ordered_json{{"event", "done"},
+                                          {"outcome", to_string(r.outcome)},
+                                          {"censored", to_string(r.censoring)},
+                                          {"reason", r.reason},
+                                          {"state_hash", fmt::format("{:016x}", r.state_hash)},
+                                          {"scalars", scalars},
+                                          {"effect_seconds", as_json(r.effect_seconds)},
+                                          {"pass_seconds", as_json(r.pass_seconds)},
+                                          {"folder", folder.root.string()}});
+}
+
 void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, Console& console) {
   const MemberScalars& s = r.scalars;
-  nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
-  for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = s.*scalar.field;
-  console.event(
-      json_text(nlohmann::ordered_json{{"event", "done"},
-                                       {"outcome", to_string(r.outcome)},
-                                       {"censored", to_string(r.censoring)},
-                                       {"reason", r.reason},
-                                       {"state_hash", fmt::format("{:016x}", r.state_hash)},
-                                       {"scalars", scalars},
-                                       {"effect_seconds", as_json(r.effect_seconds)},
-                                       {"pass_seconds", as_json(r.pass_seconds)},
-                                       {"folder", folder.root.string()}}));
   const auto line = [&console](const char* name, const std::string& value) {
     print_line(name, value, console);
   };
@@ -196,9 +199,10 @@ int run(const Options& options, Console& console) {
   const workflow::RunStored stored = workflow::store_run(run, result);
   print_summary(result, run.folder, console);
   warn_of_run(stored, console);
-  if (is_valid(result.outcome)) return ok;
-  console.error(fmt::format("the member is not valid: {}", result.reason));
-  return too_many_failed;
+  const bool valid = is_valid(result.outcome);
+  if (!valid) console.error(fmt::format("the member is not valid: {}", result.reason));
+  console.event(done_event(result, run.folder));
+  return valid ? ok : too_many_failed;
 }
 
 }  // namespace

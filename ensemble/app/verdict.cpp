@@ -24,6 +24,18 @@ nlohmann::json censoring_json(const CensoringReport& r) {
           {"too_many", r.too_many()}};
 }
 
+std::string done_event(const workflow::MapsMade& made) {
+  return json_text(nlohmann::json{{"event", "done"},
+                                  {"planned", made.planned},
+                                  {"finished", made.finished},
+                                  {"valid", made.valid},
+                                  {"failed", made.failed()},
+                                  {"censoring", censoring_json(made.censoring)},
+                                  {"members_with_warnings", made.warned_members},
+                                  {"hazard_hash", made.hazard_hash},
+                                  {"folder", made.folder.root.string()}});
+}
+
 /// What is cut off, and what the members themselves warn of: most of it once, with counts.
 void warn_of_members(const CensoringReport& censoring, const std::vector<MemberWarning>& warnings,
                      std::int64_t members, Console& console) {
@@ -43,15 +55,6 @@ int verdict(const workflow::MapsMade& made, Console& console) {
   console.clear_progress();
   console.note(fmt::format("maps of {} valid members in {}, hash {}", made.valid,
                            workflow::duration_text(made.seconds), made.hazard_hash));
-  console.event(json_text(nlohmann::json{{"event", "done"},
-                                         {"planned", made.planned},
-                                         {"finished", made.finished},
-                                         {"valid", made.valid},
-                                         {"failed", made.failed()},
-                                         {"censoring", censoring_json(made.censoring)},
-                                         {"members_with_warnings", made.warned_members},
-                                         {"hazard_hash", made.hazard_hash},
-                                         {"folder", folder}}));
   console.say(fmt::format("{} of {} members are valid{}. Results are in {}:", made.valid,
                           made.planned, made.valid > 0 ? ": " + counts_text(made.censoring) : "",
                           folder));
@@ -76,6 +79,7 @@ int verdict(const workflow::MapsMade& made, Console& console) {
                     "(ensemble.max_failed_fraction = {}). Their reasons are in "
                     "members.csv; the maps are made from the others.",
                     made.failed(), made.finished, made.max_failed_fraction));
+  console.event(done_event(made));  // the last line, so that a reader may stop there
   return too_many || made.valid == 0 ? too_many_failed : ok;
 }
 
@@ -84,11 +88,6 @@ int shard_verdict(const workflow::EnsembleJob& job, const workflow::MembersRun& 
   const CensoringReport censoring =
       censoring_report(run.computed, job.scene.scenario.ensemble.max_censored_fraction);
   const auto n = static_cast<std::int64_t>(run.computed.size());
-  console.event(json_text(nlohmann::json{{"event", "shard_done"},
-                                         {"computed", n},
-                                         {"valid", censoring.valid},
-                                         {"failed", run.failed.size()},
-                                         {"censoring", censoring_json(censoring)}}));
   std::string counts = n == 0 ? "nothing was left to do" : fmt::format("{} members computed", n);
   if (censoring.valid > 0) counts += ": " + counts_text(censoring);
   if (!run.failed.empty()) counts += fmt::format("; {} failed", run.failed.size());
@@ -101,6 +100,11 @@ int shard_verdict(const workflow::EnsembleJob& job, const workflow::MembersRun& 
         fmt::format("{} of {} members failed, the first of them {} ({}). They count "
                     "against ensemble.max_failed_fraction when the maps are made.",
                     run.failed.size(), n, run.failed.front().member, run.failed.front().reason));
+  console.event(json_text(nlohmann::json{{"event", "shard_done"},
+                                         {"computed", n},
+                                         {"valid", censoring.valid},
+                                         {"failed", run.failed.size()},
+                                         {"censoring", censoring_json(censoring)}}));
   return ok;
 }
 

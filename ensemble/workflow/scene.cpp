@@ -10,6 +10,7 @@
 #include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
 #include "scenarios/checks/idle_keys.hpp"
+#include "scenarios/materials/materials.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/suggest.hpp"
 
@@ -43,6 +44,8 @@ Scene load_scene(const SceneRequest& request) {
   scene.scenario = read_scenario(request.file, request.overrides);
   scene.medians = median_scenario(scene.scenario);
   load_files(scene);
+  for (std::string& note : material_notes(scene.scenario))
+    scene.inputs.notes.push_back(std::move(note));
   scene.ground = std::make_shared<GrowingGround>(scene.scenario, scene.inputs);
   SceneDescription& d = scene.description;
   d = scene.ground->computed(

@@ -15,13 +15,19 @@
 namespace sturz {
 namespace {
 
-void write_axis(NetcdfWriter& file, const char* name, const char* standard_name,
-                const char* long_name, int dimension, const std::vector<double>& values) {
+/// Coordinates that lie nowhere on the map carry no name of a projection.
+void write_axis(NetcdfWriter& file, const char* name, bool projected, int dimension,
+                const std::vector<double>& values) {
   const int variable = file.variable(name, NcType::float64, {dimension});
-  file.text(variable, "standard_name", standard_name);
-  file.text(variable, "long_name", long_name);
+  const bool east = name[0] == 'x';
+  if (projected)
+    file.text(variable, "standard_name", fmt::format("projection_{}_coordinate", name));
+  file.text(variable, "long_name",
+            fmt::format("{} of the cell centre", projected ? (east ? "easting" : "northing")
+                                                 : east    ? "local x"
+                                                           : "local y"));
   file.text(variable, "units", "m");
-  file.text(variable, "axis", name[0] == 'x' ? "X" : "Y");
+  file.text(variable, "axis", east ? "X" : "Y");
   file.put(variable, values);
 }
 
@@ -77,8 +83,9 @@ GridDimensions write_grid(NetcdfWriter& file, const Grid& grid) {
   std::vector<double> x, y;
   for (int col = 0; col < grid.n_cols; ++col) x.push_back(grid.x_center(col));
   for (int row = 0; row < grid.n_rows; ++row) y.push_back(grid.y_center(row));
-  write_axis(file, "y", "projection_y_coordinate", "northing of the cell centre", dimensions.y, y);
-  write_axis(file, "x", "projection_x_coordinate", "easting of the cell centre", dimensions.x, x);
+  const bool projected = !grid.crs_wkt.empty();
+  write_axis(file, "y", projected, dimensions.y, y);
+  write_axis(file, "x", projected, dimensions.x, x);
   write_crs(file, grid);
   return dimensions;
 }

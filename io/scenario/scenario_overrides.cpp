@@ -60,27 +60,14 @@ YamlNode* holder(YamlNode& root, const std::vector<std::string>& names, const Po
 
 }  // namespace
 
-void apply_override(YamlNode& root, const std::string& text, std::vector<FileProblem>& problems) {
-  const std::size_t equals = text.find('=');
-  const std::string path = text.substr(0, equals);
-  const Position at{"--set " + one_line(path, 80), 0, 0};
-  const auto names = split(path);
-  bool named = equals != std::string::npos;
-  for (const auto& name : names) named = named && !name.empty();
-  if (!named) {
-    problems.push_back({at, "must look like key.path=value."});
-    return;
-  }
-  const std::string value = text.substr(equals + 1);
-  if (value.find_first_not_of(" \t\r\n") == std::string::npos) {
-    problems.push_back({at, "has no value. Write key.path=value; null removes a key."});
-    return;
-  }
+void put_value(YamlNode& root, const std::string& path, const std::string& value,
+               const Position& at, std::vector<FileProblem>& problems) {
   std::vector<FileProblem> own;
   auto node = parse_yaml(value, at.source, own);
   for (auto& problem : own) problems.push_back({at, std::move(problem.message)});
   if (!node) return;
   place_all(*node, at);
+  const auto names = split(path);
   YamlNode* block = holder(root, names, at);
   if (!block) {
     problems.push_back({at, path + " (a part of this path holds a value, not a block)."});
@@ -92,6 +79,24 @@ void apply_override(YamlNode& root, const std::string& text, std::vector<FilePro
     entry->value = std::move(*node);
   else
     block->entries.push_back({names.back(), at, std::move(*node)});
+}
+
+void apply_override(YamlNode& root, const std::string& text, std::vector<FileProblem>& problems) {
+  const std::size_t equals = text.find('=');
+  const std::string path = text.substr(0, equals);
+  const Position at{"--set " + one_line(path, 80), 0, 0};
+  bool named = equals != std::string::npos;
+  for (const auto& name : split(path)) named = named && !name.empty();
+  if (!named) {
+    problems.push_back({at, "must look like key.path=value."});
+    return;
+  }
+  const std::string value = text.substr(equals + 1);
+  if (value.find_first_not_of(" \t\r\n") == std::string::npos) {
+    problems.push_back({at, "has no value. Write key.path=value; null removes a key."});
+    return;
+  }
+  put_value(root, path, value, at, problems);
 }
 
 }  // namespace sturz

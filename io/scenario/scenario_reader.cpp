@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From YAML text to a validated scenario: tree, overrides, key table, checks.
 #include "io/scenario/scenario_file.hpp"
+#include "io/scenario/scenario_material.hpp"
 #include "io/scenario/scenario_overrides.hpp"
 #include "io/scenario/scenario_values.hpp"
 #include "scenarios/checks/validate.hpp"
@@ -183,6 +184,7 @@ ScenarioFile read_scenario_file_text(std::string_view text, const std::string& n
   }
   if (!root) throw_all(std::move(problems), name);
   for (const auto& override_text : overrides) apply_override(*root, override_text, problems);
+  add_material_values(*root);
   Reader reader(problems);
   reader.read_block("", *root);
   reader.validate_all(name);

@@ -292,11 +292,9 @@ void load_zone(Loading& loading, std::size_t i, Raster<std::uint8_t>& numbers) {
   ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid, loading.inputs.held());
   loading.take(read);
   for (const std::size_t cell : read.cells) numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
-  const auto n = static_cast<double>(read.cells.size());
   loading.inputs.notes.push_back(fmt::format(
-      "basal.zones[{}] {}: {} cells, {:.9g} m2{}", i, loading.scenario.basal.zones[i].polygon,
-      read.cells.size(), n * grid.cell_m * grid.cell_m,
-      read.is_cut ? " of the part of the terrain that is read" : ""));
+      "basal.zones[{}] {}: {} cells, {:.9g} m2", i, loading.scenario.basal.zones[i].polygon,
+      read.n_on_terrain, static_cast<double>(read.n_on_terrain) * grid.cell_m * grid.cell_m));
 }
 
 void load_zones(Loading& loading) {

@@ -40,9 +40,10 @@ ZoneCells read_zone_cells(const PolygonRequest& request, const Grid& terrain, co
     extent.Merge(own);
     count += add_cells(*feature.polygons, terrain, held, zone.cells);
   }
-  zone.is_cut = zone.cells.size() < count;
+  const std::size_t listed = zone.cells.size();
   std::sort(zone.cells.begin(), zone.cells.end());
   zone.cells.erase(std::unique(zone.cells.begin(), zone.cells.end()), zone.cells.end());
+  zone.n_on_terrain = count - (listed - zone.cells.size());
   if (count == 0)
     throw SetupError(
         fmt::format("{}: holds the centre of no cell of the terrain ({}; cells of {:g} m). Is its "

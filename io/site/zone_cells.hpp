@@ -14,7 +14,8 @@ namespace sturz {
 
 struct ZoneCells {
   std::vector<std::size_t> cells;  ///< indices on the window's grid, rising, each once
-  bool is_cut = false;             ///< the terrain has more of them beyond the window
+  /// Of the whole terrain. Where features overlap beyond the window, a cell counts in each of them.
+  std::size_t n_on_terrain = 0;
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   InputIdentity identity;  ///< of what was read

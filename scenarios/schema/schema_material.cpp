@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys that say what moves and on what: grains, basal, formulation.
+#include "scenarios/materials/materials.hpp"
 #include "scenarios/schema/schema_rows.hpp"
 
 namespace sturz::schema_rows {
@@ -118,6 +119,11 @@ void add_basal(std::vector<KeyInfo>& keys) {
 }  // namespace
 
 void add_material_keys(std::vector<KeyInfo>& keys) {
+  keys.push_back(with_choices(
+      text_key(scene, &Scenario::material, "material", ValueKind::choice,
+               "Ready-made priors of a process for keys that the file does not give; `describe` "
+               "names values and sources. Calibrated for depth_averaged."),
+      material_names()));
   add_grains(keys);
   add_states(keys);
   add_basal(keys);

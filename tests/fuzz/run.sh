@@ -18,7 +18,7 @@ work=${STURZ_FUZZ_DIR:-$root/build/asan/tests/fuzz}
 /usr/bin/python3 "$here/make_corpus.py" "$target" "$root" "$work"
 
 leaks=1
-options=(-max_len=4096 -timeout=20 -rss_limit_mb=2048 "-artifact_prefix=$work/$target-")
+options=(-max_len=4096 -timeout=60 -rss_limit_mb=2048 "-artifact_prefix=$work/$target-")
 [ -f "$here/$target.dict" ] && options+=("-dict=$here/$target.dict")
 case $target in
   # GDAL and HDF5 keep tables for the whole run, which look like leaks; a GeoPackage has 20 kB at least.

@@ -120,8 +120,8 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_THAT(names_in_block("grains.friction"),
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
-              ElementsAre("title", "terrain", "release", "grains", "basal", "formulation",
-                          "numerics", "domain", "ensemble", "hazard"));
+              ElementsAre("title", "terrain", "release", "material", "grains", "basal",
+                          "formulation", "numerics", "domain", "ensemble", "hazard"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

@@ -114,8 +114,11 @@ def lint_coordinate(name, variable):
 
 
 def lint_map_axis(name, variable, steps):
-    if attribute(variable, "standard_name") != f"projection_{name}_coordinate":
-        yield f"{name}: standard_name is not projection_{name}_coordinate"
+    # Local coordinates are of no projection, and CF has no standard name for them.
+    projected = "crs" in variable.group().variables
+    wanted = f"projection_{name}_coordinate" if projected else None
+    if attribute(variable, "standard_name") != wanted:
+        yield f"{name}: standard_name is not {wanted}"
     if attribute(variable, "units") not in ("m", "metre", "meter"):
         yield f"{name}: units are not metres"
     if attribute(variable, "axis") != name.upper():

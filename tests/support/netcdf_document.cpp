@@ -58,19 +58,21 @@ void write(int id, int variable, const Attribute& a) {
     nc_put_att_double(id, variable, a.name.c_str(), a.type, a.numbers.size(), a.numbers.data());
 }
 
-void write(int id, const std::vector<int>& dimension_ids, const Document& document,
-           const Variable& v) {
+/// The variable's number in the file, or -1 when netCDF refuses it.
+int define(int id, const std::vector<int>& dimension_ids, const Variable& v) {
   std::vector<int> dimensions;
-  std::size_t size = 1;
-  for (const int d : v.dimensions) {
-    dimensions.push_back(dimension_ids[static_cast<std::size_t>(d)]);
-    size *= document.dimensions[static_cast<std::size_t>(d)].second;
-  }
+  for (const int d : v.dimensions) dimensions.push_back(dimension_ids[static_cast<std::size_t>(d)]);
   int variable = -1;
   if (nc_def_var(id, v.name.c_str(), v.type, static_cast<int>(dimensions.size()), dimensions.data(),
                  &variable) != NC_NOERR)
-    return;
+    return -1;
   for (const Attribute& attribute : v.attributes) write(id, variable, attribute);
+  return variable;
+}
+
+void write_values(int id, int variable, const Document& document, const Variable& v) {
+  std::size_t size = 1;
+  for (const int d : v.dimensions) size *= document.dimensions[static_cast<std::size_t>(d)].second;
   if (size > most_values) return;  // stays a promise of the header
   std::vector<double> values = v.values;
   values.resize(size, 0.5);
@@ -107,9 +109,15 @@ std::vector<unsigned char> bytes_of(const Document& document) {
     dimension_ids.push_back(dimension);
   }
   for (const Attribute& attribute : document.attributes) write(id, NC_GLOBAL, attribute);
-  for (const Variable& variable : document.variables) write(id, dimension_ids, document, variable);
+  std::vector<int> variables;
+  for (const Variable& v : document.variables) variables.push_back(define(id, dimension_ids, v));
+  // A dimension of 2^61 cells cannot be written: netCDF says so here, and would follow a null
+  // pointer at the next value.
+  const bool writable = nc_enddef(id) == NC_NOERR;
+  for (std::size_t v = 0; writable && v < variables.size(); ++v)
+    if (variables[v] >= 0) write_values(id, variables[v], document, document.variables[v]);
   NC_memio image{};
-  if (nc_close_memio(id, &image) != NC_NOERR) return {};
+  if (nc_close_memio(id, &image) != NC_NOERR || !writable) return {};
   const auto* begin = static_cast<const unsigned char*>(image.memory);
   std::vector<unsigned char> bytes(begin, begin + image.size);
   std::free(image.memory);

@@ -203,6 +203,34 @@ TEST_F(Growing, MapsOfAnEnsembleDoNotDependOnTheWindow) {
             workflow::make_maps(full, heard).hazard_hash);
 }
 
+/// Both shards begin on the same little window; before the second needs more, the file changes
+/// where only the first has looked.
+TEST_F(Growing, AShardRefusesGroundThatAnotherReadOtherwise) {
+  job(tiny);
+  Recorder silent;
+  const auto shard = [&](int k) {
+    workflow::EnsembleRequest part = request("sharded");
+    part.shard = {k, 2};
+    workflow::EnsembleJob begun = untouched(workflow::prepare_ensemble(part, silent));
+    begun.manifest.inputs = begun.scene.inputs.identities;  // not what `describe` read besides
+    workflow::keep_what_is_read(begun);
+    return begun;
+  };
+  workflow::EnsembleJob first = shard(1), second = shard(2);
+  EXPECT_EQ(workflow::run_ensemble(first, silent, silent.cancel).stop_error, "");
+  ASSERT_GT(level(first), 0) << "nothing has grown";
+  Raster<double> z = valley();
+  z.at(n_rows / 2, 30) += 1;  // behind the release: the energy line does not read it
+  write_geotiff(path("dem.tif"), z, {});
+  const workflow::MembersRun refused = workflow::run_ensemble(second, silent, silent.cancel);
+  EXPECT_THAT(refused.stop_error, HasSubstr("another shard has read another input"));
+  EXPECT_THAT(refused.stop_error, HasSubstr("dem.tif"));
+  EXPECT_EQ(refused.finished, 0U);
+
+  write_geotiff(path("dem.tif"), valley(), {});
+  EXPECT_EQ(workflow::run_ensemble(second, silent, silent.cancel).stop_error, "");
+}
+
 TEST_F(Growing, ASingleRunWritesItsFramesOnce) {
   job(tiny);
   Recorder heard;

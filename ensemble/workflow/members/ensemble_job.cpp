@@ -65,28 +65,6 @@ void begin_folder(const EnsembleJob& job) {
   save_scenario(job.folder, job.scene.scenario);
 }
 
-/// Whatever part of the ground members read, the manifest knows it before one of them is stored:
-/// also for shards, and when the run is stopped.
-void keep_what_is_read(EnsembleJob& job) {
-  const auto lock = job.lock;
-  const auto keep = [folder = job.folder, scenario = job.scene.scenario,
-                     lock](const std::vector<InputIdentity>& read) {
-    lock->others_wait(folder);
-    try {
-      Manifest manifest = Manifest::read(folder.manifest());  // another shard may have read more
-      const auto changed = changed_inputs(scenario, read, manifest.inputs);
-      require(changed.empty(), "another shard has read another input:" + as_lines(changed) + "\n");
-      manifest.inputs = with_known_parts(manifest.inputs, read);
-      manifest.write(folder.manifest());
-    } catch (...) {
-      lock->others_may_come();
-      throw;
-    }
-    lock->others_may_come();
-  };
-  job.scene.ground->remember(job.manifest.inputs, keep);
-}
-
 /// Members of this call's share that are not finished.
 void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer& observer) {
   const MemberStore store = members_of(job.folder, job.manifest, job.design, [&](std::int64_t k) {
@@ -130,6 +108,26 @@ void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
 }
 
 }  // namespace
+
+void keep_what_is_read(EnsembleJob& job) {
+  const auto lock = job.lock;
+  const auto keep = [folder = job.folder, scenario = job.scene.scenario,
+                     lock](const std::vector<InputIdentity>& read) {
+    lock->others_wait(folder);
+    try {
+      Manifest manifest = Manifest::read(folder.manifest());  // another shard may have read more
+      const auto changed = changed_inputs(scenario, read, manifest.inputs);
+      require(changed.empty(), "another shard has read another input:" + as_lines(changed) + "\n");
+      manifest.inputs = with_known_parts(manifest.inputs, read);
+      manifest.write(folder.manifest());
+    } catch (...) {
+      lock->others_may_come();
+      throw;
+    }
+    lock->others_may_come();
+  };
+  job.scene.ground->remember(job.manifest.inputs, keep);
+}
 
 EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer) {
   const Shard shard = request.shard;

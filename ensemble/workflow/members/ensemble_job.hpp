@@ -48,4 +48,8 @@ struct EnsembleJob {
 /// \throws SetupError; IoError when the folder cannot be written
 EnsembleJob prepare_ensemble(const EnsembleRequest&, Observer&);
 
+/// From now on the manifest knows whatever part of the ground members read before one of them is
+/// stored: also for shards, and when the run is stopped. Part of prepare_ensemble.
+void keep_what_is_read(EnsembleJob&);
+
 }  // namespace sturz::workflow
