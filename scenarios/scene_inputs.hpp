@@ -29,6 +29,8 @@ struct SceneInputs {
   /// Pattern on cells of the working grid, nothing beyond.
   std::shared_ptr<const Raster<double>> release;
   ReleasePattern pattern = ReleasePattern::cover;
+  /// Share of each cell of `release` that the source covers, 0..1; null: all of every cell > 0.
+  std::shared_ptr<const Raster<double>> release_cover;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
   /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.
   std::shared_ptr<const Terrain> ground, column_ground;

@@ -50,6 +50,9 @@ enum class Membership : std::uint8_t {
 inline constexpr FieldKey thickness{"thickness", 1, "m", "column pressure"};
 /// Support radius of a column's smoothing.
 inline constexpr FieldKey support_radius{"support_radius", 1, "m", "column pressure"};
+/// Map area that a column stands for over what `column_area` says of it: as it was released, the
+/// part of its lattice cell that the source covers; kept from then on.
+inline constexpr FieldKey area_share{"area_share", 1, "1", "column pressure", 1.0};
 /// Normal reaction of the ground per mass.
 inline constexpr FieldKey normal_gravity{"normal_gravity", 1, "m s-2", "column pressure"};
 /// Momentum per mass of curvature met and not yet borne by the ground.

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/particles/column_area.hpp"
 #include "engine/simulation/maps/peak_row.hpp"
 #include "engine/terrain/terrain.hpp"
 
@@ -17,10 +18,15 @@
 namespace sturz {
 namespace {
 
-/// Where particles cover this much of a cell, it is reached.
-constexpr double enough_cover = 0.75;
-/// Half the width of what a particle surely covers, in mean distances. A little less than a half,
-/// for at an edge columns seem farther apart than they are.
+/// Where this much of a cell lies under particles, it is reached.
+constexpr float enough_under = 0.5F;
+/// Squares lie so much farther east and south than their columns, in cells: of two cells that a
+/// mass half covers on opposite sides one counts, and rounding does not decide which.
+constexpr double half_open = 1e-3;
+/// Or where as much of it is covered by what is spread: at the edge of a mass that is a half, and
+/// no cell beyond it may count for being near.
+constexpr float enough_cover = 0.75F;
+/// Half the width of what a particle of no columns surely covers, in spacings.
 constexpr double own_share = 0.4;
 float& sum_of(CellSums& cell, CellSum what) { return cell[static_cast<int>(what)]; }
 
@@ -68,6 +74,9 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   w.support_radius = support_radius ? support_radius->component[0].data() : nullptr;
   w.thickness = p.find(fields::thickness);
   w.ground = p.find(fields::ground);
+  const Field* area_share = p.find(fields::area_share);
+  w.area_share = area_share ? area_share->component[0].data() : nullptr;
+  w.spacing = p.spacing;
   w.volume_per_mass = 1 / p.bulk_density;
   double width_m = p.spacing;
   if (support_radius && p.size() > 0) {
@@ -78,12 +87,13 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   return w;
 }
 
-double PeakMaps::Width::area(std::size_t i, double mass, double distance) const {
-  const double square = distance * distance;
-  if (!thickness || !ground) return square;
-  const double h = thickness->component[0][i];
-  const Vec3 n = upward_normal(ground->component[0][i], ground->component[1][i]);
-  return h > 0 ? std::max(square, mass * volume_per_mass * n.z() / h) : square;
+double PeakMaps::Width::area(std::size_t i, double mass) const {
+  if (!support_radius) return spacing * spacing;
+  const double h = thickness ? thickness->component[0][i] : 0;
+  const double upright =
+      ground ? upward_normal(ground->component[0][i], ground->component[1][i]).z() : 1;
+  const double area = column_area(support_radius[i], upright, mass * volume_per_mass, h);
+  return area_share ? area * area_share[i] : area;
 }
 
 /// Widths of all sets, and the cells that they can touch.
@@ -169,7 +179,7 @@ void PeakMaps::add_one(const CellSums& whole) {
 }
 
 /// Covers the cells whose centre lies under the particle itself, and the one that it is in.
-void PeakMaps::cover_own(double x, double y, double half_width) {
+void PeakMaps::cover_cell_of(double x, double y, double half_width) {
   const Grid& g = settings_.grid;
   const int row0 = std::max(0, static_cast<int>(std::ceil(y - half_width)));
   const int col0 = std::max(0, static_cast<int>(std::ceil(x - half_width)));
@@ -178,17 +188,40 @@ void PeakMaps::cover_own(double x, double y, double half_width) {
   constexpr int edge = SumTiles::edge;
   for (int row = row0; row < row1; ++row)
     for (int col = col0; col < col1; ++col)
-      sum_of(sums_.cells(sums_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge],
-             CellSum::coverage) += static_cast<float>(enough_cover);
+      sums_.under(sums_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge] +=
+          enough_under;
+}
+
+/// Covers what lies under a square around a place, both in cells from the centre of cell 0; no
+/// more than the particle is spread over.
+void PeakMaps::cover_square(double x, double y, double side) {
+  constexpr int edge = SumTiles::edge;
+  const Grid& g = settings_.grid;
+  const double west = x + 0.5 - 0.5 * side + half_open;
+  const double north = y + 0.5 - 0.5 * side + half_open;
+  const int row0 = std::max({0, down_.first(), static_cast<int>(std::floor(north))});
+  const int col0 = std::max({0, across_.first(), static_cast<int>(std::floor(west))});
+  const int row1 =
+      std::min({g.n_rows, down_.first() + down_.n(), static_cast<int>(std::ceil(north + side))});
+  const int col1 =
+      std::min({g.n_cols, across_.first() + across_.n(), static_cast<int>(std::ceil(west + side))});
+  for (int row = row0; row < row1; ++row) {
+    const double high = std::min(row + 1.0, north + side) - std::max<double>(row, north);
+    for (int col = col0; col < col1; ++col) {
+      const double wide = std::min(col + 1.0, west + side) - std::max<double>(col, west);
+      sums_.under(sums_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge] +=
+          static_cast<float>(high * wide);
+    }
+  }
 }
 
 void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
   const Grid& g = settings_.grid;
   const Width& widest = widths_[set];
   const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
-  const double distance_per_radius = settings_.width_per_radius / 1.5;
   const double volume_per_mass = 1 / p.bulk_density, in_first = set == 0 ? 1 : 0;
-  double width = widest.cells, distance = p.spacing;
+  const double half_width = std::max(0.5, own_share * p.spacing * per_cell);
+  double width = widest.cells;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double x = (p.x[i] - g.west_m) * per_cell - 0.5;
     const double y = (g.north_m - p.y[i]) * per_cell - 0.5;
@@ -196,18 +229,19 @@ void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
     const double v2 = vx * vx + vy * vy + vz * vz;
     if (!(x > -far && x < g.n_cols + far && y > -far && y < g.n_rows + far) || !std::isfinite(v2))
       continue;
-    if (widest.support_radius) {
-      distance = distance_per_radius * widest.support_radius[i];
+    if (widest.support_radius)
       width = cells_wide(settings_.width_per_radius * widest.support_radius[i], g.cell_m);
-    }
     across_.set(x, width);
     down_.set(y, width);
-    const double area = widest.area(i, mass, distance) * per_cell * per_cell;
+    const double area = widest.area(i, mass) * per_cell * per_cell;
     const Eigen::Array<double, n_cell_sums, 1> whole{
         mass * volume_per_mass, mass, mass * vx,      mass * vy, mass * vz,
         0.5 * mass * v2,        area, mass * in_first};
     add_one(whole.cast<float>());
-    cover_own(x, y, std::max(0.5, own_share * distance * per_cell));
+    if (widest.support_radius)
+      cover_square(x, y, std::sqrt(area));
+    else
+      cover_cell_of(x, y, half_width);
   }
 }
 
@@ -221,7 +255,7 @@ void PeakMaps::keep_peaks(double time_s) {
   PeakRow row;
   row.time_s = static_cast<float>(time_s);
   row.runout_limit_m = static_cast<float>(settings_.runout_limit_m);
-  row.enough_cover = static_cast<float>(enough_cover);
+  row.enough_cover = enough_cover, row.enough_under = enough_under;
   row.per_area = static_cast<float>(1 / (settings_.grid.cell_m * settings_.grid.cell_m));
   row.has_three = n_records_ >= 2;
   if (time_s > last_s_) row.newer_s = static_cast<float>(time_s - last_s_);
@@ -236,7 +270,8 @@ void PeakMaps::keep_peaks(double time_s) {
     peaks.rows_seen |= open.rows;
     for (unsigned rows = peaks.rows_seen; rows != 0; rows &= rows - 1) {
       const int first = std::countr_zero(rows) * edge;
-      row.keep(sums_.cells(slot) + first, static_cast<std::size_t>(first), peaks);
+      row.keep(sums_.cells(slot) + first, sums_.under(slot) + first,
+               static_cast<std::size_t>(first), peaks);
     }
   }
   before_s_ = last_s_, last_s_ = time_s;
@@ -280,7 +315,8 @@ void PeakMaps::keep_deposit() {
       const float thickness = sum_of(cell, CellSum::volume) * per_area;
       peaks.deposit[k] = thickness;
       peaks.covered[k] =
-          thickness > settings_.runout_limit_m && sum_of(cell, CellSum::coverage) >= enough_cover;
+          thickness > settings_.runout_limit_m &&
+          (sum_of(cell, CellSum::coverage) >= enough_cover || sums_.under(slot)[k] >= enough_under);
       peaks.thickness[k] = std::max(peaks.thickness[k], thickness);
     }
   }

@@ -139,7 +139,8 @@ void add_contacts(SceneParts& p) {
 }
 void add_pores(SceneParts& p) { add_mixture(p.state, grains, *p.plan.columns.mixture); }
 void add_columns(SceneParts& p) {
-  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);
+  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness,
+                     p.plan.release.covered);
 }
 void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.plan.erosion); }
 

@@ -348,7 +348,8 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   plan.release =
       release_particles(plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
-                         s.ensemble.seed, member, plan.formulation.depth_averaged});
+                         s.ensemble.seed, member, plan.formulation.depth_averaged},
+                        in.release_cover.get());
   plan.end = time_cap(s, in, plan.release.median_thickness_m, plan.bulk_density_kg_m3);
   const Window held = in.held();
   plan.zones = {in.zones, in.whole, held.row0, held.col0};

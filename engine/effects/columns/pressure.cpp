@@ -4,6 +4,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/wrapping.hpp"
+#include "engine/particles/column_area.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -215,6 +216,8 @@ class SweepPass final : public Pass {
     const bool walls = !s.domain.walls.empty();
     if (set.mixture) flow_->strain_rate.resize(p.size());
     double* strain_rate = set.mixture ? flow_->strain_rate.data() : nullptr;
+    const bool settles = s.n_steps < settling_steps;
+    double* area_share = settles ? p.scalar(fields::area_share).data() : nullptr;
     const Fastest fastest = ordered_reduce(
         cells.size(), s.threads, Fastest{},
         [&](std::size_t begin, std::size_t end, Fastest& most) {
@@ -222,6 +225,7 @@ class SweepPass final : public Pass {
             if (cells.is_image(c)) continue;
             const std::size_t i = cells.source(c);
             p.ax[i] = out.ax[c], p.ay[i] = out.ay[c], p.az[i] = out.az[c];
+            const double released = settles ? area_of(p, ground, i) : 0;
             const double whole =
                 walls ? flow_->walls.thickness_factor(s.domain, s.time, {p.x[i], p.y[i], p.z[i]},
                                                       support_radius[i])
@@ -238,6 +242,7 @@ class SweepPass final : public Pass {
             most.wave = std::max(most.wave, wave2);
             most.approach2 = std::max(most.approach2, out.approach[c] * per_h * per_h);
             support_radius[i] = adapted(support_radius[i], whole * out.density[c], first);
+            if (settles) area_share[i] *= released / area_of(p, ground, i);
           }
         },
         [](Fastest& total, const Fastest& block) {
@@ -258,6 +263,15 @@ class SweepPass final : public Pass {
         p.ax[i] = a.x(), p.ay[i] = a.y(), p.az[i] = a.z();
       }
     });
+  }
+
+  /// For so many steps support radii find what lies around them, and columns stand for the area
+  /// that they were released on.
+  static constexpr std::size_t settling_steps = 10;
+
+  double area_of(ParticleSet& p, const GroundColumns& ground, std::size_t i) const {
+    return column_area(p.scalar(fields::support_radius)[i], ground[i].normal().z(),
+                       p.mass[i] / flow_->settings.density, p.scalar(fields::thickness)[i]);
   }
 
   /// Follows the mean distance of columns, by at most a tenth a step.

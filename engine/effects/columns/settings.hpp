@@ -6,6 +6,7 @@
 #include "engine/effects/sweep/fused_sweep.hpp"
 #include "engine/laws/basal_resistance.hpp"
 #include "engine/laws/earth_pressure.hpp"
+#include "engine/particles/column_area.hpp"
 #include "engine/terrain/zone_map.hpp"
 
 #include <optional>
@@ -19,7 +20,7 @@ struct DepthAveragedSettings {
   double viscosity = 0.5;  ///< Monaghan's alpha between approaching columns
   double courant = 0.25;   ///< of the wave limit and the approach limit
   /// Support radius over the mean distance of columns: about 50 neighbours.
-  double radius_per_spacing = 4;
+  double radius_per_spacing = radius_per_distance;
   double least_radius = 0.5,
          most_radius = 2;  ///< bounds of the adaptive support radius over its first value
   /// K's change per strain [M]: active to passive within about a hundredth of strain (Hungr 1995).

@@ -15,11 +15,13 @@ struct PeakRow {
   float newer_s = 1, older_s = 1;  ///< between the last three
   float runout_limit_m = 0;        ///< motion counts in cells that are thicker
   float enough_cover = 0;          ///< and they are reached where as much of them is covered
+  float enough_under = 0;          ///< or as much of them lies under the particles themselves
   float per_area = 0;              ///< of a cell [1/m2]
 
-  /// \param cells  of the row  \param first  of the row's cells within the tile
-  void keep(const CellSums* cells, std::size_t first, PeakTile& peaks) const {
-    for (int j = 0; j < PeakTile::edge; j += 8) keep_eight(cells[j].data(), first + j, peaks);
+  /// \param cells, under  of the row  \param first  of the row's cells within the tile
+  void keep(const CellSums* cells, const float* under, std::size_t first, PeakTile& peaks) const {
+    for (int j = 0; j < PeakTile::edge; j += 8)
+      keep_eight(cells[j].data(), under + j, first + j, peaks);
   }
 
  private:
@@ -49,7 +51,7 @@ struct PeakRow {
     return ((now > 0.0F) & (middle > 0.0F) & (first > 0.0F)) ? larger(now, top) : now;
   }
 
-  void keep_eight(const float* cells, std::size_t at, PeakTile& peaks) const {
+  void keep_eight(const float* cells, const float* under, std::size_t at, PeakTile& peaks) const {
     Eight sums[n_cell_sums];
     transpose_eight(cells, sums);
     const auto sum = [&](CellSum s) { return sums[static_cast<int>(s)]; };
@@ -72,7 +74,9 @@ struct PeakRow {
     raise(peaks.energy, pass(energy_now, &last.energy[at], &before.energy[at], true));
     raise(peaks.speed, speed);
     raise(peaks.pressure, density * speed * speed);
-    const auto reached = counts & (sum(CellSum::coverage) >= enough_cover);
+    const auto covered =
+        (sum(CellSum::coverage) >= enough_cover) | (eight_at(under) >= enough_under);
+    const auto reached = counts & covered;
     const Eight now = reached ? none + time_s : none + PeakTile::never;
     put_eight(&peaks.arrival[at], smaller(eight_at(&peaks.arrival[at]), now));
   }
