@@ -18,11 +18,9 @@
 namespace sturz {
 namespace {
 
-/// Where this much of a cell lies under particles, it is reached.
-constexpr float enough_under = 0.5F;
-/// Squares lie so much farther east and south than their columns, in cells: of two cells that a
-/// mass half covers on opposite sides one counts, and rounding does not decide which.
-constexpr double half_open = 1e-3;
+/// Where this much of a cell lies under particles, it is reached: a half, less what rounding may
+/// take from it.
+constexpr float enough_under = 0.4998F;
 /// Or where as much of it is covered by what is spread: at the edge of a mass that is a half, and
 /// no cell beyond it may count for being near.
 constexpr float enough_cover = 0.75F;
@@ -90,8 +88,9 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
 double PeakMaps::Width::area(std::size_t i, double mass) const {
   if (!support_radius) return spacing * spacing;
   const double h = thickness ? thickness->component[0][i] : 0;
-  const double upright =
-      ground ? upward_normal(ground->component[0][i], ground->component[1][i]).z() : 1;
+  const double east = ground ? ground->component[0][i] : 0;
+  const double north = ground ? ground->component[1][i] : 0;
+  const double upright = ground ? 1 / std::sqrt(1 + east * east + north * north) : 1;
   const double area = column_area(support_radius[i], upright, mass * volume_per_mass, h);
   return area_share ? area * area_share[i] : area;
 }
@@ -197,20 +196,26 @@ void PeakMaps::cover_cell_of(double x, double y, double half_width) {
 void PeakMaps::cover_square(double x, double y, double side) {
   constexpr int edge = SumTiles::edge;
   const Grid& g = settings_.grid;
-  const double west = x + 0.5 - 0.5 * side + half_open;
-  const double north = y + 0.5 - 0.5 * side + half_open;
+  const double west = x + 0.5 - 0.5 * side, north = y + 0.5 - 0.5 * side;
   const int row0 = std::max({0, down_.first(), static_cast<int>(std::floor(north))});
   const int col0 = std::max({0, across_.first(), static_cast<int>(std::floor(west))});
   const int row1 =
       std::min({g.n_rows, down_.first() + down_.n(), static_cast<int>(std::ceil(north + side))});
   const int col1 =
       std::min({g.n_cols, across_.first() + across_.n(), static_cast<int>(std::ceil(west + side))});
-  for (int row = row0; row < row1; ++row) {
-    const double high = std::min(row + 1.0, north + side) - std::max<double>(row, north);
-    for (int col = col0; col < col1; ++col) {
-      const double wide = std::min(col + 1.0, west + side) - std::max<double>(col, west);
-      sums_.under(sums_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge] +=
-          static_cast<float>(high * wide);
+  if (row0 >= row1 || col0 >= col1) return;
+  const Eight steps = {0, 1, 2, 3, 4, 5, 6, 7}, none{};
+  const auto length = static_cast<float>(side);
+  for (int first = col0 / 8 * 8; first < col1; first += 8) {      // never across the edge of a tile
+    const Eight from = steps + static_cast<float>(first - west);  // of each cell, from the square's
+    const Eight to = smaller(from + 1.0F, none + length);
+    const Eight wide = larger(to - larger(from, none), none);
+    for (int row = row0; row < row1; ++row) {
+      const auto high =
+          static_cast<float>(std::min(row + 1.0, north + side) - std::max<double>(row, north));
+      float* under = sums_.under(sums_.slot_at(row / edge, first / edge)) +
+                     std::ptrdiff_t{edge} * (row % edge) + first % edge;
+      put_eight(under, eight_at(under) + high * wide);
     }
   }
 }
@@ -257,9 +262,10 @@ void PeakMaps::keep_peaks(double time_s) {
   row.runout_limit_m = static_cast<float>(settings_.runout_limit_m);
   row.enough_cover = enough_cover, row.enough_under = enough_under;
   row.per_area = static_cast<float>(1 / (settings_.grid.cell_m * settings_.grid.cell_m));
-  row.has_three = n_records_ >= 2;
-  if (time_s > last_s_) row.newer_s = static_cast<float>(time_s - last_s_);
-  if (last_s_ > before_s_) row.older_s = static_cast<float>(last_s_ - before_s_);
+  if (n_records_ >= 2)
+    row.set_intervals(time_s > last_s_ ? static_cast<float>(time_s - last_s_) : 1,
+                      last_s_ > before_s_ ? static_cast<float>(last_s_ - before_s_) : 1);
+  row.is_odd = n_records_ % 2 != 0;
   ++n_records_;
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot) {
     const SumTiles::Open& open = sums_.tiles()[slot];
@@ -284,6 +290,10 @@ void PeakMaps::count_layers(std::span<const MovingSet> sets) {
   histogram_.clear();
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot)
     for (int k = 0; k < SumTiles::n_cells; ++k) {
+      if (!(sums_.tiles()[slot].rows >> k / SumTiles::edge & 1U)) {
+        k += SumTiles::edge - 1;
+        continue;
+      }
       CellSums& cell = sums_.cells(slot)[k];
       const double mass = sum_of(cell, CellSum::mass), first = sum_of(cell, CellSum::first_mass);
       if (mass == 0) continue;

@@ -105,7 +105,8 @@ FrontAndTail front_and_tail(std::vector<ParticleTravel>& each) {
   const std::size_t behind = part_rearmost(all, tail_share * mass);
   out.tail_travel = std::sqrt(
       std::max_element(all.begin(), all.begin() + behind, by_displacement)->displacement2);
-  out.tail_speed = mean_speed_of(all.first(part_rearmost(all, end_share * mass)));
+  const std::span<ParticleTravel> tail = all.first(behind);  // holds what is farther back still
+  out.tail_speed = mean_speed_of(tail.first(part_rearmost(tail, end_share * mass)));
   return out;
 }
 
