@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/particles/column_area.hpp"
+#include "engine/simulation/maps/departed_cells.hpp"
 #include "engine/simulation/maps/peak_row.hpp"
 #include "engine/terrain/terrain.hpp"
 
@@ -39,24 +40,6 @@ Window clipped(double row0, double row1, double col0, double col1, const Grid& g
   if (row0 > row1 || col0 > col1) return {};
   return {static_cast<int>(row0), static_cast<int>(col0), static_cast<int>(row1 - row0) + 1,
           static_cast<int>(col1 - col0) + 1};
-}
-
-/// The cell of the hazard grid where a particle was last seen; off the grid there is none.
-std::optional<std::pair<int, int>> cell_of(const Departure& gone, const Grid& g) {
-  if (!std::isfinite(gone.x + gone.y)) return std::nullopt;
-  const double row = std::floor((g.north_m - gone.y) / g.cell_m);
-  const double col = std::floor((gone.x - g.west_m) / g.cell_m);
-  if (!(row >= 0 && row < g.n_rows && col >= 0 && col < g.n_cols)) return std::nullopt;
-  return std::pair(static_cast<int>(row), static_cast<int>(col));
-}
-
-/// Window of the cells over whose edge mass left.
-Window window_of_departures(std::span<const MovingSet> sets, const Grid& g) {
-  Window all;
-  for (const MovingSet& set : sets)
-    for (const Departure& gone : set.departures)
-      if (const auto cell = cell_of(gone, g)) all = joined(all, {cell->first, cell->second, 1, 1});
-  return all;
 }
 
 }  // namespace

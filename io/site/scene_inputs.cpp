@@ -13,7 +13,7 @@
 #include "io/site/release_hash.hpp"
 #include "io/site/release_shapes.hpp"
 #include "io/site/stand_in_crs.hpp"
-#include "io/site/terrain_request.hpp"
+#include "io/site/input_requests.hpp"
 #include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
@@ -174,22 +174,10 @@ void note_rasterised(Loading& loading, double exact_m2) {
   loading.inputs.notes.push_back(text);
 }
 
-PolygonRequest polygon_request(const Scenario& scenario) {
-  const ReleaseSpec& spec = scenario.release;
-  PolygonRequest request;
-  request.path = spec.polygon;
-  request.layer = spec.layer;
-  request.thickness_attribute = spec.thickness_attribute;
-  request.directory = scenario.directory;
-  request.crs = spec.crs;
-  stand_in_with_terrain(request, scenario.terrain);
-  return request;
-}
-
 void load_polygon(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   loading.release_label = "release.polygon = " + spec.polygon;
-  const PolygonRequest request = polygon_request(loading.scenario);
+  const PolygonRequest request = release_polygon_request(loading.scenario);
   PolygonRelease read = read_release_polygons(request, loading.grid());
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
@@ -206,23 +194,10 @@ void load_polygon(Loading& loading) {
                   raster_sum(*loading.inputs.release)));
 }
 
-RasterRequest thickness_request(const Scenario& scenario) {
-  const ReleaseSpec& spec = scenario.release;
-  RasterRequest request;
-  request.path = spec.thickness_raster;
-  request.key = "release.thickness_raster";
-  request.directory = scenario.directory;
-  request.crs = spec.crs;
-  request.crs_key = "release.crs";
-  request.factor = spec.thickness_factor;
-  stand_in_with_terrain(request, scenario.terrain);
-  return request;
-}
-
 void load_thickness_raster(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   loading.release_label = "release.thickness_raster = " + spec.thickness_raster;
-  const RasterRequest request = thickness_request(loading.scenario);
+  const RasterRequest request = release_raster_request(loading.scenario);
   ThicknessRead read = read_thickness(request, loading.grid());
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
@@ -340,12 +315,12 @@ void check_without_terrain(Loading& loading) {
   const bool local = scenario.terrain.crs == local_crs;
   if (!scenario.release.polygon.empty())
     loading.attempt([&] {
-      PolygonRequest request = polygon_request(scenario);
+      PolygonRequest request = release_polygon_request(scenario);
       request.without_terrain = true;
       read_release_polygons(request, {});
     });
   if (!scenario.release.thickness_raster.empty())
-    loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
+    loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
   check_zones(loading);
   load_bed_supply(loading);
   load_observed(loading);

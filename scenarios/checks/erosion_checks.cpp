@@ -49,7 +49,7 @@ class Check {
   void laws() {
     using enum ErosionLaw;
     belongs("erosion.growth_rate_per_m", exponential);
-    for (const char* path : {"erosion.rate_m_per_s", "erosion.depth_per_stress_m_per_kpa",
+    for (const char* path : {"erosion.rate_m_s", "erosion.depth_per_stress_m_per_kpa",
                              "erosion.critical_stress_kpa"})
       belongs(path, shear_stress);
     belongs("erosion.bed_friction_coefficient", momentum_jump);

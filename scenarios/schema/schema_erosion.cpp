@@ -45,8 +45,8 @@ void add_laws(std::vector<KeyInfo>& keys) {
   keys.push_back(above_min(key(erosion, &ErosionSpec::growth_rate_per_m,
                                {"erosion.growth_rate_per_m", uncertain, "m-1", 0, 1,
                                 "E_s of law exponential: ln(V_f/V_0) over the path."})));
-  keys.push_back(above_min(key(erosion, &ErosionSpec::rate_m_per_s,
-                               {"erosion.rate_m_per_s", uncertain, "m s-1", 0, 10,
+  keys.push_back(above_min(key(erosion, &ErosionSpec::rate_m_s,
+                               {"erosion.rate_m_s", uncertain, "m s-1", 0, 10,
                                 "Depth rate of law shear_stress; 0.025 when absent."})));
   keys.push_back(above_min(key(erosion, &ErosionSpec::depth_per_stress_m_per_kpa,
                                {"erosion.depth_per_stress_m_per_kpa", uncertain, "m kPa-1", 0, 100,

@@ -183,7 +183,7 @@ TEST(Erosion, GoesAsDeepAsTheStressTakesIt) {
   ASSERT_GE(depth.size(), 2u);
   EXPECT_NEAR(depth[1], 0.25, 0.005) << "0.025 m/s for 10 s";
   // It gets thicker by what it takes: e_m grows with it, d e_m/d e = 0.1 rho g sin / 1 kPa.
-  s.erosion->rate_m_per_s = Uncertain(1.0);
+  s.erosion->rate_m_s = Uncertain(1.0);
   const Finished f = run(s);
   const State& state = f.simulation.parts().state;
   const double h = 2 * f.result.scalars.volume_growth;
@@ -297,7 +297,7 @@ TEST(Erosion, MapHoldsTheVolume) {
 TEST(Erosion, HoldsAtHugeRatesAndTinySupplies) {
   ErosionSpec stress, jump;
   stress.law = ErosionLaw::shear_stress;
-  stress.rate_m_per_s = Uncertain(10), stress.depth_per_stress_m_per_kpa = Uncertain(100);
+  stress.rate_m_s = Uncertain(10), stress.depth_per_stress_m_per_kpa = Uncertain(100);
   stress.critical_stress_kpa = Uncertain(0);
   jump.law = ErosionLaw::momentum_jump;
   jump.bed_friction_coefficient = Uncertain(0), jump.bed_pore_pressure_ratio = Uncertain(0);

@@ -79,10 +79,10 @@ TEST(ErosionChecks, NameWhatContradicts) {
   EXPECT_THAT(paths(with(e)), ElementsAre("erosion.depth_raster", "erosion.polygon"));
   e = good(), e.depth_factor = Uncertain(2), e.layer = "bed", e.crs = "EPSG:32633";
   EXPECT_THAT(paths(with(e)), ElementsAre("erosion.depth_factor", "erosion.layer", "erosion.crs"));
-  e = good(), e.rate_m_per_s = Uncertain(0.01), e.bed_pore_pressure_ratio = Uncertain(1);
+  e = good(), e.rate_m_s = Uncertain(0.01), e.bed_pore_pressure_ratio = Uncertain(1);
   const auto problems = validate(with(e));
   ASSERT_EQ(problems.size(), 2u);
-  EXPECT_THAT(problems[0].message, HasSubstr("erosion.rate_m_per_s = 0.01 (erosion.law is "
+  EXPECT_THAT(problems[0].message, HasSubstr("erosion.rate_m_s = 0.01 (erosion.law is "
                                              "exponential; only shear_stress knows it)"));
 }
 

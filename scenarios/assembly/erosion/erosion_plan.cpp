@@ -30,7 +30,7 @@ Entrainment law_of(const ErosionSpec& spec) {
       break;
   }
   law.growth_rate = or_else(spec.growth_rate_per_m, 0);
-  law.rate = or_else(spec.rate_m_per_s, usual_rate);
+  law.rate = or_else(spec.rate_m_s, usual_rate);
   law.depth_per_stress = 1e-3 * or_else(spec.depth_per_stress_m_per_kpa, usual_depth_per_kpa);
   law.critical_stress = 1e3 * or_else(spec.critical_stress_kpa, usual_critical_kpa);
   law.bed_friction = or_else(spec.bed_friction_coefficient, 0);
