@@ -3,7 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "io/gdal/gdal_raster.hpp"
-#include "io/site/input_requests.hpp"
+#include "io/site/terrain_request.hpp"
 
 #include <fmt/core.h>
 

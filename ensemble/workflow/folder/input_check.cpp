@@ -2,7 +2,7 @@
 #include "ensemble/workflow/folder/input_check.hpp"
 
 #include "io/gdal/gdal_raster.hpp"
-#include "io/site/input_requests.hpp"
+#include "io/site/terrain_request.hpp"
 
 #include <utility>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The files that a scenario names as its terrain and its release. Included by .cpp files only, as
-/// crs.hpp.
+/// The files that a scenario names as its release. Included by .cpp files only, as crs.hpp.
 #pragma once
 
 #include "io/gdal/raster_request.hpp"
@@ -9,16 +8,6 @@
 #include "scenarios/scenario.hpp"
 
 namespace sturz {
-
-inline RasterRequest terrain_request(const Scenario& scenario) {
-  const TerrainSpec& spec = scenario.terrain;
-  RasterRequest request;
-  request.path = spec.raster;
-  request.directory = scenario.directory;
-  request.crs = spec.crs;
-  request.cell_size_m = spec.cell_size_m;
-  return request;
-}
 
 inline PolygonRequest release_polygon_request(const Scenario& scenario) {
   const ReleaseSpec& spec = scenario.release;
