@@ -36,7 +36,7 @@ FAMILIES = {
 }
 EVERYBODYS = {"sweep/fused_sweep.hpp", "motion/losses.hpp", "motion/accounts.hpp",
               "motion/wrapping.hpp"}
-SIMULATION_SEES = ("/step.hpp", "/state.hpp", "/state_hash.hpp", "/moving_set.hpp", "/fields.hpp")
+SIMULATION_SEES = ("/step.hpp", "/state.hpp", "/moving_set.hpp", "/fields.hpp")
 
 LIBRARIES = {
     "gdal": {"io"}, "ogr": {"io"}, "cpl_": {"io"}, "netcdf": {"io"}, "yaml-cpp": {"io"},
