@@ -6,6 +6,7 @@
 #include "engine/core/random.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/simulation/parts.hpp"
+#include "io/site/scene_inputs.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "tests/hard/priors.hpp"
 #include "tests/hard/random_members.hpp"
@@ -190,11 +191,16 @@ TEST(SteepGround, WetColumnsSurviveMonteMarsicano) {
   if (!std::filesystem::exists(folder + "/marsicano_10m.tif"))
     GTEST_SKIP() << "shared data marsicano_tinitaly is not there";
   const RandomMembers mountain = RandomMembers::on_marsicano(folder);
+  // Liquefied mass runs anywhere: the whole ground, as without friction.
+  Scenario slippery = mountain.member(0).scenario;
+  slippery.basal.friction_coefficient = 0;
+  const SceneInputs everywhere = load_scene_inputs(slippery);
   const int n = hard_members(20);
   Twins twins;
   for (int k = 0; k < n; ++k) {
     SCOPED_TRACE(fmt::format("member {}", k));
     HardMember m = mountain.member(k * 23 % n_points);
+    m.inputs = everywhere;
     m.scenario.formulation = Formulation::depth_averaged;
     m.scenario.numerics.end_time_s = 90;
     twins.survive_both(m, k);

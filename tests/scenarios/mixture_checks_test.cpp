@@ -71,6 +71,7 @@ TEST(MixtureChecks, APileHasNoFrictionInsideWhereWaterCarriesPartOfIt) {
   s.formulation = Formulation::depth_averaged;
   s.grains.emplace().friction_angle_deg = Uncertain(35);
   s.basal.friction_coefficient = 0.3;
+  s.numerics.spacing_m = 2;
   SceneInputs in;
   in.elevation = std::make_shared<const Raster<double>>(
       test::raster_of([](double x, double) { return -0.1 * x; }, Grid{60, 60, 0, 60, 1, ""}));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double untried_factor = 4;
 constexpr double machine_factor = 1.4;
-constexpr double map_factor = 1.4;
+constexpr double map_factor = 1.6;
 /// Over the made-up maps that were measured: relief, outlines, hashes and tables of real ones.
 constexpr double more_than_measured = 1.35;
 constexpr double bytes_factor = 1.25;  // of members; maps compress less evenly

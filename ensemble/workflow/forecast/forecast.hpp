@@ -47,7 +47,7 @@ struct Forecast {
 ///   a member     two fifths for the machine, more by a power of 0.3 where the trial was coarser;
 ///                what the finer of two trials differed from the coarser one, where that is more
 ///   all members  that, and twice the standard error of the mean of those tried
-///   maps         two fifths either way, between the ground that the tried members reach and what
+///   maps         three fifths either way, between the ground that the tried members reach and what
 ///                the farthest of all will
 /// Without a trial: a factor of four. \throws Cancelled
 Forecast forecast(const Scene&, const ForecastRequest&);
