@@ -4,13 +4,13 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/cpu_time.hpp"
 #include "engine/effects/fields.hpp"
-#include "engine/effects/state_hash.hpp"
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
 #include "engine/simulation/maps/erosion_result.hpp"
-#include "engine/simulation/mixture_state.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
+#include "engine/simulation/sums/mixture_state.hpp"
+#include "engine/simulation/sums/state_hash.hpp"
 #include "engine/simulation/travel.hpp"
 
 #include <algorithm>
