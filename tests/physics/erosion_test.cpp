@@ -25,6 +25,7 @@ Scenario sheet(double slope_deg, double friction, double thickness_m, double sec
   s.release.thickness_m = Uncertain(thickness_m);
   s.basal.friction_coefficient = friction;
   s.numerics.end_time_s = seconds;
+  s.numerics.jitter = 0;
   return s;
 }
 
@@ -142,7 +143,7 @@ TEST(Erosion, OfABedAtRestOnlySlowsTheFlow) {
     const Finished f = run(bare);
     EXPECT_LT(f.result.scalars.front_travel_m, without) << to_string(e.law);
     EXPECT_GT(f.result.scalars.volume_growth, 1.01) << to_string(e.law);
-    EXPECT_GT(f.result.scalars.entrainment_loss_fraction, 0.001) << to_string(e.law);
+    EXPECT_GT(f.result.scalars.entrainment_loss_fraction, 0) << to_string(e.law);
     expect_accounts(f);
   }
 }

@@ -138,6 +138,17 @@ class TakingPass final : public Pass {
     });
   }
 
+  /// Of a column's mass over the interval by compound interest: the rate in proportion to it.
+  double growth(FlowOverBed& flow, const BasalResistance& bed, double gravity,
+                double interval) const {
+    const ErosionSettings& set = erosion_->settings;
+    flow.brake = bed.plastic(flow.normal_gravity, flow.thickness, flow.density) +
+                 flow.speed * bed.rate(flow.speed, flow.thickness, flow.density, gravity);
+    const double depth_rate = set.law.erosion_rate(flow, set.bed_density);
+    return depth_rate > 0 ? set.bed_density / flow.density * depth_rate / flow.thickness * interval
+                          : 0;
+  }
+
   Appetite appetite(const State& s, const MovingSet& p, std::size_t i, FlowOverBed flow,
                     double upright, double interval, const double* pore_pressure) const {
     const ErosionSettings& set = erosion_->settings;
@@ -149,13 +160,12 @@ class TakingPass final : public Pass {
     const double stress = flow.density * flow.normal_gravity * flow.thickness;
     if (pore_pressure && stress > 0)
       bed.pore_pressure_ratio = std::clamp(*pore_pressure / stress, 0.0, 1.0);
-    flow.brake = bed.plastic(flow.normal_gravity, flow.thickness, flow.density) +
-                 flow.speed * bed.rate(flow.speed, flow.thickness, flow.density, s.gravity);
-    const double depth_rate = set.law.erosion_rate(flow, set.bed_density);
-    if (!(depth_rate > 0)) return a;
-    // In proportion to the column's own mass: over a step it grows by compound interest.
-    const double growth = set.bed_density / flow.density * depth_rate / flow.thickness * interval;
-    a.mass = p.mass[i] * std::expm1(std::min(growth, most_growth));
+    const double first = growth(flow, bed, s.gravity, interval);
+    if (!(first > 0)) return a;
+    // The change of speed that was seen leaves out what mixing itself took of it.
+    flow.speed *= 1 - 0.5 * std::min(first, most_growth);
+    const double growth_now = growth(flow, bed, s.gravity, interval);
+    a.mass = p.mass[i] * std::expm1(std::min(growth_now, most_growth));
     a.most_depth = set.law.most_depth(flow) / upright;
     const double side = std::sqrt(p.mass[i] / flow.density * upright / flow.thickness);
     const double cell = set.cells.cell_m;

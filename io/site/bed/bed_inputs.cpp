@@ -82,9 +82,10 @@ BedSupplyInput read_polygon(const Scenario& scenario, const Grid& terrain, const
   out.notes = std::move(read.notes);
   out.warnings = std::move(read.warnings);
   out.identity = std::move(read.identity);
-  out.notes.push_back(fmt::format(
-      "erosion.polygon {}: {} cells, {:.9g} m2", scenario.erosion->polygon, read.n_on_terrain,
-      static_cast<double>(read.n_on_terrain) * terrain.cell_m * terrain.cell_m));
+  const auto n = static_cast<double>(read.n_on_terrain);
+  out.notes.push_back(fmt::format("erosion.polygon {}: {} cells, {:.9g} m2",
+                                  scenario.erosion->polygon, read.n_on_terrain,
+                                  n * terrain.cell_m * terrain.cell_m));
   return out;
 }
 
