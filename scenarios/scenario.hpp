@@ -126,7 +126,8 @@ struct GrainsSpec {
 struct BasalZone {
   std::string polygon;  ///< any OGR polygon layer
   std::string layer;    ///< layer name inside `polygon`; empty: the first
-  std::optional<double> friction_coefficient, pore_pressure_ratio, cohesion_pa;
+  std::optional<Uncertain> friction_coefficient, pore_pressure_ratio, cohesion_pa;
+  std::optional<Uncertain> turbulent_coefficient_m_s2{};  ///< depth_averaged only
   bool operator==(const BasalZone&) const = default;
 };
 
@@ -141,6 +142,13 @@ struct BasalSpec {
   std::vector<BasalZone> zones;              ///< where two overlap, the later one holds
   bool operator==(const BasalSpec&) const = default;
 };
+
+/// Index of the first zone with a turbulent coefficient of its own.
+inline std::optional<std::size_t> zone_with_turbulence(const BasalSpec& basal) {
+  for (std::size_t i = 0; i < basal.zones.size(); ++i)
+    if (basal.zones[i].turbulent_coefficient_m_s2) return i;
+  return std::nullopt;
+}
 
 struct NumericsSpec {
   double spacing_m = 0;              ///< initial particle spacing dx; 0 = not given (an error)

@@ -3,20 +3,24 @@
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/forecast_json.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "ensemble/workflow/forecast/forecast.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/ensemble_warnings.hpp"
-#include "ensemble/workflow/readable.hpp"
 #include "ensemble/workflow/scene.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/value_text.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace sturz::app {
 namespace {
@@ -29,7 +33,8 @@ struct Options {
 
 using workflow::Scene;
 
-std::string as_json(const Scene& scene, const std::vector<std::string>& warnings) {
+std::string as_json(const Scene& scene, const workflow::Forecast& forecast,
+                    const std::vector<std::string>& warnings) {
   const SceneDescription& d = scene.description;
   nlohmann::ordered_json effects = nlohmann::ordered_json::array();
   for (const EffectNote& e : d.effects)
@@ -57,6 +62,7 @@ std::string as_json(const Scene& scene, const std::vector<std::string>& warnings
                                       {"binding_limit", d.binding_limit},
                                       {"n_steps", d.n_steps},
                                       {"predicted_seconds", d.predicted_seconds},
+                                      {"forecast", forecast_json(forecast)},
                                       {"members", scene.scenario.ensemble.members},
                                       {"uncertain", uncertain},
                                       {"notes", scene.inputs.notes},
@@ -73,41 +79,57 @@ void print_uncertain(const Scene& scene, Console& console) {
         fmt::format("  {} [{}]: {}", key.path, key.units, distribution_text(key.distribution)));
 }
 
+/// The members that an ensemble would have; none where the scene has none.
+DesignTable design_of(const Scene& scene) {
+  const EnsembleSpec& ensemble = scene.scenario.ensemble;
+  if (ensemble.members > 0 || ensemble.design == Design::table)
+    return workflow::new_design(scene.scenario);
+  return {};
+}
+
+/// Its seconds and steps are the scene's from then on.
+workflow::Forecast forecast_for(Scene& scene, const DesignTable& design,
+                                const workflow::SpeedCache& cache) {
+  workflow::ForecastRequest request;
+  request.design = &design;
+  request.members = design.n_members();
+  request.workers = static_cast<int>(
+      std::clamp<std::int64_t>(design.n_members(), 1, workflow::available_cores()));
+  request.speed_cache = cache;
+  request.start_s = process_seconds();
+  workflow::Forecast forecast = workflow::forecast(scene, request);
+  scene.description.predicted_seconds = forecast.member_s.likely;
+  scene.description.n_steps = std::round(forecast.median_steps.likely);
+  return forecast;
+}
+
 /// Those of the medians, of the members together, and of the time that all of it takes.
-std::vector<std::string> all_warnings(const Scene& scene) {
+std::vector<std::string> all_warnings(const Scene& scene, const DesignTable& design,
+                                      const workflow::Forecast& forecast) {
   std::vector<std::string> all = scene.description.warnings;
   const auto add = [&all](const std::vector<std::string>& more) {
     all.insert(all.end(), more.begin(), more.end());
   };
-  const EnsembleSpec& ensemble = scene.scenario.ensemble;
-  std::int64_t members = 1;
-  if (ensemble.members > 0 || ensemble.design == Design::table) {
-    const DesignTable design = workflow::new_design(scene.scenario);
-    members = design.n_members();
-    add(workflow::ensemble_warnings(scene, design));
-  }
-  add(workflow::cost_warnings(scene, members, workflow::available_cores()));
+  if (design.n_members() > 0) add(workflow::ensemble_warnings(scene, design));
+  add(workflow::cost_warnings(scene, std::max<std::int64_t>(design.n_members(), 1),
+                              workflow::available_cores(), forecast.maps_s.likely));
   return all;
 }
 
 int describe(const Options& options, Console& console) {
-  const Scene scene =
-      workflow::load_scene({options.scenario, options.set, speed_cache(options.measure_again)});
-  const std::vector<std::string> warnings = all_warnings(scene);
+  const workflow::SpeedCache cache = speed_cache(options.measure_again);
+  Scene scene = workflow::load_scene({options.scenario, options.set, cache});
+  const DesignTable design = design_of(scene);
+  const workflow::Forecast forecast = forecast_for(scene, design, cache);
+  const std::vector<std::string> warnings = all_warnings(scene, design, forecast);
   if (console.json()) {
-    console.event(as_json(scene, warnings));
+    console.event(as_json(scene, forecast, warnings));
     return ok;
   }
   if (!scene.scenario.title.empty()) console.say(scene.scenario.title);
   for (const std::string& line : workflow::description_lines(scene)) console.say(line);
   print_uncertain(scene, console);
-  if (const int members = scene.scenario.ensemble.members; members > 0) {
-    const int cores = workflow::available_cores();
-    console.say(fmt::format(
-        "ensemble: {} members ({}) on {} cores: at most {}", members,
-        to_string(scene.scenario.ensemble.design), cores,
-        workflow::duration_text(scene.description.predicted_seconds * members / cores)));
-  }
+  for (const std::string& line : workflow::forecast_lines(forecast)) console.say(line);
   for (const std::string& note : scene.inputs.notes) console.say("note: " + note);
   for (const std::string& warning : warnings) console.warn(warning);
   return ok;
@@ -118,7 +140,7 @@ int describe(const Options& options, Console& console) {
 void add_describe(Grammar& grammar) {
   auto [parser, options] =
       add_command(grammar, "describe",
-                  "Say what a scene is and how long it will take, without computing it", describe);
+                  "Say what a scene is and what it will take, from a trial of a second", describe);
   add_scenario(parser, options.scenario, options.set);
   parser.add_flag("--measure-again", options.measure_again, "Measure this machine's speed anew");
   add_json(grammar, parser, "One JSON object instead of words");

@@ -6,12 +6,13 @@
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/forecast_json.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/app/verdict.hpp"
+#include "ensemble/workflow/forecast/ensemble_forecast.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
-#include "ensemble/workflow/readable.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "scenarios/schema/number_text.hpp"
 
@@ -19,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace sturz::app {
 namespace {
@@ -65,18 +67,19 @@ workflow::EnsembleRequest request_of(const Options& o) {
   return request;
 }
 
-void announce(const EnsembleJob& job, const Options& options, Console& console) {
-  const double seconds = job.scene.description.predicted_seconds;
-  const double total =
-      seconds * static_cast<double>(job.to_do.size()) / (job.workers * job.threads);
-  console.event(json_text(nlohmann::json{{"event", "start"},
-                                         {"folder", job.folder.root.string()},
-                                         {"members", job.design.n_members()},
-                                         {"finished_before", job.finished_before},
-                                         {"to_do", job.to_do.size()},
-                                         {"workers", job.workers},
-                                         {"threads_per_member", job.threads},
-                                         {"predicted_seconds", total}}));
+/// What is to be done, and what it will take where that was looked at.
+void announce(const EnsembleJob& job, const Options& options,
+              const std::optional<workflow::Forecast>& forecast, Console& console) {
+  nlohmann::ordered_json start{{"event", "start"},
+                               {"folder", job.folder.root.string()},
+                               {"members", job.design.n_members()},
+                               {"finished_before", job.finished_before},
+                               {"to_do", job.to_do.size()},
+                               {"workers", job.workers},
+                               {"threads_per_member", job.threads},
+                               {"forecast", nullptr}};
+  if (forecast) start["forecast"] = forecast_json(*forecast);
+  console.event(json_text(start));
   for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
   for (const std::string& note : job.scene.inputs.notes) console.note(note);
   console.note(command_text(options));
@@ -84,10 +87,11 @@ void announce(const EnsembleJob& job, const Options& options, Console& console) 
   if (!options.shard.empty()) text += fmt::format(", shard {}", options.shard);
   if (job.finished_before > 0) text += fmt::format(", {} finished before", job.finished_before);
   if (!job.to_do.empty())
-    text += fmt::format(", {} to do, {} at a time{}: at most {}", job.to_do.size(), job.workers,
-                        job.threads > 1 ? fmt::format(" with {} threads each", job.threads) : "",
-                        workflow::duration_text(total));
+    text += fmt::format(", {} to do, {} at a time{}", job.to_do.size(), job.workers,
+                        job.threads > 1 ? fmt::format(" with {} threads each", job.threads) : "");
   console.say(text);
+  if (!forecast) return;
+  for (const std::string& line : workflow::forecast_lines(*forecast)) console.say(line);
 }
 
 /// An exit code other than ok when the members did not all come to an end.
@@ -112,7 +116,9 @@ int how_it_ended(const workflow::MembersRun& run, Console& console) {
 int ensemble(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request_of(options), observer);
-  announce(job, options, console);
+  const auto forecast =
+      workflow::forecast_of(job, speed_cache(), process_seconds(), observer, interrupt_flag());
+  announce(job, options, forecast, console);
   const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
   console.clear_progress();
   if (const int code = how_it_ended(run, console); code != ok) return code;

@@ -65,7 +65,7 @@ void check_value(const UncertainKey& key, const Marginal& marginal, double value
   const auto where = [&] { return fmt::format("ensemble.table: row {}, {}", row + 1, key.path); };
   require(std::isfinite(value),
           fmt::format("{} is not a finite number. Fill in the cell.", where()));
-  if (const KeyInfo* info = find_key(key.path))
+  if (const auto info = key_of_number(key.path))
     require(value >= info->min && value <= info->max,
             fmt::format("{} = {} (must be {}{}). Check the unit of the column.", where(), value,
                         range_text(*info), info->units == "1" ? "" : " " + info->units));

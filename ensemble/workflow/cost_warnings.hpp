@@ -10,9 +10,11 @@
 
 namespace sturz::workflow {
 
-/// One sentence where `members` members on `cores` cores are predicted to take more than ten
-/// minutes: a coarser spacing that still resolves the release, the other formulation. Columns cost
-/// spacing^-3, full stress spacing^-4.
-std::vector<std::string> cost_warnings(const Scene&, std::int64_t members, int cores);
+/// One sentence where `members` members on `cores` cores and `maps_s` seconds of maps are predicted
+/// to take more than ten minutes, with what would be cheaper: for the members a coarser spacing
+/// that still resolves the scene or the other formulation, for the maps larger cells. Columns cost
+/// spacing^-3, full stress spacing^-4, maps cell^-2.
+std::vector<std::string> cost_warnings(const Scene&, std::int64_t members, int cores,
+                                       double maps_s = 0);
 
 }  // namespace sturz::workflow

@@ -6,7 +6,7 @@
 
 namespace sturz::workflow {
 
-/// "3 min 20 s", "1 h 05 min", "0.8 s".
+/// "3 min 20 s", "1 h 05 min", "7.5 s", "0.84 s", "0.04 s".
 std::string duration_text(double seconds);
 /// 491000 -> "491 000"; big whole numbers for people.
 std::string grouped(double value);

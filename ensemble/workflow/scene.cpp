@@ -129,10 +129,8 @@ std::vector<std::string> description_lines(const Scene& scene) {
                                 d.reference_speed_m_s, d.sound_speed_m_s));
   lines.push_back(d.ground);
   lines.push_back(end_line(scene));
-  lines.push_back(fmt::format("time step: {:.2g} s ({}); about {} steps", d.dt_s, d.binding_limit,
-                              grouped(d.n_steps)));
   lines.push_back(
-      fmt::format("predicted: about {} a member on one core", duration_text(d.predicted_seconds)));
+      fmt::format("time step: {:.2g} s ({}) at half the expected speed", d.dt_s, d.binding_limit));
   return lines;
 }
 

@@ -95,13 +95,18 @@ Json walls() {
 
 Json words() { return {{"type", "string"}, {"minLength", 1}}; }
 
+/// A number or a distribution in its place.
+Json uncertain(const Json& plain) {
+  return {{"anyOf", {plain, {{"$ref", "#/$defs/distribution"}}}}};
+}
+
 /// A file and at least one of the numbers.
 Json zones() {
   Json properties = {{"polygon", words()}, {"layer", words()}};
   Json any_number = Json::array();
   for (const auto& field : zone_fields) {
     const KeyInfo& key = basal_key(field);
-    properties[field.name] = number(key.min, key.max, key.above_min);
+    properties[field.name] = uncertain(number(key.min, key.max, key.above_min));
     any_number.push_back({{"required", {field.name}}});
   }
   Json zone = object(properties, {"polygon"});
@@ -127,7 +132,7 @@ Json value_of(const KeyInfo& key) {
     case ValueKind::flag:
       return {{"type", "boolean"}};
     case ValueKind::uncertain:
-      return {{"anyOf", {plain, {{"$ref", "#/$defs/distribution"}}}}};
+      return uncertain(plain);
     case ValueKind::number_list:
       return numbers(plain, key.list_size);
     case ValueKind::text_list:

@@ -193,8 +193,10 @@ bool read_zone(const std::string& path, const YamlNode& node, BasalZone& zone,
     } else if (name == "layer") {
       zone.layer = read_text(inner, "text", value, problems).value_or("");
     } else if (const ZoneField* field = find_zone_field(name)) {
-      zone.*field->value = read_fixed_number(
-          inner, value, "Values of zones are fixed numbers in this version.", problems);
+      KeyInfo key = basal_key(*field);
+      key.path = inner;
+      const KeyValue number = read_uncertain(key, value, problems);
+      if (const auto* read = std::get_if<Uncertain>(&number)) zone.*field->value = *read;
     } else {
       auto known = zone_field_names();
       known.insert(known.begin(), {"polygon", "layer"});

@@ -74,6 +74,8 @@ Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
                     short_number(100 * most) + " % of the thrust that drives"};
 }
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
+  if (const auto zone = zone_with_turbulence(s.basal); zone && !s.basal.turbulent_coefficient_m_s2)
+    return {true, "`basal.zones[" + std::to_string(*zone) + "].turbulent_coefficient_m_s2`"};
   return by_key("basal.turbulent_coefficient_m_s2", s.basal.turbulent_coefficient_m_s2.has_value());
 }
 Called viscosity_called(const Scenario& s, const ScenePlan&) {

@@ -27,6 +27,7 @@ double volume_median(std::vector<double> thickness, double sum) {
 std::string column_key(const Scenario& s) {
   if (s.basal.turbulent_coefficient_m_s2) return "basal.turbulent_coefficient_m_s2";
   if (s.basal.viscosity_pa_s) return "basal.viscosity_pa_s";
+  if (zone_with_turbulence(s.basal)) return "basal.zones";
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
   return "";
@@ -141,8 +142,8 @@ CostEstimate estimate_cost(const Scenario& s, const Raster<double>& thickness,
   double friction = s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
   for (const BasalZone& zone : s.basal.zones)
     friction = std::min(
-        friction, zone.friction_coefficient.value_or(s.basal.friction_coefficient.value) *
-                      (1 - zone.pore_pressure_ratio.value_or(s.basal.pore_pressure_ratio.value)));
+        friction, zone.friction_coefficient.value_or(s.basal.friction_coefficient).value *
+                      (1 - zone.pore_pressure_ratio.value_or(s.basal.pore_pressure_ratio).value));
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
   const double speed = reference_speed(ground, mass.starts, friction, start, end_time_s);

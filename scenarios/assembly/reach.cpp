@@ -145,9 +145,10 @@ double least_friction(const BasalSpec& basal) {
   double friction = drawn_range(basal.friction_coefficient).first;
   double pore_pressure = drawn_range(basal.pore_pressure_ratio).second;
   for (const BasalZone& zone : basal.zones) {
-    if (zone.friction_coefficient) friction = std::min(friction, *zone.friction_coefficient);
+    if (zone.friction_coefficient)
+      friction = std::min(friction, drawn_range(*zone.friction_coefficient).first);
     if (zone.pore_pressure_ratio)
-      pore_pressure = std::max(pore_pressure, *zone.pore_pressure_ratio);
+      pore_pressure = std::max(pore_pressure, drawn_range(*zone.pore_pressure_ratio).second);
   }
   return std::max(0.0, friction) * std::clamp(1 - pore_pressure, 0.0, 1.0);
 }

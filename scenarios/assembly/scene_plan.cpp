@@ -123,9 +123,11 @@ std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
   std::vector<BasalResistance> bed{all};
   for (const BasalZone& zone : spec.zones) {
     BasalResistance& b = bed.emplace_back(all);
-    b.friction_coefficient = zone.friction_coefficient.value_or(b.friction_coefficient);
-    b.pore_pressure_ratio = zone.pore_pressure_ratio.value_or(b.pore_pressure_ratio);
-    b.cohesion_pa = zone.cohesion_pa.value_or(b.cohesion_pa);
+    b.friction_coefficient = zone.friction_coefficient.value_or(b.friction_coefficient).value;
+    b.pore_pressure_ratio = zone.pore_pressure_ratio.value_or(b.pore_pressure_ratio).value;
+    b.cohesion_pa = zone.cohesion_pa.value_or(b.cohesion_pa).value;
+    b.turbulent_coefficient =
+        zone.turbulent_coefficient_m_s2.value_or(b.turbulent_coefficient).value;
   }
   return bed;
 }

@@ -24,9 +24,11 @@ double rounded_up(double seconds) {
 double slowest_speed(const Scenario& s, double thickness, double density) {
   double speed = std::sqrt(standard_gravity * thickness);
   const BasalSpec& bed = s.basal;
-  if (bed.turbulent_coefficient_m_s2)
-    speed = std::min(speed,
-                     std::sqrt(bed.turbulent_coefficient_m_s2->value * thickness * gentle_slope));
+  const auto braked = [&](const std::optional<Uncertain>& xi) {
+    if (xi) speed = std::min(speed, std::sqrt(xi->value * thickness * gentle_slope));
+  };
+  braked(bed.turbulent_coefficient_m_s2);
+  for (const BasalZone& zone : bed.zones) braked(zone.turbulent_coefficient_m_s2);
   if (bed.viscosity_pa_s && bed.viscosity_pa_s->value > 0)
     speed = std::min(speed, density * standard_gravity * gentle_slope * thickness * thickness /
                                 (3 * bed.viscosity_pa_s->value));

@@ -208,8 +208,7 @@ void Checker::operator()(const std::vector<BasalZone>& v) const {
       const auto& number = v[i].*field.value;
       if (!number) continue;
       gives_any = true;
-      KeyInfo limits = basal_key(field);
-      limits.path = path + "." + field.name;
+      const KeyInfo limits = zone_key(i, field);
       Checker{limits, problems}(*number);
     }
     if (v[i].polygon.empty())

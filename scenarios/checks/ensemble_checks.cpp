@@ -4,6 +4,7 @@
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/suggest.hpp"
 #include "scenarios/schema/value_text.hpp"
+#include "scenarios/schema/zone_fields.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -38,6 +39,8 @@ std::vector<std::string> keys_to_correlate(const Scenario& s) {
   if (!keys.empty()) return keys;
   for (const auto& key : schema())
     if (key.kind == ValueKind::uncertain) keys.push_back(key.path);
+  for (std::size_t i = 0; i < s.basal.zones.size(); ++i)
+    for (const ZoneField& field : zone_fields) keys.push_back(zone_path(i, field));
   return keys;
 }
 

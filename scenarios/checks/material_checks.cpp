@@ -85,6 +85,12 @@ void check_formulation(const Scenario& s, Problems& problems) {
   refuse(b.turbulent_coefficient_m_s2.has_value(), "basal.turbulent_coefficient_m_s2");
   refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
   refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");
+  if (const auto zone = zone_with_turbulence(b))
+    problems.push_back(
+        {"basal.zones", "basal.zones[" + std::to_string(*zone) +
+                            "].turbulent_coefficient_m_s2 (formulation is full_stress; only "
+                            "depth_averaged knows it). Remove it or set formulation: "
+                            "depth_averaged."});
 }
 
 void check_drag(const Scenario& s, Problems& problems) {

@@ -5,6 +5,7 @@
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/schema_rows.hpp"
 #include "scenarios/schema/suggest.hpp"
+#include "scenarios/schema/zone_fields.hpp"
 
 #include <algorithm>
 #include <unordered_map>
@@ -105,9 +106,32 @@ std::string range_text(const KeyInfo& key) {
   return {};
 }
 
+namespace {
+
+void add_uncertain_zones(const std::vector<BasalZone>& zones, std::vector<UncertainKey>& found) {
+  for (std::size_t i = 0; i < zones.size(); ++i)
+    for (const ZoneField& field : zone_fields) {
+      const auto& number = zones[i].*field.value;
+      if (number && number->distribution)
+        found.push_back({zone_path(i, field), basal_key(field).units, *number->distribution});
+    }
+}
+
+/// Number and field of "basal.zones[2].friction_coefficient"; nothing for other paths.
+std::optional<std::pair<std::size_t, const ZoneField*>> zone_of(const std::string& path) {
+  if (!path.starts_with("basal.zones[")) return std::nullopt;
+  for (std::size_t i = 0; i < most_basal_zones; ++i)
+    for (const ZoneField& field : zone_fields)
+      if (path == zone_path(i, field)) return std::pair(i, &field);
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::vector<UncertainKey> uncertain_keys(const Scenario& scenario) {
   std::vector<UncertainKey> found;
   for (const auto& key : schema()) {
+    if (key.kind == ValueKind::zone_list) add_uncertain_zones(scenario.basal.zones, found);
     if (key.kind != ValueKind::uncertain) continue;
     const KeyValue value = key.get(scenario);
     const auto* number = std::get_if<Uncertain>(&value);
@@ -117,7 +141,17 @@ std::vector<UncertainKey> uncertain_keys(const Scenario& scenario) {
   return found;
 }
 
+std::optional<KeyInfo> key_of_number(const std::string& path) {
+  if (const KeyInfo* key = find_key(path)) return *key;
+  const auto zone = zone_of(path);
+  return zone ? std::optional(zone_key(zone->first, *zone->second)) : std::nullopt;
+}
+
 Scenario with_value(Scenario scenario, const std::string& path, double value) {
+  if (const auto zone = zone_of(path); zone && zone->first < scenario.basal.zones.size()) {
+    scenario.basal.zones[zone->first].*zone->second->value = Uncertain(value);
+    return scenario;
+  }
   const KeyInfo* key = find_key(path);
   if (!key) {
     std::vector<std::string> paths;

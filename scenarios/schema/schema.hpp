@@ -88,6 +88,9 @@ void for_each_path(const KeyInfo&, KeyValue&, const std::function<void(std::stri
 /// "in 0..60", "> 0", ">= 0", or empty when any number will do.
 std::string range_text(const KeyInfo&);
 
+/// The row of a path that a design may name: a key, or a number of a zone of the bed.
+std::optional<KeyInfo> key_of_number(const std::string& path);
+
 /// One uncertain value of a scenario.
 struct UncertainKey {
   std::string path;
@@ -97,7 +100,7 @@ struct UncertainKey {
 /// Every key whose value is a distribution, in schema order: the columns of an ensemble's design.
 std::vector<UncertainKey> uncertain_keys(const Scenario&);
 /// The same scene with `value` in place of the number or distribution at `path` (kind uncertain
-/// or number). Throws SetupError on an unknown path.
+/// or number, or "basal.zones[2].friction_coefficient"). Throws SetupError on an unknown path.
 Scenario with_value(Scenario, const std::string& path, double value);
 
 }  // namespace sturz

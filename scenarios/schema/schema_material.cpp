@@ -110,10 +110,11 @@ void add_basal(std::vector<KeyInfo>& keys) {
   keys.push_back(key(basal, &BasalSpec::yield_stress_pa,
                      {"basal.yield_stress_pa", uncertain, "Pa", 0, no_limit,
                       "Yield stress of a Bingham fluid, with basal.viscosity_pa_s."}));
-  keys.push_back(key(basal, &BasalSpec::zones,
-                     {"basal.zones", zone_list, "", -no_limit, no_limit,
-                      "Parts of the ground with values of their own: a polygon layer and fixed "
-                      "numbers in the place of basal's."}));
+  keys.push_back(
+      key(basal, &BasalSpec::zones,
+          {"basal.zones", zone_list, "", -no_limit, no_limit,
+           "Parts of the ground with values of their own, such as forest or a glacier: a "
+           "polygon layer and numbers or distributions in the place of basal's."}));
 }
 
 }  // namespace

@@ -53,6 +53,10 @@ std::string discrete_text(const Distribution& d) {
   return map.text();
 }
 
+std::string uncertain_text(const Uncertain& v) {
+  return v.distribution ? distribution_text(*v.distribution) : number_text(v.value);
+}
+
 std::string wall_text(const WallSpec& wall) {
   MapText map;
   map.add("point_m", numbers_text(wall.point_m)).add("normal", numbers_text(wall.normal));
@@ -64,7 +68,8 @@ std::string zone_text(const BasalZone& zone) {
   MapText map;
   map.add("polygon", quoted_text(zone.polygon));
   if (!zone.layer.empty()) map.add("layer", quoted_text(zone.layer));
-  for (const auto& field : zone_fields) map.add(field.name, zone.*field.value);
+  for (const auto& field : zone_fields)
+    if (const auto& value = zone.*field.value) map.add(field.name, uncertain_text(*value));
   return map.text();
 }
 
@@ -81,9 +86,7 @@ struct ToText {
   std::string operator()(std::int64_t v) const { return std::to_string(v); }
   std::string operator()(const std::string& v) const { return quoted_text(v); }
   std::string operator()(bool v) const { return v ? "true" : "false"; }
-  std::string operator()(const Uncertain& v) const {
-    return v.distribution ? distribution_text(*v.distribution) : number_text(v.value);
-  }
+  std::string operator()(const Uncertain& v) const { return uncertain_text(v); }
   std::string operator()(const std::vector<double>& v) const { return numbers_text(v); }
   std::string operator()(const std::vector<std::string>& v) const {
     return list_text(v, quoted_text);

@@ -18,12 +18,13 @@ inline constexpr std::size_t most_basal_zones = 255;
 /// One of these numbers; its units and range are those of the key of the same name in basal.
 struct ZoneField {
   const char* name;
-  std::optional<double> BasalZone::*value;
+  std::optional<Uncertain> BasalZone::*value;
 };
-inline constexpr std::array<ZoneField, 3> zone_fields = {
+inline constexpr std::array<ZoneField, 4> zone_fields = {
     {{"friction_coefficient", &BasalZone::friction_coefficient},
      {"pore_pressure_ratio", &BasalZone::pore_pressure_ratio},
-     {"cohesion_pa", &BasalZone::cohesion_pa}}};
+     {"cohesion_pa", &BasalZone::cohesion_pa},
+     {"turbulent_coefficient_m_s2", &BasalZone::turbulent_coefficient_m_s2}}};
 
 /// nullptr for any other name.
 inline const ZoneField* find_zone_field(const std::string& name) {
@@ -41,6 +42,16 @@ inline std::vector<std::string> zone_field_names() {
 /// The row whose range and units the field shares.
 inline const KeyInfo& basal_key(const ZoneField& field) {
   return *find_key(std::string("basal.") + field.name);
+}
+/// "basal.zones[2].friction_coefficient"
+inline std::string zone_path(std::size_t zone, const ZoneField& field) {
+  return "basal.zones[" + std::to_string(zone) + "]." + field.name;
+}
+/// The same row under the zone's own path, for reading and checking.
+inline KeyInfo zone_key(std::size_t zone, const ZoneField& field) {
+  KeyInfo key = basal_key(field);
+  key.path = zone_path(zone, field);
+  return key;
 }
 
 }  // namespace sturz

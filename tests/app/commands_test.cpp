@@ -109,6 +109,36 @@ TEST_F(Commands, DescribeComputesNothingAndSaysWhatWillBe) {
   EXPECT_GT(said.value("predicted_seconds", 0.0), 0.0);
 }
 
+TEST_F(Commands, DescribeForecastsMembersAndMapsWithRanges) {
+  const Ended json = sturz({"describe", path("scene.yaml"), "--json"});
+  ASSERT_EQ(json.exit_code, 0) << json.err;
+  const auto f = nlohmann::json::parse(json.out).at("forecast");
+  EXPECT_EQ(f.at("members"), 6);
+  EXPECT_EQ(f.at("tried"), true);
+  EXPECT_EQ(f.at("tried_members"), 6);
+  for (const char* key :
+       {"median_cpu_s", "median_steps", "member_cpu_s", "members_cpu_s", "maps_cpu_s",
+        "total_cpu_s", "elapsed_s", "memory_bytes", "members_disk_bytes", "maps_disk_bytes"}) {
+    EXPECT_GT(f.at(key).at("low"), 0) << key;
+    EXPECT_LE(f.at(key).at("low"), f.at(key).at("likely")) << key;
+    EXPECT_GT(f.at(key).at("high"), f.at(key).at("likely")) << key;
+  }
+  const Ended words = sturz({"describe", path("scene.yaml")});
+  EXPECT_THAT(words.out, ::testing::ContainsRegex("predicted for 6 members, . at a time: .* to "));
+  EXPECT_THAT(words.out, ::testing::ContainsRegex("maps: .* of computing, .*B to .*B. on disk"));
+}
+
+TEST_F(Commands, DescribeOfASceneWithoutMembersForecastsTheMedianAlone) {
+  const Ended json =
+      sturz({"describe", path("scene.yaml"), "--json", "--set", "ensemble=null", "--set",
+             "basal.friction_coefficient=0.3", "--set", "basal.pore_pressure_ratio=0"});
+  ASSERT_EQ(json.exit_code, 0) << json.err;
+  const auto f = nlohmann::json::parse(json.out).at("forecast");
+  EXPECT_GT(f.at("median_cpu_s").at("likely"), 0.0);
+  EXPECT_TRUE(f.at("members_cpu_s").is_null());
+  EXPECT_TRUE(f.at("maps_cpu_s").is_null());
+}
+
 TEST_F(Commands, DescribeWarnsWhereTheFlowIsThin) {
   const Ended ended = sturz({"describe", path("scene.yaml"), "--set", "release.thickness_m=2"});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;

@@ -250,7 +250,8 @@ TEST(ScenarioMessages, Zones) {
                           "that outlines the zone."));
   EXPECT_THAT(zone_problems("[{polygon: a.gpkg}]"),
               ElementsAre("scenario.yaml:7:16: basal.zones[0] (gives no value). Give it some of "
-                          "friction_coefficient, pore_pressure_ratio, cohesion_pa."));
+                          "friction_coefficient, pore_pressure_ratio, cohesion_pa, "
+                          "turbulent_coefficient_m_s2."));
   EXPECT_THAT(zone_problems("[{polygon: a.gpkg, pore_pressure_ratio: 1}]"),
               ElementsAre("scenario.yaml:7:16: basal.zones[0].pore_pressure_ratio = 1 (must be in "
                           "0..0.99)."));
@@ -264,7 +265,7 @@ TEST(ScenarioMessages, NamesAndTextsOfZones) {
       zone_problems("[{polygon: a.gpkg, cohesion_pa: 5}, {polygon: b.gpkg, restitution: 0}]"),
       ElementsAre("scenario.yaml:7:70: basal.zones[1].restitution (unknown key). Known "
                   "here: polygon, layer, friction_coefficient, pore_pressure_ratio, "
-                  "cohesion_pa."));
+                  "cohesion_pa, turbulent_coefficient_m_s2."));
   EXPECT_THAT(zone_problems("[{polygon: \"\", cohesion_pa: 5}]"),
               ElementsAre("scenario.yaml:7:27: basal.zones[0].polygon = \"\" (must be a file "
                           "name). Give it one or remove the key."));
@@ -272,14 +273,20 @@ TEST(ScenarioMessages, NamesAndTextsOfZones) {
               ElementsAre("scenario.yaml:7:42: basal.zones[0].layer = [b] (must be text)."));
 }
 
-TEST(ScenarioMessages, ValuesOfZonesAreFixed) {
+TEST(ScenarioMessages, ValuesOfZonesMayBeUncertain) {
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg, friction_coefficient: {uniform: [0.2, 0.4]}}]"),
+              ElementsAre());
   EXPECT_THAT(
-      zone_problems("[{polygon: a.gpkg, friction_coefficient: {uniform: [0.2, 0.4]}}]"),
-      ElementsAre("scenario.yaml:7:57: basal.zones[0].friction_coefficient = {uniform: [0.2, 0.4]} "
-                  "(must be a plain number). Values of zones are fixed numbers in this version."));
+      zone_problems("[{polygon: a.gpkg, friction_coefficient: {uniform: [0.2, 4]}}]"),
+      ElementsAre("scenario.yaml:7:16: basal.zones[0].friction_coefficient = {uniform: "
+                  "[0.2, 4]} (its values reach from 0.2 to 4 but must be in 0..2). Was it an angle "
+                  "in degrees? tan 4 deg = 0.07."));
+  EXPECT_THAT(zone_problems("[{polygon: a.gpkg, turbulent_coefficient_m_s2: 0}]"),
+              ElementsAre("scenario.yaml:7:16: basal.zones[0].turbulent_coefficient_m_s2 = 0 "
+                          "(must be > 0). Was it in another unit?"));
   EXPECT_THAT(zone_problems("[{polygon: a.gpkg, cohesion_pa: soft}]"),
               ElementsAre("scenario.yaml:7:48: basal.zones[0].cohesion_pa = soft (must be a "
-                          "number)."));
+                          "number or a distribution)."));
 }
 
 TEST(ScenarioMessages, KeysOfColumnsInFullStress) {

@@ -115,6 +115,13 @@ TEST(Formulation, AutoTakesColumnsForWhatOnlyColumnsKnow) {
   EXPECT_NEAR(c.release_layers, 40, 1e-12) << "counted all the same";
 }
 
+TEST(Formulation, AutoTakesColumnsForATurbulentZone) {
+  Scenario s = scene(0.5);
+  ASSERT_FALSE(choose_formulation(s, slab(20)).depth_averaged);
+  s.basal.zones = {{"forest.gpkg", "", {}, {}, {}, 400.0}};
+  EXPECT_TRUE(choose_formulation(s, slab(20)).depth_averaged);
+}
+
 TEST(Formulation, AutoTakesColumnsWhereNoInternalFrictionIsGiven) {
   Scenario s = scene(0.5);
   s.grains->friction.reset();

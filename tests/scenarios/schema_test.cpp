@@ -199,6 +199,28 @@ TEST(Schema, WithValueReplacesADistribution) {
   EXPECT_EQ(with_value(s, "numerics.spacing_m", 4).numerics.spacing_m, 4);
 }
 
+TEST(Schema, NumbersOfZonesMayBeUncertain) {
+  Uncertain u;
+  u.distribution = Distribution{};
+  u.distribution->min = 200;
+  u.distribution->max = 400;
+  Scenario s;
+  s.basal.zones = {{"ice.gpkg", "", 0.1, {}, {}}, {"forest.gpkg", "", 0.3, {}, {}, u}};
+  const std::string path = "basal.zones[1].turbulent_coefficient_m_s2";
+  const auto keys = uncertain_keys(s);
+  ASSERT_EQ(keys.size(), 1u);
+  EXPECT_EQ(keys[0].path, path);
+  EXPECT_EQ(keys[0].units, "m s-2");
+  EXPECT_EQ(keys[0].distribution, *u.distribution);
+  ASSERT_TRUE(key_of_number(path));
+  EXPECT_TRUE(key_of_number(path)->above_min);
+  EXPECT_FALSE(key_of_number("basal.zones[1].restitution"));
+  const Scenario fixed = with_value(s, path, 300);
+  EXPECT_TRUE(uncertain_keys(fixed).empty());
+  EXPECT_EQ(fixed.basal.zones[1].turbulent_coefficient_m_s2, Uncertain(300));
+  EXPECT_THROW(with_value(s, "basal.zones[2].friction_coefficient", 0.2), SetupError);
+}
+
 TEST(Schema, WithValueRefusesWhatIsNoNumber) {
   const auto message = [](const char* path) -> std::string {
     try {

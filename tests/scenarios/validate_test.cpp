@@ -349,7 +349,7 @@ TEST(Validate, ZonesHaveAFileAndNumbersInTheBasesRanges) {
                   "basal.zones[0].cohesion_pa = -1 (must be >= 0).",
                   "basal.zones[1] (polygon is missing). Name the file that outlines the zone.",
                   "basal.zones[2] (gives no value). Give it some of friction_coefficient, "
-                  "pore_pressure_ratio, cohesion_pa."));
+                  "pore_pressure_ratio, cohesion_pa, turbulent_coefficient_m_s2."));
 }
 
 TEST(Validate, ZonesAreAtMost255) {

@@ -118,6 +118,16 @@ TEST_F(EnsembleWarnings, OverTenMinutesTheCheaperChoiceIsNamed) {
               ElementsAre(HasSubstr("the coarsest that resolves the release")));
 }
 
+TEST_F(EnsembleWarnings, LongMapsAreMadeCheaperByLargerCells) {
+  workflow::Scene loaded = workflow::load_scene(scene());  // maps of 2 m cells
+  loaded.description.predicted_seconds = 1;
+  EXPECT_THAT(workflow::cost_warnings(loaded, 100, 2, 500), IsEmpty());
+  // 3 times the cell is a ninth of the time.
+  EXPECT_THAT(workflow::cost_warnings(loaded, 100, 2, 5400),
+              ElementsAre("100 members on 2 cores and 1 h 30 min of maps may take 1 h 30 min, more "
+                          "than ten minutes. Cheaper: hazard.cell_size_m: 6 (10 min 50 s)."));
+}
+
 TEST_F(EnsembleWarnings, FullStressIsHeldAgainstColumns) {
   workflow::Scene loaded = workflow::load_scene(scene());
   loaded.description.formulation = "full_stress";

@@ -9,7 +9,13 @@ namespace sturz::test {
 namespace {
 
 TEST(DurationText, SaysNoMoreThanOneNeeds) {
-  EXPECT_EQ(workflow::duration_text(0.84), "0.8 s");
+  EXPECT_EQ(workflow::duration_text(0), "0.0 s");
+  EXPECT_EQ(workflow::duration_text(1e-6), "0.001 s");
+  EXPECT_EQ(workflow::duration_text(0.004), "0.004 s");
+  EXPECT_EQ(workflow::duration_text(0.0414), "0.041 s");
+  EXPECT_EQ(workflow::duration_text(0.84), "0.84 s");
+  EXPECT_EQ(workflow::duration_text(0.97), "1.0 s");
+  EXPECT_EQ(workflow::duration_text(8.44), "8.4 s");
   EXPECT_EQ(workflow::duration_text(59.4), "59 s");
   EXPECT_EQ(workflow::duration_text(59.6), "1 min 00 s");
   EXPECT_EQ(workflow::duration_text(200), "3 min 20 s");

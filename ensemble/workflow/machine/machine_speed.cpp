@@ -2,6 +2,7 @@
 #include "ensemble/workflow/machine/machine_speed.hpp"
 
 #include "engine/core/error.hpp"
+#include "engine/core/thread_time.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/text_files.hpp"
 #include "io/site/scene_inputs.hpp"
@@ -9,7 +10,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <ctime>
 #include <fstream>
 #include <string>
 
@@ -37,20 +37,13 @@ Scenario reference_scene(const std::string& formulation) {
   return s;
 }
 
-/// Computing time of this thread: what others do on the machine meanwhile does not count.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 double measure(const std::string& formulation) {
   const Scenario scene = reference_scene(formulation);
   const SceneInputs inputs = load_scene_inputs(scene);
   Simulation slide = assemble(scene, inputs, 0, 1);
-  const double begin = thread_seconds();
+  const double begin = thread_cpu_seconds();
   const MemberScalars s = slide.run().scalars;
-  const double seconds = thread_seconds() - begin;
+  const double seconds = thread_cpu_seconds() - begin;
   expect(seconds > 0 && s.n_steps > 0, "the reference slide runs");
   return s.n_particles * s.n_steps / seconds;
 }

@@ -4,6 +4,8 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/workflow/folder/output_folder.hpp"
+#include "ensemble/workflow/machine/temporary_folder.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -15,7 +17,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,8 @@ namespace sturz::workflow {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int n_trial_members = 12;
-constexpr int small_edge = 24, large_edge = 240;  // cells of the two made-up ensembles
+constexpr int n_trial_members = 8;
+constexpr int small_edge = 24, large_edge = 200;  // cells of the two made-up ensembles
 
 struct NamedSpeed {
   const char* name;
@@ -40,40 +41,38 @@ constexpr NamedSpeed named_speeds[] = {
     {"seconds_per_plane", &MapSpeed::seconds_per_plane},
     {"seconds_per_plane_cell", &MapSpeed::seconds_per_plane_cell}};
 
-/// Goes away with the scope.
-struct TemporaryFolder {
-  fs::path path = fs::temp_directory_path() / fmt::format("sturz_maps_{}", ::getpid());
-  TemporaryFolder() = default;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
+/// Computing time of the process: files are compressed by threads of their own.
+double process_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Computing time of this thread: what others do on the machine meanwhile does not count.
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// A flow over a square, every value its own, as real ones are.
+/// A flow along a square's diagonal, every value its own, the rest untouched as real maps are.
 MemberResult made_up_member(std::int64_t number, int edge) {
   MemberResult m;
   m.member = number;
   m.outcome = Outcome::settled;
   m.grid = {edge, edge, 0, 1e4, 5, ""};
   m.window = {0, 0, edge, edge};
-  for (int l = 0; l < n_peak_layers; ++l)
+  const int half_width = edge / 8 + static_cast<int>(number % 4) * edge / 40;
+  for (int l = 0; l < n_peak_layers; ++l) {
+    const auto layer = static_cast<PeakLayer>(l);
+    if (!is_kept(layer, m.censoring)) continue;
     for (int i = 0; i < edge * edge; ++i)
-      m.layers[static_cast<std::size_t>(l)].push_back(static_cast<float>(
-          (l + 1) * (1.1 + std::sin(0.01 * i + static_cast<double>(number) * 1.7))));
+      m.layer(layer).push_back(
+          std::abs(i / edge - i % edge) <= half_width
+              ? static_cast<float>((l + 1) *
+                                   (1.1 + std::sin(0.01 * i + static_cast<double>(number) * 1.7)))
+              : info(layer).untouched);
+  }
   return m;
 }
 
+double touched_cells(const MemberResult& m) {
+  const auto& arrival = m.layer(PeakLayer::arrival);
+  return static_cast<double>(
+      std::count_if(arrival.begin(), arrival.end(), [](float v) { return !std::isnan(v); }));
+}
+
 struct Trial {
+  double touches = 0;
   double open_s = 0, statistics_s = 0, files_s = 0;
 };
 
@@ -84,7 +83,7 @@ struct NoSink final : LayerSink {
            std::span<const float> /*values*/) override {}
 };
 
-void write_all(const fs::path& folder, const LayerStack& maps) {
+void write_all(const fs::path& folder, const LayerStack& maps, const MemberStore& members) {
   LayersFileWriter file(folder / "hazard.nc");
   file.begin(maps);
   const StackSource source(maps);
@@ -101,23 +100,33 @@ void write_all(const fs::path& folder, const LayerStack& maps) {
         }
   file.commit();
   const LayersFileReader reader(folder / "hazard.nc");
-  write_map_files(folder / "hazard", reader, coarse_layers(reader, page_cells), {});
+  const LayerStack coarse = coarse_layers(reader, page_cells);
+  write_map_files(folder / "hazard", reader, coarse, {});
+  const OutputFolder out{folder};
+  write_text_atomic(out.scenario(), "");
+  PageContent page;
+  page.hazard = &coarse;
+  page.members = members.members();
+  write_page(out, {}, {}, page);
 }
 
 Trial measure(const fs::path& folder, int edge) {
-  for (std::int64_t m = 0; m < n_trial_members; ++m)
-    write_member(folder / "members", made_up_member(m, edge));
   Trial trial;
-  const double begin = thread_seconds();
+  for (std::int64_t k = 0; k < n_trial_members; ++k) {
+    const MemberResult m = made_up_member(k, edge);
+    trial.touches += touched_cells(m);
+    write_member(folder / "members", m);
+  }
+  const double begin = process_seconds();
   const MemberStore store(folder / "members");
-  const double opened = thread_seconds();
+  const double opened = process_seconds();
   NoSink nothing;
   make_hazard_map(store, HazardSpec{}, {}, nothing);
-  const double counted = thread_seconds();
+  const double counted = process_seconds();
   const LayerStack maps = make_hazard_map(store, HazardSpec{}, {});
-  const double begin_files = thread_seconds();
-  write_all(folder, maps);
-  trial.files_s = thread_seconds() - begin_files;
+  const double begin_files = process_seconds();
+  write_all(folder, maps, store);
+  trial.files_s = process_seconds() - begin_files;
   trial.open_s = opened - begin;
   trial.statistics_s = counted - opened;
   return trial;
@@ -125,18 +134,17 @@ Trial measure(const fs::path& folder, int edge) {
 
 MapSpeed measured() {
   const TemporaryFolder folder;
-  const Trial small = measure(folder.path / "small", small_edge);
-  const Trial large = measure(folder.path / "large", large_edge);
-  const auto touches = [](int edge) { return static_cast<double>(n_trial_members) * edge * edge; };
+  const Trial small = measure(folder.path() / "small", small_edge);
+  const Trial large = measure(folder.path() / "large", large_edge);
   const double planes = map_planes(HazardSpec{});
   MapSpeed speed;
   speed.seconds_per_touch =
-      (large.statistics_s - small.statistics_s) / (touches(large_edge) - touches(small_edge));
-  speed.seconds_per_touch = std::max(speed.seconds_per_touch, 1e-9);
-  speed.seconds_per_member = (small.open_s + large.open_s) / (2.0 * n_trial_members);
+      std::max((large.statistics_s - small.statistics_s) / (large.touches - small.touches), 1e-9);
+  speed.seconds_per_member =
+      std::max((small.open_s + large.open_s) / (2.0 * n_trial_members), 1e-6);
   const double more_cells = planes * (large_edge * large_edge - small_edge * small_edge);
   speed.seconds_per_plane_cell = std::max((large.files_s - small.files_s) / more_cells, 1e-10);
-  speed.seconds_per_plane = small.files_s / planes;
+  speed.seconds_per_plane = std::max(small.files_s / planes, 1e-6);
   return speed;
 }
 
@@ -191,20 +199,23 @@ int map_planes(const HazardSpec& spec) {
 MapCost predict_map_cost(const MapWork& work, const MapSpeed& speed) {
   const double touches = static_cast<double>(work.members) * work.cells_per_member;
   const double plane_cells = work.planes * work.cells;
-  constexpr double bytes_per_touch = 2.0 * (6 + n_peak_layers * sizeof(float));  // and growing room
-  const double records =
-      std::min(bytes_per_touch * touches, 2.0 * MemberCells::default_memory_bytes);
-  const double passes =
-      std::max(1.0, bytes_per_touch * touches / 2 / (0.75 * MemberCells::default_memory_bytes));
+  constexpr double bytes_per_touch = 6 + n_peak_layers * sizeof(float);
+  constexpr auto most_records = static_cast<double>(MemberCells::default_memory_bytes);
+  const double passes = std::max(1.0, bytes_per_touch * touches / (0.75 * most_records));
   MapCost cost;
   cost.seconds = static_cast<double>(work.members) * speed.seconds_per_member * (1 + passes) +
                  touches * speed.seconds_per_touch + work.planes * speed.seconds_per_plane +
                  plane_cells * speed.seconds_per_plane_cell;
   const double page = std::min(work.cells, static_cast<double>(page_cells)) * work.planes;
-  constexpr double program_bytes = 90e6, bytes_per_page_cell = 6;
-  cost.memory_bytes = program_bytes + records + bytes_per_page_cell * page;
-  constexpr double bytes_per_plane = 20e3, bytes_per_plane_cell = 2 * sizeof(float);
-  cost.disk_bytes = work.planes * bytes_per_plane + bytes_per_plane_cell * plane_cells;
+  constexpr double bytes_per_page_cell = 4;
+  cost.memory_bytes = program_bytes + std::min(bytes_per_touch * touches, most_records) +
+                      bytes_per_page_cell * page;
+  // As compressed as maps are of which a flow covers a third: docs/studies/forecasts.md.
+  constexpr double page_bytes = 550e3, bytes_per_plane = 5.5e3, bytes_per_plane_cell = 1.57,
+                   bytes_per_row = 1e3;
+  cost.disk_bytes = page_bytes + work.planes * bytes_per_plane +
+                    bytes_per_plane_cell * plane_cells +
+                    bytes_per_row * static_cast<double>(work.members);
   return cost;
 }
 

@@ -9,7 +9,7 @@
 
 namespace sturz::workflow {
 
-/// Computing time of one thread of this machine for the parts of making maps.
+/// Computing time on this machine for the parts of making maps.
 struct MapSpeed {
   double seconds_per_member = 0;      ///< opening its file, reading its scalars
   double seconds_per_touch = 0;       ///< one cell of one member: reading, sorting, statistics
@@ -26,10 +26,13 @@ struct MapWork {
 };
 
 struct MapCost {
-  double seconds = 0;       ///< of one thread; the disk's waiting is not in it
+  double seconds = 0;       ///< of computing; the disk's waiting is not in it
   double memory_bytes = 0;  ///< largest at a time, without the terrain
-  double disk_bytes = 0;    ///< of hazard.nc, GeoTIFFs and page together, at most about
+  double disk_bytes = 0;    ///< of hazard.nc, GeoTIFFs, page and tables together
 };
+
+/// What the program and its libraries take, maps and page of hardly any cells included.
+inline constexpr double program_bytes = 148e6;
 
 /// Maps that this scene asks for, bounds included.
 int map_planes(const HazardSpec&);

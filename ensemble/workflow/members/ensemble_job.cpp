@@ -3,7 +3,6 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/members/shards.hpp"
-#include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
@@ -160,9 +159,6 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   observer.folder_ready(job.folder);
   find_work(job, shard, request.retry_failed, observer);
   share_machine(job, request.workers, observer);
-  const auto to_do = static_cast<std::int64_t>(job.to_do.size());
-  for (const std::string& warning : cost_warnings(job.scene, to_do, job.workers * job.threads))
-    observer.warning(warning);
   return job;
 }
 

@@ -6,6 +6,7 @@
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
+#include "ensemble/workflow/forecast/forecast.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/member_summary.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
@@ -48,6 +49,14 @@ std::string warnings_text(const RunStored& stored, const std::vector<std::string
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 
+/// What the description says of long runs may be off by a factor of three: they are tried first.
+void warn_of_cost(Scene& scene, Observer& observer) {
+  constexpr double worth_trying_s = 120;
+  if (scene.description.predicted_seconds < worth_trying_s) return;
+  scene.description.predicted_seconds = forecast(scene, {}).median_s.likely;
+  for (const std::string& warning : cost_warnings(scene, 1, 1)) observer.warning(warning);
+}
+
 }  // namespace
 
 SingleRun prepare_run(const RunRequest& request, Observer& observer) {
@@ -75,7 +84,7 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
   run.manifest.write(run.folder.manifest());
   save_scenario(run.folder, run.scene.medians);
   observer.folder_ready(run.folder);
-  for (const std::string& warning : cost_warnings(run.scene, 1, 1)) observer.warning(warning);
+  warn_of_cost(run.scene, observer);
   return run;
 }
 

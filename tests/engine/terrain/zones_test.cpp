@@ -128,6 +128,23 @@ TEST(ZonesOfTheBed, AColumnFeelsTheFrictionOfItsZone) {
     EXPECT_NEAR(made.state.grains().vx[i], 6 - mu * g * t, 1e-9) << i;
 }
 
+TEST(ZonesOfTheBed, AColumnFeelsTheTurbulenceOfItsZone) {
+  DepthAveragedSettings bases = column_bases({0.2, 0.2, 0.2}, strips());
+  bases.bed[1].turbulent_coefficient = 2000;
+  const double mu = 0.2, u0 = 6;
+  HandMade made =
+      test::columns_on(even_ground(40), one_per_strip, 0.5, {u0, 0, 0}, {}, std::move(bases));
+  advance_to(made, 0.8);
+  const double t = 0.8 - 0.5 * made.state.previous_dt;
+  const double h = made.state.grains().find(fields::thickness)->component[0][1];  // it lies alone
+  const double k = g / (2000 * h), stop = std::sqrt(mu * g / k);
+  const double voellmy = stop * std::tan(std::atan(u0 / stop) - k * stop * t);
+  EXPECT_NEAR(made.state.grains().vx[0], u0 - mu * g * t, 1e-9);
+  // Before the first step the thickness is the 0.5 m that the column was set down with.
+  EXPECT_NEAR(made.state.grains().vx[1], voellmy, 2e-3 * k * u0 * u0) << "du/dt = -mu g - k u^2";
+  EXPECT_GT(made.state.grains().vx[2] - made.state.grains().vx[1], 0.5);
+}
+
 TEST(ZonesOfTheBed, AColumnChangesZonesOnItsWayAndBeyondThePeriod) {
   HandMade made = test::columns_on(even_ground(40), {{9, 0, 0}}, 0.5, {6, 0, 0}, repeating(),
                                    column_bases({0.2, 0.6}, rough_west));

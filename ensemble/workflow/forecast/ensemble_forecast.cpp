@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/forecast/ensemble_forecast.hpp"
+
+#include "ensemble/workflow/cost_warnings.hpp"
+#include "ensemble/workflow/machine/map_cost.hpp"
+
+namespace sturz::workflow {
+namespace {
+
+/// A trial takes about a second of each of these [s].
+constexpr double worth_trying_s = 10;
+
+/// Without a look at the scene; a member's own files and processes take their time however small
+/// it is.
+double rough_seconds(const EnsembleJob& job) {
+  constexpr double least_member_s = 0.02, least_map_s = 0.03, opening_s = 0.003;
+  return static_cast<double>(job.to_do.size()) *
+             (job.scene.description.predicted_seconds + least_member_s) / job.workers +
+         static_cast<double>(job.design.n_members()) * opening_s +
+         map_planes(job.scene.scenario.hazard) * least_map_s;
+}
+
+}  // namespace
+
+std::optional<Forecast> forecast_of(EnsembleJob& job, const SpeedCache& cache, double start_s,
+                                    Observer& observer, CancelFlag cancel) {
+  if (job.to_do.empty() || rough_seconds(job) < worth_trying_s) return std::nullopt;
+  ForecastRequest request;
+  request.design = &job.design;
+  request.members = static_cast<std::int64_t>(job.to_do.size());
+  request.workers = job.workers;
+  request.speed_cache = cache;
+  request.start_s = start_s;
+  request.cancel = cancel;
+  Forecast f = forecast(job.scene, request);
+  job.scene.description.predicted_seconds = f.member_s.likely;
+  for (const std::string& warning :
+       cost_warnings(job.scene, request.members, job.workers * job.threads, f.maps_s.likely))
+    observer.warning(warning);
+  return f;
+}
+
+}  // namespace sturz::workflow
