@@ -69,11 +69,7 @@ struct Loading {
   void set_release(Raster<double> pattern, ReleasePattern kind) {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
     inputs.pattern = kind;
-  }
-  /// The pattern is the cover itself.
-  void set_cover(Raster<double> cover) {
-    set_release(std::move(cover), ReleasePattern::cover);
-    inputs.release_cover = inputs.release;
+    if (kind == ReleasePattern::cover) inputs.release_cover = inputs.release;
   }
   const Grid& grid() const { return inputs.whole; }
 };
@@ -190,16 +186,13 @@ PolygonRequest polygon_request(const Scenario& scenario) {
 void load_polygon(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   loading.release_label = "release.polygon = " + spec.polygon;
-  const PolygonRequest request = polygon_request(loading.scenario);
-  PolygonRelease read = read_release_polygons(request, loading.grid());
+  PolygonRelease read = read_release_polygons(polygon_request(loading.scenario), loading.grid());
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
-  if (!read.is_thickness) {
-    loading.set_cover(std::move(read.pattern));
-    return note_rasterised(loading, read.area_m2);
-  }
-  loading.set_release(std::move(read.pattern), ReleasePattern::thickness);
+  loading.set_release(std::move(read.pattern),
+                      read.is_thickness ? ReleasePattern::thickness : ReleasePattern::cover);
+  if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
   loading.inputs.release_cover = std::make_shared<const Raster<double>>(std::move(read.cover));
   loading.inputs.notes.push_back(
       fmt::format("{}: area {:.9g} m2, area x {} {:.9g} m3, on the terrain's cells {:.9g} m3",
@@ -236,10 +229,9 @@ void load_shape(Loading& loading, const Shape& shape, const char* key) {
   loading.release_label = key;
   ShapeCover read = cover_of(shape, loading.grid());
   loading.inputs.source_area_m2 = read.area_m2;
-  if (read.unit_volume_m3 != read.area_m2)  // a dome covers every cell that holds some of it
-    return loading.set_release(std::move(read.cover), ReleasePattern::cover);
-  loading.set_cover(std::move(read.cover));
-  note_rasterised(loading, read.area_m2);
+  loading.set_release(std::move(read.cover), ReleasePattern::cover);
+  if (read.unit_volume_m3 == read.area_m2) return note_rasterised(loading, read.area_m2);
+  loading.inputs.release_cover.reset();  // a dome covers every cell that holds some of it
 }
 
 void load_synthetic_source(Loading& loading) {
