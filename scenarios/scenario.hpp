@@ -179,7 +179,7 @@ struct ErosionSpec {
   std::string crs;                        ///< where polygon or raster has none
   std::optional<Uncertain> bed_density_kg_m3;  ///< bulk; absent: the flow's own
   std::optional<Uncertain> growth_rate_per_m;  ///< E_s of `exponential`
-  std::optional<Uncertain> rate_m_s;       ///< of `shear_stress`, as are the next two
+  std::optional<Uncertain> rate_m_s;           ///< of `shear_stress`, as are the next two
   std::optional<Uncertain> depth_per_stress_m_per_kpa, critical_stress_kpa;
   /// Of `momentum_jump`: what the bed itself resists with. The pressure is also what a bed brings
   /// into a mixture; hydrostatic when absent.

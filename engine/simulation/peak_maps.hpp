@@ -69,6 +69,10 @@ class PeakMaps {
   const LayerCount& layers() const { return layers_; }
 
  private:
+  /// Where this much of a cell lies under particles, it is reached: a half, less what rounding may
+  /// take from it.
+  static constexpr float enough_under = 0.4998F;
+
   /// Over the whole map.
   struct Totals {
     std::size_t reached = 0, covered = 0;  ///< cells

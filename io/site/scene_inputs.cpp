@@ -10,8 +10,8 @@
 #include "io/site/bed/bed_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "io/site/observed/observed_outline.hpp"
-#include "io/site/release_hash.hpp"
 #include "io/site/release/release_requests.hpp"
+#include "io/site/release_hash.hpp"
 #include "io/site/release_shapes.hpp"
 #include "io/site/stand_in_crs.hpp"
 #include "io/site/terrain_request.hpp"
@@ -69,11 +69,7 @@ struct Loading {
   void set_release(Raster<double> pattern, ReleasePattern kind) {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
     inputs.pattern = kind;
-  }
-  /// The pattern is the cover itself.
-  void set_cover(Raster<double> cover) {
-    set_release(std::move(cover), ReleasePattern::cover);
-    inputs.release_cover = inputs.release;
+    if (kind == ReleasePattern::cover) inputs.release_cover = inputs.release;
   }
   const Grid& grid() const { return inputs.whole; }
 };
@@ -178,16 +174,14 @@ void note_rasterised(Loading& loading, double exact_m2) {
 void load_polygon(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   loading.release_label = "release.polygon = " + spec.polygon;
-  const PolygonRequest request = release_polygon_request(loading.scenario);
-  PolygonRelease read = read_release_polygons(request, loading.grid());
+  PolygonRelease read =
+      read_release_polygons(release_polygon_request(loading.scenario), loading.grid());
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
-  if (!read.is_thickness) {
-    loading.set_cover(std::move(read.pattern));
-    return note_rasterised(loading, read.area_m2);
-  }
-  loading.set_release(std::move(read.pattern), ReleasePattern::thickness);
+  loading.set_release(std::move(read.pattern),
+                      read.is_thickness ? ReleasePattern::thickness : ReleasePattern::cover);
+  if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
   loading.inputs.release_cover = std::make_shared<const Raster<double>>(std::move(read.cover));
   loading.inputs.notes.push_back(
       fmt::format("{}: area {:.9g} m2, area x {} {:.9g} m3, on the terrain's cells {:.9g} m3",
@@ -211,10 +205,9 @@ void load_shape(Loading& loading, const Shape& shape, const char* key) {
   loading.release_label = key;
   ShapeCover read = cover_of(shape, loading.grid());
   loading.inputs.source_area_m2 = read.area_m2;
-  if (read.unit_volume_m3 != read.area_m2)  // a dome covers every cell that holds some of it
-    return loading.set_release(std::move(read.cover), ReleasePattern::cover);
-  loading.set_cover(std::move(read.cover));
-  note_rasterised(loading, read.area_m2);
+  loading.set_release(std::move(read.cover), ReleasePattern::cover);
+  if (read.unit_volume_m3 == read.area_m2) return note_rasterised(loading, read.area_m2);
+  loading.inputs.release_cover.reset();  // a dome covers every cell that holds some of it
 }
 
 void load_synthetic_source(Loading& loading) {

@@ -49,8 +49,8 @@ class Check {
   void laws() {
     using enum ErosionLaw;
     belongs("erosion.growth_rate_per_m", exponential);
-    for (const char* path : {"erosion.rate_m_s", "erosion.depth_per_stress_m_per_kpa",
-                             "erosion.critical_stress_kpa"})
+    for (const char* path :
+         {"erosion.rate_m_s", "erosion.depth_per_stress_m_per_kpa", "erosion.critical_stress_kpa"})
       belongs(path, shear_stress);
     belongs("erosion.bed_friction_coefficient", momentum_jump);
     if (!s_.mixture) belongs("erosion.bed_pore_pressure_ratio", momentum_jump);
