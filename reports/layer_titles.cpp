@@ -25,6 +25,8 @@ std::string title(Quantity q) {
       return "Deposit thickness";
     case Quantity::left:
       return "Mass past the terrain's edge";
+    case Quantity::eroded:
+      return "Eroded depth";
     case Quantity::intensity:
       return "Intensity";
     case Quantity::members:
@@ -75,7 +77,7 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
       return what + ", mean of members";
     case Statistic::peak:
       return meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::deposit ||
-                     meaning.quantity == Quantity::left
+                     meaning.quantity == Quantity::left || meaning.quantity == Quantity::eroded
                  ? what
                  : "Peak " + lower;
     default:

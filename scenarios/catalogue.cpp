@@ -36,6 +36,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
       {"cliff", [] { return cliff(); }},
       {"thin_sheet", [] { return thin_sheet(); }},
       {"ramp_slide", [] { return ramp_slide(); }},
+      {"wet_ramp", [] { return wet_ramp(); }},
       {"bagnold_slab", [] { return bagnold_slab(); }},
       {"zhangjiawan_small", [] { return zhangjiawan_small(); }},
   };
@@ -143,6 +144,17 @@ Scenario ramp_slide(double azimuth_deg, double spacing_m) {
   s.basal.friction_coefficient = std::tan(20 * degree);
   s.numerics.spacing_m = spacing_m;
   s.numerics.end_time_s = 60;
+  return s;
+}
+
+Scenario wet_ramp(double solid_fraction, double spacing_m) {
+  Scenario s = ramp_slide(90, spacing_m);
+  s.title = "A mixture of grains and water on a slope that runs out on level ground";
+  s.formulation = Formulation::depth_averaged;
+  s.grains->density_kg_m3 = 2700;
+  s.grains->solid_fraction = solid_fraction;
+  s.mixture.emplace().fluid_density_kg_m3 = 1100;
+  s.basal.friction_coefficient = std::tan(36 * degree);
   return s;
 }
 

@@ -40,6 +40,10 @@ Scenario thin_sheet(int layers = 1);
 /// degrees. \param azimuth_deg downhill direction, to test that the grid's axes do not matter
 Scenario ramp_slide(double azimuth_deg = 90, double spacing_m = 3);
 
+/// The mixture of the debris-flow flume of the U.S. Geological Survey on the ground of ramp_slide:
+/// looser than 0.64 it liquefies and runs out, denser it stays on the slope; depth_averaged.
+Scenario wet_ramp(double solid_fraction = 0.62, double spacing_m = 3);
+
 /// V7: a slab 0.1 m thick of glass beads, periodic in x and y, on an even slope with a bed that
 /// holds its lowest layer: a tenth rougher than the slope is steep. Starts at rest.
 /// \param layers  spacings over the thickness

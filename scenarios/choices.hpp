@@ -54,6 +54,13 @@ constexpr bool asks_for_internal_friction(LateralPressure p) {
   return p == LateralPressure::active || p == LateralPressure::active_passive;
 }
 
+/// Pore pressure that a mixture starts with: that of still water, or all of the weight.
+enum class InitialPressure { hydrostatic, liquefied };
+constexpr auto words_of(InitialPressure) {
+  using enum InitialPressure;
+  return std::array{Word{hydrostatic, "hydrostatic"}, Word{liquefied, "liquefied"}};
+}
+
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
 enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {
@@ -66,6 +73,21 @@ enum class IsolatedContactLaw { none, hertz_mindlin };
 constexpr auto words_of(IsolatedContactLaw) {
   using enum IsolatedContactLaw;
   return std::array{Word{none, "none"}, Word{hertz_mindlin, "hertz_mindlin"}};
+}
+
+/// How fast the flow takes its bed along.
+enum class ErosionLaw { exponential, shear_stress, momentum_jump };
+constexpr auto words_of(ErosionLaw) {
+  using enum ErosionLaw;
+  return std::array{Word{exponential, "exponential"}, Word{shear_stress, "shear_stress"},
+                    Word{momentum_jump, "momentum_jump"}};
+}
+
+/// How much bed there is to take: a depth, or as much as the flow can.
+enum class ErosionSupply { limited, unlimited };
+constexpr auto words_of(ErosionSupply) {
+  using enum ErosionSupply;
+  return std::array{Word{limited, "limited"}, Word{unlimited, "unlimited"}};
 }
 
 /// How the uncertain values of an ensemble are drawn; `table` brings its own.

@@ -122,6 +122,23 @@ struct GrainsSpec {
   bool operator==(const GrainsSpec&) const = default;
 };
 
+/// A mixture of grains and water whose pore pressure follows from its shear: depth_averaged only.
+/// Its grains and their share at the start are those of `grains`, its friction angle that of
+/// `basal`.
+struct MixtureSpec {
+  Uncertain fluid_density_kg_m3{1000};
+  Uncertain fluid_viscosity_pa_s{0.005};
+  InitialPressure initial_pressure = InitialPressure::hydrostatic;
+  std::optional<Uncertain> initial_pressure_ratio;  ///< p_b over total normal stress, instead
+  Uncertain critical_solid_fraction{0.64};
+  Uncertain permeability_m2{1e-10};  ///< at `permeability_fraction`
+  Uncertain permeability_fraction{0.6};
+  Uncertain compressibility{0.05};
+  Uncertain stress_offset_pa{1000};
+  Uncertain shear_grain_diameter_m{0.001};
+  bool operator==(const MixtureSpec&) const = default;
+};
+
 /// A part of the ground with values of its own; what it does not give is that of `basal`.
 struct BasalZone {
   std::string polygon;  ///< any OGR polygon layer
@@ -149,6 +166,27 @@ inline std::optional<std::size_t> zone_with_turbulence(const BasalSpec& basal) {
     if (basal.zones[i].turbulent_coefficient_m_s2) return i;
   return std::nullopt;
 }
+
+/// A bed that the flow takes along; depth_averaged only. What a law does not know is not given.
+struct ErosionSpec {
+  ErosionLaw law = ErosionLaw::exponential;
+  ErosionSupply supply = ErosionSupply::limited;
+  std::optional<Uncertain> depth_m;       ///< vertical, everywhere or inside `polygon`
+  std::string polygon;                    ///< any OGR polygon layer: where the bed can be taken
+  std::string layer;                      ///< layer name inside `polygon`; empty: the first
+  std::string depth_raster;               ///< metres, vertical; nodata means zero
+  std::optional<Uncertain> depth_factor;  ///< of `depth_raster`
+  std::string crs;                        ///< where polygon or raster has none
+  std::optional<Uncertain> bed_density_kg_m3;  ///< bulk; absent: the flow's own
+  std::optional<Uncertain> growth_rate_per_m;  ///< E_s of `exponential`
+  std::optional<Uncertain> rate_m_s;           ///< of `shear_stress`, as are the next two
+  std::optional<Uncertain> depth_per_stress_m_per_kpa, critical_stress_kpa;
+  /// Of `momentum_jump`: what the bed itself resists with. The pressure is also what a bed brings
+  /// into a mixture; hydrostatic when absent.
+  std::optional<Uncertain> bed_friction_coefficient, bed_pore_pressure_ratio;
+  std::optional<Uncertain> bed_solid_fraction;  ///< with `mixture`; absent: its critical fraction
+  bool operator==(const ErosionSpec&) const = default;
+};
 
 struct NumericsSpec {
   double spacing_m = 0;              ///< initial particle spacing dx; 0 = not given (an error)
@@ -197,6 +235,7 @@ struct HazardSpec {
   std::vector<double> speed_m_s{1, 5, 10};
   std::vector<double> energy_kj_m2{10, 100, 1000};
   std::vector<double> pressure_kpa{1, 10, 30};
+  std::vector<double> eroded_depth_m{0.1, 0.5, 1, 2};  ///< where the scene has `erosion`
   std::vector<double> quantiles{0.05, 0.5, 0.95};
   std::string observed_polygon;  ///< any OGR polygon layer, drawn over the maps
   std::string observed_note;     ///< what it is, in words
@@ -209,7 +248,9 @@ struct Scenario {
   TerrainSpec terrain;
   ReleaseSpec release;
   std::optional<GrainsSpec> grains;
+  std::optional<MixtureSpec> mixture;  ///< absent: dry, or with basal.pore_pressure_ratio
   BasalSpec basal;
+  std::optional<ErosionSpec> erosion;
   Formulation formulation = Formulation::automatic;
   NumericsSpec numerics;
   DomainSpec domain;

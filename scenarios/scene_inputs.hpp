@@ -29,11 +29,16 @@ struct SceneInputs {
   /// Pattern on cells of the working grid, nothing beyond.
   std::shared_ptr<const Raster<double>> release;
   ReleasePattern pattern = ReleasePattern::cover;
+  /// Share of each cell of `release` that the source covers, 0..1; null: all of every cell > 0.
+  std::shared_ptr<const Raster<double>> release_cover;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
   /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.
   std::shared_ptr<const Terrain> ground, column_ground;
   /// Zone of the bed per held cell: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;
+  /// What can be taken of the bed, on cells of the working grid: share of erosion.depth_m, or depth
+  /// where erosion.depth_raster gives it [m]; nothing beyond. Null: the same everywhere.
+  std::shared_ptr<const Raster<double>> bed_supply;
   /// Rings of hazard.observed_polygon in the terrain's system [m]; empty: none.
   std::vector<std::vector<Vec2>> observed;
   Grid hazard_grid;           ///< the maps' common grid

@@ -12,7 +12,7 @@ namespace sturz {
 ///
 /// Kinetic energy changes only through accounted works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
-///   lost_energy - taken_energy + added_energy + outer_work.
+///   lost_energy - taken_energy + added_energy - entrainment_loss + outer_work.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
@@ -21,6 +21,8 @@ struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
   double added_mass = 0, taken_mass = 0;                     ///< by effects, after the release
   double added_energy = 0, taken_energy = 0;                 ///< kinetic energy that went with it
+  double entrained_mass = 0;    ///< taken up of the bed, at rest until then
+  double entrainment_loss = 0;  ///< of kinetic energy, by mixing with it
   double outer_work = 0;  ///< by what nothing below names: effects such as wind, ground that moves
 
   /// Now. Potential is the accounted change since release: it counts what left as it was when it
@@ -50,6 +52,11 @@ struct Ledger {
   double detachment =
       0;  ///< mass times time on ground that curves away faster than it falls [kg s]
 
+  double released_solids = 0, lost_solids = 0;  ///< grains of a mixture [m^3]
+  double released_water = 0, lost_water = 0;    ///< water in its pores and on it [m^3]
+  /// Elastic energy of pore pressures that their bounds cut off (docs/physics.md F.7).
+  double clipped_work = 0;
+
   /// Sum of m a dt of pair forces alone: zero but for rounding.
   Vec3 stress_impulse{0, 0, 0};
   double stress_impulse_scale = 0;  ///< sum of |m a dt|
@@ -60,7 +67,7 @@ struct Ledger {
   /// Potential energy set free so far, plus what the mass started with [J].
   double released_energy() const { return kinetic_0 + elastic_0 - potential; }
   /// What was released and what came later, for shares of it [kg].
-  double brought_mass() const { return released_mass + added_mass; }
+  double brought_mass() const { return released_mass + added_mass + entrained_mass; }
   /// Energy that shares are taken of [J].
   double available_energy() const { return released_energy() + added_energy; }
   /// Dissipated by artificial viscosity and discretisation.
@@ -75,7 +82,8 @@ struct Ledger {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +
            rest_damping + damping() + rotational + isolated_elastic + isolated_dissipated() +
-           numerical() - diffusion + lost_energy + taken_energy - added_energy - outer_work;
+           numerical() - diffusion + lost_energy + taken_energy - added_energy + entrainment_loss -
+           outer_work;
   }
 };
 
@@ -97,7 +105,11 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
                                &Ledger::isolated_work,    &Ledger::rotational,
                                &Ledger::isolated_elastic, &Ledger::friction,
                                &Ledger::rest_damping,     &Ledger::lost_energy,
-                               &Ledger::detachment,       &Ledger::stress_impulse_scale};
+                               &Ledger::detachment,       &Ledger::stress_impulse_scale,
+                               &Ledger::released_solids,  &Ledger::lost_solids,
+                               &Ledger::released_water,   &Ledger::lost_water,
+                               &Ledger::clipped_work,     &Ledger::entrained_mass,
+                               &Ledger::entrainment_loss};
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));
   for (const Entry entry : entries) this->*entry += other.*entry;

@@ -50,6 +50,9 @@ enum class Membership : std::uint8_t {
 inline constexpr FieldKey thickness{"thickness", 1, "m", "column pressure"};
 /// Support radius of a column's smoothing.
 inline constexpr FieldKey support_radius{"support_radius", 1, "m", "column pressure"};
+/// Map area that a column stands for over what `column_area` says of it: as it was released, the
+/// part of its lattice cell that the source covers; kept from then on.
+inline constexpr FieldKey area_share{"area_share", 1, "1", "column pressure", 1.0};
 /// Normal reaction of the ground per mass.
 inline constexpr FieldKey normal_gravity{"normal_gravity", 1, "m s-2", "column pressure"};
 /// Momentum per mass of curvature met and not yet borne by the ground.
@@ -59,5 +62,23 @@ inline constexpr FieldKey centripetal_momentum{"centripetal_momentum", 1, "m s-1
 inline constexpr FieldKey ground{"ground", 5, "mixed", "column pressure"};
 /// Lateral over normal stress.
 inline constexpr FieldKey earth_pressure{"earth_pressure", 1, "1", "column pressure", 1.0};
+
+// Mixture of grains and pore fluid in columns (columns/mixture.hpp).
+/// Volumes of grains and of water in a column, both constant.
+inline constexpr FieldKey solids_volume{"solids_volume", 1, "m3", "pore pressure"};
+inline constexpr FieldKey water_volume{"water_volume", 1, "m3", "pore pressure"};
+/// Of the mixture, without the film of water on it.
+inline constexpr FieldKey solid_fraction{"solid_fraction", 1, "1", "pore pressure"};
+/// At the base, over that of still water: what a column carries along.
+inline constexpr FieldKey excess_pressure{"excess_pressure", 1, "Pa", "pore pressure"};
+/// At the base: excess and still water at the last kick.
+inline constexpr FieldKey pore_pressure{"pore_pressure", 1, "Pa", "pore pressure"};
+/// Normal gravity that the excess was last brought to; negative until the first step has
+/// found the thickness.
+inline constexpr FieldKey pore_gravity{"pore_gravity", 1, "m s-2", "pore pressure", -1.0};
+
+// Of a bed that the flow takes along (erosion/).
+/// Part of a column's mass that was bed.
+inline constexpr FieldKey entrained_mass{"entrained_mass", 1, "kg", "erosion"};
 
 }  // namespace sturz::fields

@@ -77,6 +77,9 @@ struct MovingSet : ParticleSet {
   /// What wrapping into the periods took off each particle's map position, by id [m]; empty where
   /// nothing is periodic.
   std::vector<double> wrapped_x, wrapped_y;
+  /// What mass that a particle took up on its way takes off the mean travel of its mass, by id [m];
+  /// empty where none is taken up.
+  std::vector<double> lag_x, lag_y;
   std::vector<Departure> departures;  ///< in the order in which they left
   bool order_changed = true;          ///< particles were added, removed or moved by force
   /// Particles [0, n_listed) are grains of the continuum, the rest isolated ones in flight. Up to

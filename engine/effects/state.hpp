@@ -5,10 +5,12 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/domain.hpp"
 #include "engine/effects/moving_set.hpp"
+#include "engine/terrain/bed_supply.hpp"
 #include "engine/terrain/terrain.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct State {
   /// Grains first. Passes know their set by its index here; no set is added after assembly.
   std::vector<MovingSet> sets = std::vector<MovingSet>(1);
   Terrain terrain;
+  std::optional<BedSupply> bed_supply;  ///< where the flow takes its bed along
   Domain domain;
   double gravity = standard_gravity;  ///< along -z [m/s^2]
   double time = 0;                    ///< [s]

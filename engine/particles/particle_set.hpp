@@ -17,7 +17,7 @@ namespace sturz {
 struct ParticleSet {
   std::vector<double> x, y, z;     ///< position [m], map coordinates
   std::vector<double> vx, vy, vz;  ///< velocity at the last half step [m/s]
-  std::vector<double> mass;        ///< [kg], constant
+  std::vector<double> mass;        ///< [kg]; constant where no bed is taken along
   std::vector<std::uint32_t> id;   ///< stable number of a particle, 0..n_created()-1
 
   std::size_t size() const { return x.size(); }

@@ -76,6 +76,7 @@ class ParticleWriter {
       out_.mass.push_back(mass);
       out_.depth.push_back(std::max(0.0, bed_.height(p.x(), p.y()) + c.thickness_m - p.z()));
       out_.thickness.push_back(c.thickness_m);
+      out_.covered.push_back(c.covered);
     }
   }
 
@@ -89,6 +90,7 @@ class ParticleWriter {
                         settings_.spacing_m);
     out_.depth.push_back(0.5 * c.thickness_m);
     out_.thickness.push_back(c.thickness_m);
+    out_.covered.push_back(c.covered);
   }
 
   /// A jittered point above the bed, counted by its index on the lattice so that the same particle
@@ -154,7 +156,7 @@ void scale_to(double total, std::vector<double>& mass) {
 }  // namespace
 
 Release release_particles(const Terrain& bed, const Raster<double>& thickness,
-                          const ReleaseSettings& s) {
+                          const ReleaseSettings& s, const Raster<double>* cover) {
   require(s.spacing_m > 0 && std::isfinite(s.spacing_m) && s.bulk_density_kg_m3 > 0,
           "release: spacing and bulk density must be positive (they give a particle its volume). "
           "Check numerics.spacing_m and the grains' density.");
@@ -162,7 +164,7 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
       s.jitter >= 0 && s.jitter < 0.5,
       "release: the jitter must be in 0..0.5 spacings (more would swap lattice positions). Check "
       "numerics.jitter.");
-  const ReleaseColumns columns = release_columns(thickness, s.spacing_m);
+  const ReleaseColumns columns = release_columns(thickness, s.spacing_m, cover);
   Release out;
   out.volume_m3 = columns.volume_m3;
   out.area_m2 = columns.area_m2;
@@ -187,7 +189,7 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
           "release: more than 2e9 particles (particles are numbered with 32 "
           "bits). Choose a larger numerics.spacing_m.");
   out.dropped_fraction = dropped.value() / (dropped.value() + all.value());
-  for (auto* column : {&out.x, &out.y, &out.z, &out.mass, &out.depth, &out.thickness})
+  for (auto* column : {&out.x, &out.y, &out.z, &out.mass, &out.depth, &out.thickness, &out.covered})
     column->reserve(n);
   ParticleWriter writer(bed, s, out);
   for (const auto& c : columns.columns)

@@ -24,10 +24,12 @@ struct Release {
   std::vector<double> mass;     ///< [kg]
   std::vector<double> depth;    ///< vertical distance below the free surface [m]
   std::vector<double>
-      thickness;         ///< vertical, of the lattice cell that the particle belongs to [m]
-  double volume_m3 = 0;  ///< bulk volume of the pattern on its raster
-  double area_m2 = 0;    ///< plan area with thickness > 0
-  double layers = 0;     ///< volume-weighted median of vertical thickness / spacing
+      thickness;  ///< vertical, of the lattice cell that the particle belongs to [m]
+  /// Share of that lattice cell that the source covers, 0..1.
+  std::vector<double> covered;
+  double volume_m3 = 0;           ///< bulk volume of the pattern on its raster
+  double area_m2 = 0;             ///< plan area with thickness > 0
+  double layers = 0;              ///< volume-weighted median of vertical thickness / spacing
   double median_thickness_m = 0;  ///< volume-weighted
   double max_thickness_m = 0;
   /// Highest point of the surface of the mass: cell centre of the thickness raster, bed plus
@@ -40,8 +42,9 @@ struct Release {
 
 /// Fills bed .. bed + thickness. Sum of masses = bulk density x raster volume to round-off.
 /// \param thickness vertical [m] on any grid; NaN and <= 0 count as nothing
+/// \param cover share of each of its cells that the source covers; null: see release_columns
 /// \throws SetupError when there is no mass or a column lies outside the terrain
 Release release_particles(const Terrain& bed, const Raster<double>& thickness,
-                          const ReleaseSettings&);
+                          const ReleaseSettings&, const Raster<double>* cover = nullptr);
 
 }  // namespace sturz

@@ -55,7 +55,8 @@ CellExtent survey(const Raster<double>& thickness, ReleaseColumns& out) {
 
 }  // namespace
 
-ReleaseColumns release_columns(const Raster<double>& thickness, double spacing_m) {
+ReleaseColumns release_columns(const Raster<double>& thickness, double spacing_m,
+                               const Raster<double>* cover) {
   expect(thickness.values.size() == thickness.grid.n_cells(), "a raster has one value per cell");
   ReleaseColumns out;
   const CellExtent e = out.cells = survey(thickness, out);
@@ -76,25 +77,30 @@ ReleaseColumns release_columns(const Raster<double>& thickness, double spacing_m
               " m makes more than 5e8 columns (memory). Is numerics.spacing_m in metres?");
 
   const std::size_t width = static_cast<std::size_t>(x1 - x0 + 1);
-  std::vector<double> volume(static_cast<std::size_t>(n_lattice), 0.0);
+  expect(!cover || cover->values.size() == thickness.values.size(), "cover is on the same grid");
+  std::vector<double> volume(static_cast<std::size_t>(n_lattice), 0.0), area = volume;
   const double cell_area = g.cell_m * g.cell_m;
   for (int r = e.row0; r <= e.row1; ++r) {
     const Overlap& oy = down[r - e.row0];
     for (int c = e.col0; c <= e.col1; ++c) {
       const double h = thickness.at(r, c);
       if (!(h > 0)) continue;
+      const double covered = cover ? std::clamp(cover->at(r, c), 0.0, 1.0) : 1.0;
       const Overlap& ox = across[c - e.col0];
       for (std::size_t j = 0; j < oy.share.size(); ++j)
-        for (std::size_t i = 0; i < ox.share.size(); ++i)
-          volume[(y1 - (oy.first + j)) * width + (ox.first - x0 + i)] +=
-              h * cell_area * oy.share[j] * ox.share[i];
+        for (std::size_t i = 0; i < ox.share.size(); ++i) {
+          const std::size_t k = (y1 - (oy.first + j)) * width + (ox.first - x0 + i);
+          volume[k] += h * cell_area * oy.share[j] * ox.share[i];
+          area[k] += covered * cell_area * oy.share[j] * ox.share[i];
+        }
     }
   }
   const double column_area = spacing_m * spacing_m;
   for (std::size_t k = 0; k < volume.size(); ++k)
     if (volume[k] > 0)
       out.columns.push_back({x0 + static_cast<std::int64_t>(k % width),
-                             y1 - static_cast<std::int64_t>(k / width), volume[k] / column_area});
+                             y1 - static_cast<std::int64_t>(k / width), volume[k] / column_area,
+                             std::min(1.0, area[k] / column_area)});
   return out;
 }
 

@@ -14,6 +14,7 @@ namespace sturz {
 struct ReleaseColumn {
   std::int64_t lattice_x = 0, lattice_y = 0;
   double thickness_m = 0;  ///< volume of the raster over the column / spacing^2, vertical
+  double covered = 0;      ///< share of the column's lattice cell that the source covers, 0..1
 };
 
 /// Rows and columns of a raster, ends included.
@@ -30,8 +31,11 @@ struct ReleaseColumns {
 };
 
 /// \param thickness vertical [m]; NaN and <= 0 count as nothing
+/// \param cover share of each cell of `thickness` that the source covers, on the same grid; null:
+///              all of every cell that is thicker than zero
 /// \throws SetupError when nothing is thicker than zero, a value is infinite, or the lattice is
 ///         too fine to be meant
-ReleaseColumns release_columns(const Raster<double>& thickness, double spacing_m);
+ReleaseColumns release_columns(const Raster<double>& thickness, double spacing_m,
+                               const Raster<double>* cover = nullptr);
 
 }  // namespace sturz

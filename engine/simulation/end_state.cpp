@@ -2,6 +2,7 @@
 #include "engine/simulation/end_state.hpp"
 
 #include "engine/core/constants.hpp"
+#include "engine/core/sum.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,11 +32,12 @@ struct EndSums {
   double present = 0, mx = 0, my = 0, fast = 0;  // of what is there, on the map
   double front2 = 0, lowest = std::numeric_limits<double>::infinity();
 
-  void add_travel(double m, double dx, double dy, double z) {
+  /// \param d of the particle, \param mean of its mass, which is less where it took some up
+  void add_travel(double m, const Vec2& d, const Vec2& mean, double z) {
     mass += m;
-    mdx += m * dx;
-    mdy += m * dy;
-    front2 = std::max(front2, dx * dx + dy * dy);
+    mdx += m * mean.x();
+    mdy += m * mean.y();
+    front2 = std::max(front2, d.x() * d.x() + d.y() * d.y());
     lowest = std::min(lowest, z);
   }
 };
@@ -46,10 +48,13 @@ void add_set(const MovingSet& p, double fast, EndSums& sums) {
     return Vec2(x - p.start_x[id] + (wraps ? p.wrapped_x[id] : 0),
                 y - p.start_y[id] + (wraps ? p.wrapped_y[id] : 0));
   };
+  const auto mean = [&](std::uint32_t id, const Vec2& d) {
+    return p.lag_x.empty() ? d : Vec2(d - Vec2(p.lag_x[id], p.lag_y[id]));
+  };
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double m = p.mass[i];
     const Vec2 d = travel(p.id[i], p.x[i], p.y[i]);
-    sums.add_travel(m, d.x(), d.y(), p.z[i]);
+    sums.add_travel(m, d, mean(p.id[i], d), p.z[i]);
     sums.present += m;
     sums.mx += m * p.x[i];
     sums.my += m * p.y[i];
@@ -57,7 +62,7 @@ void add_set(const MovingSet& p, double fast, EndSums& sums) {
   }
   for (const Departure& gone : p.departures) {
     const Vec2 d = travel(gone.id, gone.x, gone.y);
-    sums.add_travel(gone.mass, d.x(), d.y(), gone.z);
+    sums.add_travel(gone.mass, d, mean(gone.id, d), gone.z);
   }
 }
 
@@ -76,6 +81,13 @@ void write_travel(const State& s, const ReleaseFacts& release, MemberScalars& m)
   m.end_moving_fraction = sums.fast / ledger.brought_mass();
   m.deposit_com_x_m = sums.present > 0 ? sums.mx / sums.present : nan_d;
   m.deposit_com_y_m = sums.present > 0 ? sums.my / sums.present : nan_d;
+}
+
+double mass_on_terrain(const State& s) {
+  Sum total;
+  for (const MovingSet& set : s.sets)
+    for (double m : set.mass) total.add(m);
+  return total.value();
 }
 
 std::vector<Vec2> places_left(const State& s) {

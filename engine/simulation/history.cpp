@@ -37,6 +37,13 @@ constexpr std::array columns{
                   temperature, &R::mean_granular_temperature_m2_s2},
     HistoryColumn{"max_granular_temperature", "m2 s-2", "largest granular temperature", temperature,
                   &R::max_granular_temperature_m2_s2},
+    HistoryColumn{"mean_solid_fraction", "1", "mean solid fraction of the mixture", mixture,
+                  &R::mean_solid_fraction},
+    HistoryColumn{"mean_pore_pressure_ratio", "1",
+                  "mean basal pore pressure over total normal stress", mixture,
+                  &R::mean_pore_pressure_ratio},
+    HistoryColumn{"film_water", "m3", "water that the mixture has given off and carries", mixture,
+                  &R::film_m3},
 };
 // A column that is added to the row but forgotten here would silently miss from every file.
 static_assert(columns.size() * sizeof(float) == sizeof(HistoryRow));

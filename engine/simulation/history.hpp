@@ -23,10 +23,13 @@ struct HistoryRow {
   float dense = 0, transition = 0, dilute = 0, ultradilute = 0;  ///< shares of the mass present
   float mean_granular_temperature_m2_s2 = 0;                     ///< of the mass present
   float max_granular_temperature_m2_s2 = 0;
+  float mean_solid_fraction = 0;       ///< of a mixture, over its mass
+  float mean_pore_pressure_ratio = 0;  ///< basal pore pressure over total normal stress
+  float film_m3 = 0;                   ///< water that it has given off and carries
 };
 
 /// What a scene must have for a column to mean something.
-enum class HistoryPart { motion, states, temperature };
+enum class HistoryPart { motion, states, temperature, mixture };
 
 struct HistoryColumn {
   const char* name;  ///< of the variable, e.g. "front_travel"
@@ -43,10 +46,20 @@ struct MemberHistory {
   std::vector<HistoryRow> rows;  ///< time rises strictly
   bool has_states = false;       ///< grains.states was asked for
   bool has_temperature = false;  ///< and grains.states.dilute
+  bool has_mixture = false;      ///< mixture was asked for
 
   bool has(HistoryPart part) const {
-    return part == HistoryPart::motion ||
-           (part == HistoryPart::states ? has_states : has_temperature);
+    switch (part) {
+      case HistoryPart::motion:
+        return true;
+      case HistoryPart::states:
+        return has_states;
+      case HistoryPart::temperature:
+        return has_temperature;
+      case HistoryPart::mixture:
+        return has_mixture;
+    }
+    return false;
   }
 };
 

@@ -14,6 +14,7 @@ constexpr std::array<PeakLayerInfo, n_peak_layers> layer_infos{{
     {"deposit_thickness", "vertical thickness at the end", "m", 0},
     {"mass_left", "mass per area that crossed the edge of the known ground, where last seen",
      "kg m-2", 0},
+    {"eroded_depth", "vertical depth of bed that the flow took along", "m", 0},
 }};
 
 using M = MemberScalars;
@@ -111,6 +112,35 @@ constexpr std::array scalar_infos{
                &M::max_granular_temperature_m2_s2},
     ScalarInfo{"granular_ratio", "1", "largest granular temperature / largest speed squared",
                &M::granular_ratio},
+    ScalarInfo{"max_pore_pressure_ratio", "1",
+               "largest mass mean of basal pore pressure / total normal stress; of a mixture",
+               &M::max_pore_pressure_ratio},
+    ScalarInfo{"end_pore_pressure_ratio", "1",
+               "mass mean of basal pore pressure / total normal stress at the end",
+               &M::end_pore_pressure_ratio},
+    ScalarInfo{"end_solid_fraction", "1", "mass mean of the solid fraction of a mixture at the end",
+               &M::end_solid_fraction},
+    ScalarInfo{"end_film_m3", "m3", "water that the mixture has given off and carries at the end",
+               &M::end_film_m3},
+    ScalarInfo{"solids_error", "1", "(kept + lost - released) / released volume of grains",
+               &M::solids_error},
+    ScalarInfo{"water_error", "1",
+               "(kept + lost - released) / released volume of water, in pores and film",
+               &M::water_error},
+    ScalarInfo{"pore_clipped_fraction", "1",
+               "elastic energy of pore pressures beyond their bounds / released energy",
+               &M::pore_clipped_fraction},
+    ScalarInfo{"eroded_volume_m3", "m3", "volume of bed that the flow took along, as it lay",
+               &M::eroded_volume_m3},
+    ScalarInfo{"entrained_mass_kg", "kg", "mass of bed that the flow took up",
+               &M::entrained_mass_kg},
+    ScalarInfo{"volume_growth", "1", "V_f/V_0: (released + entrained) / released mass",
+               &M::volume_growth},
+    ScalarInfo{"max_eroded_depth_m", "m", "largest depth that a cell of the bed was worn by",
+               &M::max_eroded_depth_m},
+    ScalarInfo{"entrainment_loss_fraction", "1",
+               "kinetic energy that mixing with the bed took / released energy",
+               &M::entrainment_loss_fraction},
 };
 // A scalar that is added to the struct but forgotten here would silently miss from every file.
 static_assert(scalar_infos.size() * sizeof(double) == sizeof(MemberScalars));

@@ -8,6 +8,7 @@
 #include "engine/terrain/raster.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,8 +19,8 @@ namespace sturz {
 
 /// Per-cell results of a member. Peaks are maxima over time of each product at one instant
 /// (never max(h) max(v)^2).
-enum class PeakLayer { thickness, speed, energy, pressure, arrival, deposit, left };
-inline constexpr int n_peak_layers = 7;
+enum class PeakLayer { thickness, speed, energy, pressure, arrival, deposit, left, eroded };
+inline constexpr int n_peak_layers = 8;
 
 struct PeakLayerInfo {
   const char* name;  ///< variable name, e.g. "peak_thickness"
@@ -28,11 +29,6 @@ struct PeakLayerInfo {
   float untouched;    ///< value of a cell that the flow never reached: 0, arrival NaN
 };
 const PeakLayerInfo& info(PeakLayer);
-/// Whether a member so censored has this layer: `left` is kept only where mass left.
-inline bool is_kept(PeakLayer layer, Censoring censoring) {
-  return layer != PeakLayer::left || has_left(censoring);
-}
-
 /// One number per member. Units are in the names; see scalar_table() for descriptions.
 struct MemberScalars {
   double runout_m = 0;  ///< horizontal distance, release's centre of mass to farthest reached cell
@@ -89,7 +85,28 @@ struct MemberScalars {
   double ultradilute_fraction = 0;  ///< the same
   double max_granular_temperature_m2_s2 = 0;
   double granular_ratio = 0;  ///< that over max_speed_m_s squared
+  // Of a mixture; NaN without one.
+  double max_pore_pressure_ratio = 0;  ///< of its mass mean over time
+  double end_pore_pressure_ratio = 0;  ///< basal pore pressure / total normal stress, mass mean
+  double end_solid_fraction = 0;       ///< mass mean
+  double end_film_m3 = 0;              ///< water that it has given off and carries
+  double solids_error = 0;             ///< (kept + lost - released) / released volume of grains
+  double water_error = 0;              ///< the same of water, in pores and film
+  double pore_clipped_fraction = 0;    ///< work of pore pressures beyond bounds / released energy
+  // Of a bed that the flow takes along; NaN without one.
+  double eroded_volume_m3 = nan_d;           ///< of the bed, at its own density
+  double entrained_mass_kg = nan_d;          ///< taken up by the flow
+  double volume_growth = nan_d;              ///< (released + entrained) / released mass
+  double max_eroded_depth_m = nan_d;         ///< vertical, of a cell of the ground
+  double entrainment_loss_fraction = nan_d;  ///< kinetic energy lost by mixing / released energy
 };
+
+/// Whether a member has this layer: `left` is kept only where mass left, `eroded` only where the
+/// flow takes its bed along.
+inline bool is_kept(PeakLayer layer, Censoring censoring, const MemberScalars& scalars) {
+  if (layer == PeakLayer::eroded) return !std::isnan(scalars.eroded_volume_m3);
+  return layer != PeakLayer::left || has_left(censoring);
+}
 
 struct ScalarInfo {
   const char* name;
@@ -121,7 +138,7 @@ struct MemberResult {
   NamedSeconds effect_seconds;
   Grid grid;      ///< the whole hazard grid
   Window window;  ///< the part that was touched
-  /// Each [window.n_rows][window.n_cols]; `left` empty where nothing left (is_kept).
+  /// Each [window.n_rows][window.n_cols]; `left` and `eroded` empty where not kept (is_kept).
   std::array<std::vector<float>, n_peak_layers> layers;
 
   std::vector<float>& layer(PeakLayer p) { return layers[static_cast<int>(p)]; }

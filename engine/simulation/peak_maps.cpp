@@ -3,6 +3,8 @@
 
 #include "engine/core/error.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/particles/column_area.hpp"
+#include "engine/simulation/maps/departed_cells.hpp"
 #include "engine/simulation/maps/peak_row.hpp"
 #include "engine/terrain/terrain.hpp"
 
@@ -17,10 +19,10 @@
 namespace sturz {
 namespace {
 
-/// Where particles cover this much of a cell, it is reached.
-constexpr double enough_cover = 0.75;
-/// Half the width of what a particle surely covers, in mean distances. A little less than a half,
-/// for at an edge columns seem farther apart than they are.
+/// Where as much of a cell is covered by what is spread, it is reached too: at the edge of a mass
+/// that is a half, and no cell beyond it may count for being near.
+constexpr float enough_cover = 0.75F;
+/// Half the width of what a particle of no columns surely covers, in spacings.
 constexpr double own_share = 0.4;
 float& sum_of(CellSums& cell, CellSum what) { return cell[static_cast<int>(what)]; }
 
@@ -37,24 +39,6 @@ Window clipped(double row0, double row1, double col0, double col1, const Grid& g
           static_cast<int>(col1 - col0) + 1};
 }
 
-/// The cell of the hazard grid where a particle was last seen; off the grid there is none.
-std::optional<std::pair<int, int>> cell_of(const Departure& gone, const Grid& g) {
-  if (!std::isfinite(gone.x + gone.y)) return std::nullopt;
-  const double row = std::floor((g.north_m - gone.y) / g.cell_m);
-  const double col = std::floor((gone.x - g.west_m) / g.cell_m);
-  if (!(row >= 0 && row < g.n_rows && col >= 0 && col < g.n_cols)) return std::nullopt;
-  return std::pair(static_cast<int>(row), static_cast<int>(col));
-}
-
-/// Window of the cells over whose edge mass left.
-Window window_of_departures(std::span<const MovingSet> sets, const Grid& g) {
-  Window all;
-  for (const MovingSet& set : sets)
-    for (const Departure& gone : set.departures)
-      if (const auto cell = cell_of(gone, g)) all = joined(all, {cell->first, cell->second, 1, 1});
-  return all;
-}
-
 }  // namespace
 
 PeakMaps::PeakMaps(PeakMapSettings settings) : settings_(std::move(settings)) {
@@ -68,6 +52,9 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   w.support_radius = support_radius ? support_radius->component[0].data() : nullptr;
   w.thickness = p.find(fields::thickness);
   w.ground = p.find(fields::ground);
+  const Field* area_share = p.find(fields::area_share);
+  w.area_share = area_share ? area_share->component[0].data() : nullptr;
+  w.spacing = p.spacing;
   w.volume_per_mass = 1 / p.bulk_density;
   double width_m = p.spacing;
   if (support_radius && p.size() > 0) {
@@ -78,12 +65,14 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   return w;
 }
 
-double PeakMaps::Width::area(std::size_t i, double mass, double distance) const {
-  const double square = distance * distance;
-  if (!thickness || !ground) return square;
-  const double h = thickness->component[0][i];
-  const Vec3 n = upward_normal(ground->component[0][i], ground->component[1][i]);
-  return h > 0 ? std::max(square, mass * volume_per_mass * n.z() / h) : square;
+double PeakMaps::Width::area(std::size_t i, double mass) const {
+  if (!support_radius) return spacing * spacing;
+  const double h = thickness ? thickness->component[0][i] : 0;
+  const double east = ground ? ground->component[0][i] : 0;
+  const double north = ground ? ground->component[1][i] : 0;
+  const double upright = ground ? 1 / std::sqrt(1 + east * east + north * north) : 1;
+  const double area = column_area(support_radius[i], upright, mass * volume_per_mass, h);
+  return area_share ? area * area_share[i] : area;
 }
 
 /// Widths of all sets, and the cells that they can touch.
@@ -168,27 +157,13 @@ void PeakMaps::add_one(const CellSums& whole) {
   }
 }
 
-/// Covers the cells whose centre lies under the particle itself, and the one that it is in.
-void PeakMaps::cover_own(double x, double y, double half_width) {
-  const Grid& g = settings_.grid;
-  const int row0 = std::max(0, static_cast<int>(std::ceil(y - half_width)));
-  const int col0 = std::max(0, static_cast<int>(std::ceil(x - half_width)));
-  const int row1 = std::min(g.n_rows, static_cast<int>(std::ceil(y + half_width)));
-  const int col1 = std::min(g.n_cols, static_cast<int>(std::ceil(x + half_width)));
-  constexpr int edge = SumTiles::edge;
-  for (int row = row0; row < row1; ++row)
-    for (int col = col0; col < col1; ++col)
-      sum_of(sums_.cells(sums_.slot_at(row / edge, col / edge))[row % edge * edge + col % edge],
-             CellSum::coverage) += static_cast<float>(enough_cover);
-}
-
 void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
   const Grid& g = settings_.grid;
   const Width& widest = widths_[set];
   const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
-  const double distance_per_radius = settings_.width_per_radius / 1.5;
   const double volume_per_mass = 1 / p.bulk_density, in_first = set == 0 ? 1 : 0;
-  double width = widest.cells, distance = p.spacing;
+  const double half_width = std::max(0.5, own_share * p.spacing * per_cell);
+  double width = widest.cells;
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double x = (p.x[i] - g.west_m) * per_cell - 0.5;
     const double y = (g.north_m - p.y[i]) * per_cell - 0.5;
@@ -196,18 +171,19 @@ void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
     const double v2 = vx * vx + vy * vy + vz * vz;
     if (!(x > -far && x < g.n_cols + far && y > -far && y < g.n_rows + far) || !std::isfinite(v2))
       continue;
-    if (widest.support_radius) {
-      distance = distance_per_radius * widest.support_radius[i];
+    if (widest.support_radius)
       width = cells_wide(settings_.width_per_radius * widest.support_radius[i], g.cell_m);
-    }
     across_.set(x, width);
     down_.set(y, width);
-    const double area = widest.area(i, mass, distance) * per_cell * per_cell;
+    const double area = widest.area(i, mass) * per_cell * per_cell;
     const Eigen::Array<double, n_cell_sums, 1> whole{
         mass * volume_per_mass, mass, mass * vx,      mass * vy, mass * vz,
         0.5 * mass * v2,        area, mass * in_first};
     add_one(whole.cast<float>());
-    cover_own(x, y, std::max(0.5, own_share * distance * per_cell));
+    if (widest.support_radius)
+      cover_square(x, y, std::sqrt(area));
+    else
+      cover_cell_of(x, y, half_width);
   }
 }
 
@@ -221,11 +197,12 @@ void PeakMaps::keep_peaks(double time_s) {
   PeakRow row;
   row.time_s = static_cast<float>(time_s);
   row.runout_limit_m = static_cast<float>(settings_.runout_limit_m);
-  row.enough_cover = static_cast<float>(enough_cover);
+  row.enough_cover = enough_cover, row.enough_under = enough_under;
   row.per_area = static_cast<float>(1 / (settings_.grid.cell_m * settings_.grid.cell_m));
-  row.has_three = n_records_ >= 2;
-  if (time_s > last_s_) row.newer_s = static_cast<float>(time_s - last_s_);
-  if (last_s_ > before_s_) row.older_s = static_cast<float>(last_s_ - before_s_);
+  if (n_records_ >= 2)
+    row.set_intervals(time_s > last_s_ ? static_cast<float>(time_s - last_s_) : 1,
+                      last_s_ > before_s_ ? static_cast<float>(last_s_ - before_s_) : 1);
+  row.is_odd = n_records_ % 2 != 0;
   ++n_records_;
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot) {
     const SumTiles::Open& open = sums_.tiles()[slot];
@@ -236,7 +213,8 @@ void PeakMaps::keep_peaks(double time_s) {
     peaks.rows_seen |= open.rows;
     for (unsigned rows = peaks.rows_seen; rows != 0; rows &= rows - 1) {
       const int first = std::countr_zero(rows) * edge;
-      row.keep(sums_.cells(slot) + first, static_cast<std::size_t>(first), peaks);
+      row.keep(sums_.cells(slot) + first, sums_.under(slot) + first,
+               static_cast<std::size_t>(first), peaks);
     }
   }
   before_s_ = last_s_, last_s_ = time_s;
@@ -249,6 +227,10 @@ void PeakMaps::count_layers(std::span<const MovingSet> sets) {
   histogram_.clear();
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot)
     for (int k = 0; k < SumTiles::n_cells; ++k) {
+      if (!(sums_.tiles()[slot].rows >> k / SumTiles::edge & 1U)) {
+        k += SumTiles::edge - 1;
+        continue;
+      }
       CellSums& cell = sums_.cells(slot)[k];
       const double mass = sum_of(cell, CellSum::mass), first = sum_of(cell, CellSum::first_mass);
       if (mass == 0) continue;
@@ -280,7 +262,8 @@ void PeakMaps::keep_deposit() {
       const float thickness = sum_of(cell, CellSum::volume) * per_area;
       peaks.deposit[k] = thickness;
       peaks.covered[k] =
-          thickness > settings_.runout_limit_m && sum_of(cell, CellSum::coverage) >= enough_cover;
+          thickness > settings_.runout_limit_m &&
+          (sum_of(cell, CellSum::coverage) >= enough_cover || sums_.under(slot)[k] >= enough_under);
       peaks.thickness[k] = std::max(peaks.thickness[k], thickness);
     }
   }

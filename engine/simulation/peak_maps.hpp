@@ -28,11 +28,12 @@ struct PeakMapSettings {
 /// product at one instant.
 ///
 /// A cell is reached, and covered by the deposit, where the thickness passes the runout limit and
-/// particles cover it: the map areas that they stand for, spread alike, add up to three quarters,
-/// or it lies under one particle. Spreading carries mass two mean distances beyond the last
-/// particle; that counts in the layers, which keep volume, and not in areas, arrival and runout, or
-/// a release that never moved would cover twice its area. Three quarters is what the edge of a
-/// region of columns has, whose smoothing takes the half-empty support there for a thinner flow.
+/// half of the cell lies under columns: each covers a square of the map area that it stands for.
+/// Where columns lie unevenly, squares leave gaps: cells also count where those areas, spread as
+/// the mass is, add up to three quarters. Of other particles the cell counts that one lies in.
+/// Spreading carries mass two mean distances beyond the last particle; that counts in the layers,
+/// which keep volume, and not in areas, arrival and runout, or a release that never moved would
+/// cover twice its area.
 ///
 /// What falls on cells beyond the grid is dropped, not pushed in. Time follows the cells that the
 /// particles touch now, memory those that they ever touched; neither the raster nor the rectangle
@@ -47,7 +48,8 @@ class PeakMaps {
   /// At most two sets. \param with_layers  count the layers too; else those of the last time stay
   void record(std::span<const MovingSet>, double time_s, bool with_layers = true);
   /// Writes window, layers (deposit and mass left from `final_state`) and the map scalars (reached
-  /// and deposit area, maxima) into `result`. Record the final state first, as any other instant.
+  /// and deposit area, maxima) into `result`; what was eroded is not theirs. Record the final state
+  /// first, as any other instant.
   void finish(std::span<const MovingSet> final_state, MemberResult& result);
   struct Cell {
     int row = 0, col = 0;
@@ -67,6 +69,10 @@ class PeakMaps {
   const LayerCount& layers() const { return layers_; }
 
  private:
+  /// Where this much of a cell lies under particles, it is reached: a half, less what rounding may
+  /// take from it.
+  static constexpr float enough_under = 0.4998F;
+
   /// Over the whole map.
   struct Totals {
     std::size_t reached = 0, covered = 0;  ///< cells
@@ -78,10 +84,11 @@ class PeakMaps {
     const double* support_radius = nullptr;  ///< of columns, each its own
     const Field* thickness = nullptr;        ///< of columns, normal to the ground
     const Field* ground = nullptr;           ///< slopes below columns
+    const double* area_share = nullptr;      ///< of columns, see fields::area_share
     double volume_per_mass = 0;              ///< [m^3/kg]
-    /// Map area that particle i stands for: the square of the mean distance, or what its volume
-    /// covers at its thickness where columns lie farther apart than they look [m^2].
-    double area(std::size_t i, double mass, double distance) const;
+    double spacing = 1;                      ///< of other particles [m]
+    /// Map area that particle i stands for [m^2].
+    double area(std::size_t i, double mass) const;
   };
   Totals write_layers(MemberResult&) const;
   void write_left(std::span<const MovingSet>, MemberResult&) const;
@@ -89,7 +96,8 @@ class PeakMaps {
   Window cover(const ParticleSet&, const Width&) const;
   Window bounds_of(std::span<const MovingSet>);
   void add_one(const CellSums&);
-  void cover_own(double x, double y, double half_width);
+  void cover_cell_of(double x, double y, double half_width);
+  void cover_square(double x, double y, double side);
   void scatter(std::span<const MovingSet>);
   void scatter_set(const MovingSet&, std::size_t set);
   void keep_peaks(double time_s);

@@ -3,13 +3,14 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/cpu_time.hpp"
-#include "engine/core/hash.hpp"
-#include "engine/core/sum.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/simulation/end_state.hpp"
 #include "engine/simulation/frame_buffers.hpp"
+#include "engine/simulation/maps/erosion_result.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
+#include "engine/simulation/sums/mixture_state.hpp"
+#include "engine/simulation/sums/state_hash.hpp"
 #include "engine/simulation/travel.hpp"
 
 #include <algorithm>
@@ -31,16 +32,6 @@ constexpr std::size_t layers_every = 8;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::uint64_t hash_of(const State& state) {
-  Hash64 hash;
-  for (const MovingSet& p : state.sets) {
-    for (const auto* column : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.mass})
-      hash.add(std::span<const double>(*column));
-    hash.add(std::span<const std::uint32_t>(p.id));
-  }
-  return hash.value();
 }
 
 std::size_t n_created(const State& state) {
@@ -144,6 +135,8 @@ class Run {
   void sample_diagnostics() {
     const State& s = parts_.state;
     now_ = measure(s, each_);
+    mixture_ = mixture_state(s.sets);
+    most_pressure_ratio_ = std::max(most_pressure_ratio_, mixture_.pressure_ratio);
     const StateShares shares = state_shares(s.sets);
     state_times_.add(shares, s.time - sampled_at_);
     if (s.n_particles() > 0 && history_.wants(s.time)) history_.add(history_row(shares));
@@ -182,6 +175,9 @@ class Run {
     row.ultradilute = static_cast<float>(shares.ultradilute);
     row.mean_granular_temperature_m2_s2 = static_cast<float>(shares.mean_theta);
     row.max_granular_temperature_m2_s2 = static_cast<float>(shares.max_theta);
+    row.mean_solid_fraction = static_cast<float>(mixture_.solid_fraction);
+    row.mean_pore_pressure_ratio = static_cast<float>(mixture_.pressure_ratio);
+    row.film_m3 = static_cast<float>(mixture_.film_m3);
     return row;
   }
 
@@ -263,6 +259,7 @@ class Run {
     result_.history.rows.assign(rows.begin(), rows.end());
     result_.history.has_states = any_has(s, fields::state);
     result_.history.has_temperature = any_has(s, fields::granular_temperature);
+    result_.history.has_mixture = any_has(s, fields::solid_fraction);
     result_.scalars.wall_s = seconds_since(start_);
     result_.scalars.cpu_s = team_cpu_seconds(s.threads) - cpu_start_;
     share_out(result_.scalars.wall_s);
@@ -288,6 +285,7 @@ class Run {
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
     m.take_off_fraction = s.time > 0 ? ledger.detachment / (brought * s.time) : 0;
     m.n_particles = static_cast<double>(n_created(s) - removed_before_);
+    if (s.bed_supply) write_erosion(*s.bed_supply, ledger, m);
   }
 
   /// What is averaged over the run's time.
@@ -299,6 +297,7 @@ class Run {
     m.layers_median = s.time > 0 ? median_time_ / s.time : layers.median;
     m.layers_p10 = s.time > 0 ? p10_time_ / s.time : layers.p10;
     state_times_.write(m);
+    write_mixture(mixture_state(s.sets), most_pressure_ratio_, s.ledger(), m);
     double largest_temperature = 0;
     for (const MovingSet& set : s.sets)
       largest_temperature = std::max(largest_temperature, set.largest_granular_temperature);
@@ -314,6 +313,7 @@ class Run {
     const State& s = parts_.state;
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
+    write_eroded_depth(s, result_);
     result_.scalars.runout_m = runout();
     write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
                        places_left(s), result_.grid, result_.scalars);
@@ -355,13 +355,6 @@ class Run {
     return std::sqrt(far2);
   }
 
-  static double mass_on_terrain(const State& s) {
-    Sum total;
-    for (const MovingSet& set : s.sets)
-      for (double m : set.mass) total.add(m);
-    return total.value();
-  }
-
   SimulationParts& parts_;
   const RunControl& control_;
   Clock::time_point start_;
@@ -370,6 +363,8 @@ class Run {
   std::size_t removed_before_;           // particles that a set was cut by before its run
   MemberResult result_;
   Displacement now_;
+  MixtureState mixture_;
+  double most_pressure_ratio_ = 0;
   std::map<std::string, std::size_t> bound_;
   std::size_t most_ = 0;
   bool ended_ = false, at_rest_ = false;

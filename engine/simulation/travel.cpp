@@ -56,7 +56,7 @@ struct Moments {
 };
 
 void add_set(const MovingSet& p, Moments& sums, std::vector<ParticleTravel>& each) {
-  const bool wraps = !p.wrapped_x.empty();
+  const bool wraps = !p.wrapped_x.empty(), grows = !p.lag_x.empty();
   for (std::size_t i = 0; i < p.size(); ++i) {
     double dx = p.x[i] - p.start_x[p.id[i]], dy = p.y[i] - p.start_y[p.id[i]];
     if (wraps) {
@@ -66,8 +66,8 @@ void add_set(const MovingSet& p, Moments& sums, std::vector<ParticleTravel>& eac
     const double v = std::sqrt(p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
     const double displacement2 = dx * dx + dy * dy;
     sums.mass += p.mass[i];
-    sums.mx += p.mass[i] * dx;
-    sums.my += p.mass[i] * dy;
+    sums.mx += p.mass[i] * (grows ? dx - p.lag_x[p.id[i]] : dx);
+    sums.my += p.mass[i] * (grows ? dy - p.lag_y[p.id[i]] : dy);
     sums.momentum += p.mass[i] * v;
     sums.front2 = std::max(sums.front2, displacement2);
     sums.lowest = std::min(sums.lowest, p.z[i]);
@@ -105,7 +105,8 @@ FrontAndTail front_and_tail(std::vector<ParticleTravel>& each) {
   const std::size_t behind = part_rearmost(all, tail_share * mass);
   out.tail_travel = std::sqrt(
       std::max_element(all.begin(), all.begin() + behind, by_displacement)->displacement2);
-  out.tail_speed = mean_speed_of(all.first(part_rearmost(all, end_share * mass)));
+  const std::span<ParticleTravel> tail = all.first(behind);  // holds what is farther back still
+  out.tail_speed = mean_speed_of(tail.first(part_rearmost(tail, end_share * mass)));
   return out;
 }
 

@@ -10,8 +10,9 @@ struct State;
 
 /// Where the mass is relative to where it started, and how fast.
 struct Displacement {
-  double front = 0;       ///< farthest particle, horizontal [m]
-  double com = 0;         ///< centre of mass, horizontal [m]
+  double front = 0;  ///< farthest particle, horizontal [m]
+  /// Centre of mass, horizontal; mass that was taken up counts from where that was [m].
+  double com = 0;
   double mean_speed = 0;  ///< mass average [m/s]
   double high_speed = 0;  ///< 99.9 % of the particles are slower [m/s]
   double lowest = 0;      ///< elevation of the lowest particle [m]

@@ -90,6 +90,32 @@ void print_states(const MemberResult& r, Console& console) {
                console);
 }
 
+/// Pore pressure of a mixture.
+void print_mixture(const MemberResult& r, Console& console) {
+  if (!r.history.has_mixture) return;
+  const MemberScalars& s = r.scalars;
+  print_line(
+      "pore pressure",
+      fmt::format("{} of the weight at most, {} at the end (mass mean)",
+                  share_text(s.max_pore_pressure_ratio), share_text(s.end_pore_pressure_ratio)),
+      console);
+  print_line("solid fraction",
+             fmt::format("{:.4f} at the end, {:.3g} m3 of water given off and carried",
+                         s.end_solid_fraction, s.end_film_m3),
+             console);
+}
+
+/// What the flow took of its bed.
+void print_erosion(const MemberResult& r, Console& console) {
+  const MemberScalars& s = r.scalars;
+  if (std::isnan(s.eroded_volume_m3)) return;
+  print_line(
+      "erosion",
+      fmt::format("{} m3 of the bed, up to {:.2f} m deep; the flow grew {:.2f} times (V_f/V_0)",
+                  grouped(s.eroded_volume_m3), s.max_eroded_depth_m, s.volume_growth),
+      console);
+}
+
 /// The effects by what they cost, as shares of the computing time.
 void print_effects(const MemberResult& r, Console& console) {
   NamedSeconds times = r.effect_seconds;
@@ -172,6 +198,8 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   line("largest energy", fmt::format("{:.1f} kJ/m2, pressure {:.1f} kPa", s.max_energy_j_m2 / 1e3,
                                      s.max_pressure_pa / 1e3));
   print_states(r, console);
+  print_mixture(r, console);
+  print_erosion(r, console);
   line("particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,

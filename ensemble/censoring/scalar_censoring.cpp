@@ -64,6 +64,18 @@ constexpr std::array rows{
     ScalarCensoring{&M::ultradilute_fraction, no, no},
     ScalarCensoring{&M::max_granular_temperature_m2_s2, least, least},
     ScalarCensoring{&M::granular_ratio, no, no},
+    ScalarCensoring{&M::max_pore_pressure_ratio, no, least},  // of what was there
+    ScalarCensoring{&M::end_pore_pressure_ratio, no, no},
+    ScalarCensoring{&M::end_solid_fraction, no, no},
+    ScalarCensoring{&M::end_film_m3, no, no},
+    ScalarCensoring{&M::solids_error, yes, yes},
+    ScalarCensoring{&M::water_error, yes, yes},
+    ScalarCensoring{&M::pore_clipped_fraction, no, no},
+    ScalarCensoring{&M::eroded_volume_m3, least, least},
+    ScalarCensoring{&M::entrained_mass_kg, least, least},
+    ScalarCensoring{&M::volume_growth, least, least},
+    ScalarCensoring{&M::max_eroded_depth_m, least, least},
+    ScalarCensoring{&M::entrainment_loss_fraction, no, no},
 };
 // A scalar without a row would pass as fully known.
 static_assert(rows.size() * sizeof(double) == sizeof(MemberScalars));

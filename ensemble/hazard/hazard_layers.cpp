@@ -75,7 +75,7 @@ class Builder {
     out_.stack.grid = grid;
   }
 
-  HazardLayers build(bool any_left) {
+  HazardLayers build(const HazardExtras& extras) {
     Layer count =
         made("number_of_members", {Quantity::members, Statistic::count},
              "valid members of the ensemble", "1", "settled, out of time or left the terrain");
@@ -83,7 +83,7 @@ class Builder {
     out_.reached = add_probability(
         "probability_of_reach", Quantity::reached, "share of members that reach the cell",
         "reached: smoothed thickness above the runout limit at any time", {}, {});
-    if (any_left)
+    if (extras.left)
       out_.mass_left =
           add(made("probability_of_mass_left", {Quantity::left, Statistic::probability},
                    "share of members whose mass crossed the edge of the known ground here", "1",
@@ -96,6 +96,9 @@ class Builder {
         "order statistics (Hyndman and Fan 1996, definition 7)",
         nan_f);
     out_.quantities.push_back(add_deposit());
+    if (extras.eroded)
+      out_.quantities.push_back(
+          add_peak({PeakLayer::eroded, "eroded_depth", &HazardSpec::eroded_depth_m}));
     add_intensities();
     return std::move(out_);
   }
@@ -173,9 +176,11 @@ class Builder {
           fmt::format("share of members whose {} exceeds the threshold", meaning),
           is_thickness ? not_resolved(thresholds, spacing_m_) : "", axis, std::move(si));
     }
-    layers.mean = add_mean(name, quantity, meaning, unit.name, "time: maximum ");
+    const bool is_total = q.source == PeakLayer::eroded;  // at the end, which is its largest
+    const std::string over_time = is_total ? "" : "time: maximum";
+    layers.mean = add_mean(name, quantity, meaning, unit.name, is_total ? "" : over_time + " ");
     layers.quantile =
-        add_quantiles(name, quantity, meaning, unit.name, "time: maximum", quantile_rule, 0);
+        add_quantiles(name, quantity, meaning, unit.name, over_time, quantile_rule, 0);
     return layers;
   }
 
@@ -218,8 +223,9 @@ class Builder {
 }  // namespace
 
 HazardLayers hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
-                           std::int64_t n_members, std::int64_t n_censored, bool any_left) {
-  return Builder(grid, spec, spacing_m, n_members, n_censored).build(any_left);
+                           std::int64_t n_members, std::int64_t n_censored,
+                           const HazardExtras& extras) {
+  return Builder(grid, spec, spacing_m, n_members, n_censored).build(extras);
 }
 
 }  // namespace sturz

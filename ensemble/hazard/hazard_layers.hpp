@@ -30,18 +30,24 @@ struct HazardLayers {
   LayerStack stack;              ///< without values
   std::vector<float> untouched;  ///< of each layer: a cell of known ground that no member reached
   ProbabilityLayers reached;
-  std::optional<std::size_t> mass_left;    ///< where some member's mass crossed the edge
-  std::vector<QuantityLayers> quantities;  ///< thickness, speed, energy, pressure, deposit
+  std::optional<std::size_t> mass_left;  ///< where some member's mass crossed the edge
+  std::vector<QuantityLayers>
+      quantities;  ///< thickness, speed, energy, pressure, deposit, eroded depth
   std::optional<std::size_t> arrival_quantile;
   std::size_t high_intensity = 0, medium_intensity = 0;
 };
 
+/// What only some scenes have maps of.
+struct HazardExtras {
+  bool left = false;    ///< mass of some member crossed the edge of the known ground
+  bool eroded = false;  ///< the flow takes its bed along
+};
+
 /// All layers, and what a cell holds that no member touched: probability 0 (upper bound that of 0
 /// out of n_members), peaks 0, arrival NaN; without members everything is NaN. \param n_censored of
-/// these members: their end was not seen, so probabilities are lower bounds \param any_left mass of
-/// some member crossed the edge of the known ground
+/// these members: their end was not seen, so probabilities are lower bounds
 HazardLayers hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
                            std::int64_t n_members, std::int64_t n_censored = 0,
-                           bool any_left = false);
+                           const HazardExtras& extras = {});
 
 }  // namespace sturz

@@ -87,12 +87,26 @@ void add_extent(LayerStack& stack, const Window& extent, const Grid& grid, bool 
       "missing where no member came");
 }
 
-/// What is read of each member; nothing for `left` where nothing left.
-std::vector<PeakLayer> read_layers_of(bool any_left) {
+/// What some valid member has of the maps that not all scenes have.
+HazardExtras extras_of(const std::vector<MemberSummary>& members) {
+  HazardExtras extras;
+  for (const MemberSummary& m : members) {
+    if (!is_valid(m.outcome)) continue;
+    extras.left |= is_kept(PeakLayer::left, m.censoring, m.scalars);
+    extras.eroded |= is_kept(PeakLayer::eroded, m.censoring, m.scalars);
+  }
+  return extras;
+}
+
+/// What is read of each member; nothing for what no member has.
+std::vector<PeakLayer> read_layers_of(const HazardExtras& extras) {
   std::vector<PeakLayer> layers;
-  for (int i = 0; i < n_peak_layers; ++i)
-    if (any_left || static_cast<PeakLayer>(i) != PeakLayer::left)
-      layers.push_back(static_cast<PeakLayer>(i));
+  for (int i = 0; i < n_peak_layers; ++i) {
+    const auto layer = static_cast<PeakLayer>(i);
+    if (layer == PeakLayer::left && !extras.left) continue;
+    if (layer == PeakLayer::eroded && !extras.eroded) continue;
+    layers.push_back(layer);
+  }
   return layers;
 }
 
@@ -122,19 +136,17 @@ void make_hazard_map(const MemberParts& members, const HazardSpec& spec,
   const auto n_censored = std::count_if(all.begin(), all.end(), [](const MemberSummary& m) {
     return is_valid(m.outcome) && is_censored(m.censoring);
   });
-  const bool any_left = std::any_of(all.begin(), all.end(), [](const MemberSummary& m) {
-    return is_valid(m.outcome) && has_left(m.censoring);
-  });
+  const HazardExtras extras = extras_of(all);
   HazardLayers layers =
       hazard_layers(grid_of(extent, members.grid()), spec, unresolved_spacing(all, context),
-                    static_cast<std::int64_t>(cells.n_members()), n_censored, any_left);
+                    static_cast<std::int64_t>(cells.n_members()), n_censored, extras);
   layers.stack.attributes.emplace_back("number_of_censored_members", std::to_string(n_censored));
   add_attributes(layers.stack, members.members(), context);
   add_extent(layers.stack, extent, members.grid(), cells.touched().n_cells() > 0);
   to.begin(layers.stack);
   CellStatistics statistics(layers, cells.n_members(), extent,
                             KnownGround(context.ground, context.whole_ground, members.grid()), to);
-  cells.visit(extent, read_layers_of(any_left), context.memory_bytes, context.cancel,
+  cells.visit(extent, read_layers_of(extras), context.memory_bytes, context.cancel,
               [&](const CellRows& rows) {
                 statistics.add(rows);
                 if (context.convergence != nullptr) context.convergence->add(rows);

@@ -72,8 +72,12 @@ std::string bulk_density_line(const Scene& scene) {
   const GrainsSpec& g = *scene.medians.grains;
   std::string line = fmt::format("bulk density: {:.0f} kg/m3 (grains of {:.6g} kg/m3",
                                  scene.description.bulk_density_kg_m3, g.density_kg_m3.value);
-  line += fmt::format(", solid fraction {:.4g}",
-                      scene.description.bulk_density_kg_m3 / g.density_kg_m3.value);
+  if (scene.medians.mixture)
+    line += fmt::format(", solid fraction {:.4g}, fluid of {:.6g} kg/m3", g.solid_fraction.value,
+                        scene.medians.mixture->fluid_density_kg_m3.value);
+  else
+    line += fmt::format(", solid fraction {:.4g}",
+                        scene.description.bulk_density_kg_m3 / g.density_kg_m3.value);
   // Ice is the lightest grain there is; a lower number mostly was a bulk density.
   if (g.density_kg_m3.value < 900)
     line += fmt::format("; grains lighter than ice: if {:.6g} is the bulk density, write {:.5g}",
@@ -118,8 +122,11 @@ std::vector<std::string> description_lines(const Scene& scene) {
                               d.layers));
   if (columns)
     lines.emplace_back(
-        "not in columns: vertical structure, dilute states, a resolved pore fluid "
-        "(pore_pressure_ratio stands for it)");
+        scene.scenario.mixture
+            ? "not in columns: vertical structure, dilute states, water that runs ahead of the "
+              "grains"
+            : "not in columns: vertical structure, dilute states, a resolved pore fluid "
+              "(pore_pressure_ratio stands for it; `mixture` computes it)");
   if (const auto idle = idle_keys(scene.scenario, columns, d.friction_inside); !idle.empty())
     lines.push_back(fmt::format("without effect in {}: {}", d.formulation, comma_separated(idle)));
   lines.push_back(

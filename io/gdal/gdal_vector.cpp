@@ -139,13 +139,17 @@ PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& 
     source.polygons->getEnvelope(&own);
     box.Merge(own);
   }
-  PolygonCover cover(terrain, cells_under(box.MinX, box.MaxX, box.MinY, box.MaxY, terrain));
+  const Window under = cells_under(box.MinX, box.MaxX, box.MinY, box.MaxY, terrain);
+  PolygonCover cover(terrain, under), share(terrain, under);
   for (const auto& source : sources) {
     const double area = lay_down(*source.polygons, source.thickness_m, cover);
     reading.result.area_m2 += area;
-    if (reading.result.is_thickness) reading.result.volume_m3 += area * source.thickness_m;
+    if (!reading.result.is_thickness) continue;
+    reading.result.volume_m3 += area * source.thickness_m;
+    lay_down(*source.polygons, 1, share);
   }
   reading.result.pattern = cover.finish();
+  if (reading.result.is_thickness) reading.result.cover = share.finish();
   reading.result.notes = std::move(reading.layer.notes);
   reading.result.warnings = std::move(reading.layer.warnings);
   reading.result.identity = std::move(reading.layer.identity);

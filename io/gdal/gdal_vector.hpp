@@ -14,6 +14,7 @@ namespace sturz {
 struct PolygonRelease {
   Raster<double>
       pattern;  ///< on cells of the terrain around the polygons: share 0..1, or thickness [m]
+  Raster<double> cover;       ///< where the pattern is a thickness: share 0..1 of the same cells
   bool is_thickness = false;  ///< a thickness attribute was read
   double area_m2 = 0;         ///< exact, of all polygons together
   double volume_m3 = 0;       ///< exact, 0 without a thickness attribute

@@ -18,7 +18,7 @@
 namespace sturz {
 namespace {
 
-constexpr int format_version = 3;
+constexpr int format_version = 4;
 /// Few rows to a chunk: the statistics read members in bands of rows.
 constexpr int rows_per_chunk = 64, cols_per_chunk = 512;
 
@@ -95,7 +95,7 @@ void write_maps(NetcdfWriter& file, const MemberResult& m) {
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);
     const PeakLayerInfo& about = info(layer);
-    if (!is_kept(layer, m.censoring)) continue;
+    if (!is_kept(layer, m.censoring, m.scalars)) continue;
     expect(m.layer(layer).size() == m.window.n_cells(), "a member's maps fill its window");
     const int variable = file.variable(about.name, NcType::float32, {dimensions.y, dimensions.x});
     file.compress(variable, chunk);
@@ -244,7 +244,7 @@ MemberResult read_member(const std::filesystem::path& path) {
   if (m.window.n_cells() == 0) return m;
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);
-    if (!is_kept(layer, m.censoring)) continue;
+    if (!is_kept(layer, m.censoring, m.scalars)) continue;
     auto& values = m.layers[static_cast<std::size_t>(i)];
     file.require_room(static_cast<double>(m.window.n_cells()), info(layer).name);
     values.resize(m.window.n_cells());

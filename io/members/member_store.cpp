@@ -102,7 +102,7 @@ void MemberStore::read_part(std::size_t index, PeakLayer layer, const Window& pa
          "the part lies in the member's window");
   expect(out.size() == part.n_cells(), "out holds the part");
   if (part.n_cells() == 0) return;
-  if (!is_kept(layer, members_[index].censoring)) {
+  if (!is_kept(layer, members_[index].censoring, members_[index].scalars)) {
     std::fill(out.begin(), out.end(), info(layer).untouched);
     return;
   }

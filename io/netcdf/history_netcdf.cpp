@@ -35,6 +35,7 @@ MemberHistory read_history(const NetcdfReader& file) {
   if (history.rows.empty()) return history;
   history.has_states = any(file, HistoryPart::states);
   history.has_temperature = any(file, HistoryPart::temperature);
+  history.has_mixture = any(file, HistoryPart::mixture);
   std::vector<float> values(history.rows.size());
   for (const HistoryColumn& column : history_table()) {
     if (!history.has(column.part)) continue;

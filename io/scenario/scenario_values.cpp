@@ -61,7 +61,8 @@ std::optional<double> read_fixed_number(const std::string& path, const YamlNode&
 
 KeyValue read_plain_number(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
   const auto number = read_fixed_number(
-      key.path, node, "Only keys of release, grains and basal can be uncertain.", problems);
+      key.path, node,
+      "Only numbers of release, grains, basal, mixture and erosion can be uncertain.", problems);
   return number ? KeyValue{*number} : KeyValue{};
 }
 

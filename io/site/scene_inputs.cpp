@@ -7,8 +7,10 @@
 #include "io/gdal/gdal_raster.hpp"
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
+#include "io/site/bed/bed_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "io/site/observed/observed_outline.hpp"
+#include "io/site/release/release_requests.hpp"
 #include "io/site/release_hash.hpp"
 #include "io/site/release_shapes.hpp"
 #include "io/site/stand_in_crs.hpp"
@@ -24,12 +26,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <numeric>
-#include <span>
 
 namespace sturz {
 namespace {
@@ -69,6 +69,7 @@ struct Loading {
   void set_release(Raster<double> pattern, ReleasePattern kind) {
     inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
     inputs.pattern = kind;
+    if (kind == ReleasePattern::cover) inputs.release_cover = inputs.release;
   }
   const Grid& grid() const { return inputs.whole; }
 };
@@ -170,52 +171,28 @@ void note_rasterised(Loading& loading, double exact_m2) {
   loading.inputs.notes.push_back(text);
 }
 
-PolygonRequest polygon_request(const Scenario& scenario) {
-  const ReleaseSpec& spec = scenario.release;
-  PolygonRequest request;
-  request.path = spec.polygon;
-  request.layer = spec.layer;
-  request.thickness_attribute = spec.thickness_attribute;
-  request.directory = scenario.directory;
-  request.crs = spec.crs;
-  stand_in_with_terrain(request, scenario.terrain);
-  return request;
-}
-
 void load_polygon(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   loading.release_label = "release.polygon = " + spec.polygon;
-  const PolygonRequest request = polygon_request(loading.scenario);
-  PolygonRelease read = read_release_polygons(request, loading.grid());
+  PolygonRelease read =
+      read_release_polygons(release_polygon_request(loading.scenario), loading.grid());
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
   loading.set_release(std::move(read.pattern),
                       read.is_thickness ? ReleasePattern::thickness : ReleasePattern::cover);
   if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
+  loading.inputs.release_cover = std::make_shared<const Raster<double>>(std::move(read.cover));
   loading.inputs.notes.push_back(
       fmt::format("{}: area {:.9g} m2, area x {} {:.9g} m3, on the terrain's cells {:.9g} m3",
                   loading.release_label, read.area_m2, spec.thickness_attribute, read.volume_m3,
                   raster_sum(*loading.inputs.release)));
 }
 
-RasterRequest thickness_request(const Scenario& scenario) {
-  const ReleaseSpec& spec = scenario.release;
-  RasterRequest request;
-  request.path = spec.thickness_raster;
-  request.key = "release.thickness_raster";
-  request.directory = scenario.directory;
-  request.crs = spec.crs;
-  request.crs_key = "release.crs";
-  request.factor = spec.thickness_factor;
-  stand_in_with_terrain(request, scenario.terrain);
-  return request;
-}
-
 void load_thickness_raster(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   loading.release_label = "release.thickness_raster = " + spec.thickness_raster;
-  const RasterRequest request = thickness_request(loading.scenario);
+  const RasterRequest request = release_raster_request(loading.scenario);
   ThicknessRead read = read_thickness(request, loading.grid());
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
@@ -229,7 +206,8 @@ void load_shape(Loading& loading, const Shape& shape, const char* key) {
   ShapeCover read = cover_of(shape, loading.grid());
   loading.inputs.source_area_m2 = read.area_m2;
   loading.set_release(std::move(read.cover), ReleasePattern::cover);
-  if (read.unit_volume_m3 == read.area_m2) note_rasterised(loading, read.area_m2);
+  if (read.unit_volume_m3 == read.area_m2) return note_rasterised(loading, read.area_m2);
+  loading.inputs.release_cover.reset();  // a dome covers every cell that holds some of it
 }
 
 void load_synthetic_source(Loading& loading) {
@@ -262,21 +240,6 @@ void load_release(Loading& loading) {
   load_synthetic_source(loading);
 }
 
-PolygonRequest zone_request(const Scenario& scenario, std::size_t i) {
-  const BasalZone& zone = scenario.basal.zones[i];
-  const std::string name = fmt::format("basal.zones[{}]", i);
-  PolygonRequest request;
-  request.path = zone.polygon;
-  request.layer = zone.layer;
-  request.key = name + ".polygon";
-  request.directory = scenario.directory;
-  request.crs_key.clear();  // no key of its own
-  stand_in_with_terrain(request, scenario.terrain);
-  request.layer_key = name + ".layer";
-  request.what = "zone";
-  return request;
-}
-
 void load_zone(Loading& loading, std::size_t i, Raster<std::uint8_t>& numbers) {
   const Grid& grid = loading.grid();
   ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid, loading.inputs.held());
@@ -297,11 +260,23 @@ void load_zones(Loading& loading) {
   loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
 }
 
+/// Where a bed can be taken along, or how deep; only checked while no ground is known.
+void load_bed_supply(Loading& loading) {
+  if (!has_bed_supply_file(loading.scenario)) return;
+  loading.attempt([&] {
+    if (!loading.inputs.elevation) return check_bed_supply(loading.scenario);
+    BedSupplyInput read = read_bed_supply(loading.scenario, loading.grid(), loading.inputs.held());
+    loading.inputs.bed_supply = std::make_shared<const Raster<double>>(std::move(read.pattern));
+    loading.take(read);
+  });
+}
+
 /// What holds whatever part of the terrain is read: release, observed outline, grids, reach.
 SceneInputs without_ground(SceneInputs inputs) {
   inputs.elevation = nullptr;
   inputs.ground = inputs.column_ground = nullptr;
   inputs.zones = nullptr;
+  inputs.bed_supply = nullptr;
   inputs.notes.clear();
   inputs.warnings.clear();
   inputs.identities.clear();
@@ -334,13 +309,14 @@ void check_without_terrain(Loading& loading) {
   const bool local = scenario.terrain.crs == local_crs;
   if (!scenario.release.polygon.empty())
     loading.attempt([&] {
-      PolygonRequest request = polygon_request(scenario);
+      PolygonRequest request = release_polygon_request(scenario);
       request.without_terrain = true;
       read_release_polygons(request, {});
     });
   if (!scenario.release.thickness_raster.empty())
-    loading.attempt([&] { check_thickness(thickness_request(scenario), local); });
+    loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
   check_zones(loading);
+  load_bed_supply(loading);
   load_observed(loading);
 }
 
@@ -364,6 +340,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     load_zones(loading);
   else
     check_zones(loading);
+  load_bed_supply(loading);
   load_observed(loading);
   loading.refuse_problems();
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
@@ -389,6 +366,7 @@ SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& firs
   inputs.level = level;
   take_ground(loading, read);
   load_zones(loading);
+  load_bed_supply(loading);
   loading.refuse_problems();
   inputs.release_hash = hash_of_release(inputs);
   prepare_grounds(scenario, inputs);

@@ -63,6 +63,7 @@ Ramp ramp_of(const LayerMeaning& meaning) {
     case Quantity::arrival:
       return Ramp::arrival;
     case Quantity::deposit:
+    case Quantity::eroded:
       return Ramp::deposit;
     case Quantity::intensity:
       return Ramp::hazard;

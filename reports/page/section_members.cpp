@@ -21,7 +21,8 @@ struct ScalarColumn {
   const char* label;
   const char* units;
   double MemberScalars::*field;
-  bool percent = false;  ///< a share, shown to compare members, where some member has one
+  bool percent = false;   ///< a share, shown to compare members, where some member has one
+  bool optional = false;  ///< shown where some member has one
 };
 constexpr ScalarColumn scalar_columns[] = {
     {"runout", "m", &MemberScalars::runout_m},
@@ -32,6 +33,8 @@ constexpr ScalarColumn scalar_columns[] = {
     {"max speed", "m s-1", &MemberScalars::max_speed_m_s},
     {"max thickness", "m", &MemberScalars::max_thickness_m},
     {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
+    {"eroded", "m3", &MemberScalars::eroded_volume_m3, false, true},
+    {"growth V_f/V_0", "1", &MemberScalars::volume_growth, false, true},
     {"layers", "1", &MemberScalars::release_layers},
     {"dilated", "1", &MemberScalars::parted_fraction, true},
     {"in transition", "1", &MemberScalars::transition_fraction, true},
@@ -68,16 +71,21 @@ std::string unit_of(const ReportTable& table, std::size_t k) {
   return k < table.units.size() ? table.units[k] : "1";
 }
 
+/// Whether some member's value says yes.
+template <class Says>
+bool some(const std::vector<MemberSummary>& members, const ScalarColumn& c, Says says) {
+  return std::any_of(members.begin(), members.end(),
+                     [&](const MemberSummary& m) { return says(m.scalars.*c.field); });
+}
+
 /// Columns that say something about these members.
 std::vector<ScalarColumn> shown_columns(const std::vector<MemberSummary>& members) {
   std::vector<ScalarColumn> shown;
-  std::copy_if(std::begin(scalar_columns), std::end(scalar_columns), std::back_inserter(shown),
-               [&](const ScalarColumn& c) {
-                 if (!c.percent) return true;
-                 return members.size() > 1 &&
-                        std::any_of(members.begin(), members.end(),
-                                    [&](const MemberSummary& m) { return m.scalars.*c.field > 0; });
-               });
+  for (const ScalarColumn& c : scalar_columns) {
+    if (c.optional && !some(members, c, [](double v) { return !std::isnan(v); })) continue;
+    const bool compares = members.size() > 1 && some(members, c, [](double v) { return v > 0; });
+    if (!c.percent || compares) shown.push_back(c);
+  }
   return shown;
 }
 

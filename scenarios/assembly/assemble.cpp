@@ -115,8 +115,7 @@ double expected_time(const Scenario& s, const ScenePlan& plan) {
   if (s.numerics.end_time_s || !s.domain.periodic.empty()) return plan.end.end_time_s;
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  const double friction =
-      s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  const double friction = typical_friction(s);
   const double moving = time_to_rest(plan.bed, plan.release, friction, start, plan.end.end_time_s);
   const double spreading = 5 * std::sqrt(plan.release.max_thickness_m / standard_gravity);
   return std::min(plan.end.end_time_s, settling * (moving + spreading));

@@ -3,12 +3,15 @@
 
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
+#include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/erosion/effect.hpp"
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/effects/isolated/effect.hpp"
 #include "engine/effects/kinetic/effect.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
+#include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -35,7 +38,10 @@ const GrainStatesSpec* states_of(const Scenario& s) {
   return s.grains->states ? &*s.grains->states : nullptr;
 }
 
-Called bed_called(const Scenario&, const ScenePlan&) {
+Called bed_called(const Scenario& s, const ScenePlan&) {
+  if (s.mixture)
+    return {true,
+            "always: friction_coefficient on what pore pressure leaves, cohesion_pa of `basal`"};
   return {true, "always: friction_coefficient, pore_pressure_ratio, cohesion_pa of `basal`"};
 }
 Called walls_called(const Scenario& s, const ScenePlan&) {
@@ -62,6 +68,7 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
+  if (s.mixture) return {true, "`mixture`: isotropic, K = 1, piles too"};
   const std::string key =
       "`grains.earth_pressure: " + std::string(to_string(s.grains->earth_pressure)) + "`";
   if (plan.columns.spent_inside.empty())
@@ -72,6 +79,19 @@ Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
                     short_number(plan.release.median_thickness_m / plan.release_narrow_side_m) +
                     " times as thick as it is wide; internal friction takes up to " +
                     short_number(100 * most) + " % of the thrust that drives"};
+}
+Called mixture_called(const Scenario& s, const ScenePlan&) {
+  if (!s.mixture) return by_key("mixture", false);
+  const double m = s.grains->solid_fraction.value,
+               critical = s.mixture->critical_solid_fraction.value;
+  const std::string than =
+      " than critical (" + short_number(m) + ", " + short_number(critical) + ")";
+  return {true, m < critical ? "`mixture`: looser" + than + ", shear makes pore pressure"
+                             : "`mixture`: not looser" + than + ", shear takes pore pressure away"};
+}
+Called erosion_called(const Scenario& s, const ScenePlan&) {
+  if (!s.erosion) return by_key("erosion", false);
+  return {true, erosion_text(*s.erosion)};
 }
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
   if (const auto zone = zone_with_turbulence(s.basal); zone && !s.basal.turbulent_coefficient_m_s2)
@@ -117,9 +137,12 @@ void add_isolated(SceneParts& p) { add_isolated_particles(p.step, p.state, p.gra
 void add_contacts(SceneParts& p) {
   add_isolated_contacts(p.step, p.state, grains, *p.plan.isolated_contacts);
 }
+void add_pores(SceneParts& p) { add_mixture(p.state, grains, *p.plan.columns.mixture); }
 void add_columns(SceneParts& p) {
-  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness);
+  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness,
+                     p.plan.release.covered);
 }
+void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.plan.erosion); }
 
 constexpr EffectRow table[] = {
     {EffectName::gravity, always, add_kick},
@@ -130,7 +153,9 @@ constexpr EffectRow table[] = {
     {EffectName::states, states_called, add_states},
     {EffectName::isolated, isolated_called, add_isolated},
     {EffectName::isolated_contacts, contacts_called, add_contacts},
+    {EffectName::pore_pressure, mixture_called, add_pores},
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
+    {EffectName::erosion, erosion_called, add_eroded_bed, erosion_bytes_per_particle},
     {"turbulent bed", turbulence_called},
     {"viscous bed", viscosity_called},
     {"zones of the bed", zones_called},

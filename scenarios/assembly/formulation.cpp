@@ -25,11 +25,13 @@ double volume_median(std::vector<double> thickness, double sum) {
 
 /// What a scene names that only columns know; empty when nothing.
 std::string column_key(const Scenario& s) {
+  if (s.mixture) return "mixture";
   if (s.basal.turbulent_coefficient_m_s2) return "basal.turbulent_coefficient_m_s2";
   if (s.basal.viscosity_pa_s) return "basal.viscosity_pa_s";
   if (zone_with_turbulence(s.basal)) return "basal.zones";
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
+  if (s.erosion) return "erosion";
   return "";
 }
 
@@ -130,6 +132,18 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
   return c;
 }
 
+double typical_friction(const Scenario& s) {
+  const double dry = s.basal.friction_coefficient.value;
+  if (!s.mixture) return dry * (1 - s.basal.pore_pressure_ratio.value);
+  const MixtureSpec& wet = *s.mixture;
+  const double m = s.grains->solid_fraction.value, fluid = wet.fluid_density_kg_m3.value;
+  const bool loose = m < wet.critical_solid_fraction.value;
+  if (loose || wet.initial_pressure == InitialPressure::liquefied) return dry * liquefied_share;
+  if (wet.initial_pressure_ratio)
+    return dry * std::max(liquefied_share, 1 - wet.initial_pressure_ratio->value);
+  return dry * (1 - fluid / (m * s.grains->density_kg_m3.value + (1 - m) * fluid));
+}
+
 bool has_both_formulations(const Scenario& s) {
   return s.grains && (s.grains->friction || s.grains->friction_angle_deg) && !s.grains->states &&
          column_key(s).empty();
@@ -139,7 +153,7 @@ CostEstimate estimate_cost(const Scenario& s, const Raster<double>& thickness,
                            const Terrain& ground, double end_time_s) {
   const Mass mass = mass_on(thickness, ground);
   const double dx = s.numerics.spacing_m, step = s.numerics.courant * smoothing_ratio * dx;
-  double friction = s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  double friction = typical_friction(s);
   for (const BasalZone& zone : s.basal.zones)
     friction = std::min(
         friction, zone.friction_coefficient.value_or(s.basal.friction_coefficient).value *

@@ -50,6 +50,12 @@ struct CostEstimate {
 CostEstimate estimate_cost(const Scenario&, const Raster<double>& thickness, const Terrain& ground,
                            double end_time_s);
 
+/// Of a mass as it moves: friction that is left beside its pore pressure. A mixture's is not known
+/// before it runs; one looser than critical is taken as nearly liquefied.
+double typical_friction(const Scenario& numbers);
+/// Share of the weight that a liquefied mass bears on its grains, where a bound needs one.
+inline constexpr double liquefied_share = 0.1;
+
 /// Internal friction for full_stress, and nothing that only columns or only full stress know.
 bool has_both_formulations(const Scenario&);
 

@@ -51,8 +51,7 @@ void warn_of_coarse_spacing(const Scenario& s, const ScenePlan& plan, Warnings& 
 /// Ground in the way at the lower end of the release. Under a tenth of the drive it is no matter.
 void warn_of_lip(const Scenario& s, const SceneInputs& in, const ScenePlan& plan, Warnings& out) {
   const bool dug_out = s.release.surface == ReleaseSurface::pre_failure;
-  const double friction =
-      s.basal.friction_coefficient.value * (1 - s.basal.pore_pressure_ratio.value);
+  const double friction = typical_friction(s);
   const ReleaseLip lip =
       release_lip(*in.elevation, release_thickness(s.release, in), dug_out, friction);
   if (!s.domain.periodic.empty() || lip.share_of_drive < 0.1) return;
@@ -81,13 +80,15 @@ void warn_of_smooth_pile(const Scenario& s, const ScenePlan& plan, Warnings& out
     return;
   // A bed as rough as the grains gives them nothing to add.
   const bool isotropic = s.grains->earth_pressure == LateralPressure::isotropic;
-  if (!isotropic && plan.columns.internal_friction > 0) return;
+  if (!isotropic && plan.columns.internal_friction > 0 && !s.mixture) return;
   out.push_back("a pile in columns without internal friction: the release is " +
                 short_number(plan.release.median_thickness_m / plan.release_narrow_side_m) +
                 " times as thick as it is wide, and only its bed holds it. On gentle ground it may "
                 "run several times too far. " +
-                (isotropic ? "Use grains.earth_pressure: auto, or formulation: full_stress"
-                           : "Give grains.friction_angle_deg"));
+                (s.mixture   ? "A mixture knows no friction inside; without `mixture`, "
+                               "grains.earth_pressure: auto and basal.pore_pressure_ratio do"
+                 : isotropic ? "Use grains.earth_pressure: auto, or formulation: full_stress"
+                             : "Give grains.friction_angle_deg"));
 }
 
 void warn_of_states(const Scenario& s, const ScenePlan& plan, Warnings& out) {

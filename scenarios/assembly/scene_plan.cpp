@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
@@ -132,12 +133,36 @@ std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
   return bed;
 }
 
+MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) {
+  MixtureSettings wet;
+  wet.law.solid_density = grains.density_kg_m3.value;
+  wet.law.fluid_density = spec.fluid_density_kg_m3.value;
+  wet.law.fluid_viscosity = spec.fluid_viscosity_pa_s.value;
+  wet.law.critical_fraction = spec.critical_solid_fraction.value;
+  wet.law.grain_diameter = spec.shear_grain_diameter_m.value;
+  wet.law.permeability = spec.permeability_m2.value;
+  wet.law.reference_fraction = spec.permeability_fraction.value;
+  wet.law.compressibility = spec.compressibility.value;
+  wet.law.stress_offset = spec.stress_offset_pa.value;
+  wet.solid_fraction = grains.solid_fraction.value;
+  if (spec.initial_pressure == InitialPressure::liquefied) wet.pressure_ratio = 1;
+  if (spec.initial_pressure_ratio) wet.pressure_ratio = spec.initial_pressure_ratio->value;
+  return wet;
+}
+
+/// Of the grains, and of the water between them where there is a mixture.
+double bulk_density(const Scenario& s, double solid_fraction) {
+  return s.mixture ? plan_mixture(*s.grains, *s.mixture).law.density(solid_fraction)
+                   : s.grains->density_kg_m3.value * solid_fraction;
+}
+
 void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan& plan) {
   DepthAveragedSettings& c = plan.columns;
   c.spacing = s.numerics.spacing_m;
   c.density = plan.bulk_density_kg_m3;
   c.courant = s.numerics.courant;
   c.zones = plan.zones;
+  if (s.mixture) c.mixture = plan_mixture(*s.grains, *s.mixture);
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
   const bool known = s.grains->friction || s.grains->friction_angle_deg;
@@ -149,10 +174,12 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   };
   if (s.grains->earth_pressure == LateralPressure::active_passive)
     for (std::size_t k = 0; k < bed.size(); ++k) c.earth_pressure[k] = pressure(bed[k]);
-  const double share = s.grains->earth_pressure == LateralPressure::active ? 1
-                       : s.grains->earth_pressure == LateralPressure::automatic && known
-                           ? pile_share(s, plan)
-                           : 0;
+  // Water carries part of a mixture's load: pressure is isotropic in it (Iverson & George 2014).
+  const bool by_shape = s.grains->earth_pressure == LateralPressure::automatic && known;
+  const double share = s.mixture                                             ? 0
+                       : s.grains->earth_pressure == LateralPressure::active ? 1
+                       : by_shape                                            ? pile_share(s, plan)
+                                                                             : 0;
   if (share > 0)
     for (const BasalResistance& b : bed)
       c.spent_inside.push_back(share * std::max(0.0, 1 - pressure(b).active));
@@ -255,6 +282,17 @@ double time_to_weigh(const Scenario& s, const SceneInputs& in, const Raster<doub
   return 0.25 * time_cap(s, in, n > 0 ? sum / n : 0, density).end_time_s;
 }
 
+/// Columns of a periodic ground feel one period and a margin; what is taken is that of the period.
+void plan_eroded_bed(const Scenario& s, const SceneInputs& in,
+                     const std::vector<BasalResistance>& bed, ScenePlan& plan) {
+  if (!s.erosion) return;
+  const bool periodic = plan.domain.x.active || plan.domain.y.active;
+  plan.erosion =
+      plan_erosion(s, in,
+                   {periodic ? in.terrain_grid() : plan.bed.grid(), plan.bulk_density_kg_m3, bed,
+                    plan.zones, plan.columns.mixture ? &*plan.columns.mixture : nullptr});
+}
+
 }  // namespace
 
 double pile_share(const Scenario& s, const ScenePlan& plan) {
@@ -306,20 +344,22 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
     plan.reference_fraction = dense_fraction;
   }
-  plan.bulk_density_kg_m3 = s.grains->density_kg_m3.value * plan.reference_fraction;
+  plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
   plan.release =
       release_particles(plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
-                         s.ensemble.seed, member, plan.formulation.depth_averaged});
+                         s.ensemble.seed, member, plan.formulation.depth_averaged},
+                        in.release_cover.get());
   plan.end = time_cap(s, in, plan.release.median_thickness_m, plan.bulk_density_kg_m3);
   const Window held = in.held();
   plan.zones = {in.zones, in.whole, held.row0, held.col0};
   plan.release_narrow_side_m = narrow_side(thickness, in.source_area_m2);
   require_before_walls(plan.release, domain, formulation.depth_averaged);
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
-  if (plan.formulation.depth_averaged)
+  if (plan.formulation.depth_averaged) {
     plan_columns(s, bed, plan);
-  else
+    plan_eroded_bed(s, in, bed, plan);
+  } else
     plan_full_stress(s, bed, plan);
 
   const auto& v0 = s.release.velocity_m_s;

@@ -7,6 +7,7 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/erosion/settings.hpp"
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/particles/release.hpp"
 #include "scenarios/assembly/formulation.hpp"
@@ -30,11 +31,12 @@ struct ScenePlan {
   GrainStressSettings stress;                                ///< full_stress
   ContactSettings contact;                                   ///< full_stress
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
-  double reference_fraction = 0.6;  ///< solid fraction of the mass as it is set down
-  DepthAveragedSettings columns;    ///< depth_averaged
-  double reference_speed_m_s = 0;   ///< v_ref of the fastest expected mass point; full_stress
-  TimeCap end;                      ///< when it is stopped at the latest
-  double available_energy_j = 0;    ///< release mass falling to the lowest ground within runout
+  double reference_fraction = 0.6;         ///< solid fraction of the mass as it is set down
+  DepthAveragedSettings columns;           ///< depth_averaged
+  std::optional<ErosionSettings> erosion;  ///< where columns take their bed along
+  double reference_speed_m_s = 0;  ///< v_ref of the fastest expected mass point; full_stress
+  TimeCap end;                     ///< when it is stopped at the latest
+  double available_energy_j = 0;   ///< release mass falling to the lowest ground within runout
 
   explicit ScenePlan(Terrain ground) : bed(std::move(ground)) {}
 };

@@ -93,6 +93,52 @@ void check_formulation(const Scenario& s, Problems& problems) {
                             "depth_averaged."});
 }
 
+/// Pore pressure is computed where there is a mixture, so nothing else may set it.
+void check_mixture(const Scenario& s, Problems& problems) {
+  if (!s.mixture) return;
+  const MixtureSpec& wet = *s.mixture;
+  const auto refuse = [&](bool given, const char* path, const char* why) {
+    if (given) problems.push_back({path, shown(s, path) + why});
+  };
+  if (s.formulation == Formulation::full_stress)
+    problems.push_back({"mixture",
+                        "mixture (formulation is full_stress; only depth_averaged knows "
+                        "it). Remove it or set formulation: depth_averaged."});
+  refuse(
+      !s.material.empty(), "material",
+      " (mixture is there too; a material's friction is that of the whole flow with its water, a "
+      "mixture's that of the grains alone). Keep one of them.");
+  refuse(s.basal.pore_pressure_ratio != Uncertain(0), "basal.pore_pressure_ratio",
+         " (mixture is there too, which computes the pore pressure). Remove it; "
+         "mixture.initial_pressure_ratio sets the pressure at the start.");
+  refuse(s.basal.viscosity_pa_s.has_value(), "basal.viscosity_pa_s",
+         " (mixture is there too, whose fluid has a viscosity). Use mixture.fluid_viscosity_pa_s.");
+  refuse(s.basal.yield_stress_pa.has_value(), "basal.yield_stress_pa",
+         " (mixture is there too, which is held by its grains). Remove it.");
+  refuse(s.grains && asks_for_internal_friction(s.grains->earth_pressure), "grains.earth_pressure",
+         " (mixture is there too, in which water carries part of the load; it knows isotropic "
+         "only). Remove it.");
+  for (const BasalZone& zone : s.basal.zones)
+    if (zone.pore_pressure_ratio) {
+      problems.push_back({"basal.zones",
+                          "basal.zones: pore_pressure_ratio of a zone (mixture is "
+                          "there too, which computes the pore pressure). Remove "
+                          "it."});
+      break;
+    }
+  refuse(wet.initial_pressure == InitialPressure::liquefied && wet.initial_pressure_ratio,
+         "mixture.initial_pressure_ratio",
+         " (mixture.initial_pressure is liquefied, which is a ratio of 1). Keep one of them.");
+  if (!s.grains) return;
+  const double heaviest = support(wet.fluid_density_kg_m3).second;
+  const double lightest = support(s.grains->density_kg_m3).first;
+  if (heaviest >= lightest)
+    problems.push_back({"mixture.fluid_density_kg_m3",
+                        "mixture.fluid_density_kg_m3 = " + number_text(heaviest) +
+                            " (must be below grains.density_kg_m3 = " + number_text(lightest) +
+                            ": grains that float have no effective stress)."});
+}
+
 void check_drag(const Scenario& s, Problems& problems) {
   const char* const path = "basal.yield_stress_pa";
   if (s.basal.yield_stress_pa && !s.basal.viscosity_pa_s)
@@ -107,6 +153,7 @@ void check_material(const Scenario& s, Problems& problems) {
   check_grains(s, problems);
   check_states(s, problems);
   check_formulation(s, problems);
+  check_mixture(s, problems);
   check_drag(s, problems);
 }
 

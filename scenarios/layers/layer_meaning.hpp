@@ -16,6 +16,7 @@ enum class Quantity {
   arrival,    ///< time until the flow comes
   deposit,    ///< thickness left behind
   left,       ///< mass that crossed the edge of the known ground
+  eroded,     ///< depth of bed that the flow took along
   intensity,  ///< a class of thickness and speed together
   members,    ///< of the ensemble
   other
@@ -27,7 +28,8 @@ enum class Statistic {
   upper_bound,
   quantile,  ///< at the levels of the axis
   mean,
-  peak,  ///< of one member: largest over time; of an arrival the first, of a deposit the last
+  peak,  ///< of one member: largest over time; of an arrival the first, of deposit and erosion the
+         ///< last
   count,
   value  ///< none of these
 };
@@ -39,10 +41,10 @@ enum class IntensityClass { none, medium, high };
 constexpr auto words_of(Quantity) {
   using enum Quantity;
   return std::array{
-      Word{reached, "reached"}, Word{thickness, "thickness"}, Word{speed, "speed"},
-      Word{energy, "energy"},   Word{pressure, "pressure"},   Word{arrival, "arrival"},
-      Word{deposit, "deposit"}, Word{left, "left"},           Word{intensity, "intensity"},
-      Word{members, "members"}, Word{other, "other"}};
+      Word{reached, "reached"},     Word{thickness, "thickness"}, Word{speed, "speed"},
+      Word{energy, "energy"},       Word{pressure, "pressure"},   Word{arrival, "arrival"},
+      Word{deposit, "deposit"},     Word{left, "left"},           Word{eroded, "eroded"},
+      Word{intensity, "intensity"}, Word{members, "members"},     Word{other, "other"}};
 }
 constexpr auto words_of(Statistic) {
   using enum Statistic;
@@ -90,6 +92,8 @@ constexpr Quantity quantity_of(PeakLayer layer) {
       return Quantity::deposit;
     case PeakLayer::left:
       return Quantity::left;
+    case PeakLayer::eroded:
+      return Quantity::eroded;
   }
   return Quantity::other;
 }

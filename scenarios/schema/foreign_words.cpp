@@ -27,8 +27,7 @@ constexpr std::string_view pore =
 constexpr std::string_view density =
     "Use grains.density_kg_m3 and grains.solid_fraction: their product is the bulk density.";
 constexpr std::string_view angle = "Use grains.friction_angle_deg.";
-constexpr std::string_view erosion =
-    "Not supported: the mass takes up no ground. Give release.volume_m3 what arrives.";
+constexpr std::string_view erosion = "Use the block erosion: law, growth_rate_per_m, depth_m, ...";
 constexpr std::string_view obstacles =
     "Not supported. Put more friction there with basal.zones, or the obstacle into the terrain "
     "raster.";
@@ -57,7 +56,7 @@ const std::array entries{
     Entry{{"ru", "r_u", "pore_pressure", "lambda"}, pore},
     Entry{{"rho", "rho_kg_m3", "bulk_density", "bulk_density_kg_m3"}, density},
     Entry{{"phi", "phi_deg", "internal_friction_angle", "internal_friction_angle_deg"}, angle},
-    Entry{{"entrainment", "erosion", "erosion_rate", "bed_erosion", "snow_cover"}, erosion},
+    Entry{{"entrainment", "erosion_rate", "bed_erosion", "snow_cover", "erodible_bed"}, erosion},
     Entry{{"resistance", "forest", "trees", "obstacles", "buildings", "dam", "dams", "barrier"},
           obstacles},
     Entry{{"secondary", "secondary_release", "secondary_releases", "staggered"}, secondary},

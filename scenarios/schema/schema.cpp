@@ -17,6 +17,7 @@ std::vector<KeyInfo> all_keys() {
   std::vector<KeyInfo> keys;
   schema_rows::add_site_keys(keys);
   schema_rows::add_material_keys(keys);
+  schema_rows::add_erosion_keys(keys);
   schema_rows::add_run_keys(keys);
   return keys;
 }
@@ -25,6 +26,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   std::vector<BlockInfo> blocks;
   schema_rows::add_site_blocks(blocks);
   schema_rows::add_material_blocks(blocks);
+  schema_rows::add_erosion_blocks(blocks);
   return blocks;
 }
 

@@ -14,6 +14,7 @@ constexpr auto dilute =
     blocks::at<&Scenario::grains, &GrainsSpec::states, &GrainStatesSpec::dilute>;
 constexpr auto ultradilute =
     blocks::at<&Scenario::grains, &GrainsSpec::states, &GrainStatesSpec::ultradilute>;
+constexpr auto mixture = blocks::at<&Scenario::mixture>;
 constexpr auto basal = blocks::at<&Scenario::basal>;
 
 void add_grains(std::vector<KeyInfo>& keys) {
@@ -85,6 +86,47 @@ void add_states(std::vector<KeyInfo>& keys) {
                      "scene need."})));
 }
 
+void add_mixture_keys(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  const auto add = [&keys](auto member, const Row& row) {
+    keys.push_back(key(mixture, member, row));
+  };
+  const auto add_positive = [&keys](auto member, const Row& row) {
+    keys.push_back(above_min(key(mixture, member, row)));
+  };
+  add(&MixtureSpec::fluid_density_kg_m3, {"mixture.fluid_density_kg_m3", uncertain, "kg m-3", 800,
+                                          2200, "Density of the pore fluid: water with fines."});
+  add_positive(&MixtureSpec::fluid_viscosity_pa_s,
+               {"mixture.fluid_viscosity_pa_s", uncertain, "Pa s", 0, 100,
+                "Viscosity of the pore fluid; clear water has 0.001."});
+  keys.push_back(
+      choice_key(mixture, &MixtureSpec::initial_pressure, "mixture.initial_pressure",
+                 "Pore pressure at the start: that of still water, or all of the weight."));
+  add(&MixtureSpec::initial_pressure_ratio,
+      {"mixture.initial_pressure_ratio", uncertain, "1", 0, 1,
+       "Pore pressure at the start over total normal stress, instead of a word."});
+  add(&MixtureSpec::critical_solid_fraction,
+      {"mixture.critical_solid_fraction", uncertain, "1", 0.3, 0.8,
+       "Solid fraction that slow shear leaves as it is: looser than it a mass contracts and "
+       "liquefies, denser it dilates and sticks."});
+  add_positive(&MixtureSpec::permeability_m2,
+               {"mixture.permeability_m2", uncertain, "m2", 0, 1e-3,
+                "Permeability k_r at permeability_fraction; k = k_r exp((m_r - m)/0.04)."});
+  add(&MixtureSpec::permeability_fraction,
+      {"mixture.permeability_fraction", uncertain, "1", 0.3, 0.8,
+       "Solid fraction m_r at which permeability_m2 holds."});
+  add_positive(
+      &MixtureSpec::compressibility,
+      {"mixture.compressibility", uncertain, "1", 0, 1,
+       "a of the grain skeleton: compliance a/(m (effective stress + stress_offset_pa))."});
+  add_positive(&MixtureSpec::stress_offset_pa,
+               {"mixture.stress_offset_pa", uncertain, "Pa", 0, 1e6,
+                "Keeps the skeleton from being infinitely soft where it is liquefied."});
+  add(&MixtureSpec::shear_grain_diameter_m,
+      {"mixture.shear_grain_diameter_m", uncertain, "m", 0, 1,
+       "Grain size at which collisions loosen the sheared mass."});
+}
+
 void add_basal(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
   keys.push_back(key(basal, &BasalSpec::friction_coefficient,
@@ -127,6 +169,7 @@ void add_material_keys(std::vector<KeyInfo>& keys) {
       material_names()));
   add_grains(keys);
   add_states(keys);
+  add_mixture_keys(keys);
   add_basal(keys);
   keys.push_back(
       choice_key(scene, &Scenario::formulation, "formulation",
@@ -148,6 +191,9 @@ void add_material_blocks(std::vector<BlockInfo>& blocks) {
   blocks.push_back(optional_block("grains.states.ultradilute",
                                   "Grains without neighbours: isolated particles in free flight.",
                                   ultradilute));
+  blocks.push_back(optional_block(
+      "mixture", "Water in the pores whose pressure follows from shear; depth_averaged only.",
+      mixture));
 }
 
 }  // namespace sturz::schema_rows

@@ -112,6 +112,9 @@ void add_hazard(std::vector<KeyInfo>& keys) {
              "Thresholds of kinetic energy per area, rising.");
   thresholds(&HazardSpec::pressure_kpa, "hazard.pressure_kpa", "kPa",
              "Thresholds of dynamic pressure, rising.");
+  thresholds(&HazardSpec::eroded_depth_m, "hazard.eroded_depth_m", "m",
+             "Thresholds of the depth of bed that the flow takes along, rising; for scenes with "
+             "erosion.");
   keys.push_back(above_min(key(
       hazard, &HazardSpec::quantiles,
       {"hazard.quantiles", number_list, "1", 0, 1, "Quantile levels between 0 and 1, rising."})));

@@ -20,13 +20,14 @@ struct Shape {
   SyntheticScene (*build)(const Numbers&, double cell_m);
 };
 
-Shape plane();        ///< even slope
-Shape bowl();         ///< paraboloid
-Shape step();         ///< two levels and the face between them
-Shape flume();        ///< inclined floor, then a level plate
-Shape ramp();         ///< even slope, smooth transition, level ground
-Shape zhangjiawan();  ///< rock avalanche over a small hill, with its source
-Shape shuicheng();    ///< slide that splits into two gullies, with its source
+Shape plane();         ///< even slope
+Shape bowl();          ///< paraboloid
+Shape step();          ///< two levels and the face between them
+Shape flume();         ///< inclined floor, then a level plate
+Shape debris_flume();  ///< large chute, arc and pad, with its source behind a gate
+Shape ramp();          ///< even slope, smooth transition, level ground
+Shape zhangjiawan();   ///< rock avalanche over a small hill, with its source
+Shape shuicheng();     ///< slide that splits into two gullies, with its source
 
 /// Builds a raster from z(x, y) at the cell centres.
 template <class Height>

@@ -15,7 +15,7 @@ namespace {
 const std::vector<shapes::Shape>& all_shapes() {
   static const std::vector<shapes::Shape> all = {
       shapes::plane(), shapes::bowl(),        shapes::step(),      shapes::flume(),
-      shapes::ramp(),  shapes::zhangjiawan(), shapes::shuicheng(),
+      shapes::ramp(),  shapes::zhangjiawan(), shapes::shuicheng(), shapes::debris_flume(),
   };
   return all;
 }

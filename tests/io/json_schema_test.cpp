@@ -65,7 +65,7 @@ TEST(JsonSchema, KnowsTheShapeOfZones) {
 
 TEST(JsonSchema, KnowsTheKeysOfTheShippedCases) {
   const Json j = Json::parse(json_schema());
-  for (const char* name : {"zhangjiawan", "shuicheng_dry"}) {
+  for (const char* name : {"zhangjiawan", "shuicheng_dry", "usgs_flume"}) {
     const std::string folder = std::string(STURZ_SOURCE_DIR "/scenarios/cases/") + name;
     const auto file = read_scenario_file(folder + "/scenario.yaml");
     EXPECT_GT(file.positions.size(), 20u);

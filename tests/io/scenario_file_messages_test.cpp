@@ -73,11 +73,9 @@ TEST(ScenarioMessages, WordsOfOtherProgramsGetAnAnswer) {
                           "basal.turbulent_coefficient_m_s2: Voellmy's xi, in m/s2 (100 to 3000).",
                           "scenario.yaml:7:28: basal.tau0_pa (unknown key). Use "
                           "basal.yield_stress_pa with basal.viscosity_pa_s: a Bingham fluid."));
-  EXPECT_THAT(
-      problems(scene() + "entrainment: {polygon: a.shp}\nresistance: {polygon: b.shp}\n"),
-      ElementsAre(HasSubstr("entrainment (unknown key). Not supported: the mass takes up no "
-                            "ground."),
-                  HasSubstr("resistance (unknown key). Not supported.")));
+  EXPECT_THAT(problems(scene() + "entrainment: {polygon: a.shp}\nresistance: {polygon: b.shp}\n"),
+              ElementsAre(HasSubstr("entrainment (unknown key). Use the block erosion:"),
+                          HasSubstr("resistance (unknown key). Not supported.")));
 }
 
 TEST(ScenarioMessages, StatesOfGrains) {
@@ -131,8 +129,8 @@ TEST(ScenarioMessages, WrongType) {
               ElementsAre("scenario.yaml:7:21: ensemble.members = 3.5 (must be a whole number)."));
   EXPECT_THAT(problems(scene() + "hazard: {cell_size_m: {uniform: [1, 2]}}\n"),
               ElementsAre("scenario.yaml:7:23: hazard.cell_size_m = {uniform: [1, 2]} (must be a "
-                          "plain number). Only keys of release, grains and basal can be "
-                          "uncertain."));
+                          "plain number). Only numbers of release, grains, basal, mixture and "
+                          "erosion can be uncertain."));
 }
 
 TEST(ScenarioMessages, NumbersAreStrict) {

@@ -54,7 +54,7 @@ class Install(unittest.TestCase):
 
     def test_a_shipped_case_is_listed_copied_and_computed(self):
         listed = self.sturz("cases").stdout
-        for name in ("zhangjiawan", "shuicheng_dry", "template"):
+        for name in ("zhangjiawan", "shuicheng_dry", "usgs_flume", "template"):
             self.assertIn(f"  {name} ", listed)
         self.sturz("cases", "zhangjiawan", "-o", "mine")
         self.sturz("ensemble", "mine/scenario.yaml", "-n", "2", "-o", "out", "--set", "numerics.end_time_s=2",

@@ -63,6 +63,7 @@ Simulation ridge(Formulation formulation, double spacing, int wide,
       thickness->at(r, c) = std::max(0.0, depth / cos35 * (1 - u * u));
     }
   inputs.release = std::move(thickness);
+  inputs.release_cover = nullptr;  // of the box that the parabola takes the place of
   inputs.pattern = ReleasePattern::thickness;
   s.release.box.reset();
   s.release.thickness_m.reset();

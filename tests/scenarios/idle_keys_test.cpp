@@ -70,10 +70,11 @@ TEST(ForeignWords, SayWhatToWriteHere) {
   EXPECT_THAT(advice_on_foreign_word("Xi"), HasSubstr("turbulent_coefficient"));
   EXPECT_THAT(advice_on_foreign_word("basal.mu"), StartsWith("Use basal.friction_coefficient"));
   EXPECT_THAT(advice_on_foreign_word("basal.tau0_pa"), StartsWith("Use basal.yield_stress_pa"));
+  EXPECT_THAT(advice_on_foreign_word("entrainment"), StartsWith("Use the block erosion"));
 }
 
 TEST(ForeignWords, SayWhatThereIsNot) {
-  for (const char* word : {"entrainment", "resistance", "release.secondary", "release.hydrograph"})
+  for (const char* word : {"resistance", "release.secondary", "release.hydrograph"})
     EXPECT_THAT(advice_on_foreign_word(word), StartsWith("Not supported")) << word;
 }
 

@@ -93,9 +93,13 @@ TEST(Schema, DefaultsLieInsideTheLimits) {
 
 TEST(Schema, UnitsStandInTheNames) {
   const std::map<std::string, std::string> tails = {
-      {"m", "_m"},          {"m3", "_m3"},      {"s", "_s"},       {"degree", "_deg"},
-      {"Pa", "_pa"},        {"kPa", "_kpa"},    {"m s-1", "_m_s"}, {"kJ m-2", "_kj_m2"},
-      {"kg m-3", "_kg_m3"}, {"m s-2", "_m_s2"}, {"Pa s", "_pa_s"}};
+      {"m", "_m"},          {"m3", "_m3"},
+      {"s", "_s"},          {"degree", "_deg"},
+      {"Pa", "_pa"},        {"kPa", "_kpa"},
+      {"m s-1", "_m_s"},    {"kJ m-2", "_kj_m2"},
+      {"kg m-3", "_kg_m3"}, {"m s-2", "_m_s2"},
+      {"Pa s", "_pa_s"},    {"m2", "_m2"},
+      {"m-1", "_per_m"},    {"m kPa-1", "_m_per_kpa"}};
   for (const auto& key : schema()) {
     if (key.units.empty() || key.units == "1") continue;
     ASSERT_TRUE(tails.count(key.units)) << key.path << " [" << key.units << "]";
@@ -107,7 +111,8 @@ TEST(Schema, OnlyPhysicalQuantitiesMayBeUncertain) {
   for (const auto& key : schema())
     if (key.kind == ValueKind::uncertain) {
       EXPECT_TRUE(key.path.starts_with("release.") || key.path.starts_with("grains.") ||
-                  key.path.starts_with("basal."))
+                  key.path.starts_with("basal.") || key.path.starts_with("mixture.") ||
+                  key.path.starts_with("erosion."))
           << key.path;
     }
 }
@@ -120,8 +125,8 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_THAT(names_in_block("grains.friction"),
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
-              ElementsAre("title", "terrain", "release", "material", "grains", "basal",
-                          "formulation", "numerics", "domain", "ensemble", "hazard"));
+              ElementsAre("title", "terrain", "release", "material", "grains", "mixture", "basal",
+                          "formulation", "erosion", "numerics", "domain", "ensemble", "hazard"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

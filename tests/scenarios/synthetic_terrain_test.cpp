@@ -192,6 +192,38 @@ TEST(SyntheticTerrain, FlumeEndsOnALevelPlate) {
   EXPECT_NEAR(bed.at(5, top), (3 * std::cos(a) - bed.grid.x_center(top)) * std::tan(a), 1e-12);
 }
 
+TEST(SyntheticTerrain, DebrisFlumeIsAChuteAnArcAndAPad) {
+  const auto scene = make_synthetic({"debris_flume", 0.1, {}});
+  const Raster<double>& bed = scene.bed;
+  const double chute = 31 * std::numbers::pi / 180, pad = 2.5 * std::numbers::pi / 180;
+  const int middle = bed.grid.n_rows / 2;
+  const auto slope = [&](double x) {
+    const int c = bed.grid.col_of(x);
+    return (bed.at(middle, c - 1) - bed.at(middle, c + 1)) / 0.2;
+  };
+  EXPECT_NEAR(slope(-2), std::tan(chute), 1e-9);
+  EXPECT_NEAR(slope(60), std::tan(chute), 1e-9);
+  EXPECT_NEAR(slope(90), std::tan(pad), 1e-9);
+  // The arc: where the bed has 20 degrees, 11 degrees times 10 m below its start.
+  const double x20 =
+      78 * std::cos(chute) + 10 * (std::sin(chute) - std::sin(20 * std::numbers::pi / 180));
+  EXPECT_NEAR(slope(x20), std::tan(20 * std::numbers::pi / 180), 0.01);
+  // Walls to s = 82.5 m; the pad is open.
+  const auto across = [&](double x) {
+    const int c = bed.grid.col_of(x);
+    return bed.at(bed.grid.row_of(1.5), c) - bed.at(middle, c);
+  };
+  EXPECT_NEAR(across(-2), 2.5, 1e-9);
+  EXPECT_NEAR(across(50), 1.6, 1e-9);
+  EXPECT_NEAR(across(75), 0, 1e-9);
+  double volume = 0, thickest = 0;
+  for (const double h : scene.thickness->values)
+    volume += 0.01 * h, thickest = std::max(thickest, h);
+  EXPECT_NEAR(volume, 10, 1e-9);
+  EXPECT_NEAR(thickest * std::cos(chute), 1.9 * std::cos(chute), 0.06);
+  EXPECT_EQ(scene.thickness->at(middle, bed.grid.col_of(0.1)), 0) << "behind the gate";
+}
+
 TEST(SyntheticTerrain, BowlIsLowestInItsMiddle) {
   const auto bed = make_synthetic({"bowl", 1, {{"size_m", 21}}}).bed;
   EXPECT_NEAR(bed.at(10, 10), 0, 1e-12);
@@ -200,7 +232,7 @@ TEST(SyntheticTerrain, BowlIsLowestInItsMiddle) {
 
 TEST(SyntheticTerrain, EveryShapeBuildsWithItsDefaults) {
   for (const auto& shape : synthetic_shapes()) {
-    const auto scene = make_synthetic({shape, shape == "flume" ? 0.1 : 10, {}});
+    const auto scene = make_synthetic({shape, shape.ends_with("flume") ? 0.1 : 10, {}});
     EXPECT_EQ(scene.bed.values.size(), scene.bed.grid.n_cells()) << shape;
     EXPECT_TRUE(std::all_of(scene.bed.values.begin(), scene.bed.values.end(), [](double z) {
       return std::isfinite(z);

@@ -3,7 +3,9 @@
 
 #include "engine/core/error.hpp"
 #include "engine/effects/arrivals.hpp"
+#include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
+#include "engine/particles/column_area.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +45,7 @@ void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
   p.scalar(fields::support_radius)[i] = support_radius;
   p.scalar(fields::thickness)[i] = thickness;
   p.scalar(fields::normal_gravity)[i] = g_n;
+  if (set.mixture) start_pressure(p, *set.mixture, i);
   const int zone = flow.zone_of(s.domain, p, i);
   if (Field* k = p.find(fields::earth_pressure)) {
     const EarthPressure& e = set.earth_pressure[zone];
@@ -58,6 +61,17 @@ void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
   flow.release_top =
       std::max(flow.release_top, p.z[i] + thickness / n.z() + 0.5 * v.norm2() / s.gravity);
   p.vx[i] = v.x, p.vy[i] = v.y, p.vz[i] = v.z;
+}
+
+/// A column stands for the part of its lattice cell that the source covers.
+void mark_areas(MovingSet& p, const DepthAveragedSettings& set, std::span<const double> covered) {
+  const GroundColumns ground(p);
+  const auto &radius = p.scalar(fields::support_radius), &thickness = p.scalar(fields::thickness);
+  auto& share = p.scalar(fields::area_share);
+  for (std::size_t i = 0; i < covered.size(); ++i)
+    share[i] =
+        covered[i] * set.spacing * set.spacing /
+        column_area(radius[i], ground[i].normal().z(), p.mass[i] / set.density, thickness[i]);
 }
 
 void start_columns(const State& s, MovingSet& p, ColumnFlow& flow,
@@ -98,6 +112,7 @@ bool look_up_ground(const State& s, ParticleSet& p, const GroundColumns& ground,
 
 void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t first) {
   p.fate.resize(p.size());
+  if (flow.settings.mixture) enter_mixture(p, *flow.settings.mixture, first);
   FirstRates rates;
   for (std::size_t i = first; i < p.size(); ++i) start_column(s, p, flow, i, 0, rates);
   flow.fastest_wave = std::max(flow.fastest_wave, std::sqrt(rates.wave2));
@@ -106,13 +121,20 @@ void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t f
 std::size_t column_bytes_per_particle() { return 48 + 2 * 40 + 7 * 4 + 16; }
 
 void add_depth_averaged(Step& step, State& state, std::size_t set,
-                        const DepthAveragedSettings& settings, std::span<const double> thickness) {
+                        const DepthAveragedSettings& settings, std::span<const double> thickness,
+                        std::span<const double> covered) {
   MovingSet& p = state.sets[set];
   expect(thickness.size() == p.size(), "one thickness per column");
+  expect(covered.empty() || covered.size() == p.size(), "one cover per column");
   expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
          "bed and earth pressure for every zone");
+  const auto fluid = [](const BasalResistance& b) {
+    return b.pore_pressure_ratio > 0 || b.viscosity_pa_s > 0 || b.yield_stress_pa > 0;
+  };
+  expect(!settings.mixture || std::none_of(settings.bed.begin(), settings.bed.end(), fluid),
+         "a mixture has its own pore pressure and viscosity");
   for (const FieldKey* key :
-       {&fields::thickness, &fields::support_radius, &fields::normal_gravity,
+       {&fields::thickness, &fields::support_radius, &fields::area_share, &fields::normal_gravity,
         &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
     p.add(*key);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
@@ -122,7 +144,9 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   mark_start(state.domain, p, 0);
   auto flow = std::make_shared<ColumnFlow>(set, settings);
   start_columns(state, p, *flow, thickness);
+  mark_areas(p, settings, covered);
   add_column_pressure(step, flow);
+  add_column_bed(step, flow);
   add_column_motion(step, flow);
 }
 

@@ -1,114 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// What gravity, lateral pressure and the bed do to a column, and its displacement.
+// The displacement of a column along the ground.
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/effects/motion/losses.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace sturz {
 namespace {
-
-/// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the bed acts last and can stop it.
-class BedPass final : public Pass {
- public:
-  explicit BedPass(std::shared_ptr<ColumnFlow> flow) : flow_(std::move(flow)) {}
-  std::string_view name() const override { return "gravity and bed"; }
-  std::string_view effect() const override { return EffectName::bed; }
-  Stage stage() const override { return Stage::contact; }
-
-  void apply(State& s, double dt) override {
-    const double kick = kick_interval(s, dt);
-    MovingSet& p = s.sets[flow_->set];
-    const GroundColumns ground(p);
-    const auto& g_n = p.scalar(fields::normal_gravity);
-    const auto& thickness = p.scalar(fields::thickness);
-    const Works sums = ordered_reduce(
-        p.size(), s.threads, Works{},
-        [&](std::size_t begin, std::size_t end, Works& out) {
-          for (std::size_t i = begin; i < end; ++i) {
-            if (s.leaves(p, i)) continue;  // the ledger takes it as it was at the start of the step
-            const Works w = push(s, p, i, ground[i].normal(), g_n[i], thickness[i], kick, dt);
-            out.friction += p.mass[i] * w.friction;
-            out.contact += p.mass[i] * w.contact;
-          }
-        },
-        [](Works& total, const Works& block) {
-          total.friction += block.friction;
-          total.contact += block.contact;
-        });
-    p.ledger.friction += sums.friction;
-    p.ledger.contact_work += sums.contact;
-  }
-
- private:
-  struct Works {
-    double friction = 0, contact = 0;  // taken by bed and walls; done by walls [J/kg], [J]
-  };
-
-  /// \return works with the mean velocity of the step
-  Works push(const State& s, MovingSet& p, std::size_t i, const Vec3& n, double normal_gravity,
-             double thickness, double kick, double drift) const {
-    const Vec3 before(p.vx[i], p.vy[i], p.vz[i]);
-    Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
-    pull -= pull.dot(n) * n;
-    const DepthAveragedSettings& set = flow_->settings;
-    const int zone = flow_->zone_of(s.domain, p, i);
-    const BasalResistance& bed = set.bed[zone];
-    double plastic = bed.plastic(normal_gravity, thickness, set.density);
-    if (!set.spent_inside.empty())
-      plastic +=
-          flow_->share[i] * set.spent_inside[zone] * driving_thrust(p, i, n, pull, before, kick);
-    Vec3 after = braked(before, pull, plastic, 0, kick);
-    if (bed.has_rate()) {
-      // The rate at the mean speed of the step, found from the rate at its start: a steady flow
-      // keeps its exact speed at any length of step.
-      auto rate = [&](double v) { return bed.rate(v, thickness, set.density, s.gravity); };
-      const double v0 = before.norm();
-      const double v1 = braked(before, pull, plastic, rate(v0), kick).norm();
-      after = braked(before, pull, plastic, rate(0.5 * (v0 + v1)), kick);
-    }
-    Vec3 taken = before + kick * pull - after, held(0, 0, 0);
-    for (const Wall& wall : s.domain.walls) {
-      if (s.time >= wall.remove_at_s) continue;
-      const ColumnAtWall column = flow_->at_wall(p, i);
-      const double pressed = kick * flow_->walls.pressure(s.domain, s.time, wall, column).norm();
-      const auto impulse = flow_->walls.impulse(wall, column, after, pressed, drift);
-      after += impulse.normal + impulse.friction;
-      taken -= impulse.friction;
-      held += impulse.normal;
-    }
-    p.vx[i] = after.x(), p.vy[i] = after.y(), p.vz[i] = after.z();
-    const Vec3 mean = 0.5 * (before + after);
-    return {taken.dot(mean), held.dot(mean)};
-  }
-
-  /// What pressure adds to the motion that it drives, or would start [m/s^2]; what it takes to hold
-  /// the column against the fall of the ground drives nothing.
-  static double driving_thrust(const MovingSet& p, std::size_t i, const Vec3& n, const Vec3& pull,
-                               const Vec3& before, double kick) {
-    Vec3 thrust(p.ax[i], p.ay[i], p.az[i]);
-    thrust -= thrust.dot(n) * n;
-    const Vec3 along = before + kick * pull;
-    const double speed = along.norm();
-    if (!(speed > 0)) return 0;
-    return std::max(0.0, std::min(thrust.dot(along), pull.dot(along)) / speed);
-  }
-
-  /// Exact solution of dv/dt = pull - plastic v/|v| - rate v with the direction frozen; the
-  /// plastic part stops the column and never turns it.
-  static Vec3 braked(const Vec3& v, const Vec3& pull, double plastic, double rate, double dt) {
-    const double x = rate * dt, decay = x > 0 ? std::exp(-x) : 1;
-    const double mean = x > 1e-8 ? (1 - decay) / x : 1;
-    const Vec3 trial = decay * v + (mean * dt) * pull;
-    const double speed = trial.norm(), stop = plastic * mean * dt;
-    return speed > stop ? Vec3((1 - stop / speed) * trial) : Vec3(0, 0, 0);
-  }
-
-  std::shared_ptr<ColumnFlow> flow_;
-};
 
 struct DriftSums {
   double risen = 0, stopped_energy = 0;  // sum of m dz; taken by a domain boundary that is a wall
@@ -278,7 +178,6 @@ class ColumnMotion final : public Pass {
 }  // namespace
 
 void add_column_motion(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
-  step.add(std::make_unique<BedPass>(flow));
   step.add(std::make_unique<ColumnMotion>(flow));
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/motion/wrapping.hpp"
+#include "engine/particles/column_area.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,6 +133,9 @@ class GatherPass final : public Pass {
     const GroundColumns ground(p);
     const Field* k_field = p.find(fields::earth_pressure);
     const double* k = k_field ? k_field->component[0].data() : nullptr;
+    const bool wet = flow_->settings.mixture.has_value();
+    const double* solids = wet ? p.scalar(fields::solids_volume).data() : nullptr;
+    const double* water = wet ? p.scalar(fields::water_volume).data() : nullptr;
     ColumnCells& cells = flow_->cells;
     ColumnRecord* records = cells.records();
     parallel_ranges(
@@ -142,7 +146,8 @@ class GatherPass final : public Pass {
             const double lateral = k ? known_earth_pressure(k[i], share[i]) * g[i] : g[i];
             const double known =
                 share[i] < 1 ? thickness[i] / thinned(share[i], ground[i].slope2()) : thickness[i];
-            r.volume = static_cast<float>(p.mass[i] / flow_->settings.density);
+            r.volume = static_cast<float>(solids ? solids[i] + water[i]
+                                                 : p.mass[i] / flow_->settings.density);
             r.vx = static_cast<float>(p.vx[i]);
             r.vy = static_cast<float>(p.vy[i]);
             r.vz = static_cast<float>(p.vz[i]);
@@ -209,6 +214,10 @@ class SweepPass final : public Pass {
     double* k = k_field ? k_field->component[0].data() : nullptr;
     const double first = set.radius_per_spacing * set.spacing;
     const bool walls = !s.domain.walls.empty();
+    if (set.mixture) flow_->strain_rate.resize(p.size());
+    double* strain_rate = set.mixture ? flow_->strain_rate.data() : nullptr;
+    const bool settles = s.n_steps < settling_steps;
+    double* area_share = settles ? p.scalar(fields::area_share).data() : nullptr;
     const Fastest fastest = ordered_reduce(
         cells.size(), s.threads, Fastest{},
         [&](std::size_t begin, std::size_t end, Fastest& most) {
@@ -216,6 +225,7 @@ class SweepPass final : public Pass {
             if (cells.is_image(c)) continue;
             const std::size_t i = cells.source(c);
             p.ax[i] = out.ax[c], p.ay[i] = out.ay[c], p.az[i] = out.az[c];
+            const double released = settles ? area_of(p, ground, i) : 0;
             const double whole =
                 walls ? flow_->walls.thickness_factor(s.domain, s.time, {p.x[i], p.y[i], p.z[i]},
                                                       support_radius[i])
@@ -223,6 +233,7 @@ class SweepPass final : public Pass {
             const double known = whole * out.thickness[c];
             const bool steep = share[i] < 1;
             thickness[i] = steep ? known * thinned(share[i], ground[i].slope2()) : known;
+            if (strain_rate) strain_rate[i] = double(out.divergence[c]) / out.thickness[c];
             if (k)
               k[i] = strained(s.domain, p, i, k[i], out.divergence[c] / known * dt, thickness[i]);
             const double per_h = 2 / support_radius[i];
@@ -231,6 +242,7 @@ class SweepPass final : public Pass {
             most.wave = std::max(most.wave, wave2);
             most.approach2 = std::max(most.approach2, out.approach[c] * per_h * per_h);
             support_radius[i] = adapted(support_radius[i], whole * out.density[c], first);
+            if (settles) area_share[i] *= released / area_of(p, ground, i);
           }
         },
         [](Fastest& total, const Fastest& block) {
@@ -251,6 +263,15 @@ class SweepPass final : public Pass {
         p.ax[i] = a.x(), p.ay[i] = a.y(), p.az[i] = a.z();
       }
     });
+  }
+
+  /// For so many steps support radii find what lies around them, and columns stand for the area
+  /// that they were released on.
+  static constexpr std::size_t settling_steps = 10;
+
+  double area_of(ParticleSet& p, const GroundColumns& ground, std::size_t i) const {
+    return column_area(p.scalar(fields::support_radius)[i], ground[i].normal().z(),
+                       p.mass[i] / flow_->settings.density, p.scalar(fields::thickness)[i]);
   }
 
   /// Follows the mean distance of columns, by at most a tenth a step.

@@ -2,11 +2,14 @@
 /// Numbers of a depth-averaged flow.
 #pragma once
 
+#include "engine/effects/columns/mixture_settings.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
 #include "engine/laws/basal_resistance.hpp"
 #include "engine/laws/earth_pressure.hpp"
+#include "engine/particles/column_area.hpp"
 #include "engine/terrain/zone_map.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace sturz {
@@ -17,7 +20,7 @@ struct DepthAveragedSettings {
   double viscosity = 0.5;  ///< Monaghan's alpha between approaching columns
   double courant = 0.25;   ///< of the wave limit and the approach limit
   /// Support radius over the mean distance of columns: about 50 neighbours.
-  double radius_per_spacing = 4;
+  double radius_per_spacing = radius_per_distance;
   double least_radius = 0.5,
          most_radius = 2;  ///< bounds of the adaptive support radius over its first value
   /// K's change per strain [M]: active to passive within about a hundredth of strain (Hungr 1995).
@@ -29,6 +32,7 @@ struct DepthAveragedSettings {
   std::vector<double> spent_inside;
   double internal_friction = 0;  ///< tan phi of the grains, to judge deposits by; 0: unknown
   ZoneMap zones;
+  std::optional<MixtureSettings> mixture;  ///< absent: a dry mass, or one with a constant ratio
   InstructionSet instruction_set = InstructionSet::plain;
 };
 

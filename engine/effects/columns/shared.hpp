@@ -24,6 +24,7 @@ struct ColumnFlow {
   std::vector<float> results[7];    ///< of the sweep, by record
   std::vector<double> share,        ///< of the ground's slope that pressure knows, by column [-]
       lateral_gravity;              ///< pressure over density and thickness where K = 1 [m/s^2]
+  std::vector<double> strain_rate;  ///< div v of each column [1/s]; empty without a mixture
   bool steep = false;               ///< some share is under one
   double start_dt = 1e-3;           ///< of the first step [s]
   double fastest_wave = 0;          ///< largest sqrt(K g_n h) / h_s [1/s]
@@ -141,6 +142,7 @@ SteepRest steep_rest(const State&, const ColumnFlow&, double limit);
 void warn_of_implausible(const State&, const ColumnFlow&, std::vector<std::string>&);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
-void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< bed, drift
+void add_column_bed(Step&, const std::shared_ptr<ColumnFlow>&);       ///< gravity and bed
+void add_column_motion(Step&, const std::shared_ptr<ColumnFlow>&);    ///< drift
 
 }  // namespace sturz

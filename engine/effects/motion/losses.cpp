@@ -33,6 +33,7 @@ Departure departure(const State& s, const MovingSet& p, std::size_t i) {
 void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& keep) {
   keep.resize(p.size());
   std::size_t n_kept = 0, n_listed = 0;
+  const Field *solids = p.find(fields::solids_volume), *water = p.find(fields::water_volume);
   for (std::size_t i = 0; i < p.size(); ++i) {
     keep[i] = !s.leaves(p, i);
     n_kept += keep[i];
@@ -43,6 +44,8 @@ void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& kee
     if (p.fate[i] == Fate::off_terrain) p.departures.push_back(departure(s, p, i));
     const double energy = 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
     (taken ? p.ledger.taken_mass : p.ledger.lost_mass) += p.mass[i];
+    if (solids) p.ledger.lost_solids += solids->component[0][i];
+    if (water) p.ledger.lost_water += water->component[0][i];
     (taken ? p.ledger.taken_energy : p.ledger.lost_energy) += energy;
   }
   if (n_kept == p.size()) return;

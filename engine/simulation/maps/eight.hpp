@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 namespace sturz {
@@ -18,6 +19,14 @@ inline Eight eight_at(const float* p) {
 inline void put_eight(float* p, const Eight& v) { std::memcpy(p, &v, sizeof v); }
 inline Eight larger(const Eight& a, const Eight& b) { return a > b ? a : b; }
 inline Eight smaller(const Eight& a, const Eight& b) { return a < b ? a : b; }
+/// Whether a comparison of two vectors holds anywhere.
+template <class Truth>
+bool any(const Truth& lanes) {
+  static_assert(sizeof lanes == sizeof(Eight));
+  std::uint64_t parts[4];
+  std::memcpy(parts, &lanes, sizeof parts);
+  return (parts[0] | parts[1] | parts[2] | parts[3]) != 0;
+}
 inline Eight root(Eight v) {
   float each[8];
   put_eight(each, v);

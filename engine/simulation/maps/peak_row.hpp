@@ -11,49 +11,69 @@ namespace sturz {
 /// What a row is looked at with.
 struct PeakRow {
   float time_s = 0;
-  bool has_three = false;          ///< instants so far: a parabola needs them
-  float newer_s = 1, older_s = 1;  ///< between the last three
-  float runout_limit_m = 0;        ///< motion counts in cells that are thicker
-  float enough_cover = 0;          ///< and they are reached where as much of them is covered
-  float per_area = 0;              ///< of a cell [1/m2]
+  float runout_limit_m = 0;  ///< motion counts in cells that are thicker
+  float enough_cover = 0;    ///< and they are reached where as much of them is covered
+  float enough_under = 0;    ///< or as much of them lies under the particles themselves
+  float per_area = 0;        ///< of a cell [1/m2]
+  bool is_odd = false;       ///< every other instant takes the place of the tile's `last`
 
-  /// \param cells  of the row  \param first  of the row's cells within the tile
-  void keep(const CellSums* cells, std::size_t first, PeakTile& peaks) const {
-    for (int j = 0; j < PeakTile::edge; j += 8) keep_eight(cells[j].data(), first + j, peaks);
+  /// \param cells, under  of the row  \param first  of the row's cells within the tile
+  void keep(const CellSums* cells, const float* under, std::size_t first, PeakTile& peaks) const {
+    for (int j = 0; j < PeakTile::edge; j += 8)
+      keep_eight(cells[j].data(), under + j, first + j, peaks);
+  }
+
+  /// Time between the last three instants, which a parabola needs.
+  void set_intervals(float newer_s, float older_s) {
+    has_three_ = true;
+    newer_s_ = newer_s, per_newer_ = 1 / newer_s;
+    older_s_ = older_s, per_older_ = 1 / older_s;
+    per_both_ = 1 / (newer_s + older_s);
   }
 
  private:
+  /// How far the top of a parabola may stand over the middle of three instants: an eighth, which is
+  /// what three evenly spaced ones give; uneven ones (a member's last) could give anything.
+  static constexpr float most_over = 0.125F;
+
+  bool has_three_ = false;
+  float newer_s_ = 1, older_s_ = 1, per_newer_ = 1, per_older_ = 1, per_both_ = 0.5F;
+
   /// Of values at the last three instants that hold the largest in their middle: the top of the
-  /// parabola through them, for between two instants a peak passes unseen. It stands over the
-  /// middle one by an eighth at most, which is what three evenly spaced instants give; uneven ones
-  /// (a member's last) could give anything. Elsewhere the middle one itself.
+  /// parabola through them, for between two instants a peak passes unseen. Elsewhere the middle one
+  /// itself.
   Eight top_of(const Eight& now, const Eight& middle, const Eight& before) const {
-    const Eight rise = (middle - before) / older_s, fall = (now - middle) / newer_s;
-    const Eight slope = (rise * newer_s + fall * older_s) / (older_s + newer_s);
-    const Eight curvature =
-        (rise - fall) / (older_s + newer_s);  // minus half the second derivative
-    const Eight most = has_three ? 0.125F * middle : 0.0F * middle;
-    const Eight over = smaller(0.25F * slope * slope / curvature, most);
+    const Eight rise = (middle - before) * per_older_, fall = (now - middle) * per_newer_;
+    const Eight slope = (rise * newer_s_ + fall * older_s_) * per_both_;
+    const Eight curvature = (rise - fall) * per_both_;  // minus half the second derivative
+    const Eight over = smaller(0.25F * slope * slope / curvature, most_over * middle);
     const auto is_top = (middle >= before) & (middle >= now) & (curvature > 0.0F);
     return middle + (is_top ? over : 0.0F * middle);
   }
 
-  /// Moves the instants on. \return the largest of the new value and a top that it closes
-  Eight pass(const Eight& now, float* last, float* before, bool gaps_count) const {
+  /// Puts the new value in the place of the oldest. \return the largest of the new value and a top
+  /// that it closes, where that is more than the peak so far
+  Eight pass(const Eight& now, const float* last, float* before, const Eight& peak,
+             bool gaps_count) const {
     const Eight middle = eight_at(last), first = eight_at(before);
-    put_eight(before, middle);
-    put_eight(last, now);
-    const Eight top = top_of(now, middle, first);
+    put_eight(before, now);
+    const auto may_be_top = (middle >= first) & (middle >= now) & ((1 + most_over) * middle > peak);
+    const Eight top = has_three_ && any(may_be_top) ? top_of(now, middle, first) : middle;
     if (gaps_count) return larger(now, top);
     // Where the flow was too thin to count there is no value, and no parabola through it.
     return ((now > 0.0F) & (middle > 0.0F) & (first > 0.0F)) ? larger(now, top) : now;
   }
 
-  void keep_eight(const float* cells, std::size_t at, PeakTile& peaks) const {
+  void keep_eight(const float* cells, const float* under, std::size_t at, PeakTile& peaks) const {
     Eight sums[n_cell_sums];
     transpose_eight(cells, sums);
     const auto sum = [&](CellSum s) { return sums[static_cast<int>(s)]; };
     const Eight none{}, mass = sum(CellSum::mass), volume = sum(CellSum::volume);
+    const PeakTile::Instant& last = is_odd ? peaks.before : peaks.last;
+    PeakTile::Instant& before = is_odd ? peaks.last : peaks.before;
+    if (!any((mass > 0.0F) | (eight_at(&last.thickness[at]) > 0.0F) |
+             (eight_at(&before.thickness[at]) > 0.0F)))
+      return;
     const Eight thickness = volume * per_area;
     const auto counts = thickness > runout_limit_m;
     const Eight per_mass = counts ? 1.0F / mass : none;
@@ -64,17 +84,30 @@ struct PeakRow {
     const Eight density = counts ? mass / volume : none;  // of the mixture
 
     const auto raise = [&](PeakTile::PerCell<float>& peak, const Eight& value) {
-      put_eight(&peak[at], larger(eight_at(&peak[at]), value));
+      // Most cells are past their peak: what is not written need not go back to memory.
+      const Eight so_far = eight_at(&peak[at]);
+      if (any(value > so_far)) put_eight(&peak[at], larger(so_far, value));
     };
-    PeakTile::Instant &last = peaks.last, &before = peaks.before;
-    const Eight speed = pass(speed_now, &last.speed[at], &before.speed[at], false);
-    raise(peaks.thickness, pass(thickness, &last.thickness[at], &before.thickness[at], true));
-    raise(peaks.energy, pass(energy_now, &last.energy[at], &before.energy[at], true));
-    raise(peaks.speed, speed);
+    const auto raise_passing = [&](PeakTile::PerCell<float> PeakTile::*peak,
+                                   PeakTile::PerCell<float> PeakTile::Instant::*value,
+                                   const Eight& now, bool gaps_count) {
+      PeakTile::PerCell<float>& highest = peaks.*peak;
+      const Eight value_now =
+          pass(now, &(last.*value)[at], &(before.*value)[at], eight_at(&highest[at]), gaps_count);
+      raise(highest, value_now);
+      return value_now;
+    };
+    raise_passing(&PeakTile::thickness, &PeakTile::Instant::thickness, thickness, true);
+    raise_passing(&PeakTile::energy, &PeakTile::Instant::energy, energy_now, true);
+    const Eight speed =
+        raise_passing(&PeakTile::speed, &PeakTile::Instant::speed, speed_now, false);
     raise(peaks.pressure, density * speed * speed);
-    const auto reached = counts & (sum(CellSum::coverage) >= enough_cover);
+    const auto covered =
+        (sum(CellSum::coverage) >= enough_cover) | (eight_at(under) >= enough_under);
+    const auto reached = counts & covered;
     const Eight now = reached ? none + time_s : none + PeakTile::never;
-    put_eight(&peaks.arrival[at], smaller(eight_at(&peaks.arrival[at]), now));
+    const Eight arrival = eight_at(&peaks.arrival[at]);
+    if (any(now < arrival)) put_eight(&peaks.arrival[at], smaller(arrival, now));
   }
 };
 

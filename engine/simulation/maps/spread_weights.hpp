@@ -5,7 +5,9 @@
 #include "engine/core/vec.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace sturz {
@@ -20,22 +22,18 @@ class SpreadWeights {
     const double first = std::floor(place - reach) + 1;
     first_ = static_cast<int>(first);
     n_ = static_cast<int>(std::ceil(place + reach) - first);
-    const auto n_blocks = static_cast<std::size_t>((n_ + block - 1) / block);
-    if (exact_.size() < n_blocks) exact_.resize(n_blocks), weights_.resize(n_blocks * block);
-    const Block steps = Block(0, 1, 2, 3) * per_width;
-    Block sum = Block::Zero();
-    double at = (first - place) * per_width;
-    for (std::size_t k = 0; k < n_blocks; ++k, at += block * per_width) {
-      const Block t = (steps + at).abs();
-      const Block outer = (1.5 - t).max(0.0), inner = (0.5 - t).max(0.0);
-      exact_[k] = 0.5 * outer * outer - 1.5 * inner * inner;
-      sum += exact_[k];
+    const int n_blocks = (n_ + block - 1) / block;
+    const double at = (first - place) * per_width;
+    switch (n_blocks) {  // the usual numbers, without a loop
+      case 1:
+        return fill<1>(at, per_width);
+      case 2:
+        return fill<2>(at, per_width);
+      case 3:
+        return fill<3>(at, per_width);
+      default:
+        fill_many(static_cast<std::size_t>(n_blocks), at, per_width);
     }
-    const double scale = 1 / sum.sum();
-    for (std::size_t k = 0; k < n_blocks; ++k)
-      for (std::size_t j = 0; j < block; ++j)
-        weights_[k * block + j] =
-            static_cast<float>(exact_[k][static_cast<Eigen::Index>(j)] * scale);
   }
   int first() const { return first_; }                      ///< cell
   int n() const { return n_; }                              ///< cells
@@ -45,9 +43,39 @@ class SpreadWeights {
   static constexpr int block = 4;
   using Block = Eigen::Array<double, block, 1>;
 
+  /// \param at  of the first cell from the particle, in widths
+  static Block spline(double at, double per_width) {
+    const Block t = (Block(0, 1, 2, 3) * per_width + at).abs();
+    const Block outer = (1.5 - t).max(0.0), inner = (0.5 - t).max(0.0);
+    return 0.5 * outer * outer - 1.5 * inner * inner;
+  }
+  void put(std::size_t k, const Block& exact, double scale) {
+    const Eigen::Array<float, block, 1> w = (exact * scale).cast<float>();
+    std::copy_n(w.data(), block, weights_.data() + k * block);
+  }
+  template <std::size_t n_blocks>
+  void fill(double at, double per_width) {
+    std::array<Block, n_blocks> exact;
+    Block sum = Block::Zero();
+    for (std::size_t k = 0; k < n_blocks; ++k, at += block * per_width)
+      sum += exact[k] = spline(at, per_width);
+    const double scale = 1 / sum.sum();
+    for (std::size_t k = 0; k < n_blocks; ++k) put(k, exact[k], scale);
+  }
+  void fill_many(std::size_t n_blocks, double at, double per_width) {
+    if (exact_.size() < n_blocks) exact_.resize(n_blocks);
+    if (weights_.size() < n_blocks * block) weights_.resize(n_blocks * block);
+    Block sum = Block::Zero();
+    for (std::size_t k = 0; k < n_blocks; ++k, at += block * per_width)
+      sum += exact_[k] = spline(at, per_width);
+    const double scale = 1 / sum.sum();
+    for (std::size_t k = 0; k < n_blocks; ++k) put(k, exact_[k], scale);
+  }
+
   int first_ = 0, n_ = 0;
-  std::vector<Block> exact_;    ///< before they are scaled to the sum of one
-  std::vector<float> weights_;  ///< [n] and what fills the last block
+  std::vector<Block> exact_;  ///< before they are scaled to the sum of one, of many blocks
+  std::vector<float> weights_ = std::vector<float>(3 * block);  ///< [n] and what fills the last
+                                                                ///< block
 };
 
 }  // namespace sturz

@@ -47,6 +47,9 @@ class SumTiles {
   }
   /// [n_cells] of a tile; valid until the next tile is opened.
   CellSums* cells(std::size_t slot) { return &sums_[slot * n_cells]; }
+  /// [n_cells] of a tile: share of each cell that lies under the particles themselves, without the
+  /// width that they are spread over; valid as long as `cells`.
+  float* under(std::size_t slot) { return &under_[slot * n_cells]; }
   void mark_rows(std::size_t slot, std::uint32_t rows) { open_[slot].rows |= rows; }
   /// In the order in which they were opened.
   const std::vector<Open>& tiles() const { return open_; }
@@ -59,6 +62,7 @@ class SumTiles {
   TileDirectory directory_;
   std::vector<Open> open_;      ///< [slot]
   std::vector<CellSums> sums_;  ///< [slot][cell], zero between instants
+  std::vector<float> under_;    ///< [slot][cell], zero between instants
 };
 
 }  // namespace sturz

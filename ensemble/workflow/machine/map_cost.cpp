@@ -54,7 +54,7 @@ MemberResult made_up_member(std::int64_t number, int edge) {
   const int half_width = edge / 8 + static_cast<int>(number % 4) * edge / 40;
   for (int l = 0; l < n_peak_layers; ++l) {
     const auto layer = static_cast<PeakLayer>(l);
-    if (!is_kept(layer, m.censoring)) continue;
+    if (!is_kept(layer, m.censoring, m.scalars)) continue;
     for (int i = 0; i < edge * edge; ++i)
       m.layer(layer).push_back(
           std::abs(i / edge - i % edge) <= half_width

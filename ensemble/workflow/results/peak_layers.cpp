@@ -47,7 +47,9 @@ LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground,
   stack.grid = map_grid(result);
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto peak = static_cast<PeakLayer>(i);
-    if (peak == PeakLayer::left && result.layer(peak).empty()) continue;  // nothing left
+    // What not every scene has.
+    const bool optional = peak == PeakLayer::left || peak == PeakLayer::eroded;
+    if (optional && result.layer(peak).empty()) continue;
     Layer layer;
     layer.name = info(peak).name;
     layer.meaning = {quantity_of(peak), Statistic::peak};
