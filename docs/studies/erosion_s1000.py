@@ -13,7 +13,7 @@ import sys
 SCENE = """
 title: S-1000
 terrain: {{raster: {data}/pre_runout_DEM.asc, crs: "EPSG:32149"}}
-release: {{thickness_raster: {data}/landslide_depth.asc, surface: pre_failure}}
+release: {{thickness_raster: {data}/landslide_depth.asc, thickness_factor: -1, surface: pre_failure}}
 grains: {{density_kg_m3: 2650, solid_fraction: 0.6, friction_angle_deg: 32}}
 basal: {{friction_coefficient: {friction}}}
 formulation: depth_averaged
@@ -75,7 +75,7 @@ def run(sturz, folder, text):
 def main(sturz, data, out, spacing="3"):
     data, out = pathlib.Path(data).resolve(), pathlib.Path(out)
     depth, cell = read_grid(data / "landslide_depth.asc")
-    source = {at: v for at, v in depth.items() if v > 0}
+    source = {at: -v for at, v in depth.items() if v < 0}  # the file counts depths as negative
     difference, _ = read_grid(data / "DEM_of_Difference.asc")
     taken = sum(-v for at, v in difference.items() if v < 0 and at not in source) * cell * cell
     # Cells of the raster lie where its decimals put them: match them by rounding.

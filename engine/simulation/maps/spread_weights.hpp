@@ -74,8 +74,8 @@ class SpreadWeights {
 
   int first_ = 0, n_ = 0;
   std::vector<Block> exact_;  ///< before they are scaled to the sum of one, of many blocks
-  std::vector<float> weights_ = std::vector<float>(3 * block);  ///< [n] and what fills the last
-                                                                ///< block
+  std::vector<float> weights_ = std::vector<float>(std::size_t{3} * block);  ///< [n], rest of the
+                                                                             ///< last block
 };
 
 }  // namespace sturz
