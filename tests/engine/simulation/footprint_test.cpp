@@ -145,7 +145,7 @@ TEST(Footprint, OfAStretchedSheetOfScatteredColumnsIsItsArea) {
     constexpr double distance = 3;
     MovingSet p;
     p.spacing = 1, p.bulk_density = 1;
-    p.grow(40 * 25);
+    p.grow(std::size_t{40} * 25);
     auto& radius = p.add(fields::support_radius).component[0];
     p.add(fields::area_share);
     for (std::size_t i = 0; i < p.size(); ++i) {
