@@ -76,6 +76,9 @@ Simulation survive(const HardMember& m, int number, Worst& worst, MemberScalars&
   EXPECT_LE(std::abs(ledger.residual()),
             std::max(0.01 * ledger.available_energy(), m.scenario.mixture ? least : 0))
       << "released " << ledger.available_energy() << " J, " << s.com_drop_m << " m of fall";
+  if (!m.scenario.mixture) {
+    EXPECT_LE(std::abs(s.energy_residual), 0.01);
+  }
   EXPECT_LE(s.max_speed_m_s, most);
   const double step = s.mean_dt_s / std::sqrt(m.scenario.numerics.spacing_m / standard_gravity);
   EXPECT_GT(step, 1e-3);
