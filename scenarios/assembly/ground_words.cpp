@@ -26,7 +26,8 @@ std::string ground_line(const Scenario& s, const SceneInputs& in) {
   if (held == whole_of(g))
     return "ground: all " + all + " cells; " + line_text(s, *in.reach) + " reaches " +
            short_number(in.reach->length_m) + " m at most";
-  std::string why = s.terrain.window ? "terrain.window" : line_text(s, *in.reach) + " with a margin";
+  std::string why =
+      s.terrain.window ? "terrain.window" : line_text(s, *in.reach) + " with a margin";
   if (!s.terrain.window && in.reach->cut) why += ", not followed to its end";
   return "ground: " + size_text(held.n_cols, held.n_rows) + " of " + all + " cells (" + why +
          "); more is read where a member comes near their end";

@@ -87,7 +87,7 @@ void check_formulation(const Scenario& s, Problems& problems) {
                                         "columns). Remove it or set formulation: "
                                         "depth_averaged."});
   refuse(s.grains && asks_for_internal_friction(s.grains->earth_pressure), "grains.earth_pressure");
-  // That of a material goes with it: nobody could remove it by itself.
+  // That of a material goes with it: the file does not hold it by itself.
   refuse(b.turbulent_coefficient_m_s2 && s.material.empty(), "basal.turbulent_coefficient_m_s2");
   refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
   refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");

@@ -147,7 +147,7 @@ TEST_F(Forecasts, ASceneTooLongToTrySaysSo) {
 /// Members that end at once beside one that never does, tried for a tenth of what that takes.
 class CutOff : public Forecasts {
  protected:
-  static constexpr const char* lasts = "numerics.end_time_s=600";
+  static constexpr const char* lasts = "numerics.end_time_s=2000";
   CutOff() {
     write("table.csv", "basal.friction_coefficient\n0.9\n0.9\n0.3\n0.9\n");
     write("scene.yaml", R"(title: some stick, one goes round and round

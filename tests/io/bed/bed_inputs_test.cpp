@@ -25,8 +25,8 @@ class BedInputs : public SceneOnAPlane {
     file.n_cols = n_cols, file.n_rows = n_rows;
     file.affine = {500000 + x, cell, 0, 4600000 + y + n_rows * cell, 0, -cell};
     file.values.assign(static_cast<std::size_t>(n_cols) * n_rows, value);
-    write_raster(path("bed.tif"), file);
-    scene.erosion->depth_raster = "bed.tif";
+    write_raster(path("depths.tif"), file);
+    scene.erosion->depth_raster = "depths.tif";
   }
   static double volume(const SceneInputs& in) {
     const auto& v = in.bed_supply->values;
@@ -43,7 +43,7 @@ TEST_F(BedInputs, ARasterOfOtherCellsKeepsItsVolume) {
   const SceneInputs in = load_scene_inputs(scene);
   ASSERT_NE(in.bed_supply, nullptr);
   EXPECT_NEAR(volume(in), 0.5 * 30 * 20 * 16, 1e-6);
-  EXPECT_THAT(in.notes, Contains(HasSubstr("erosion.depth_raster bed.tif: 4800 m3 on 9600 m2")));
+  EXPECT_THAT(in.notes, Contains(HasSubstr("erosion.depth_raster depths.tif: 4800 m3 on 9600 m2")));
 }
 
 TEST_F(BedInputs, WhatLiesBeyondTheTerrainIsLeftOut) {
@@ -51,7 +51,7 @@ TEST_F(BedInputs, WhatLiesBeyondTheTerrainIsLeftOut) {
   const SceneInputs in = load_scene_inputs(scene);
   EXPECT_NEAR(volume(in), 0.5 * 500 * 400, 1e-6);
   EXPECT_THAT(in.notes,
-              Contains(HasSubstr("erosion.depth_raster bed.tif: 100000 m3 on 200000 m2")));
+              Contains(HasSubstr("erosion.depth_raster depths.tif: 100000 m3 on 200000 m2")));
   for (const double depth : in.bed_supply->values) ASSERT_NEAR(depth, 0.5, 1e-12);
 
   depths(2, 11, 9, 37, -51, 203);  // cut by an edge, on cells that are not its own
