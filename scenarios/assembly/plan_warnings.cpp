@@ -85,7 +85,7 @@ void warn_of_smooth_pile(const Scenario& s, const ScenePlan& plan, Warnings& out
                 short_number(plan.release.median_thickness_m / plan.release_narrow_side_m) +
                 " times as thick as it is wide, and only its bed holds it. On gentle ground it may "
                 "run several times too far. " +
-                (s.mixture   ? "A mixture knows no friction inside; without `mixture`, "
+                (s.mixture   ? "A mixture knows no friction inside. Without `mixture`, "
                                "grains.earth_pressure: auto and basal.pore_pressure_ratio do"
                  : isotropic ? "Use grains.earth_pressure: auto, or formulation: full_stress"
                              : "Give grains.friction_angle_deg"));

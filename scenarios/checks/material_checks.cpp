@@ -81,8 +81,14 @@ void check_formulation(const Scenario& s, Problems& problems) {
                                     "Remove it or set formulation: depth_averaged."});
   };
   const auto& b = s.basal;
+  if (!s.material.empty())
+    problems.push_back({"material", shown(s, "material") +
+                                        " (formulation is full_stress; its priors are those of "
+                                        "columns). Remove it or set formulation: "
+                                        "depth_averaged."});
   refuse(s.grains && asks_for_internal_friction(s.grains->earth_pressure), "grains.earth_pressure");
-  refuse(b.turbulent_coefficient_m_s2.has_value(), "basal.turbulent_coefficient_m_s2");
+  // That of a material goes with it: the file does not hold it by itself.
+  refuse(b.turbulent_coefficient_m_s2 && s.material.empty(), "basal.turbulent_coefficient_m_s2");
   refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
   refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");
   if (const auto zone = zone_with_turbulence(b))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes with a mixture and what does not; what a scene makes of it.
 #include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/catalogue.hpp"
 #include "scenarios/checks/validate.hpp"
@@ -17,8 +18,10 @@ namespace sturz {
 namespace {
 
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::vector<std::string> messages(const Scenario& s) {
   std::vector<std::string> texts;
@@ -87,6 +90,24 @@ TEST(MixtureChecks, APileHasNoFrictionInsideWhereWaterCarriesPartOfIt) {
   EXPECT_FALSE(knows_internal_friction(wet.columns));
   EXPECT_TRUE(wet.columns.spent_inside.empty());
   EXPECT_NEAR(wet.bulk_density_kg_m3, dry.bulk_density_kg_m3 + 0.4 * 1000, 1e-9);
+  const auto said = plan_warnings(s, wet);
+  EXPECT_THAT(said, Contains(HasSubstr("A mixture knows no friction inside")));
+  EXPECT_THAT(said, Each(Not(HasSubstr("; ")))) << "members part their warnings there";
+}
+
+TEST(MixtureChecks, TheEnergyLineSaysThatItIsThatOfALiquefiedMass) {
+  SceneInputs in;
+  in.elevation = std::make_shared<const Raster<double>>(
+      test::raster_of([](double x, double) { return -0.1 * x; }, Grid{60, 60, 0, 60, 1, ""}));
+  in.reach.emplace().friction = 0.07;
+  in.reach->above_end_m = 12, in.reach->end = "east";
+  for (const bool wet : {true, false}) {
+    const Scenario s = wet ? wet_ramp() : ramp_slide();
+    const std::string line = wet ? "energy line of a nearly liquefied mixture (friction 0.07)"
+                                 : "energy line of the least friction drawn (0.07)";
+    EXPECT_THAT(ground_line(s, in), HasSubstr(line));
+    EXPECT_THAT(ground_warnings(s, in), Contains(HasSubstr(line + " still stands 12 m")));
+  }
 }
 
 TEST(MixtureChecks, EveryNumberMayBeUncertain) {

@@ -198,6 +198,7 @@ class SweepPass final : public Pass {
   }
   void warnings(const State& s, std::vector<std::string>& out) const override {
     warn_of_implausible(s, *flow_, out);
+    warn_of_suction(s, *flow_, out);
   }
   std::size_t bytes() const override { return 7 * sizeof(float) * flow_->cells.size(); }
 

@@ -140,6 +140,8 @@ SteepRest steep_rest(const State&, const ColumnFlow&, double limit);
 /// Says what no mass of grains does: a surface above the energy head of the release, a rest steeper
 /// than friction allows.
 void warn_of_implausible(const State&, const ColumnFlow&, std::vector<std::string>&);
+/// Says that a mixture lies still only as long as its pores pull: it dilated, and water flows back.
+void warn_of_suction(const State&, const ColumnFlow&, std::vector<std::string>&);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
 void add_column_bed(Step&, const std::shared_ptr<ColumnFlow>&);       ///< gravity and bed

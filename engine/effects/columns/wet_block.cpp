@@ -157,7 +157,7 @@ void WetBlock::finish(const MixtureLaw& given) {
     const double x = d.left * vx[i] + reach * pull_x[i], y = d.left * vy[i] + reach * pull_y[i],
                  z = d.left * vz[i] + reach * pull_z[i];
     const double trial = std::sqrt(x * x + y * y + z * z), stop = plastic * reach;
-    const double kept = trial > stop ? 1 - stop / trial : 0;
+    const double kept = trial <= stop ? 0 : 1 - stop / trial;  // NaN is no rest
     vx[i] = kept * x, vy[i] = kept * y, vz[i] = kept * z;
 
     const Pores after(share, next, thickness[i]);

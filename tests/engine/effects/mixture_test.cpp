@@ -7,6 +7,7 @@
 #include "tests/support/hand_made.hpp"
 #include "tests/support/wet_box.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,13 +23,16 @@ namespace {
 using test::even_ground;
 using test::flume_mixture;
 using test::HandMade;
+using testing::ContainsRegex;
+using testing::HasSubstr;
 
 MixtureSettings settings_of(double solid_fraction) { return {flume_mixture(), solid_fraction, -1}; }
 
 /// Columns of `thickness` on a lattice of 1 m.
 HandMade wet_columns(Terrain ground, const std::vector<Vec3>& positions,
                      const std::vector<double>& thickness, const MixtureSettings& wet,
-                     const Vec3& velocity = {0, 0, 0}, const Domain& domain = {}) {
+                     const Vec3& velocity = {0, 0, 0}, const Domain& domain = {},
+                     double cohesion_pa = 0) {
   HandMade made{State(std::move(ground), domain), {}};
   MovingSet& p = made.state.grains();
   const double density = wet.law.density(wet.solid_fraction);
@@ -43,6 +47,7 @@ HandMade wet_columns(Terrain ground, const std::vector<Vec3>& positions,
   columns.density = density;
   columns.mixture = wet;
   columns.bed[0].friction_coefficient = std::tan(40 * std::numbers::pi / 180);
+  columns.bed[0].cohesion_pa = cohesion_pa;
   columns.instruction_set = best_instruction_set();
   add_mixture(made.state, 0, wet);
   add_depth_averaged(made.step, made.state, 0, columns, thickness);
@@ -226,6 +231,45 @@ TEST(Mixture, BedThatJoinsAColumnBringsItsGrainsItsWaterAndItsPressure) {
   EXPECT_NEAR(now.solids / p.ledger.released_solids, 1, 1e-13);
   EXPECT_NEAR(now.water / p.ledger.released_water, 1, 1e-13);
   expect_within_bounds(p, wet.law);
+}
+
+/// What is said of columns 1 m thick that start at rest on such a slope, after 4 s.
+std::string said_of(double slope_deg, double solid_fraction, double cohesion_pa = 0) {
+  const MixtureSettings wet = settings_of(solid_fraction);
+  HandMade made = wet_columns(even_ground(60, std::tan(slope_deg * std::numbers::pi / 180)),
+                              test::block({8, 8, 1}, {-20, -4, 0}), std::vector<double>(64, 1), wet,
+                              {0, 0, 0}, {}, cohesion_pa);
+  while (made.state.time < 4) made.advance();
+  std::vector<std::string> said;
+  made.step.warnings(made.state, said);
+  std::string text;
+  for (const std::string& sentence : said) text += sentence + "\n";
+  return text;
+}
+
+TEST(Mixture, ThatOnlySuctionHoldsIsNotAtRestForGood) {
+  // Denser than critical it sticks at once, and half its weight is still water's: tan 40 degrees
+  // times that half holds 22 degrees.
+  for (const double slope_deg : {26.0, 31.0}) {
+    const std::string dense = said_of(slope_deg, 0.66);
+    EXPECT_THAT(dense, HasSubstr("only suction holds it")) << slope_deg;
+    // k = 2.2e-11 m2, 1/alpha = 2.4e5 Pa: the excess decays at 3e-3 per second.
+    EXPECT_THAT(dense, ContainsRegex("away in about [4-7] min")) << slope_deg;
+  }
+  EXPECT_EQ(said_of(15, 0.66), "") << "friction holds it";
+  EXPECT_EQ(said_of(31, 0.66, 4000), "") << "cohesion does";
+  EXPECT_EQ(said_of(31, 0.60), "") << "it runs";
+}
+
+TEST(Mixture, WithoutANumberForItsPressureItIsNotAtRest) {
+  for (const bool stiff : {true, false}) {
+    MixtureSettings wet = settings_of(0.6);
+    (stiff ? wet.law.compressibility : wet.law.fluid_viscosity) = 1e-310;
+    HandMade made = wet_columns(even_ground(60, 0.5), test::block({4, 4, 1}, {-20, -2, 0}),
+                                std::vector<double>(16, 1), wet);
+    for (int n = 0; n < 10 && made.state.grains().motion.finite; ++n) made.advance();
+    EXPECT_FALSE(made.state.grains().motion.finite) << "the run must end as diverged";
+  }
 }
 
 TEST(Mixture, IsNotThereWhereNothingAsksForIt) {
