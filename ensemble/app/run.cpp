@@ -106,7 +106,7 @@ using M = MemberScalars;
 
 /// ">= 812 m" of a member that is cut off, "812 m so far" where the end may lie either way.
 std::string as_known(const MemberResult& r, double MemberScalars::*field, const std::string& text) {
-  if (std::isnan(r.scalars.*field)) return "none";
+  if (std::isnan(r.scalars.*field)) return is_censored(r.censoring) ? "not known" : "none";
   switch (known(field, r.censoring)) {
     case Known::exactly:
       return text;
@@ -211,7 +211,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   print_states(r, console);
   print_mixture(r, console);
   print_erosion(r, console);
-  line("particles",
+  line(r.formulation == "depth_averaged" ? "columns" : "particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,
                                    s.energy_residual));

@@ -208,7 +208,7 @@ class Builder {
     };
     out_.high_intensity =
         layer(IntensityClass::high,
-              fmt::format("peak thickness > {} m and peak speed > {} m/s of one member, "
+              fmt::format("reached, peak thickness > {} m and peak speed > {} m/s of one member, "
                           "not necessarily at one instant",
                           swiss_thickness_m, swiss_speed_m_s));
     out_.medium_intensity = layer(IntensityClass::medium, "reached, but not of high intensity");

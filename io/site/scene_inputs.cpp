@@ -157,13 +157,19 @@ void load_ground(Loading& loading) {
   take_ground(loading, read);
 }
 
+/// By how much `a` is beyond `b` [%]; what rounding alone makes of equal sums is none.
+double percent_beyond(double a, double b) {
+  const double percent = 100 * (a / b - 1);
+  return std::abs(percent) < 1e-9 ? 0 : percent;
+}
+
 /// Two numbers that a reader can hold against each other: the source's and the raster's.
 void note_rasterised(Loading& loading, double exact_m2) {
   const ReleaseSpec& release = loading.scenario.release;
   const double laid = raster_sum(*loading.inputs.release);
   std::string text =
       fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
-                  loading.release_label, exact_m2, laid, 100 * (laid / exact_m2 - 1));
+                  loading.release_label, exact_m2, laid, percent_beyond(laid, exact_m2));
   const bool vertical = release.thickness == ThicknessDirection::vertical;
   if (vertical && release.thickness_m && release.thickness_m->is_fixed())
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,

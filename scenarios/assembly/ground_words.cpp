@@ -3,6 +3,8 @@
 
 #include "scenarios/schema/number_text.hpp"
 
+#include <algorithm>
+
 namespace sturz {
 namespace {
 
@@ -10,10 +12,23 @@ std::string size_text(int n_cols, int n_rows) {
   return std::to_string(n_cols) + " x " + std::to_string(n_rows);
 }
 
+/// The line's friction is not a number of the file where pore pressure is taken off it.
+bool knows_pore_pressure(const BasalSpec& basal) {
+  const auto some = [](const Uncertain& u) { return drawn_range(u).second > 0; };
+  return some(basal.pore_pressure_ratio) ||
+         std::any_of(basal.zones.begin(), basal.zones.end(), [&](const BasalZone& zone) {
+           return zone.pore_pressure_ratio && some(*zone.pore_pressure_ratio);
+         });
+}
+
 std::string line_text(const Scenario& s, const Reach& reach) {
   const std::string friction = short_number(reach.friction);
-  return s.mixture ? "the energy line of a nearly liquefied mixture (friction " + friction + ")"
-                   : "the energy line of the least friction drawn (" + friction + ")";
+  if (s.mixture)
+    return "the energy line of a nearly liquefied mixture (friction " + friction + ")";
+  std::string text = "the energy line of the least friction drawn";
+  if (knows_pore_pressure(s.basal))
+    text += ", less the most pore pressure";
+  return text + " (" + friction + ")";
 }
 
 }  // namespace
@@ -48,7 +63,7 @@ std::vector<std::string> ground_warnings(const Scenario& s, const SceneInputs& i
     out.push_back("gaps in the terrain: " + line_text(s, reach) + " stands up to " +
                   short_number(reach.above_unknown_m) +
                   " m above the ground beside cells without elevation." + then +
-                  " Fill the terrain there.");
+                  " Fill the terrain there, or use one that goes on there.");
   if (reach.cut)
     out.push_back("long way: " + line_text(s, reach) + " covers more than " +
                   short_number(most_reach_cells / 1e6) +

@@ -20,7 +20,8 @@ bool needs_internal_friction(const Scenario& s) {
 
 void check_grains(const Scenario& s, Problems& problems) {
   if (!s.grains) {
-    problems.push_back({"grains", "grains (missing: nothing would move). Add a grains block."});
+    problems.push_back(
+        {"grains", "grains (missing: nothing would move). Add a grains block or a material."});
     return;
   }
   const auto& g = *s.grains;

@@ -82,5 +82,16 @@ TEST_F(CensoringWords, ARunMarksWhatItErodedAndItsPorePressureToo) {
   EXPECT_THAT(cut, ContainsRegex("largest energy  +>= [0-9.]+ kJ/m2, pressure >= [0-9.]+ kPa"));
 }
 
+TEST_F(CensoringWords, WhatHasNoValueIsNotKnownAndColumnsAreNoParticles) {
+  const Ended ended = sturz({"run", path("scene.yaml"), "-o", path("run"), "--set",
+                             "basal.friction_coefficient=0.05", "--set", "numerics.end_time_s=60"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  ASSERT_THAT(ended.out, HasSubstr("left the terrain"));
+  EXPECT_THAT(ended.out, HasSubstr("H not known, H/L not known"));
+  EXPECT_THAT(ended.out, Not(HasSubstr("none")));
+  EXPECT_THAT(ended.out, HasSubstr("\n  columns               "));
+  EXPECT_THAT(ended.out, Not(HasSubstr("\n  particles ")));
+}
+
 }  // namespace
 }  // namespace sturz::test
