@@ -128,6 +128,8 @@ HardMember soaked(HardMember m, int number) {
   if (unit() < 0.3) wet.initial_pressure = InitialPressure::liquefied;
   if (wet.initial_pressure == InitialPressure::hydrostatic && unit() < 0.4)
     wet.initial_pressure_ratio = Uncertain(unit());
+  if (number % 4 == 3) wet.pressure_profile = PressureProfile::resolved;
+  if (number % 8 == 7) wet.drainage = Drainage::both;
   return m;
 }
 
