@@ -273,7 +273,9 @@ TEST_P(ResolvedMixture, BedThatJoinsLiftsWhatItStandsUnder) {
     EXPECT_NEAR(nodes[j][5], 1000 * (1 - old), 1e-9) << j;
   }
   EXPECT_NEAR(p.scalar(fields::excess_pressure)[5], mesh.drained_bed ? 0 : 1500, 1e-9);
-  if (!mesh.drained_bed) EXPECT_NEAR(nodes[0][5], 1500, 1e-9);
+  if (!mesh.drained_bed) {
+    EXPECT_NEAR(nodes[0][5], 1500, 1e-9);
+  }
 }
 
 TEST(Mixture, IsNotThereWhereNothingAsksForIt) {
