@@ -136,8 +136,17 @@ struct MixtureSpec {
   Uncertain compressibility{0.05};
   Uncertain stress_offset_pa{1000};
   Uncertain shear_grain_diameter_m{0.001};
+  MixturePhases phases = MixturePhases::one;
+  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m where the speed is absent.
+  PhaseDragLaw drag_law = PhaseDragLaw::permeability;
+  std::optional<Uncertain> settling_speed_m_s;
   bool operator==(const MixtureSpec&) const = default;
 };
+
+/// Grains and liquid are two sets of columns.
+inline bool has_two_phases(const std::optional<MixtureSpec>& mixture) {
+  return mixture && mixture->phases == MixturePhases::two;
+}
 
 /// A part of the ground with values of its own; what it does not give is that of `basal`.
 struct BasalZone {
