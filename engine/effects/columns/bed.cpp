@@ -210,8 +210,10 @@ void forecast(const State& s, MovingSet& p, const ColumnFlow& flow, double dt,
       const BasalResistance& bed = flow.settings.bed[flow.zone_of(s.domain, p, i)];
       const double density = flow.settings.density;
       const double plastic = bed.plastic(g_n[i], thickness[i], density);
-      const Vec3 after =
-          slowed(bed, {plastic, thickness[i], density, s.gravity}, before, pull, kick);
+      // Drag at the speed of the start: what is forecast here is what slip is judged by.
+      const double rate =
+          bed.has_rate() ? bed.rate(before.norm(), thickness[i], density, s.gravity) : 0;
+      const Vec3 after = braked(before, pull, plastic, rate, kick);
       const bool held = plastic > 0 && after.x() == 0 && after.y() == 0 && after.z() == 0;
       out.vx[i] = after.x(), out.vy[i] = after.y(), out.vz[i] = after.z();
       out.spare[i] = held ? std::max(0.0, plastic * kick - (before + kick * pull).norm()) : 0;

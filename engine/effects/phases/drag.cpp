@@ -44,6 +44,7 @@ class DragPass final : public Pass {
   std::size_t bytes() const override { return nodes_.bytes(); }
 
  private:
+  using Change = Eigen::Array<double, 4, 1>;
   static constexpr double most_raised = 0.01;
 
   /// In storage order on one thread: the same sums at any number of threads.
@@ -60,7 +61,7 @@ class DragPass final : public Pass {
   }
 
   void meet(State& s, double dt) {
-    for (auto& change : nodes_.change) change.assign(nodes_.size(), Vec3(0, 0, 0));
+    for (auto& change : nodes_.change) change.assign(nodes_.size(), Change::Zero());
     const double raised = ordered_reduce(
         nodes_.size(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& sum) {
@@ -85,8 +86,10 @@ class DragPass final : public Pass {
     pair.rate = law.rate(share, s.gravity);
     pair.largest_slip = law.largest_slip(share, l.other() / l.mass());
     const DragImpulse impulse = drag_impulse(pair, dt);
-    nodes_.change[grains][node] = -impulse.on_liquid / g.mass();
-    nodes_.change[liquid][node] = impulse.on_liquid / l.mass();
+    const Vec3& j = impulse.on_liquid;
+    const Change whole(j.x(), j.y(), j.z(), 0);
+    nodes_.change[grains][node] = -whole / g.mass();
+    nodes_.change[liquid][node] = whole / l.mass();
     return impulse.raised ? g.mass() + l.mass() : 0;
   }
 

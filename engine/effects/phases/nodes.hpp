@@ -45,8 +45,8 @@ class DragNodes {
 
   std::size_t size() const { return sums_[0].size(); }
   const NodeSums& sums(std::size_t set, std::size_t node) const { return sums_[set][node]; }
-  /// Change of velocity at a node [m/s]; to be set before `change_of`.
-  std::array<std::vector<Vec3>, 2> change;
+  /// Change of velocity at a node, x y z and nothing [m/s]; to be set before `change_of`.
+  std::array<std::vector<Eigen::Array<double, 4, 1>>, 2> change;
   /// What the n-th column added of a set takes from its nodes [m/s].
   Vec3 change_of(std::size_t set, std::size_t n) const;
 
@@ -60,7 +60,10 @@ class DragNodes {
     std::int64_t first = 0, n = 1;
     bool periodic = false;
     std::int64_t at(std::int64_t index) const {
-      return periodic ? ((index % n) + n) % n : index - first;
+      if (!periodic) return index - first;
+      while (index < 0) index += n;
+      while (index >= n) index -= n;
+      return index;
     }
   };
   /// A column on its nodes: three by three, rows from the south.
