@@ -37,9 +37,9 @@ class DragPass final : public Pass {
     const double share = s.time > 0 ? all.drag_raised / (all.brought_mass() * s.time) : 0;
     if (!(share > most_raised)) return;
     out.push_back("two phases: for " + std::to_string(std::lround(100 * share)) +
-                  " % of mass and time (drag_raised_fraction) drag was raised to keep the slip "
-                  "where the equations of two velocities have a solution; fronts of the phases lie "
-                  "farther apart than computed there");
+                  " % of mass and time (drag_raised_fraction) drag was raised, because grains and "
+                  "liquid so far apart in speed have no solution: they stay closer together than "
+                  "their drag alone would have them");
   }
   std::size_t bytes() const override { return nodes_.bytes(); }
 
