@@ -75,6 +75,20 @@ constexpr auto words_of(Drainage) {
   return std::array{Word{top, "top"}, Word{both, "both"}};
 }
 
+/// Velocities of a mixture: grains and water together, or each its own.
+enum class MixturePhases { one, two };
+constexpr auto words_of(MixturePhases) {
+  using enum MixturePhases;
+  return std::array{Word{one, "one"}, Word{two, "two"}};
+}
+
+/// What drag between grains and liquid follows from.
+enum class PhaseDragLaw { permeability, settling };
+constexpr auto words_of(PhaseDragLaw) {
+  using enum PhaseDragLaw;
+  return std::array{Word{permeability, "permeability"}, Word{settling, "settling"}};
+}
+
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
 enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {

@@ -139,8 +139,17 @@ struct MixtureSpec {
   PressureProfile pressure_profile = PressureProfile::parabola;
   std::optional<int> pressure_nodes;  ///< of a resolved profile; absent: 8
   Drainage drainage = Drainage::top;  ///< `both` needs a resolved profile
+  MixturePhases phases = MixturePhases::one;
+  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m where the speed is absent.
+  PhaseDragLaw drag_law = PhaseDragLaw::permeability;
+  std::optional<Uncertain> settling_speed_m_s;
   bool operator==(const MixtureSpec&) const = default;
 };
+
+/// Grains and liquid are two sets of columns.
+inline bool has_two_phases(const std::optional<MixtureSpec>& mixture) {
+  return mixture && mixture->phases == MixturePhases::two;
+}
 
 /// A part of the ground with values of its own; what it does not give is that of `basal`.
 struct BasalZone {

@@ -16,6 +16,7 @@ struct EffectName {
   static constexpr std::string_view isolated_contacts = "contacts of isolated particles";
   static constexpr std::string_view column_pressure = "lateral pressure of columns";
   static constexpr std::string_view pore_pressure = "pore pressure and dilatancy";
+  static constexpr std::string_view phase_drag = "drag between grains and liquid";
   static constexpr std::string_view erosion = "erosion of the bed";
   static constexpr std::string_view walls = "walls";
   static constexpr std::string_view motion = "motion";

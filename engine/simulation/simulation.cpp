@@ -10,6 +10,7 @@
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "engine/simulation/sums/mixture_state.hpp"
+#include "engine/simulation/sums/phases.hpp"
 #include "engine/simulation/sums/state_hash.hpp"
 #include "engine/simulation/travel.hpp"
 
@@ -315,6 +316,7 @@ class Run {
     parts_.peaks.finish(s.sets, result_);
     write_eroded_depth(s, result_);
     result_.scalars.runout_m = runout();
+    write_phases(s, parts_, result_);
     write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
                        places_left(s), result_.grid, result_.scalars);
     result_.state_hash = hash_of(s);

@@ -76,6 +76,14 @@ constexpr std::array rows{
     ScalarCensoring{&M::volume_growth, least, least},
     ScalarCensoring{&M::max_eroded_depth_m, least, least},
     ScalarCensoring{&M::entrainment_loss_fraction, no, no},
+    ScalarCensoring{&M::solid_runout_m, least, least},
+    ScalarCensoring{&M::liquid_runout_m, least, least},
+    ScalarCensoring{&M::solid_front_travel_m, least, least},
+    ScalarCensoring{&M::liquid_front_travel_m, least, least},
+    ScalarCensoring{&M::max_solid_thickness_m, least, least},
+    ScalarCensoring{&M::max_liquid_thickness_m, least, least},
+    ScalarCensoring{&M::drag_loss_fraction, no, no},
+    ScalarCensoring{&M::drag_raised_fraction, no, no},
 };
 // A scalar without a row would pass as fully known.
 static_assert(rows.size() * sizeof(double) == sizeof(MemberScalars));

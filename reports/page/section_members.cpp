@@ -35,6 +35,8 @@ constexpr ScalarColumn scalar_columns[] = {
     {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
     {"eroded", "m3", &MemberScalars::eroded_volume_m3, false, true},
     {"growth V_f/V_0", "1", &MemberScalars::volume_growth, false, true},
+    {"runout of grains", "m", &MemberScalars::solid_runout_m, false, true},
+    {"runout of liquid", "m", &MemberScalars::liquid_runout_m, false, true},
     {"layers", "1", &MemberScalars::release_layers},
     {"dilated", "1", &MemberScalars::parted_fraction, true},
     {"in transition", "1", &MemberScalars::transition_fraction, true},

@@ -10,6 +10,7 @@
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
+#include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/schema.hpp"
@@ -41,6 +42,7 @@ State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
   Sum released;
   for (double m : p.mass) released.add(m);
   p.ledger.released_mass = released.value();
+  if (plan.phases) split_phases(state, *plan.phases, s.grains->solid_fraction.value);
   return state;
 }
 
@@ -49,8 +51,10 @@ Step make_step(const Scenario& s, const ScenePlan& plan, State& state) {
   Step step;
   SceneParts parts{s, plan, step, state};
   add_effects(parts);
-  refresh_motion(state, state.grains(), 0);
-  state.grains().ledger.kinetic_0 = state.grains().ledger.kinetic;
+  for (MovingSet& set : state.sets) {
+    refresh_motion(state, set, 0);
+    set.ledger.kinetic_0 = set.ledger.kinetic;
+  }
   return step;
 }
 
@@ -98,7 +102,9 @@ std::string joined(const std::vector<std::string>& parts) {
 }
 
 PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) {
-  return PeakMaps({grid, runout_limit(plan, s.numerics.spacing_m)});
+  PeakMapSettings settings{grid, runout_limit(plan, s.numerics.spacing_m)};
+  settings.by_set = plan.phases.has_value();
+  return PeakMaps(settings);
 }
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
@@ -188,7 +194,7 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
                  .formulation = plan.formulation.name(),
                  .spacing_m = numbers.numerics.spacing_m,
                  .least_dt_s = least_step(numbers, plan),
-                 .release = release_facts(plan, state.grains().ledger.released_mass),
+                 .release = release_facts(plan, state.ledger().released_mass),
                  .warnings = joined(plan_warnings(numbers, plan))};
   return Simulation(std::make_unique<SimulationParts>(SimulationParts{
       std::move(state), std::move(step), make_peaks(numbers, plan, inputs.hazard_grid),
@@ -203,7 +209,7 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   SceneParts parts{s, plan, step, state};
   SceneDescription d;
   d.effects = effect_notes(s, parts);
-  refresh_motion(state, state.grains(), 0);
+  for (MovingSet& set : state.sets) refresh_motion(state, set, 0);
   d.passes = step.pass_names();
   d.formulation = plan.formulation.name();
   d.formulation_reason = plan.formulation.reason;

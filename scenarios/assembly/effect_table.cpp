@@ -12,6 +12,7 @@
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
+#include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -39,6 +40,10 @@ const GrainStatesSpec* states_of(const Scenario& s) {
 }
 
 Called bed_called(const Scenario& s, const ScenePlan&) {
+  if (has_two_phases(s.mixture))
+    return {true,
+            "always: friction_coefficient on what buoyancy leaves and cohesion_pa of `basal` for "
+            "the grains, fluid_viscosity_pa_s for the liquid"};
   if (s.mixture)
     return {true,
             "always: friction_coefficient on what pore pressure leaves, cohesion_pa of `basal`"};
@@ -68,6 +73,7 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
+  if (plan.phases) return {true, "`mixture.phases: two`: of each phase on both, K = 1"};
   if (s.mixture) return {true, "`mixture`: isotropic, K = 1, piles too"};
   const std::string key =
       "`grains.earth_pressure: " + std::string(to_string(s.grains->earth_pressure)) + "`";
@@ -80,7 +86,12 @@ Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
                     " times as thick as it is wide; internal friction takes up to " +
                     short_number(100 * most) + " % of the thrust that drives"};
 }
+Called phases_called(const Scenario& s, const ScenePlan& plan) {
+  if (!plan.phases) return by_key("mixture.phases: two", false);
+  return {true, drag_text(s, *plan.phases, plan.release.median_thickness_m)};
+}
 Called mixture_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.phases) return {false, "`mixture.phases: two` has buoyancy in its place"};
   if (!s.mixture) return by_key("mixture", false);
   const double m = s.grains->solid_fraction.value,
                critical = s.mixture->critical_solid_fraction.value;
@@ -148,6 +159,13 @@ void add_contacts(SceneParts& p) {
 }
 void add_pores(SceneParts& p) { add_mixture(p.state, grains, *p.plan.columns.mixture); }
 void add_columns(SceneParts& p) {
+  if (p.plan.phases) {
+    const double m = p.scenario.grains->solid_fraction.value;
+    const Release& r = p.plan.release;
+    add_two_phases(p.step, p.state, *p.plan.phases, thickness_of(r, m), thickness_of(r, 1 - m),
+                   r.covered, r.covered);
+    return;
+  }
   add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness,
                      p.plan.release.covered);
 }
@@ -164,6 +182,7 @@ constexpr EffectRow table[] = {
     {EffectName::isolated_contacts, contacts_called, add_contacts},
     {EffectName::pore_pressure, mixture_called, add_pores},
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
+    {EffectName::phase_drag, phases_called},
     {EffectName::erosion, erosion_called, add_eroded_bed, erosion_bytes_per_particle},
     {"turbulent bed", turbulence_called},
     {"viscous bed", viscosity_called},

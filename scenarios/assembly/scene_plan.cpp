@@ -7,6 +7,7 @@
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
 #include "scenarios/schema/number_text.hpp"
@@ -165,7 +166,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   c.density = plan.bulk_density_kg_m3;
   c.courant = s.numerics.courant;
   c.zones = plan.zones;
-  if (s.mixture) c.mixture = plan_mixture(*s.grains, *s.mixture);
+  if (s.mixture && !has_two_phases(s.mixture)) c.mixture = plan_mixture(*s.grains, *s.mixture);
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
   const bool known = s.grains->friction || s.grains->friction_angle_deg;
@@ -186,6 +187,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   if (share > 0)
     for (const BasalResistance& b : bed)
       c.spent_inside.push_back(share * std::max(0.0, 1 - pressure(b).active));
+  if (has_two_phases(s.mixture)) plan.phases = plan_phases(s, c, bed);
   c.bed = std::move(bed);
 }
 

@@ -9,6 +9,7 @@
 #include "engine/effects/dense/effect.hpp"
 #include "engine/effects/erosion/settings.hpp"
 #include "engine/effects/isolated/contacts.hpp"
+#include "engine/effects/phases/settings.hpp"
 #include "engine/particles/release.hpp"
 #include "scenarios/assembly/formulation.hpp"
 #include "scenarios/assembly/time_cap.hpp"
@@ -33,6 +34,7 @@ struct ScenePlan {
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   double reference_fraction = 0.6;         ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;           ///< depth_averaged
+  std::optional<TwoPhaseSettings> phases;  ///< where grains and liquid are two sets of columns
   std::optional<ErosionSettings> erosion;  ///< where columns take their bed along
   double reference_speed_m_s = 0;  ///< v_ref of the fastest expected mass point; full_stress
   TimeCap end;                     ///< when it is stopped at the latest

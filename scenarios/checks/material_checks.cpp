@@ -152,6 +152,38 @@ void check_mixture(const Scenario& s, Problems& problems) {
                             ": grains that float have no effective stress)."});
 }
 
+/// Two velocities have no pore pressure of their own, and columns that do not mix with a bed.
+void check_phases(const Scenario& s, Problems& problems) {
+  if (!s.mixture) return;
+  const MixtureSpec& wet = *s.mixture;
+  const auto refuse = [&](bool given, const char* path, const char* why) {
+    if (given) problems.push_back({path, shown(s, path) + why});
+  };
+  if (!has_two_phases(s.mixture)) {
+    const char* const why =
+        " (mixture.phases is one: grains and water move together). Remove it "
+        "or set mixture.phases: two.";
+    refuse(wet.drag_law != PhaseDragLaw::permeability, "mixture.drag_law", why);
+    refuse(wet.settling_speed_m_s.has_value(), "mixture.settling_speed_m_s", why);
+    return;
+  }
+  const char* const no_pressure =
+      " (mixture.phases is two: the liquid carries the grains' buoyancy and no excess pressure). "
+      "Remove it or set mixture.phases: one.";
+  refuse(wet.initial_pressure != InitialPressure::hydrostatic, "mixture.initial_pressure",
+         no_pressure);
+  refuse(wet.initial_pressure_ratio.has_value(), "mixture.initial_pressure_ratio", no_pressure);
+  refuse(wet.pressure_profile != PressureProfile::parabola, "mixture.pressure_profile",
+         no_pressure);
+  refuse(wet.settling_speed_m_s && wet.drag_law != PhaseDragLaw::settling,
+         "mixture.settling_speed_m_s",
+         " (mixture.drag_law is permeability). Remove it or set mixture.drag_law: settling.");
+  if (s.erosion)
+    problems.push_back({"erosion",
+                        "erosion (mixture.phases is two: a bed would have to join two sets of "
+                        "columns, which is not computed). Remove it or set mixture.phases: one."});
+}
+
 void check_drag(const Scenario& s, Problems& problems) {
   const char* const path = "basal.yield_stress_pa";
   if (s.basal.yield_stress_pa && !s.basal.viscosity_pa_s)
@@ -167,6 +199,7 @@ void check_material(const Scenario& s, Problems& problems) {
   check_states(s, problems);
   check_formulation(s, problems);
   check_mixture(s, problems);
+  check_phases(s, problems);
   check_drag(s, problems);
 }
 

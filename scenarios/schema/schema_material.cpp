@@ -136,6 +136,17 @@ void add_mixture_keys(std::vector<KeyInfo>& keys) {
   keys.push_back(choice_key(mixture, &MixtureSpec::drainage, "mixture.drainage",
                             "Where excess pore pressure of a resolved profile drains to: the free "
                             "surface, or both it and the bed."));
+  keys.push_back(choice_key(mixture, &MixtureSpec::phases, "mixture.phases",
+                            "one: grains and water move together and pore pressure evolves; two: "
+                            "each has a velocity and a thickness of its own, so that liquid may "
+                            "run ahead of the grains."));
+  keys.push_back(choice_key(mixture, &MixtureSpec::drag_law, "mixture.drag_law",
+                            "Drag between grains and liquid, with phases: two: Darcy's by "
+                            "permeability_m2, or by the settling speed of one grain."));
+  add_positive(&MixtureSpec::settling_speed_m_s,
+               {"mixture.settling_speed_m_s", uncertain, "m s-1", 0, 100,
+                "Settling speed of one grain in the liquid, with drag_law: settling; by default of "
+                "a natural grain of grains.diameter_m."});
 }
 
 void add_basal(std::vector<KeyInfo>& keys) {

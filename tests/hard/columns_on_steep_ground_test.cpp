@@ -30,7 +30,10 @@ namespace {
 double head(const Scenario& s, const SimulationParts& parts, const Raster<double>& ground) {
   const auto [low, high] = std::minmax_element(ground.values.begin(), ground.values.end());
   double thickest = 0;
-  for (double h : parts.state.grains().scalar(fields::thickness)) thickest = std::max(thickest, h);
+  for (const MovingSet& p : parts.state.sets) {
+    const auto& all = p.scalar(fields::thickness);
+    thickest += all.empty() ? 0 : *std::max_element(all.begin(), all.end());
+  }
   const auto& v = s.release.velocity_m_s;
   return *high - *low + thickest + (v[0] * v[0] + v[1] * v[1]) / 19.62;
 }
@@ -64,9 +67,9 @@ Simulation survive(const HardMember& m, int number, Worst& worst, MemberScalars&
   const MemberResult r = simulation.run();
   ++worst.outcomes[std::string(to_string(r.outcome))];
   s = r.scalars;
-  const Ledger& ledger = simulation.parts().state.grains().ledger;
+  const Ledger ledger = simulation.parts().state.ledger();
   EXPECT_TRUE(is_valid(r.outcome)) << to_string(r.outcome) << ": " << r.reason;
-  EXPECT_TRUE(is_finite(simulation.parts().state.grains()));
+  for (const MovingSet& p : simulation.parts().state.sets) EXPECT_TRUE(is_finite(p));
   EXPECT_LE(std::abs(s.mass_error), 1e-12);
   EXPECT_EQ(ledger.leaked_mass, 0);
   if (m.scenario.terrain.nodata == TerrainEdge::wall) {
@@ -152,6 +155,50 @@ bool all_within(const ParticleSet& p, bool finite_only) {
     if (pressure < 0 || pressure > weight * (1 + 1e-12) + 1e-9) return false;
   }
   return true;
+}
+
+/// The same member as grains and liquid at two velocities.
+HardMember parted(const HardMember& m, int number) {
+  HardMember out = soaked(m, number);
+  Scenario& s = out.scenario;
+  MixtureSpec& wet = *s.mixture;
+  wet.phases = MixturePhases::two;
+  wet.initial_pressure = InitialPressure::hydrostatic;
+  wet.initial_pressure_ratio.reset();
+  wet.pressure_profile = PressureProfile::parabola;
+  wet.drainage = Drainage::top;
+  const auto unit = [&](int k) {
+    return unit_random(0xface, static_cast<std::uint64_t>(number), k);
+  };
+  s.grains->solid_fraction = 0.05 + 0.8 * unit(0);
+  wet.permeability_m2 = std::pow(10, -13 + 10 * unit(1));
+  if (unit(2) < 0.4) {
+    wet.drag_law = PhaseDragLaw::settling;
+    wet.settling_speed_m_s = Uncertain(std::pow(10, -3 + 5 * unit(3)));
+  }
+  if (unit(4) < 0.5) s.basal.turbulent_coefficient_m_s2 = Uncertain(200 + 1800 * unit(5));
+  return out;
+}
+
+TEST(SteepGround, GrainsAndLiquidSurviveEveryCorner) {
+  const int n = hard_members(40);
+  Worst worst;
+  double masses = 0, raised = 0, drag = 0;
+  for (int k = 0; k < n; ++k) {
+    SCOPED_TRACE(fmt::format("member {}", k));
+    MemberScalars s;
+    survive(parted(hard_member(static_cast<std::uint64_t>(k)), k), k, worst, s);
+    EXPECT_LE(std::abs(s.solids_error), 1e-12);
+    EXPECT_LE(std::abs(s.water_error), 1e-12);
+    EXPECT_GE(s.drag_loss_fraction, -1e-3);
+    masses = std::max({masses, std::abs(s.solids_error), std::abs(s.water_error)});
+    raised = std::max(raised, s.drag_raised_fraction);
+    drag = std::max(drag, s.drag_loss_fraction);
+  }
+  worst.print(n);
+  fmt::print(
+      "grains and liquid to {:.1e}; drag took at most {:.0f} %, was raised in up to {:.0f} %\n",
+      masses, 100 * drag, 100 * raised);
 }
 
 /// Pressure between nothing and the weight in every column.

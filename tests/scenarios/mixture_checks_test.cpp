@@ -4,6 +4,7 @@
 #include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/catalogue.hpp"
+#include "scenarios/checks/idle_keys.hpp"
 #include "scenarios/checks/validate.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "tests/support/formula_ground.hpp"
@@ -175,6 +176,50 @@ TEST(MixtureChecks, ALooseMixtureIsTakenAsNearlyLiquefied) {
   EXPECT_NEAR(typical_friction(loose), liquefied_share * loose.basal.friction_coefficient.value,
               1e-15);
   EXPECT_GT(typical_friction(dense), 3 * typical_friction(loose));
+}
+
+Scenario two_phases() {
+  Scenario s = wet_ramp(0.6);
+  s.mixture->phases = MixturePhases::two;
+  return s;
+}
+
+TEST(TwoPhaseChecks, RefuseWhatTwoVelocitiesDoNotKnow) {
+  EXPECT_THAT(messages(two_phases()), IsEmpty());
+  Scenario s = two_phases();
+  s.mixture->initial_pressure = InitialPressure::liquefied;
+  s.basal.pore_pressure_ratio = 0.3;
+  s.erosion.emplace();
+  const auto all = messages(s);
+  EXPECT_THAT(all, Contains(HasSubstr("carries the grains' buoyancy and no excess pressure")));
+  EXPECT_THAT(all, Contains(HasSubstr("basal.pore_pressure_ratio")));
+  EXPECT_THAT(all, Contains(HasSubstr("a bed would have to join two sets of columns")));
+  s = two_phases();
+  s.mixture->initial_pressure_ratio = Uncertain(0.7);
+  EXPECT_THAT(messages(s), Contains(HasSubstr("mixture.initial_pressure_ratio")));
+}
+
+TEST(TwoPhaseChecks, DragKeysNeedTheirLaw) {
+  Scenario s = two_phases();
+  s.mixture->settling_speed_m_s = Uncertain(1);
+  EXPECT_THAT(messages(s), Contains(HasSubstr("mixture.drag_law is permeability")));
+  s.mixture->drag_law = PhaseDragLaw::settling;
+  EXPECT_THAT(messages(s), IsEmpty());
+  s.mixture->phases = MixturePhases::one;
+  EXPECT_THAT(messages(s), Contains(HasSubstr("mixture.phases is one")));
+}
+
+TEST(TwoPhaseChecks, SettlingUsesTheDiameterAndLeavesPermeabilityIdle) {
+  Scenario s = two_phases();
+  s.grains->diameter_m = Uncertain(0.3);
+  s.mixture->compressibility = Uncertain(0.1);
+  s.mixture->permeability_m2 = Uncertain(1e-8);
+  EXPECT_THAT(idle_keys(s, true),
+              testing::IsSupersetOf({"grains.diameter_m", "mixture.compressibility"}));
+  EXPECT_THAT(idle_keys(s, true), testing::Not(Contains("mixture.permeability_m2")));
+  s.mixture->drag_law = PhaseDragLaw::settling;
+  EXPECT_THAT(idle_keys(s, true), Contains("mixture.permeability_m2"));
+  EXPECT_THAT(idle_keys(s, true), testing::Not(Contains("grains.diameter_m")));
 }
 
 }  // namespace

@@ -120,9 +120,10 @@ void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t f
 
 std::size_t column_bytes_per_particle() { return 48 + 2 * 40 + 7 * 4 + 16; }
 
-void add_depth_averaged(Step& step, State& state, std::size_t set,
-                        const DepthAveragedSettings& settings, std::span<const double> thickness,
-                        std::span<const double> covered) {
+std::shared_ptr<ColumnFlow> add_depth_averaged(Step& step, State& state, std::size_t set,
+                                               const DepthAveragedSettings& settings,
+                                               std::span<const double> thickness,
+                                               std::span<const double> covered) {
   MovingSet& p = state.sets[set];
   expect(thickness.size() == p.size(), "one thickness per column");
   expect(covered.empty() || covered.size() == p.size(), "one cover per column");
@@ -148,6 +149,7 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   add_column_pressure(step, flow);
   add_column_bed(step, flow);
   add_column_motion(step, flow);
+  return flow;
 }
 
 }  // namespace sturz

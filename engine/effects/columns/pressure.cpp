@@ -23,7 +23,11 @@ class CellPass final : public Pass {
   void apply(State& s, double) override {
     MovingSet& p = s.sets[flow_->set];
     wrap_particles(s.domain, p);
-    flow_->cells.build(p, s.domain, p.scalar(fields::support_radius));
+    const auto& support_radius = p.scalar(fields::support_radius);
+    if (flow_->frame)
+      flow_->cells.build(p, s.domain, support_radius, *flow_->frame);
+    else
+      flow_->cells.build(p, s.domain, support_radius);
     for (auto& r : flow_->results) r.resize(flow_->cells.size());
     p.order_changed = false;
   }
