@@ -8,6 +8,7 @@
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
 #include "io/site/bed/bed_inputs.hpp"
+#include "io/site/flow/flow_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "io/site/observed/observed_outline.hpp"
 #include "io/site/release/release_requests.hpp"
@@ -19,6 +20,7 @@
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/inflow/inflow_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
@@ -179,6 +181,7 @@ void load_polygon(Loading& loading) {
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
+  loading.inputs.release_starts = std::move(read.starts);
   loading.set_release(std::move(read.pattern),
                       read.is_thickness ? ReleasePattern::thickness : ReleasePattern::cover);
   if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
@@ -225,10 +228,45 @@ void load_synthetic_source(Loading& loading) {
   loading.set_release(std::move(source), ReleasePattern::thickness);
 }
 
+/// Mass that only enters over time: an empty pattern where it does.
+void load_no_release(Loading& loading) {
+  loading.release_label = "inflow";
+  Window under;
+  for (const InflowSource& source : loading.inputs.inflow)
+    under = joined(under, cells_below(source, loading.grid()));
+  if (under.n_cells() == 0) return;  // its files could not be read
+  loading.set_release(Raster<double>(grid_of(under, loading.grid()), 0.0),
+                      ReleasePattern::thickness);
+}
+
+void take_files(Loading& loading, std::vector<FlowFile>& files) {
+  for (FlowFile& file : files) loading.take(file);
+}
+
+/// Where mass enters and where the flow is followed; only checked while no ground is known.
+void load_flow(Loading& loading) {
+  const Scenario& scenario = loading.scenario;
+  SceneInputs& in = loading.inputs;
+  for (std::size_t i = 0; i < scenario.inflow.size(); ++i)
+    loading.attempt([&] {
+      InflowRead read = read_inflow_source(scenario, i, loading.grid());
+      in.inflow.push_back(std::move(read.source));
+      take_files(loading, read.files);
+    });
+  if (!scenario.gauges) return;
+  loading.attempt([&] {
+    GaugesRead read = read_gauges(scenario, loading.grid());
+    in.gauge_points = std::move(read.points), in.gauge_lines = std::move(read.lines);
+    take_files(loading, read.files);
+  });
+}
+
 void load_release(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   const int named = !spec.polygon.empty() + !spec.thickness_raster.empty() + spec.box.has_value() +
                     spec.paraboloid.has_value() + spec.cylinder.has_value();
+  const bool none = named == 0 && !loading.synthetic_source;
+  if (none && !loading.scenario.inflow.empty()) return load_no_release(loading);
   require(named <= 1,
           "release: names more than one source. Keep one of polygon, thickness_raster, "
           "box, paraboloid, cylinder.");
@@ -315,6 +353,7 @@ void check_without_terrain(Loading& loading) {
     });
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
+  load_flow(loading);
   check_zones(loading);
   load_bed_supply(loading);
   load_observed(loading);
@@ -330,8 +369,10 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     check_without_terrain(loading);
     loading.refuse_problems();
   }
+  load_flow(loading);
   loading.attempt([&] { load_release(loading); });
-  if (inputs.release)
+  const bool complete = inputs.inflow.size() == scenario.inflow.size();
+  if (inputs.release && complete)
     loading.attempt([&] {
       load_ground(loading);
       shape_release(scenario, inputs);
@@ -343,6 +384,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   load_bed_supply(loading);
   load_observed(loading);
   loading.refuse_problems();
+  expect(inputs.release && inputs.elevation, "a scene without problems has its release and ground");
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
   if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
   inputs.release_hash = hash_of_release(inputs);

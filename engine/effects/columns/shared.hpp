@@ -9,6 +9,7 @@
 #include "engine/neighbors/column_cells.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,6 +27,11 @@ struct ColumnFlow {
       lateral_gravity;              ///< pressure over density and thickness where K = 1 [m/s^2]
   std::vector<double> strain_rate;  ///< div v of each column [1/s]; empty without a mixture
   bool steep = false;               ///< some share is under one
+  /// Columns with ids from this one on stand for the area that they were released on until this
+  /// step: for so long support radii find what lies around them.
+  static constexpr std::size_t settling_steps = 10;
+  std::uint32_t settle_from = 0;
+  std::size_t settle_until = settling_steps;
   double start_dt = 1e-3;           ///< of the first step [s]
   double fastest_wave = 0;          ///< largest sqrt(K g_n h) / h_s [1/s]
   double fastest_approach = 0;      ///< largest relative speed of neighbours / h_s [1/s]
