@@ -38,12 +38,12 @@ Bounds quantile(const std::vector<Bounds>& all, double fraction) {
 
 std::string arrival_text(const Bounds& b) {
   if (b.low == never) return "never";
-  return b.low == b.high ? number(b.low) : "> " + number(b.low);
+  return fmt::format("{}{}", b.low == b.high ? "" : "> ", number(b.low));
 }
 
 std::string peak_text(const Bounds& b) {
   if (b.low == b.high) return b.low > 0 ? number(b.low) : "not reached";
-  return b.low > 0 ? ">= " + number(b.low) : "not known";
+  return b.low > 0 ? fmt::format(">= {}", number(b.low)) : "not known";
 }
 
 Bounds arrival_of(double arrival_s, double end_s, bool cut_off) {
@@ -173,12 +173,12 @@ std::string quantile_name(const GaugeFindings& f, std::size_t k) {
 
 std::string gauges_csv(const GaugeFindings& f) {
   std::string text = "gauge,quantity,units,members,reached,unknown";
-  for (std::size_t k = 0; k < f.quantiles.size(); ++k) text += "," + quantile_name(f, k);
+  for (std::size_t k = 0; k < f.quantiles.size(); ++k) text.append(",").append(quantile_name(f, k));
   text += '\n';
   for (const GaugeRow& r : f.rows) {
     text += fmt::format("{},{},{},{},{},{}", quoted(r.gauge), r.quantity, r.units, r.members,
                         r.reached, r.unknown);
-    for (const std::string& v : r.values) text += "," + quoted(v);
+    for (const std::string& v : r.values) text.append(",").append(quoted(v));
     text += '\n';
   }
   return text;
@@ -186,7 +186,7 @@ std::string gauges_csv(const GaugeFindings& f) {
 
 std::string gauge_series_csv(const GaugeFindings& f) {
   std::string text = "gauge,quantity,units,time_s,members";
-  for (std::size_t k = 0; k < f.quantiles.size(); ++k) text += "," + quantile_name(f, k);
+  for (std::size_t k = 0; k < f.quantiles.size(); ++k) text.append(",").append(quantile_name(f, k));
   text += '\n';
   for (const GaugeBand& b : f.bands)
     for (std::size_t i = 0; i < b.time_s.size(); ++i) {

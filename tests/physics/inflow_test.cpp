@@ -119,13 +119,12 @@ TEST(Inflow, FollowsTheIntegralOfItsHydrograph) {
   const HydrographVolume integral(in.inflow[0].hydrograph);
   Simulation simulation = assemble(s, in, 0, 1);
   const State& state = simulation.parts().state;
-  double largest = 0;
+  // A column at the peak: 2 m x 2 m of critical flow of 45 m3/s over 20 m; the last may be half as
+  // large again.
+  const double q = 45 / width, column = 4 * std::cbrt(q * q / gravity_m_s2) / std::cos(slope);
   while (state.time < 25) {
     simulation.step();
-    const Ledger l = state.ledger();
-    for (const double m : state.grains().mass) largest = std::max(largest, m);
-    const double column = largest / state.grains().bulk_density;
-    EXPECT_NEAR(l.added_volume, 1.5 * integral.until(state.time - 1), 0.76 * column + 1e-9)
+    EXPECT_NEAR(state.ledger().added_volume, 1.5 * integral.until(state.time - 1), 0.76 * column)
         << state.time;
   }
   EXPECT_NEAR(state.ledger().added_volume, 1.5 * integral.total_m3(), 1e-9);
@@ -141,7 +140,7 @@ TEST(Gauges, SeeTheFrontOfASlidingBlock) {
   s.formulation = Formulation::depth_averaged;
   s.release.thickness_m = Uncertain(0.001);
   s.numerics.jitter = 0;
-  s.numerics.end_time_s = 9;
+  s.numerics.end_time_s = 17;
   s.gauges.emplace();
   s.gauges->interval_s = 0.5;
   s.gauges->lines = {across("near", -30), across("far", 40), across("never", 75)};
@@ -182,7 +181,8 @@ TEST(LateRelease, IsTheSameSlideShiftedByItsStart) {
   EXPECT_NEAR(late.result.scalars.com_travel_m, now.result.scalars.com_travel_m, 0.5);
   EXPECT_NEAR(late.result.scalars.deposit_area_m2, now.result.scalars.deposit_area_m2,
               0.03 * now.result.scalars.deposit_area_m2);
-  EXPECT_EQ(late.result.scalars.released_mass_kg, now.result.scalars.released_mass_kg);
+  EXPECT_NEAR(late.result.scalars.released_mass_kg, now.result.scalars.released_mass_kg,
+              1e-12 * now.result.scalars.released_mass_kg);
   EXPECT_EQ(b.lines[0].volume_m3[9], 0) << "what has not started lies still";
   expect_accounts(late);
 }
