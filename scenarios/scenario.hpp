@@ -73,7 +73,7 @@ struct ReleaseSpec {
   ReleaseFloor floor = ReleaseFloor::uniform;                   ///< of a pre_failure release
   std::array<double, 3> velocity_m_s{0, 0, 0};
   std::optional<Uncertain> start_time_s;  ///< absent: 0; of the whole release, depth_averaged only
-  std::string start_time_attribute;       ///< field of `polygon` with a time in seconds, in addition
+  std::string start_time_attribute;  ///< field of `polygon` with a time in seconds, in addition
   bool operator==(const ReleaseSpec&) const = default;
 };
 

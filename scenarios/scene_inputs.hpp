@@ -47,7 +47,7 @@ struct SceneInputs {
   std::shared_ptr<const Raster<double>> release_cover;
   /// By ascending start; empty: all of it starts at once.
   std::vector<ReleaseStart> release_starts;
-  std::vector<InflowSource> inflow;             ///< in the order of the scenario
+  std::vector<InflowSource> inflow;  ///< in the order of the scenario
   std::vector<Gauge> gauge_points, gauge_lines;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
   /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.

@@ -21,7 +21,7 @@ struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
   double added_mass = 0, taken_mass = 0;                     ///< by effects, after the release
   double added_energy = 0, taken_energy = 0;                 ///< kinetic energy that went with it
-  double added_volume = 0;  ///< bulk, of added mass that has one [m^3]
+  double added_volume = 0;      ///< bulk, of added mass that has one [m^3]
   double entrained_mass = 0;    ///< taken up of the bed, at rest until then
   double entrainment_loss = 0;  ///< of kinetic energy, by mixing with it
   double outer_work = 0;  ///< by what nothing below names: effects such as wind, ground that moves

@@ -88,7 +88,8 @@ class Run {
     if (ended_) return true;
     if (s.terrain.needs_more())
       return end(Outcome::cancelled, "ground beyond the part that was read is needed");
-    if (s.n_particles() == 0 && !waits()) return end(Outcome::left_terrain, "all mass left the terrain");
+    if (s.n_particles() == 0 && !waits())
+      return end(Outcome::left_terrain, "all mass left the terrain");
     if (parts_.stop.out_of_time(s.time)) return end(Outcome::out_of_time, "");
     return false;
   }

@@ -166,18 +166,18 @@ void print_gauges(const MemberResult& r, Console& console) {
     return cut ? std::string("not reached so far") : std::string("never reached");
   };
   for (const PointSeries& p : r.gauges.points)
-    print_line("gauge", p.name + ": " + arrival(p.arrival_s) +
-                            (std::isnan(p.arrival_s)
-                                 ? ""
-                                 : fmt::format(", at most {:.2f} m and {:.1f} m/s",
-                                               p.thickness.value, p.speed.value)),
+    print_line("gauge",
+               p.name + ": " + arrival(p.arrival_s) +
+                   (std::isnan(p.arrival_s) ? ""
+                                            : fmt::format(", at most {:.2f} m and {:.1f} m/s",
+                                                          p.thickness.value, p.speed.value)),
                console);
   for (const LineSeries& l : r.gauges.lines)
-    print_line("gauge", l.name + ": " + arrival(l.arrival_s) +
-                            (std::isnan(l.arrival_s)
-                                 ? ""
-                                 : fmt::format(", at most {:.3g} m3/s, {} m3 in all",
-                                               l.discharge.value, grouped(l.total_m3))),
+    print_line("gauge",
+               l.name + ": " + arrival(l.arrival_s) +
+                   (std::isnan(l.arrival_s) ? ""
+                                            : fmt::format(", at most {:.3g} m3/s, {} m3 in all",
+                                                          l.discharge.value, grouped(l.total_m3))),
                console);
 }
 

@@ -24,8 +24,8 @@ std::string number(double v) { return fmt::format("{:.6g}", v); }
 
 double at_rank(std::vector<double> values, double fraction) {
   const auto n = static_cast<double>(values.size());
-  const auto k = static_cast<std::size_t>(
-      std::clamp(std::ceil(fraction * n - 1e-9) - 1, 0.0, n - 1));
+  const auto k =
+      static_cast<std::size_t>(std::clamp(std::ceil(fraction * n - 1e-9) - 1, 0.0, n - 1));
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
   return values[k];
 }
@@ -156,10 +156,13 @@ GaugeFindings GaugeStatistics::findings(std::vector<double> quantiles, bool one_
   }
   for (std::size_t k = 0; k < first.lines.size(); ++k) {
     const std::string& name = first.lines[k].name;
-    row(name, {"arrival", "s"}, [k](const GaugeResult& g) { return g.lines[k].arrival_s; }, true);
-    row(name, {"peak_discharge", "m3 s-1"},
+    row(
+        name, {"arrival", "s"}, [k](const GaugeResult& g) { return g.lines[k].arrival_s; }, true);
+    row(
+        name, {"peak_discharge", "m3 s-1"},
         [k](const GaugeResult& g) { return g.lines[k].discharge.value; }, false);
-    row(name, {"volume", "m3"}, [k](const GaugeResult& g) { return g.lines[k].total_m3; }, false);
+    row(
+        name, {"volume", "m3"}, [k](const GaugeResult& g) { return g.lines[k].total_m3; }, false);
     band(name, {"discharge", "m3 s-1"}, [k](const Seen& m, std::size_t i) {
       return value_at(m.result.lines[k].discharge_m3_s, i, false, m.cut_off);
     });

@@ -117,8 +117,8 @@ std::vector<std::string> description_lines(const Scene& scene) {
                                 grouped(d.release_area_m2)) +
                     readings_text(scene));
   if (d.inflow_volume_m3 > 0)
-    lines.push_back(fmt::format("inflow: {} m3 until {:.6g} s", grouped(d.inflow_volume_m3),
-                                d.inflow_end_s));
+    lines.push_back(
+        fmt::format("inflow: {} m3 until {:.6g} s", grouped(d.inflow_volume_m3), d.inflow_end_s));
   lines.push_back(bulk_density_line(scene));
   const bool columns = d.formulation == to_string(Formulation::depth_averaged);
   lines.push_back(fmt::format("{}: {}, {} m apart; {:.1f} spacings thick at {}",

@@ -72,12 +72,13 @@ double start_of(const Reading& reading, OGRFeature& feature, const std::string& 
 std::vector<PolygonFeature> read_sources(Reading& reading, const Grid& terrain) {
   if (reading.thickness_field < 0 && reading.start_field < 0)
     return read_features(reading.layer, reading.request, terrain);
-  return read_features(
-      reading.layer, reading.request, terrain, [&](OGRFeature& read, PolygonFeature& feature) {
-        if (reading.thickness_field >= 0)
-          feature.thickness_m = thickness_of(reading, read, feature.name);
-        if (reading.start_field >= 0) feature.start_s = start_of(reading, read, feature.name);
-      });
+  return read_features(reading.layer, reading.request, terrain,
+                       [&](OGRFeature& read, PolygonFeature& feature) {
+                         if (reading.thickness_field >= 0)
+                           feature.thickness_m = thickness_of(reading, read, feature.name);
+                         if (reading.start_field >= 0)
+                           feature.start_s = start_of(reading, read, feature.name);
+                       });
 }
 
 /// Which part of the pattern starts when.
@@ -127,7 +128,7 @@ void refuse_overlaps(const Reading& reading, const std::vector<PolygonFeature>& 
                           "of them back.",
                           reading.layer.label, sources[i].name, sources[j].name, area,
                           (reading.thickness_field >= 0 ? reading.request.thickness_attribute
-                                            : reading.request.start_time_attribute)));
+                                                        : reading.request.start_time_attribute)));
     }
 }
 
@@ -158,9 +159,8 @@ void require_inside(const Reading& reading, const PolygonFeature& source, const 
 PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& terrain) {
   const GdalScope scope;
   Reading reading{request, open_polygon_layer(request), -1, -1, {}};
-  reading.thickness_field =
-      find_field(reading, request.thickness_attribute, "release.thickness_attribute",
-                 "the thickness in metres");
+  reading.thickness_field = find_field(reading, request.thickness_attribute,
+                                       "release.thickness_attribute", "the thickness in metres");
   reading.start_field = find_field(reading, request.start_time_attribute,
                                    "release.start_time_attribute", "the time in seconds");
   reading.result.is_thickness = reading.thickness_field >= 0;

@@ -15,7 +15,7 @@ namespace sturz {
 struct PolygonRelease {
   Raster<double>
       pattern;  ///< on cells of the terrain around the polygons: share 0..1, or thickness [m]
-  Raster<double> cover;       ///< where the pattern is a thickness: share 0..1 of the same cells
+  Raster<double> cover;  ///< where the pattern is a thickness: share 0..1 of the same cells
   /// Of each start time that the features name, ascending: share of what the pattern has in a cell
   /// that starts then. Empty without release.start_time_attribute.
   std::vector<ReleaseStart> starts;

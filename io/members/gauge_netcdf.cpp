@@ -67,14 +67,17 @@ void put_series(NetcdfWriter& file, const About& about, NcType type, const std::
   file.put(variable, std::span<const Number>(all));
 }
 
-std::string name_attribute(const char* axis, std::size_t k) { return fmt::format("{}_{}", axis, k); }
+std::string name_attribute(const char* axis, std::size_t k) {
+  return fmt::format("{}_{}", axis, k);
+}
 
 constexpr About point_arrival{"gauge_arrival", "s",
                               "time at which a point is reached; NaN: it was not"};
 constexpr About line_arrival{"gauge_line_arrival", "s",
                              "time at which the first column crosses; NaN: none did"};
 constexpr About volume_about{"gauge_volume", "m3", "volume that passed a line by then"};
-constexpr About discharge_about{"gauge_discharge", "m3 s-1", "mean discharge since the time before"};
+constexpr About discharge_about{"gauge_discharge", "m3 s-1",
+                                "mean discharge since the time before"};
 constexpr About total_about{"gauge_total_volume", "m3", "volume that passed a line in the end"};
 constexpr About peak_about{"gauge_peak_discharge", "m3 s-1", "largest discharge"};
 
@@ -117,8 +120,8 @@ void write_lines(NetcdfWriter& file, int time, const std::vector<LineSeries>& li
 std::vector<double> numbers_of(const NetcdfReader& file, const char* name, std::size_t n) {
   std::vector<double> values = file.doubles(name);
   if (values.size() != n)
-    throw IoError(fmt::format("{}: {} has not one value per gauge (damaged).", file.file().string(),
-                              name));
+    throw IoError(
+        fmt::format("{}: {} has not one value per gauge (damaged).", file.file().string(), name));
   return values;
 }
 
@@ -150,7 +153,8 @@ void read_points(const NetcdfReader& file, GaugeResult& out) {
   }
   for (const auto& series : point_series) {
     const auto all = numbers_of(file, series.about.name, n * length);
-    for (std::size_t k = 0; k < n; ++k) out.points[k].*series.values = part_of<float>(all, k, length);
+    for (std::size_t k = 0; k < n; ++k)
+      out.points[k].*series.values = part_of<float>(all, k, length);
   }
 }
 
@@ -179,9 +183,9 @@ void write_gauges(NetcdfWriter& file, const GaugeResult& gauges) {
   if (gauges.empty()) return;
   file.number(NetcdfWriter::global, interval_attribute, gauges.interval_s);
   const int time = file.dimension(time_axis, gauges.time_s.size());
-  file.put(described(file, {time_axis, "s", "time since the start of the run"}, NcType::float64,
-                     {time}),
-           gauges.time_s);
+  file.put(
+      described(file, {time_axis, "s", "time since the start of the run"}, NcType::float64, {time}),
+      gauges.time_s);
   write_points(file, time, gauges.points);
   write_lines(file, time, gauges.lines);
 }

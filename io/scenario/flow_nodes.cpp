@@ -63,9 +63,9 @@ bool read_inflow(const std::string& path, const YamlNode& node, InflowSpec& sour
   if (!is_map(path, node, "a source, {hydrograph: flood.csv, line_m: [[x, y], [x, y]]}", problems))
     return false;
   static const std::map<std::string, std::string InflowSpec::*> texts{
-      {"name", &InflowSpec::name},       {"hydrograph", &InflowSpec::hydrograph},
-      {"line", &InflowSpec::line},       {"polygon", &InflowSpec::polygon},
-      {"layer", &InflowSpec::layer},     {"crs", &InflowSpec::crs}};
+      {"name", &InflowSpec::name},   {"hydrograph", &InflowSpec::hydrograph},
+      {"line", &InflowSpec::line},   {"polygon", &InflowSpec::polygon},
+      {"layer", &InflowSpec::layer}, {"crs", &InflowSpec::crs}};
   const std::size_t before = problems.size();
   for (const auto& [name, at, value] : node.entries) {
     const std::string inner = path + "." + name;

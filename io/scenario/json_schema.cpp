@@ -121,8 +121,8 @@ Json corners(int least) {
 
 /// A hydrograph and one place.
 Json inflows() {
-  Json properties = {{"name", words()},  {"hydrograph", words()}, {"line_m", corners(2)},
-                     {"line", words()},  {"polygon", words()},    {"layer", words()},
+  Json properties = {{"name", words()}, {"hydrograph", words()}, {"line_m", corners(2)},
+                     {"line", words()}, {"polygon", words()},    {"layer", words()},
                      {"crs", words()}};
   for (const auto& field : inflow_fields)
     properties[field.name] = uncertain(number(field.min, field.max, field.above_min));

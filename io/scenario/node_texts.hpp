@@ -13,7 +13,7 @@ namespace sturz {
 
 /// A name that a map of a list does not know.
 inline std::string unknown_text(const std::string& path, const std::string& key,
-                         const std::vector<std::string>& known) {
+                                const std::vector<std::string>& known) {
   const std::string near = nearest_name(key, known);
   return path + "." + key + " (unknown key). " +
          (near.empty() ? "Known here: " + comma_separated(known) + "."
@@ -24,7 +24,7 @@ inline constexpr const char* file_name = "a file name";
 
 /// \param expected "text" or file_name
 inline std::optional<std::string> read_text(const std::string& path, const char* expected,
-                                     const YamlNode& node, FileProblems& problems) {
+                                            const YamlNode& node, FileProblems& problems) {
   if (node.kind == YamlNode::Kind::scalar && !node.text.empty()) return node.text;
   if (node.kind == YamlNode::Kind::scalar)
     problems.push_back(

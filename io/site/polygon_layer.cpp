@@ -111,7 +111,7 @@ PolygonsPtr polygons_of(Reading& reading, const OGRGeometry& geometry, const std
 }  // namespace
 
 TransformPtr terrain_transform(PolygonLayer& layer, const PolygonRequest& request,
-                              const Grid& terrain) {
+                               const Grid& terrain) {
   OGREnvelope box;
   if (layer.layer->GetExtent(&box, true) != OGRERR_NONE) box = {};  // an empty layer has none
   const OGRSpatialReference* own = layer.layer->GetSpatialRef();

@@ -28,8 +28,8 @@ std::string head_of(const GaugeFindings& f) {
 std::string row_of(const GaugeRow& r) {
   std::string row = fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{} of {}{}</td>", html_escape(r.gauge),
-      html_escape(words(r.quantity)), html_escape(display_unit(r.units).label), r.reached, r.members,
-      r.unknown > 0 ? fmt::format(", {} not known", r.unknown) : "");
+      html_escape(words(r.quantity)), html_escape(display_unit(r.units).label), r.reached,
+      r.members, r.unknown > 0 ? fmt::format(", {} not known", r.unknown) : "");
   for (const std::string& v : r.values)
     row += fmt::format("<td class=\"n\">{}</td>", html_escape(v));
   return row + "</tr>";
@@ -82,7 +82,8 @@ std::string gauges_html(const ReportInput& input) {
   return html +
          "</div><p class=\"note\">Over the valid members: the value that so many of them do not "
          "exceed. "
-         "\u201Cnever\u201D: so many were not reached that this one is among them; \u201C>\u201D and "
+         "\u201Cnever\u201D: so many were not reached that this one is among them; \u201C>\u201D "
+         "and "
          "\u201C>=\u201D: members that were cut off while they moved do not let it be told nearer. "
          "All gauges are in gauges.csv, over time in gauge_series.csv.</p></section>";
 }

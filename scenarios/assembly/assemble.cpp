@@ -107,8 +107,7 @@ PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
   return StopRule({plan.end.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
                    std::max(plan.release.max_thickness_m, plan.inflow.most_thickness_m),
-                   plan.available_energy_j,
-                   s.numerics.stop_energy_fraction});
+                   plan.available_energy_j, s.numerics.stop_energy_fraction});
 }
 
 /// Masses spread and settle while a point is long at rest.
@@ -127,8 +126,8 @@ double expected_time(const Scenario& s, const ScenePlan& plan) {
     Release entering;
     for (const TimedArrival& c : plan.inflow.columns)
       entering.x.push_back(c.arrival.position.x()), entering.y.push_back(c.arrival.position.y());
-    moving = std::max(moving, time_to_rest(plan.bed, entering, friction,
-                                           plan.inflow.most_speed_m_s, plan.end.end_time_s));
+    moving = std::max(moving, time_to_rest(plan.bed, entering, friction, plan.inflow.most_speed_m_s,
+                                           plan.end.end_time_s));
     deepest = std::max(deepest, plan.inflow.most_thickness_m);
     last = std::max(last, plan.inflow.last_s);
   }

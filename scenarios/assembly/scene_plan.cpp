@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/scene_plan.hpp"
 
-
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
@@ -316,14 +315,14 @@ void plan_masses(const Scenario& s, const SceneInputs& in, const Raster<double>&
 
 /// The time counts from when the last of the mass has entered, but for a given end.
 void plan_end(const Scenario& s, const SceneInputs& in, ScenePlan& plan) {
-  const double thickness =
-      std::max(plan.release.median_thickness_m, plan.inflow.most_thickness_m);
+  const double thickness = std::max(plan.release.median_thickness_m, plan.inflow.most_thickness_m);
   plan.end = time_cap(s, in, thickness, plan.bulk_density_kg_m3);
-  const double last = std::max(plan.inflow.last_s, plan.later.empty() ? 0 : plan.later.back().time_s);
+  const double last =
+      std::max(plan.inflow.last_s, plan.later.empty() ? 0 : plan.later.back().time_s);
   if (s.numerics.end_time_s || !(last > 0)) return;
   plan.end.end_time_s = std::ceil(plan.end.end_time_s + last);
-  plan.end.reason += ", counted from the last mass that starts or enters, at " +
-                     short_number(last) + " s";
+  plan.end.reason +=
+      ", counted from the last mass that starts or enters, at " + short_number(last) + " s";
 }
 
 }  // namespace

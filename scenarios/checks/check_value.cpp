@@ -223,8 +223,7 @@ void Checker::operator()(const std::vector<BasalZone>& v) const {
 }
 
 /// Of a line in map coordinates.
-void Checker::corners(const std::string& path,
-                      const std::vector<std::array<double, 2>>& v) const {
+void Checker::corners(const std::string& path, const std::vector<std::array<double, 2>>& v) const {
   KeyInfo limits = key;
   limits.path = path;
   limits.units = "m", limits.min = -1e8, limits.max = 1e8;
@@ -256,8 +255,9 @@ void Checker::operator()(const std::vector<InflowSpec>& v) const {
       add(path + " (hydrograph is missing). Name a CSV with the columns time_s, discharge_m3_s.");
     const int places = !v[i].line.empty() + !v[i].polygon.empty() + !v[i].line_m.empty();
     if (places != 1)
-      add(path + (places == 0 ? " (where does it enter?). Give one of line_m, line, polygon."
-                              : " (more than one place: line_m, line, polygon). Keep one of them."));
+      add(path + (places == 0
+                      ? " (where does it enter?). Give one of line_m, line, polygon."
+                      : " (more than one place: line_m, line, polygon). Keep one of them."));
     if (v[i].line_m.size() == 1)
       add(path + ".line_m (one corner is no line). Give two or more, [[x, y], [x, y]].");
     corners(path + ".line_m", v[i].line_m);

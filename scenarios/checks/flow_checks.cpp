@@ -27,8 +27,8 @@ void refuse_periods(const Scenario& s, const char* path, Problems& problems) {
 
 void check_gauges(const GaugesSpec& g, Problems& problems) {
   if (g.points.empty() && g.lines.empty() && g.file.empty())
-    problems.push_back({"gauges",
-                        "gauges (names no point and no line). Give some of points, lines, file."});
+    problems.push_back(
+        {"gauges", "gauges (names no point and no line). Give some of points, lines, file."});
   if (g.file.empty() && !g.layer.empty())
     problems.push_back(
         {"gauges.layer", "gauges.layer (there is no gauges.file). Remove it or name the file."});

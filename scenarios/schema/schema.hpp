@@ -26,11 +26,11 @@ enum class ValueKind {
   uncertain,    ///< number, or a distribution in its place
   number_list,  ///< [a, b, ...]
   text_list,
-  number_map,  ///< {text: number, ...}
-  synthetic,   ///< {shape: {cell_size_m: .., own numbers ..}}
-  wall_list,   ///< [{point_m: .., normal: .., ...}, ...]
-  zone_list,   ///< [{polygon: .., friction_coefficient: .., ...}, ...]
-  inflow_list,  ///< [{hydrograph: .., line_m: [[x, y], ..], ...}, ...]
+  number_map,    ///< {text: number, ...}
+  synthetic,     ///< {shape: {cell_size_m: .., own numbers ..}}
+  wall_list,     ///< [{point_m: .., normal: .., ...}, ...]
+  zone_list,     ///< [{polygon: .., friction_coefficient: .., ...}, ...]
+  inflow_list,   ///< [{hydrograph: .., line_m: [[x, y], ..], ...}, ...]
   gauge_points,  ///< [{name: .., at_m: [x, y]}, ...]
   gauge_lines,   ///< [{name: .., points_m: [[x, y], ..]}, ...]
 };

@@ -41,8 +41,8 @@ void add_gauge_keys(std::vector<KeyInfo>& keys) {
 }
 
 void add_gauge_blocks(std::vector<BlockInfo>& blocks) {
-  blocks.push_back(optional_block(
-      "gauges", "Points and lines where the flow is followed over time.", gauges));
+  blocks.push_back(
+      optional_block("gauges", "Points and lines where the flow is followed over time.", gauges));
 }
 
 }  // namespace sturz::schema_rows

@@ -46,9 +46,8 @@ TEST(GaugeStatistics, NeverIsAWord) {
   EXPECT_THAT(row(f, "volume").values, ElementsAre("not reached", "not reached", "100"));
   EXPECT_EQ(row(f, "arrival").reached, 2u);
   EXPECT_EQ(row(f, "arrival").unknown, 0u);
-  EXPECT_THAT(gauges_csv(f),
-              HasSubstr("gauge,quantity,units,members,reached,unknown,q25,q50,q95\n"
-                        "\"road, old\",arrival,s,4,2,0,12,14,never\n"));
+  EXPECT_THAT(gauges_csv(f), HasSubstr("gauge,quantity,units,members,reached,unknown,q25,q50,q95\n"
+                                       "\"road, old\",arrival,s,4,2,0,12,14,never\n"));
 }
 
 TEST(GaugeStatistics, WhatWasCutOffIsNoNumberEither) {

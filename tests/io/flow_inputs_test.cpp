@@ -24,8 +24,9 @@ class FlowInputs : public IoTest {
     Raster<double> slope(Grid{50, 40, 500000, 4600400, 10, "EPSG:32633"});
     for (int r = 0; r < 40; ++r)
       for (int c = 0; c < 50; ++c) slope.at(r, c) = 1000 - 2.0 * c;  // down to the east
-    write_raster(path("bed.tif"), {50, 40, {500000, 10, 0, 4600400, 0, -10}, "EPSG:32633", {},
-                                   slope.values, "", false});
+    write_raster(
+        path("bed.tif"),
+        {50, 40, {500000, 10, 0, 4600400, 0, -10}, "EPSG:32633", {}, slope.values, "", false});
     write("flood.csv", "time_s,discharge_m3_s\n0,10\n20,10\n");
     scene.grains.emplace();
     scene.numerics.spacing_m = 2;
@@ -43,8 +44,7 @@ class FlowInputs : public IoTest {
 };
 
 TEST_F(FlowInputs, AnInflowNeedsNoRelease) {
-  write("gate.geojson", collection(feature("LineString",
-                                           "[[500100,4600150],[500100,4600170]]")));
+  write("gate.geojson", collection(feature("LineString", "[[500100,4600150],[500100,4600170]]")));
   scene.inflow = {from("gate.geojson")};
   const SceneInputs in = load_scene_inputs(scene);
   ASSERT_EQ(in.inflow.size(), 1u);
@@ -76,17 +76,18 @@ TEST_F(FlowInputs, FaultsOfAHydrographHaveFileAndLine) {
   source.line_m = {{500100, 4600150}, {500100, 4600170}};
   scene.inflow = {source, source};
   scene.inflow[1].hydrograph = "floood.csv";
-  EXPECT_THAT(refusal(), AllOf(HasSubstr("inflow[0].hydrograph = flood.csv:3: 'x' in column"),
-                               HasSubstr("inflow[0].hydrograph = flood.csv:4: discharge = -1"),
-                               HasSubstr("inflow[1].hydrograph = floood.csv"),
-                               HasSubstr("flood.csv")));
+  EXPECT_THAT(refusal(),
+              AllOf(HasSubstr("inflow[0].hydrograph = flood.csv:3: 'x' in column"),
+                    HasSubstr("inflow[0].hydrograph = flood.csv:4: discharge = -1"),
+                    HasSubstr("inflow[1].hydrograph = floood.csv"), HasSubstr("flood.csv")));
 }
 
 TEST_F(FlowInputs, PlacesAreChecked) {
   InflowSpec source = from("");
   source.line_m = {{500100, 4600150}, {500100, 4700000}};
   scene.inflow = {source};
-  EXPECT_THAT(refusal(), HasSubstr("inflow[0].line_m: lies outside the terrain (x 500100, y 4700000"));
+  EXPECT_THAT(refusal(),
+              HasSubstr("inflow[0].line_m: lies outside the terrain (x 500100, y 4700000"));
   write("gate.geojson", collection(feature("Polygon", "[" + square(100, 150, 20) + "]")));
   scene.inflow = {from("gate.geojson")};
   EXPECT_THAT(refusal(), HasSubstr("inflow[0].line = gate.geojson: holds a polygon (a line is"));
@@ -95,8 +96,14 @@ TEST_F(FlowInputs, PlacesAreChecked) {
 }
 
 TEST_F(FlowInputs, LevelGroundSaysNoDirection) {
-  write_raster(path("bed.tif"), {50, 40, {500000, 10, 0, 4600400, 0, -10}, "EPSG:32633", {},
-                                 std::vector<double>(2000, 7.0), "", false});
+  write_raster(path("bed.tif"), {50,
+                                 40,
+                                 {500000, 10, 0, 4600400, 0, -10},
+                                 "EPSG:32633",
+                                 {},
+                                 std::vector<double>(2000, 7.0),
+                                 "",
+                                 false});
   InflowSpec source = from("");
   source.line_m = {{500100, 4600150}, {500100, 4600170}};
   scene.inflow = {source};
@@ -111,9 +118,9 @@ TEST_F(FlowInputs, PolygonsStartWhenTheirFieldSays) {
   scene.release.thickness_attribute = "h";
   scene.release.start_time_attribute = "t0";
   write("source.geojson",
-        collection(feature("Polygon", "[" + square(100, 100, 40) + "]", R"({"h": 1, "t0": 0})") +
-                   "," +
-                   feature("Polygon", "[" + square(140, 100, 40) + "]", R"({"h": 2, "t0": 12.5})")));
+        collection(
+            feature("Polygon", "[" + square(100, 100, 40) + "]", R"({"h": 1, "t0": 0})") + "," +
+            feature("Polygon", "[" + square(140, 100, 40) + "]", R"({"h": 2, "t0": 12.5})")));
   const SceneInputs in = load_scene_inputs(scene);
   ASSERT_EQ(in.release_starts.size(), 2u);
   EXPECT_EQ(in.release_starts[1].start_s, 12.5);
@@ -134,9 +141,9 @@ TEST_F(FlowInputs, GaugesComeFromFilesAndFromTheScene) {
   scene.gauges->points = {{"house", {{{500200, 4600120}}}}};
   scene.gauges->file = "gauges.geojson";
   write("gauges.geojson",
-        collection(feature("LineString", "[[500150,4600000],[500150,4600300]]",
-                           R"({"name": "road"})") +
-                   "," + feature("Point", "[500160,4600120]", R"({"name": "well"})")));
+        collection(
+            feature("LineString", "[[500150,4600000],[500150,4600300]]", R"({"name": "road"})") +
+            "," + feature("Point", "[500160,4600120]", R"({"name": "well"})")));
   const SceneInputs in = load_scene_inputs(scene);
   ASSERT_EQ(in.gauge_points.size(), 2u);
   EXPECT_EQ(in.gauge_points[1].name, "well");

@@ -30,11 +30,13 @@ TEST(HydrographCsv, ReadsColumnsInAnyOrderWithTheirUnits) {
 }
 
 TEST(HydrographCsv, NamesEveryFaultInOneRound) {
-  const std::string text = refusal(
-      "time_s,discharge_m3_s\n0,1\n10,two\n20,-3\n20,4\n15,5,6\n1e8,1\n30,nan\n");
-  EXPECT_THAT(text, HasSubstr("flood.csv:3: 'two' in column discharge_m3_s is not a finite number"));
+  const std::string text =
+      refusal("time_s,discharge_m3_s\n0,1\n10,two\n20,-3\n20,4\n15,5,6\n1e8,1\n30,nan\n");
+  EXPECT_THAT(text,
+              HasSubstr("flood.csv:3: 'two' in column discharge_m3_s is not a finite number"));
   EXPECT_THAT(text, HasSubstr("flood.csv:4: discharge = -3 m3/s (must be in 0.."));
-  EXPECT_THAT(text, HasSubstr("flood.csv:5: time = 20 s is not after that of the row before, 20 s"));
+  EXPECT_THAT(text,
+              HasSubstr("flood.csv:5: time = 20 s is not after that of the row before, 20 s"));
   EXPECT_THAT(text, HasSubstr("flood.csv:6: 3 cells for 2 columns"));
   EXPECT_THAT(text, HasSubstr("flood.csv:7: time = 1e+08 s (must be in 0..1e+07"));
   EXPECT_THAT(text, HasSubstr("flood.csv:8: 'nan' in column discharge_m3_s"));
@@ -57,7 +59,8 @@ TEST(HydrographCsv, RefusesWhatBringsNothing) {
   EXPECT_THAT(refusal("time_s,discharge_m3_s\n0,0\n9,0\n"), HasSubstr("brings no volume"));
   EXPECT_THAT(refusal("time_s,discharge_m3_s,solid_fraction\n0,1,0.5\n9,1,55\n"),
               HasSubstr("flood.csv:3: solid_fraction = 55 (must be in 0.05..0.85"));
-  EXPECT_THAT(refusal(std::string("time_s,discharge_m3_s\n0,\0001\n", 27)), HasSubstr("flood.csv:2"));
+  EXPECT_THAT(refusal(std::string("time_s,discharge_m3_s\n0,\0001\n", 27)),
+              HasSubstr("flood.csv:2"));
 }
 
 }  // namespace

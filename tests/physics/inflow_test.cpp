@@ -64,11 +64,12 @@ TEST(Inflow, ComesToTheEvenFlowOfVoellmysBed) {
       speed += mean_after(g, p.speed_m_s, 60) / g.points.size();
     }
     const double passed = mean_after(g, g.lines[0].discharge_m3_s, 60);
-    fmt::print("F1 spacing {} m: h {:.4f} m ({:+.2f} %), u {:.4f} m/s ({:+.2f} %), Q {:.3f} m3/s "
-               "({:+.2f} %), {} columns\n",
-               spacing, thickness, 100 * (thickness / even.thickness - 1), speed,
-               100 * (speed / even.speed - 1), passed, 100 * (passed / discharge - 1),
-               f.result.scalars.n_particles);
+    fmt::print(
+        "F1 spacing {} m: h {:.4f} m ({:+.2f} %), u {:.4f} m/s ({:+.2f} %), Q {:.3f} m3/s "
+        "({:+.2f} %), {} columns\n",
+        spacing, thickness, 100 * (thickness / even.thickness - 1), speed,
+        100 * (speed / even.speed - 1), passed, 100 * (passed / discharge - 1),
+        f.result.scalars.n_particles);
     EXPECT_NEAR(thickness, even.thickness, 0.05 * even.thickness) << spacing;
     EXPECT_NEAR(speed, even.speed, 0.05 * even.speed) << spacing;
     EXPECT_NEAR(passed, discharge, 0.02 * discharge) << spacing;
@@ -145,7 +146,8 @@ TEST(Gauges, SeeTheFrontOfASlidingBlock) {
   s.gauges->interval_s = 0.5;
   s.gauges->lines = {across("near", -30), across("far", 40), across("never", 75)};
   const Finished f = run(s);
-  const double a = gravity_m_s2 * (std::sin(30 * degree) - std::tan(25 * degree) * std::cos(30 * degree));
+  const double a =
+      gravity_m_s2 * (std::sin(30 * degree) - std::tan(25 * degree) * std::cos(30 * degree));
   const GaugeResult& g = f.result.gauges;
   for (int k = 0; k < 2; ++k) {
     const double way = (g.lines[k].points[0].x() + 60.5) / std::cos(30 * degree);
@@ -170,10 +172,10 @@ TEST(LateRelease, IsTheSameSlideShiftedByItsStart) {
   };
   const Finished now = slide(0), late = slide(10);
   const GaugeResult &a = now.result.gauges, &b = late.result.gauges;
-  fmt::print("F5: arrival {:.4f} and {:.4f} s, end {:.3f} and {:.3f} s, runout {:.2f} and {:.2f} m\n",
-             a.lines[0].arrival_s, b.lines[0].arrival_s, now.result.scalars.end_time_s,
-             late.result.scalars.end_time_s, now.result.scalars.runout_m,
-             late.result.scalars.runout_m);
+  fmt::print(
+      "F5: arrival {:.4f} and {:.4f} s, end {:.3f} and {:.3f} s, runout {:.2f} and {:.2f} m\n",
+      a.lines[0].arrival_s, b.lines[0].arrival_s, now.result.scalars.end_time_s,
+      late.result.scalars.end_time_s, now.result.scalars.runout_m, late.result.scalars.runout_m);
   EXPECT_NEAR(b.lines[0].arrival_s - a.lines[0].arrival_s, 10, 0.05);
   EXPECT_NEAR(b.lines[0].total_m3, a.lines[0].total_m3, 0.01 * a.lines[0].total_m3);
   EXPECT_EQ(late.result.outcome, Outcome::settled);

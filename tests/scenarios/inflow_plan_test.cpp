@@ -27,8 +27,9 @@ struct Made {
   SceneInputs inputs;
   InflowPlan plan;
 
-  Made(Hydrograph h, std::vector<std::vector<Vec2>> lines, std::vector<std::vector<Vec2>> rings = {},
-       std::int64_t member = 0, double direction_deg = std::nan("")) {
+  Made(Hydrograph h, std::vector<std::vector<Vec2>> lines,
+       std::vector<std::vector<Vec2>> rings = {}, std::int64_t member = 0,
+       double direction_deg = std::nan("")) {
     SyntheticScene ground = make_synthetic(*scene.terrain.synthetic);
     inputs.whole = ground.bed.grid;
     inputs.elevation = std::make_shared<const Raster<double>>(std::move(ground.bed));
@@ -38,7 +39,8 @@ struct Made {
     scene.inflow = {source};
     const Terrain bed(std::make_shared<const Raster<double>>(*inputs.elevation),
                       NodataRule::outflow);
-    plan = plan_inflow(scene, inputs, bed, [](double) { return 1500.0; }, member);
+    plan = plan_inflow(
+        scene, inputs, bed, [](double) { return 1500.0; }, member);
   }
 };
 

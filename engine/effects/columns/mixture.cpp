@@ -31,7 +31,8 @@ void enter_mixture(MovingSet& p, const MixtureSettings& settings, std::size_t fi
   auto& fraction = p.scalar(fields::solid_fraction);
   Sum grains, fluid;
   for (std::size_t i = first; i < p.size(); ++i) {
-    const double own = entering.empty() ? settings.solid_fraction : entering[i - first].solid_fraction;
+    const double own =
+        entering.empty() ? settings.solid_fraction : entering[i - first].solid_fraction;
     const double m = std::isnan(own) ? settings.solid_fraction : own;
     const double volume = p.mass[i] / settings.law.density(m);
     solids[i] = m * volume, water[i] = (1 - m) * volume, fraction[i] = m;

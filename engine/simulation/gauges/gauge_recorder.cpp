@@ -15,8 +15,7 @@ namespace {
 /// Bulk volume of a particle; of a mixture that of its grains and water.
 class BulkVolume {
  public:
-  explicit BulkVolume(const MovingSet& p)
-      : mass_(p.mass.data()), per_kg_(1 / p.bulk_density) {
+  explicit BulkVolume(const MovingSet& p) : mass_(p.mass.data()), per_kg_(1 / p.bulk_density) {
     if (const Field* solids = p.find(fields::solids_volume)) solids_ = solids->component[0].data();
     if (const Field* water = p.find(fields::water_volume)) water_ = water->component[0].data();
   }
@@ -150,11 +149,11 @@ void GaugeRecorder::sample(const State& s, double time_s, double share) {
     for (std::size_t i = 0; i < p.size(); ++i) {
       const std::size_t id = first + p.id[i];
       Vec2 at(p.x[i], p.y[i]);
-      if (id < end && share < 1) at = Vec2(last_x_[id], last_y_[id]) + share * (at - Vec2(last_x_[id], last_y_[id]));
+      if (id < end && share < 1)
+        at = Vec2(last_x_[id], last_y_[id]) + share * (at - Vec2(last_x_[id], last_y_[id]));
       for (std::size_t g = 0; g < sums.size(); ++g) {
         const double weight = width.weight(i, settings_.points[g].at - at);
-        if (weight > 0)
-          sums[g].add(weight, volume(i), p.mass[i], Vec3(p.vx[i], p.vy[i], p.vz[i]));
+        if (weight > 0) sums[g].add(weight, volume(i), p.mass[i], Vec3(p.vx[i], p.vy[i], p.vz[i]));
       }
     }
   }

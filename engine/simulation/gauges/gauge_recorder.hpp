@@ -26,10 +26,10 @@ struct GaugeSettings {
 };
 
 /// A point has the thickness that the particles around it spread over it, with the weights of the
-/// maps (a quadratic B-spline over one and a half mean distances of columns), at the exact instants:
-/// places between two steps are interpolated. A line counts each particle whose way crosses it,
-/// whole, at the interpolated time: what passed is exact to a particle, and a discharge is the mean
-/// over its interval. Serial and in storage order.
+/// maps (a quadratic B-spline over one and a half mean distances of columns), at the exact
+/// instants: places between two steps are interpolated. A line counts each particle whose way
+/// crosses it, whole, at the interpolated time: what passed is exact to a particle, and a discharge
+/// is the mean over its interval. Serial and in storage order.
 ///
 /// \pre nothing is periodic
 class GaugeRecorder {

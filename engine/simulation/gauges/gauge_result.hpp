@@ -19,10 +19,10 @@ struct GaugePeak {
 /// At one point, as many instants as GaugeResult::time_s has.
 struct PointSeries {
   std::string name;
-  Vec2 at{0, 0};                                            ///< [m]
-  std::vector<float> thickness_m;                           ///< vertical
-  std::vector<float> speed_m_s;                             ///< of the mean momentum there
-  std::vector<float> momentum_flux_n_m;                     ///< rho h v^2
+  Vec2 at{0, 0};                                                ///< [m]
+  std::vector<float> thickness_m;                               ///< vertical
+  std::vector<float> speed_m_s;                                 ///< of the mean momentum there
+  std::vector<float> momentum_flux_n_m;                         ///< rho h v^2
   double arrival_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: never reached
   GaugePeak thickness, speed, momentum_flux;
 };

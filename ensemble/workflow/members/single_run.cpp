@@ -38,8 +38,8 @@ std::string as_text(const NamedSeconds& times) {
 /// So that a run which is stopped does not leave the results of one scene under the name of
 /// another.
 void remove_results(const OutputFolder& folder) {
-  for (const auto& file : {folder.peaks_nc(), folder.report(), folder.gauges_csv(), folder.gauge_series_csv(),
-                           folder.members() / "000000.nc"})
+  for (const auto& file : {folder.peaks_nc(), folder.report(), folder.gauges_csv(),
+                           folder.gauge_series_csv(), folder.members() / "000000.nc"})
     std::filesystem::remove(file);
 }
 

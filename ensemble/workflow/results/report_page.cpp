@@ -200,8 +200,8 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));
     page.run = &run;
   }
-  const GaugeFindings gauges = one_run ? find_gauges(run)
-                                       : find_gauges(store, finished.scenario, cancel);
+  const GaugeFindings gauges =
+      one_run ? find_gauges(run) : find_gauges(store, finished.scenario, cancel);
   page.gauges = &gauges;
   write_page(finished.folder, finished.manifest, finished.scenario, page);
   return finished.folder.report();

@@ -65,7 +65,8 @@ std::vector<NamedShape> read_layer(const PolygonRequest& request, const Grid& te
   return shapes;
 }
 
-void require_inside(const Grid& terrain, const std::string& label, const std::vector<Vec2>& places) {
+void require_inside(const Grid& terrain, const std::string& label,
+                    const std::vector<Vec2>& places) {
   if (terrain.n_cols == 0) return;
   for (const Vec2& p : places)
     require(p.x() >= terrain.west_m && p.x() <= terrain.east_m() && p.y() >= terrain.south_m() &&
@@ -127,10 +128,11 @@ void read_place(const Scenario& s, const InflowSpec& spec, const std::string& ke
 
 void add_gauge(const Grid& terrain, const std::string& label, bool line, Gauge gauge,
                std::set<std::string>& names, GaugesRead& out) {
-  require(names.insert(gauge.name).second,
-          fmt::format("{}: the name {} stands there twice (tables could not tell them apart). Rename "
-                      "one.",
-                      label, gauge.name));
+  require(
+      names.insert(gauge.name).second,
+      fmt::format("{}: the name {} stands there twice (tables could not tell them apart). Rename "
+                  "one.",
+                  label, gauge.name));
   if (line)
     require(length_of(gauge.corners) > 0,
             fmt::format("{}: the line {} has no length. Draw it again.", label, gauge.name));
@@ -147,10 +149,11 @@ InflowRead read_inflow_source(const Scenario& s, std::size_t i, const Grid& terr
   out.source.label = spec.name.empty() ? key : fmt::format("{} ({})", key, spec.name);
   out.source.hydrograph =
       read_hydrograph(key + ".hydrograph", spec.hydrograph, s.directory, out.files.emplace_back());
-  require(out.source.hydrograph.solid_fraction.empty() || s.mixture,
-          fmt::format("{}.hydrograph = {}: has a column solid_fraction (there is no mixture that it "
-                      "would join). Remove the column, or add `mixture`.",
-                      key, spec.hydrograph));
+  require(
+      out.source.hydrograph.solid_fraction.empty() || s.mixture,
+      fmt::format("{}.hydrograph = {}: has a column solid_fraction (there is no mixture that it "
+                  "would join). Remove the column, or add `mixture`.",
+                  key, spec.hydrograph));
   read_place(s, spec, key, terrain, out);
   return out;
 }

@@ -86,10 +86,11 @@ class Reader {
       return;
     }
     for (const std::string_view cell : cells_of(line)) read_name(cell);
-    for (const auto& [role, names] : {std::pair{Role::time, "time_s"},
-                                      std::pair{Role::discharge, "discharge_m3_s"}})
+    for (const auto& [role, names] :
+         {std::pair{Role::time, "time_s"}, std::pair{Role::discharge, "discharge_m3_s"}})
       if (!has(role)) {
-        add(fmt::format("no column {} (the first line names the columns with their units: time_s, "
+        add(
+            fmt::format("no column {} (the first line names the columns with their units: time_s, "
                         "discharge_m3_s, solid_fraction). Add it.",
                         names));
         hopeless_ = true;
@@ -107,10 +108,10 @@ class Reader {
       return;
     }
     const std::string shown = one_line(cell, 60), near = nearest_name(shown, names);
-    add(fmt::format("column '{}' is not known{}. {}", shown,
-                    near.empty() ? " (it is none of " + comma_separated(names) + ")" : "",
-                    near.empty() ? "Name it with its unit, or leave it out."
-                                 : "Did you mean " + near + "?"));
+    add(fmt::format(
+        "column '{}' is not known{}. {}", shown,
+        near.empty() ? " (it is none of " + comma_separated(names) + ")" : "",
+        near.empty() ? "Name it with its unit, or leave it out." : "Did you mean " + near + "?"));
     hopeless_ = true;
   }
 
@@ -161,14 +162,16 @@ class Reader {
       add(fmt::format("time = {:g} s (must be in 0..{:g}; inflow.start_time_s shifts all of them).",
                       time, latest_s));
     if (!out_.time_s.empty() && !(time > out_.time_s.back()))
-      add(fmt::format("time = {:g} s is not after that of the row before, {:g} s (times rise). Sort "
-                      "the rows.",
-                      time, out_.time_s.back()));
+      add(fmt::format(
+          "time = {:g} s is not after that of the row before, {:g} s (times rise). Sort "
+          "the rows.",
+          time, out_.time_s.back()));
     if (discharge < 0 || discharge > most_discharge)
       add(fmt::format("discharge = {:g} m3/s (must be in 0..{:g}). Is its unit right?", discharge,
                       most_discharge));
     if (has(Role::solids) && (solids < least_solids || solids > most_solids))
-      add(fmt::format("solid_fraction = {:g} (must be in {:g}..{:g}, the share of grains in the "
+      add(
+          fmt::format("solid_fraction = {:g} (must be in {:g}..{:g}, the share of grains in the "
                       "volume).",
                       solids, least_solids, most_solids));
   }
@@ -177,7 +180,8 @@ class Reader {
     if (columns_.empty())
       return add("is empty (the first line names the columns: time_s, discharge_m3_s). Fill it.");
     if (out_.time_s.size() < 2) {
-      if (problems_.empty()) add("fewer than two rows (a flow has a beginning and an end). Add rows.");
+      if (problems_.empty())
+        add("fewer than two rows (a flow has a beginning and an end). Add rows.");
       return;
     }
     if (problems_.empty() && !(out_.total_m3() > 0))

@@ -21,8 +21,7 @@ using Kind = NamedShape::Kind;
 
 std::vector<Vec2> corners_of(const OGRSimpleCurve& curve) {
   std::vector<Vec2> corners;
-  for (int i = 0; i < curve.getNumPoints(); ++i)
-    corners.emplace_back(curve.getX(i), curve.getY(i));
+  for (int i = 0; i < curve.getNumPoints(); ++i) corners.emplace_back(curve.getX(i), curve.getY(i));
   return corners;
 }
 
@@ -61,8 +60,8 @@ void move_to(OGRCoordinateTransformation& transform, const PolygonLayer& layer,
              const std::string& feature, std::vector<Vec2>& corners) {
   for (Vec2& c : corners)
     if (!transform.Transform(1, &c.x(), &c.y()))
-      throw SetupError(fmt::format("{}: {} cannot be moved to the terrain's system.", layer.label,
-                                   feature));
+      throw SetupError(
+          fmt::format("{}: {} cannot be moved to the terrain's system.", layer.label, feature));
 }
 
 void require_places(const PolygonLayer& layer, const std::string& feature,
@@ -94,8 +93,8 @@ std::vector<NamedShape> read_named_shapes(PolygonLayer& layer, const PolygonRequ
         geometry->hasCurveGeometry() ? geometry->getLinearGeometry() : geometry->clone());
     std::vector<NamedShape> parts;
     const std::string other = take_parts(*linear, parts);
-    require(other.empty(), fmt::format("{}: {} is a {}, no {}.", layer.label, feature, other,
-                                       request.what));
+    require(other.empty(),
+            fmt::format("{}: {} is a {}, no {}.", layer.label, feature, other, request.what));
     const bool named = field >= 0 && read->IsFieldSetAndNotNull(field);
     require(field < 0 || named, fmt::format("{}: {} has no value in '{}'. Name it.", layer.label,
                                             feature, name_attribute));

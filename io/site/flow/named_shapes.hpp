@@ -3,8 +3,8 @@
 /// coordinate system. Included by .cpp files only.
 #pragma once
 
-#include "engine/terrain/raster.hpp"
 #include "engine/core/vec.hpp"
+#include "engine/terrain/raster.hpp"
 #include "io/site/polygon_layer.hpp"
 
 #include <string>
@@ -18,10 +18,10 @@ struct NamedShape {
   std::vector<Vec2> corners;
 };
 
-/// All parts of all features, in file order; one of a feature with several parts is named "name (2)"
-/// from the second on. A polygon gives its rings.
-/// \param name_attribute field with the names; empty: none
-/// \throws SetupError naming key and file: no coordinate system, empty layer or geometry, other
+/// All parts of all features, in file order; one of a feature with several parts is named "name
+/// (2)" from the second on. A polygon gives its rings. \param name_attribute field with the names;
+/// empty: none \throws SetupError naming key and file: no coordinate system, empty layer or
+/// geometry, other
 ///   kinds of geometry, no such field
 std::vector<NamedShape> read_named_shapes(PolygonLayer&, const PolygonRequest&, const Grid& terrain,
                                           const std::string& name_attribute);

@@ -108,8 +108,8 @@ class SourceColumns {
     TimedArrival c;
     c.time_s = start_s_ + t;
     c.arrival.position = Vec3(at.x(), at.y(), bed_.height(at.x(), at.y()));
-    c.arrival.velocity = speed_ == 0 ? Vec3(0, 0, 0)
-                                     : Vec3(flow.speed_m_s * way.x(), flow.speed_m_s * way.y(), 0);
+    c.arrival.velocity =
+        speed_ == 0 ? Vec3(0, 0, 0) : Vec3(flow.speed_m_s * way.x(), flow.speed_m_s * way.y(), 0);
     c.arrival.volume = volume;
     c.arrival.thickness = volume / (scenario_.numerics.spacing_m * scenario_.numerics.spacing_m);
     c.arrival.solid_fraction = source_.hydrograph.solids(t);

@@ -31,15 +31,15 @@ struct InflowPlan {
   double first_s = 0, last_s = 0;     ///< of their times
   double peak_m3_s = 0;               ///< largest of a source
   double most_thickness_m = 0, most_speed_m_s = 0;
-  double x_m = 0, y_m = 0;                            ///< mean place, by volume
-  double top_x_m = 0, top_y_m = 0, top_m = -1e300;    ///< highest surface
-  double fall_kg_m = 0;                               ///< mass times elevation
-  double energy_j = 0, mass_kg = 0;                   ///< kinetic energy, mass
+  double x_m = 0, y_m = 0;                          ///< mean place, by volume
+  double top_x_m = 0, top_y_m = 0, top_m = -1e300;  ///< highest surface
+  double fall_kg_m = 0;                             ///< mass times elevation
+  double energy_j = 0, mass_kg = 0;                 ///< kinetic energy, mass
   bool empty() const { return columns.empty(); }
 };
 
-/// Columns of the spacing's size, at the rate of the hydrograph: column k enters when half of it has
-/// passed, so that what has entered differs from the integral by half a column at most, and is
+/// Columns of the spacing's size, at the rate of the hydrograph: column k enters when half of it
+/// has passed, so that what has entered differs from the integral by half a column at most, and is
 /// exact at the end. Places across the source follow the golden ratio by the column's number, so
 /// that neighbours in time are none in space, with the jitter of the release.
 /// \param density [kg/m^3] of a solid fraction; NaN: the scene's own
@@ -51,7 +51,8 @@ InflowPlan plan_inflow(const Scenario& numbers, const SceneInputs&, const Terrai
 
 /// Cells below a source, with one around.
 Window cells_below(const InflowSource&, const Grid& whole);
-/// Height of surface and speed over the ground at the source's peak, the largest of all members [m].
+/// Height of surface and speed over the ground at the source's peak, the largest of all members
+/// [m].
 double greatest_head(const InflowSpec&, const InflowSource&);
 
 /// Volume, duration, peak and number of columns in words.

@@ -21,9 +21,9 @@ constexpr double golden = 0.6180339887498949, plastic_x = 0.7548776662466927,
 double fraction(double v) { return v - std::floor(v); }
 
 Vec2 slope_at(const Terrain& bed, const Vec2& at, const std::string& label) {
-  require(bed.inside(at.x(), at.y()),
-          label + ": enters where the ground is not known (x " + number_text(at.x()) + ", y " +
-              number_text(at.y()) + "). Move it or fill the terrain there.");
+  require(bed.inside(at.x(), at.y()), label + ": enters where the ground is not known (x " +
+                                          number_text(at.x()) + ", y " + number_text(at.y()) +
+                                          "). Move it or fill the terrain there.");
   const CurvedSurface g = bed.curved(at.x(), at.y());
   return {g.east, g.north};
 }
@@ -63,10 +63,10 @@ void SourceGeometry::take_lines(const InflowSource& source, const Terrain& bed,
       const Vec2 along = corners[i + 1] - corners[i];
       if (!(along.norm() > 0)) continue;
       const Vec2 across = Vec2(-along.y(), along.x()).normalized();
-      Stretch s{corners[i], corners[i + 1], way ? *way : Vec2(fall > 0 ? across : Vec2(-across)), 0};
+      Stretch s{corners[i], corners[i + 1], way ? *way : Vec2(fall > 0 ? across : Vec2(-across)),
+                0};
       const double width = along.norm() * std::abs(across.dot(s.way));
-      rise += width *
-              slope_at(bed, 0.5 * (corners[i] + corners[i + 1]), source.label).dot(s.way);
+      rise += width * slope_at(bed, 0.5 * (corners[i] + corners[i + 1]), source.label).dot(s.way);
       s.until = width_ += width;
       stretches_.push_back(s);
     }
@@ -128,8 +128,9 @@ SourceGeometry::Place SourceGeometry::place_in_polygon(std::size_t k, double off
                                fraction(offset + n * plastic_y) * size_.y());
     if (inside(p)) return {p, way_};
   }
-  throw SetupError("inflow: its polygon covers next to nothing of the rectangle around it. Draw it "
-                   "wider.");
+  throw SetupError(
+      "inflow: its polygon covers next to nothing of the rectangle around it. Draw it "
+      "wider.");
 }
 
 SourceGeometry::Place SourceGeometry::place(std::size_t k, double offset) {

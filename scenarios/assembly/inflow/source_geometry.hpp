@@ -40,8 +40,8 @@ class SourceGeometry {
   Place place_in_polygon(std::size_t k, double offset);
 
   double width_ = 0, level_ = 1;
-  std::vector<Stretch> stretches_;         ///< of a line
-  std::vector<std::vector<Vec2>> rings_;   ///< of a polygon
+  std::vector<Stretch> stretches_;        ///< of a line
+  std::vector<std::vector<Vec2>> rings_;  ///< of a polygon
   Vec2 low_{0, 0}, size_{0, 0}, way_{0, 0};
   std::size_t next_ = 0, tried_ = 0;  ///< of the polygon's sequence
 };

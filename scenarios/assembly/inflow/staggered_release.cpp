@@ -54,11 +54,11 @@ StaggeredRelease staggered_release(const Scenario& s, const SceneInputs& in, con
     }
     out.all = std::move(parts);
   }
-  out.n_present = out.start_s.empty()
-                      ? out.all.x.size()
-                      : static_cast<std::size_t>(std::upper_bound(out.start_s.begin(),
-                                                                  out.start_s.end(), 0.0) -
-                                                 out.start_s.begin());
+  out.n_present =
+      out.start_s.empty()
+          ? out.all.x.size()
+          : static_cast<std::size_t>(std::upper_bound(out.start_s.begin(), out.start_s.end(), 0.0) -
+                                     out.start_s.begin());
   return out;
 }
 
