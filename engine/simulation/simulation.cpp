@@ -329,7 +329,7 @@ class Run {
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     write_eroded_depth(s, result_);
-    result_.scalars.runout_m = runout();
+    result_.scalars.runout_m = runout_of(result_, parts_.facts.release);
     write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
                        places_left(s), result_.grid, result_.scalars);
     result_.state_hash = hash_of(s);
@@ -354,20 +354,6 @@ class Run {
         {"peak maps, history, limits", std::max(0.0, rest), std::string(EffectName::bookkeeping)});
     result_.pass_seconds = by_pass(passes);
     result_.effect_seconds = by_effect(passes);
-  }
-
-  /// From the release's centre of mass to the farthest reached cell [m].
-  double runout() const {
-    const Window& w = result_.window;
-    double far2 = 0;
-    for (int r = 0; r < w.n_rows; ++r)
-      for (int c = 0; c < w.n_cols; ++c) {
-        if (std::isnan(result_.layer(PeakLayer::arrival)[std::size_t(r) * w.n_cols + c])) continue;
-        const double dx = result_.grid.x_center(w.col0 + c) - parts_.facts.release.x_m;
-        const double dy = result_.grid.y_center(w.row0 + r) - parts_.facts.release.y_m;
-        far2 = std::max(far2, dx * dx + dy * dy);
-      }
-    return std::sqrt(far2);
   }
 
   SimulationParts& parts_;

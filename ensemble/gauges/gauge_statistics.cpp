@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace sturz {
@@ -92,17 +91,20 @@ void GaugeStatistics::add(const GaugeResult& result, Censoring censoring) {
   members_.push_back({result, is_moving(censoring)});
 }
 
-GaugeFindings GaugeStatistics::findings(std::vector<double> quantiles, bool one_member) const {
-  GaugeFindings out;
-  out.quantiles = std::move(quantiles);
-  out.one_member = one_member;
-  if (members_.empty()) return out;
-  const GaugeResult& first = members_.front().result;
-  std::size_t longest = 0;
-  for (const Seen& m : members_) longest = std::max(longest, m.result.time_s.size());
+namespace {
 
-  const auto row = [&](const std::string& gauge, const Quantity& quantity,
-                       const std::function<double(const GaugeResult&)>& value, bool arrival) {
+/// Rows and bands of one gauge after the other.
+template <class Members>
+class Summary {
+ public:
+  using Seen = typename Members::value_type;
+
+  Summary(const Members& members, GaugeFindings& out) : members_(members), out_(out) {
+    for (const Seen& m : members_) longest_ = std::max(longest_, m.result.time_s.size());
+  }
+
+  template <class Value>
+  void row(const std::string& gauge, const Quantity& quantity, bool arrival, Value value) {
     GaugeRow r{gauge, quantity.name, quantity.units, members_.size(), 0, 0, {}};
     std::vector<Bounds> all;
     for (const Seen& m : members_) {
@@ -113,60 +115,74 @@ GaugeFindings GaugeStatistics::findings(std::vector<double> quantiles, bool one_
       all.push_back(arrival ? arrival_of(v, m.result.time_s.back(), m.cut_off)
                             : peak_of(v, m.cut_off));
     }
-    for (const double q : out.quantiles)
+    for (const double q : out_.quantiles)
       r.values.push_back(arrival ? arrival_text(quantile(all, q)) : peak_text(quantile(all, q)));
-    out.rows.push_back(std::move(r));
-  };
-  const auto band = [&](const std::string& gauge, const Quantity& quantity,
-                        const std::function<double(const Seen&, std::size_t)>& value) {
+    out_.rows.push_back(std::move(r));
+  }
+
+  /// \param stays what is there at the end stays; else nothing more passes
+  template <class Values>
+  void band(const std::string& gauge, const Quantity& quantity, bool stays, Values values_of) {
     GaugeBand b{gauge, quantity.name, quantity.units, {}, {}, {}};
-    b.values.resize(out.quantiles.size());
-    for (std::size_t k = 0; k < longest; ++k) {
+    b.values.resize(out_.quantiles.size());
+    for (std::size_t k = 0; k < longest_; ++k) {
       std::vector<double> known;
       for (const Seen& m : members_)
-        if (const double v = value(m, k); !std::isnan(v)) known.push_back(v);
-      b.time_s.push_back(first.interval_s * static_cast<double>(k));
+        if (const double v = value_at(values_of(m.result), k, stays, m.cut_off); !std::isnan(v))
+          known.push_back(v);
+      b.time_s.push_back(members_.front().result.interval_s * static_cast<double>(k));
       b.members.push_back(known.size());
-      for (std::size_t q = 0; q < out.quantiles.size(); ++q)
+      for (std::size_t q = 0; q < out_.quantiles.size(); ++q)
         b.values[q].push_back(known.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                            : at_rank(known, out.quantiles[q]));
+                                            : at_rank(known, out_.quantiles[q]));
     }
-    out.bands.push_back(std::move(b));
-  };
+    out_.bands.push_back(std::move(b));
+  }
 
-  for (std::size_t k = 0; k < first.points.size(); ++k) {
-    const std::string& name = first.points[k].name;
-    const auto of = [k](double PointSeries::*field) {
-      return [k, field](const GaugeResult& g) { return g.points[k].*field; };
-    };
-    const auto peak = [k](GaugePeak PointSeries::*field) {
-      return [k, field](const GaugeResult& g) { return (g.points[k].*field).value; };
-    };
-    const auto series = [k](std::vector<float> PointSeries::*field) {
-      return [k, field](const Seen& m, std::size_t i) {
-        return value_at(m.result.points[k].*field, i, true, m.cut_off);
-      };
-    };
-    row(name, {"arrival", "s"}, of(&PointSeries::arrival_s), true);
-    row(name, {"peak_thickness", "m"}, peak(&PointSeries::thickness), false);
-    row(name, {"peak_speed", "m s-1"}, peak(&PointSeries::speed), false);
-    row(name, {"peak_momentum_flux", "N m-1"}, peak(&PointSeries::momentum_flux), false);
-    band(name, {"thickness", "m"}, series(&PointSeries::thickness_m));
-    band(name, {"speed", "m s-1"}, series(&PointSeries::speed_m_s));
-  }
-  for (std::size_t k = 0; k < first.lines.size(); ++k) {
-    const std::string& name = first.lines[k].name;
-    row(
-        name, {"arrival", "s"}, [k](const GaugeResult& g) { return g.lines[k].arrival_s; }, true);
-    row(
-        name, {"peak_discharge", "m3 s-1"},
-        [k](const GaugeResult& g) { return g.lines[k].discharge.value; }, false);
-    row(
-        name, {"volume", "m3"}, [k](const GaugeResult& g) { return g.lines[k].total_m3; }, false);
-    band(name, {"discharge", "m3 s-1"}, [k](const Seen& m, std::size_t i) {
-      return value_at(m.result.lines[k].discharge_m3_s, i, false, m.cut_off);
-    });
-  }
+ private:
+  const Members& members_;
+  GaugeFindings& out_;
+  std::size_t longest_ = 0;
+};
+
+template <class Members>
+void add_point(Summary<Members>& s, const std::string& name, std::size_t k) {
+  const auto peak = [k](GaugePeak PointSeries::*field) {
+    return [k, field](const GaugeResult& g) { return (g.points[k].*field).value; };
+  };
+  const auto series = [k](std::vector<float> PointSeries::*field) {
+    return [ k, field ](const GaugeResult& g) -> const auto& { return g.points[k].*field; };
+  };
+  s.row(name, {"arrival", "s"}, true, [k](const GaugeResult& g) { return g.points[k].arrival_s; });
+  s.row(name, {"peak_thickness", "m"}, false, peak(&PointSeries::thickness));
+  s.row(name, {"peak_speed", "m s-1"}, false, peak(&PointSeries::speed));
+  s.row(name, {"peak_momentum_flux", "N m-1"}, false, peak(&PointSeries::momentum_flux));
+  s.band(name, {"thickness", "m"}, true, series(&PointSeries::thickness_m));
+  s.band(name, {"speed", "m s-1"}, true, series(&PointSeries::speed_m_s));
+}
+
+template <class Members>
+void add_line(Summary<Members>& s, const std::string& name, std::size_t k) {
+  s.row(name, {"arrival", "s"}, true, [k](const GaugeResult& g) { return g.lines[k].arrival_s; });
+  s.row(name, {"peak_discharge", "m3 s-1"}, false,
+        [k](const GaugeResult& g) { return g.lines[k].discharge.value; });
+  s.row(name, {"volume", "m3"}, false, [k](const GaugeResult& g) { return g.lines[k].total_m3; });
+  s.band(
+      name, {"discharge", "m3 s-1"},
+      false, [k](const GaugeResult& g) -> const auto& { return g.lines[k].discharge_m3_s; });
+}
+
+}  // namespace
+
+GaugeFindings GaugeStatistics::findings(std::vector<double> quantiles, bool one_member) const {
+  GaugeFindings out;
+  out.quantiles = std::move(quantiles);
+  out.one_member = one_member;
+  if (members_.empty()) return out;
+  const GaugeResult& first = members_.front().result;
+  Summary summary(members_, out);
+  for (std::size_t k = 0; k < first.points.size(); ++k) add_point(summary, first.points[k].name, k);
+  for (std::size_t k = 0; k < first.lines.size(); ++k) add_line(summary, first.lines[k].name, k);
   return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Words out of YAML nodes, and what is said of names that nobody knows.
+/// Words out of YAML nodes, and what is said of unknown names.
 #pragma once
 
 #include "io/scenario/number_nodes.hpp"

@@ -20,7 +20,6 @@
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
 #include "scenarios/assembly/ground.hpp"
-#include "scenarios/assembly/inflow/inflow_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
@@ -228,37 +227,14 @@ void load_synthetic_source(Loading& loading) {
   loading.set_release(std::move(source), ReleasePattern::thickness);
 }
 
-/// Mass that only enters over time: an empty pattern where it does.
-void load_no_release(Loading& loading) {
-  loading.release_label = "inflow";
-  Window under;
-  for (const InflowSource& source : loading.inputs.inflow)
-    under = joined(under, cells_below(source, loading.grid()));
-  if (under.n_cells() == 0) return;  // its files could not be read
-  loading.set_release(Raster<double>(grid_of(under, loading.grid()), 0.0),
-                      ReleasePattern::thickness);
-}
-
-void take_files(Loading& loading, std::vector<FlowFile>& files) {
-  for (FlowFile& file : files) loading.take(file);
-}
-
 /// Where mass enters and where the flow is followed; only checked while no ground is known.
 void load_flow(Loading& loading) {
-  const Scenario& scenario = loading.scenario;
+  FlowRead read = read_flow(loading.scenario, loading.grid());
   SceneInputs& in = loading.inputs;
-  for (std::size_t i = 0; i < scenario.inflow.size(); ++i)
-    loading.attempt([&] {
-      InflowRead read = read_inflow_source(scenario, i, loading.grid());
-      in.inflow.push_back(std::move(read.source));
-      take_files(loading, read.files);
-    });
-  if (!scenario.gauges) return;
-  loading.attempt([&] {
-    GaugesRead read = read_gauges(scenario, loading.grid());
-    in.gauge_points = std::move(read.points), in.gauge_lines = std::move(read.lines);
-    take_files(loading, read.files);
-  });
+  in.inflow = std::move(read.inflow);
+  in.gauge_points = std::move(read.points), in.gauge_lines = std::move(read.lines);
+  for (FlowFile& file : read.files) loading.take(file);
+  std::move(read.problems.begin(), read.problems.end(), std::back_inserter(loading.problems));
 }
 
 void load_release(Loading& loading) {
@@ -266,7 +242,13 @@ void load_release(Loading& loading) {
   const int named = !spec.polygon.empty() + !spec.thickness_raster.empty() + spec.box.has_value() +
                     spec.paraboloid.has_value() + spec.cylinder.has_value();
   const bool none = named == 0 && !loading.synthetic_source;
-  if (none && !loading.scenario.inflow.empty()) return load_no_release(loading);
+  if (none && !loading.scenario.inflow.empty()) {
+    loading.release_label = "inflow";
+    const auto& sources = loading.inputs.inflow;
+    if (!sources.empty())
+      loading.set_release(empty_release(sources, loading.grid()), ReleasePattern::thickness);
+    return;
+  }
   require(named <= 1,
           "release: names more than one source. Keep one of polygon, thickness_raster, "
           "box, paraboloid, cylinder.");

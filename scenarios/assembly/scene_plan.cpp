@@ -7,6 +7,7 @@
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/inflow/plan_masses.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
 #include "scenarios/schema/number_text.hpp"
@@ -293,38 +294,6 @@ void plan_eroded_bed(const Scenario& s, const SceneInputs& in,
                     plan.zones, plan.columns.mixture ? &*plan.columns.mixture : nullptr});
 }
 
-/// The release in its parts, and what enters later.
-void plan_masses(const Scenario& s, const SceneInputs& in, const Raster<double>& thickness,
-                 std::int64_t member, ScenePlan& plan) {
-  StaggeredRelease starts =
-      staggered_release(s, in, plan.bed, thickness,
-                        {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
-                         s.ensemble.seed, member, plan.formulation.depth_averaged});
-  expect(starts.n_later() == 0 || plan.formulation.depth_averaged, "only columns start later");
-  plan.later = later_columns(starts, s, plan.bed);
-  plan.n_present = starts.n_present;
-  plan.release_start_s = std::move(starts.start_s);
-  plan.release = std::move(starts.all);
-  if (in.inflow.empty()) return;
-  expect(plan.formulation.depth_averaged, "only columns enter over time");
-  plan.inflow = plan_inflow(
-      s, in, plan.bed,
-      [&](double m) { return std::isnan(m) ? plan.bulk_density_kg_m3 : bulk_density(s, m); },
-      member);
-}
-
-/// The time counts from when the last of the mass has entered, but for a given end.
-void plan_end(const Scenario& s, const SceneInputs& in, ScenePlan& plan) {
-  const double thickness = std::max(plan.release.median_thickness_m, plan.inflow.most_thickness_m);
-  plan.end = time_cap(s, in, thickness, plan.bulk_density_kg_m3);
-  const double last =
-      std::max(plan.inflow.last_s, plan.later.empty() ? 0 : plan.later.back().time_s);
-  if (s.numerics.end_time_s || !(last > 0)) return;
-  plan.end.end_time_s = std::ceil(plan.end.end_time_s + last);
-  plan.end.reason +=
-      ", counted from the last mass that starts or enters, at " + short_number(last) + " s";
-}
-
 }  // namespace
 
 double pile_share(const Scenario& s, const ScenePlan& plan) {
@@ -377,7 +346,8 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
-  plan_masses(s, in, thickness, member, plan);
+  plan_masses(
+      s, in, thickness, member, [&](double m) { return bulk_density(s, m); }, plan);
   plan_end(s, in, plan);
   const Window held = in.held();
   plan.zones = {in.zones, in.whole, held.row0, held.col0};
@@ -392,7 +362,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
 
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  double mass = 0, height = 0, lowest = 1e300;  // of the release first: its sums stay as they were
+  double mass = 0, height = 0, lowest = 1e300;
   for (std::size_t i = 0; i < plan.release.x.size(); ++i) {
     mass += plan.release.mass[i];
     height += plan.release.mass[i] * plan.release.z[i];
@@ -405,10 +375,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   }
   plan.available_energy_j =
       standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
-  if (!plan.inflow.empty())
-    plan.available_energy_j +=
-        standard_gravity * (plan.inflow.fall_kg_m - plan.inflow.mass_kg * lowest) +
-        plan.inflow.energy_j;
+  plan.available_energy_j += available_energy(plan.inflow, lowest);
   return plan;
 }
 

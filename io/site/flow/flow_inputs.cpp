@@ -8,15 +8,27 @@
 #include "io/site/flow/hydrograph_csv.hpp"
 #include "io/site/flow/named_shapes.hpp"
 #include "io/site/stand_in_crs.hpp"
+#include "scenarios/assembly/inflow/inflow_plan.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <span>
 
 namespace sturz {
 namespace {
+
+struct InflowRead {
+  InflowSource source;
+  std::vector<FlowFile> files;  ///< the hydrograph, and the layer where there is one
+};
+struct GaugesRead {
+  std::vector<Gauge> points, lines;
+  std::vector<FlowFile> files;
+};
 
 using Kind = NamedShape::Kind;
 
@@ -140,8 +152,6 @@ void add_gauge(const Grid& terrain, const std::string& label, bool line, Gauge g
   (line ? out.lines : out.points).push_back(std::move(gauge));
 }
 
-}  // namespace
-
 InflowRead read_inflow_source(const Scenario& s, std::size_t i, const Grid& terrain) {
   const InflowSpec& spec = s.inflow[i];
   const std::string key = fmt::format("inflow[{}]", i);
@@ -182,6 +192,44 @@ GaugesRead read_gauges(const Scenario& s, const Grid& terrain) {
               {std::move(shape.name), std::move(shape.corners)}, names, out);
   }
   return out;
+}
+
+template <class Call>
+void attempt(FlowRead& out, Call call) {
+  try {
+    call();
+  } catch (const SetupError& problem) {
+    out.problems.emplace_back(problem.what());
+  }
+}
+
+void keep_files(std::vector<FlowFile>& files, FlowRead& out) {
+  std::move(files.begin(), files.end(), std::back_inserter(out.files));
+}
+
+}  // namespace
+
+FlowRead read_flow(const Scenario& s, const Grid& terrain) {
+  FlowRead out;
+  for (std::size_t i = 0; i < s.inflow.size(); ++i)
+    attempt(out, [&] {
+      InflowRead read = read_inflow_source(s, i, terrain);
+      out.inflow.push_back(std::move(read.source));
+      keep_files(read.files, out);
+    });
+  if (s.gauges)
+    attempt(out, [&] {
+      GaugesRead read = read_gauges(s, terrain);
+      out.points = std::move(read.points), out.lines = std::move(read.lines);
+      keep_files(read.files, out);
+    });
+  return out;
+}
+
+Raster<double> empty_release(const std::vector<InflowSource>& sources, const Grid& terrain) {
+  Window under;
+  for (const InflowSource& source : sources) under = joined(under, cells_below(source, terrain));
+  return Raster<double>(grid_of(under, terrain), 0.0);
 }
 
 }  // namespace sturz

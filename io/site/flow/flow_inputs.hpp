@@ -16,19 +16,16 @@ struct FlowFile {
   InputIdentity identity;
 };
 
-struct InflowRead {
-  InflowSource source;
-  std::vector<FlowFile> files;  ///< the hydrograph, and the layer where there is one
+struct FlowRead {
+  std::vector<InflowSource> inflow;  ///< of those without a problem
+  std::vector<Gauge> points, lines;
+  std::vector<FlowFile> files;        ///< hydrographs and layers
+  std::vector<std::string> problems;  ///< naming key and file; of a hydrograph each with its line
 };
 /// \param terrain an empty grid: the terrain could not be read, only files are checked
-/// \throws SetupError naming key and file; the faults of a hydrograph each with its line
-InflowRead read_inflow_source(const Scenario&, std::size_t source, const Grid& terrain);
+FlowRead read_flow(const Scenario&, const Grid& terrain);
 
-struct GaugesRead {
-  std::vector<Gauge> points, lines;
-  std::vector<FlowFile> files;
-};
-/// \pre the scene has gauges
-GaugesRead read_gauges(const Scenario&, const Grid& terrain);
+/// Of a scene whose mass only enters over time: nothing, on the cells where it does.
+Raster<double> empty_release(const std::vector<InflowSource>&, const Grid& terrain);
 
 }  // namespace sturz

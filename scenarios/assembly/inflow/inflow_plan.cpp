@@ -167,6 +167,11 @@ InflowPlan plan_inflow(const Scenario& s, const SceneInputs& in, const Terrain& 
   return plan;
 }
 
+double available_energy(const InflowPlan& plan, double lowest_m) {
+  if (plan.empty()) return 0;
+  return standard_gravity * (plan.fall_kg_m - plan.mass_kg * lowest_m) + plan.energy_j;
+}
+
 Window cells_below(const InflowSource& source, const Grid& whole) {
   Window under;
   for (const auto* parts : {&source.lines, &source.rings})

@@ -49,6 +49,9 @@ InflowPlan plan_inflow(const Scenario& numbers, const SceneInputs&, const Terrai
                        const std::function<double(double solid_fraction)>& density,
                        std::int64_t member);
 
+/// What falling to the lowest ground and its speed give it [J]; 0 for nothing.
+double available_energy(const InflowPlan&, double lowest_m);
+
 /// Cells below a source, with one around.
 Window cells_below(const InflowSource&, const Grid& whole);
 /// Height of surface and speed over the ground at the source's peak, the largest of all members
