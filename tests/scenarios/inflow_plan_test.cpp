@@ -109,6 +109,13 @@ TEST(InflowPlan, DependsOnMemberAndNumberOnly) {
   EXPECT_NE(a.plan.columns[0].arrival.position, other.plan.columns[0].arrival.position);
 }
 
+TEST(InflowPlan, KnowsHowNarrowItIs) {
+  EXPECT_NEAR(Made(flood(), gate).plan.narrowest_m, 20, 1e-9);
+  // Across the way only: 20 m at 60 degrees to it.
+  EXPECT_NEAR(Made(flood(), gate, {}, 0, 120).plan.narrowest_m, 20 * std::cos(0.5235987755982988),
+              1e-9);
+}
+
 TEST(InflowPlan, APolygonIsFilledAndFlowsDownTheSlope) {
   const std::vector<Vec2> triangle{Vec2(-80, -10), Vec2(-60, -10), Vec2(-60, 10), Vec2(-80, -10)};
   const Made made({{0, 100}, {40, 40}, {}}, {}, {triangle});

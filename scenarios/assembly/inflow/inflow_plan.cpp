@@ -73,6 +73,7 @@ class SourceColumns {
       if (last) break;
     }
     plan.volume_m3 += all;
+    plan.narrowest_m = std::min(plan.narrowest_m, geometry_.width_m());
     plan.peak_m3_s = std::max(plan.peak_m3_s, factor_ * source_.hydrograph.peak_m3_s());
     const InflowDepth most = depth(source_.hydrograph.peak_m3_s());
     plan.most_thickness_m = std::max(plan.most_thickness_m, most.thickness_m);

@@ -70,6 +70,22 @@ TEST_F(FlowInputs, AnInflowNeedsNoRelease) {
   EXPECT_GT(m.scalars.reached_area_m2, 400);
 }
 
+TEST_F(FlowInputs, SaysWhatIsTooNarrowAndWhatComesTooLate) {
+  InflowSpec source = from("");
+  source.line_m = {{500100, 4600150}, {500100, 4600155}};
+  scene.inflow = {source};
+  scene.numerics.end_time_s = 15;
+  const SceneInputs in = load_scene_inputs(scene);
+  const auto said = describe(scene, in).warnings;
+  EXPECT_THAT(said, Contains(AllOf(HasSubstr("unresolved inflow: 2.5 spacings of 2 m"),
+                                   HasSubstr("spacing_m of 1.2 m or less"))));
+  EXPECT_THAT(said, Contains(HasSubstr("m3 start or enter after the end at 15 s")));
+  const MemberResult m = assemble(scene, in, 0, 1).run();
+  EXPECT_TRUE(is_moving(m.censoring));
+  EXPECT_THAT(m.warnings, HasSubstr("m3 were still to enter when the member was stopped"));
+  EXPECT_NEAR(m.scalars.inflow_volume_m3, 150, 20);
+}
+
 TEST_F(FlowInputs, FaultsOfAHydrographHaveFileAndLine) {
   write("flood.csv", "time_s,discharge_m3_s\n0,10\n20,x\n10,-1\n");
   InflowSpec source = from("");
