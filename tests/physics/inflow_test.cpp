@@ -135,6 +135,42 @@ TEST(Inflow, FollowsTheIntegralOfItsHydrograph) {
   EXPECT_EQ(state.grains().to_come, 0u);
 }
 
+/// Grains and water of the hydrograph enter a mixture, each kept by itself.
+TEST(Inflow, BringsGrainsAndWaterIntoAMixture) {
+  const SceneFolder folder;
+  Scenario s =
+      channel_with(folder, "time_s,discharge_m3_s,solid_fraction\n0,20,0.4\n20,20,0.6\n", 2);
+  s.mixture.emplace();
+  s.basal.turbulent_coefficient_m_s2.reset();
+  s.basal.friction_coefficient = 0.6;
+  s.numerics.end_time_s = 30;
+  const Finished f = run(s);
+  const Ledger ledger = f.simulation.parts().state.ledger();
+  EXPECT_NEAR(ledger.released_solids, 0.5 * 400, 0.01 * 200) << "0.4 to 0.6 of 400 m3";
+  EXPECT_NEAR(ledger.released_solids + ledger.released_water, 400, 1e-9);
+  EXPECT_NEAR(ledger.added_mass, 2600 * ledger.released_solids + 1000 * ledger.released_water,
+              1e-6);
+  EXPECT_LT(std::abs(f.result.scalars.solids_error), 1e-12);
+  EXPECT_LT(std::abs(f.result.scalars.water_error), 1e-12);
+  EXPECT_GT(f.result.scalars.end_pore_pressure_ratio, 0.1);
+  expect_accounts(f);
+}
+
+/// What enters takes its bed along like any other mass.
+TEST(Inflow, ErodesTheBedThatItFlowsOver) {
+  const SceneFolder folder;
+  Scenario s = channel_with(folder, "time_s,discharge_m3_s\n0,20\n10,20\n", 2);
+  s.erosion.emplace().growth_rate_per_m = Uncertain(0.002);
+  s.erosion->supply = ErosionSupply::unlimited;
+  s.numerics.end_time_s = 20;
+  const Finished f = run(s);
+  const MemberScalars& m = f.result.scalars;
+  EXPECT_GT(m.volume_growth, 1.03);
+  EXPECT_LT(m.volume_growth, std::exp(0.002 * 180 / std::cos(slope)));
+  EXPECT_NEAR(m.inflow_volume_m3, 200, 1e-9);
+  expect_accounts(f);
+}
+
 /// F4: a thin block arrives as a point mass does: s = a t^2 / 2.
 TEST(Gauges, SeeTheFrontOfASlidingBlock) {
   Scenario s = block_on_plane();
