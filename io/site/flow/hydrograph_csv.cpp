@@ -16,6 +16,8 @@ namespace sturz {
 namespace {
 
 constexpr double latest_s = 1e7, most_discharge = 1e7;
+/// Smaller sums are rounding, or a unit that is wrong.
+constexpr double least_volume = 1e-6;
 constexpr double least_solids = 0.05, most_solids = 0.85;
 constexpr std::size_t most_rows = 1000000, most_problems = 50;
 
@@ -184,8 +186,8 @@ class Reader {
         add("fewer than two rows (a flow has a beginning and an end). Add rows.");
       return;
     }
-    if (problems_.empty() && !(out_.total_m3() > 0))
-      add("brings no volume (every discharge is zero). Correct the discharges.");
+    if (problems_.empty() && !(out_.total_m3() >= least_volume))
+      add("brings no volume (less than a cubic centimetre in all). Correct the discharges.");
   }
 
   const std::string& name_;

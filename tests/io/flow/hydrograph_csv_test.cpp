@@ -57,6 +57,7 @@ TEST(HydrographCsv, SaysWhatAHeaderLacks) {
 TEST(HydrographCsv, RefusesWhatBringsNothing) {
   EXPECT_THAT(refusal("time_s,discharge_m3_s\n0,1\n"), HasSubstr("fewer than two rows"));
   EXPECT_THAT(refusal("time_s,discharge_m3_s\n0,0\n9,0\n"), HasSubstr("brings no volume"));
+  EXPECT_THAT(refusal("time_s,discharge_m3_s\n0,1e-300\n9,0\n"), HasSubstr("brings no volume"));
   EXPECT_THAT(refusal("time_s,discharge_m3_s,solid_fraction\n0,1,0.5\n9,1,55\n"),
               HasSubstr("flood.csv:3: solid_fraction = 55 (must be in 0.05..0.85"));
   EXPECT_THAT(refusal(std::string("time_s,discharge_m3_s\n0,\0001\n", 27)),
