@@ -132,6 +132,8 @@ constexpr std::array scalar_infos{
     ScalarInfo{"pore_clipped_fraction", "1",
                "elastic energy of pore pressures beyond their bounds / released energy",
                &M::pore_clipped_fraction},
+    ScalarInfo{"inflow_volume_m3", "m3", "bulk volume that entered as inflow by the end",
+               &M::inflow_volume_m3},
     ScalarInfo{"eroded_volume_m3", "m3", "volume of bed that the flow took along, as it lay",
                &M::eroded_volume_m3},
     ScalarInfo{"entrained_mass_kg", "kg", "mass of bed that the flow took up",

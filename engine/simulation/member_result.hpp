@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/named_seconds.hpp"
+#include "engine/simulation/gauges/gauge_result.hpp"
 #include "engine/simulation/history.hpp"
 #include "engine/simulation/outcome.hpp"
 #include "engine/terrain/raster.hpp"
@@ -104,10 +105,12 @@ struct MemberScalars {
   double solids_error = 0;             ///< (kept + lost - released) / released volume of grains
   double water_error = 0;              ///< the same of water, in pores and film
   double pore_clipped_fraction = 0;    ///< work of pore pressures beyond bounds / released energy
+  /// Bulk volume that entered as inflow by the end; NaN without inflow.
+  double inflow_volume_m3 = nan_d;
   // Of a bed that the flow takes along; NaN without one.
   double eroded_volume_m3 = nan_d;           ///< of the bed, at its own density
   double entrained_mass_kg = nan_d;          ///< taken up by the flow
-  double volume_growth = nan_d;              ///< (released + entrained) / released mass
+  double volume_growth = nan_d;              ///< (brought + entrained) / brought mass
   double max_eroded_depth_m = nan_d;         ///< vertical, of a cell of the ground
   double entrainment_loss_fraction = nan_d;  ///< kinetic energy lost by mixing / released energy
   // Of grains and liquid at two velocities; NaN without.
@@ -153,6 +156,7 @@ struct MemberResult {
   bool needs_more_ground = false;
   MemberScalars scalars;
   MemberHistory history;  ///< not part of any hash
+  GaugeResult gauges;     ///< where the scene has some
   /// Computing time of each pass, and of what lies between steps; adds up to wall_s. Not part of
   /// any hash.
   NamedSeconds pass_seconds;

@@ -159,6 +159,34 @@ void warn_of_run(const workflow::RunStored& stored, Console& console) {
   for (const MemberWarning& w : stored.warnings) console.warn(w.example);
 }
 
+void print_inflow(const MemberResult& r, Console& console) {
+  if (std::isnan(r.scalars.inflow_volume_m3)) return;
+  print_line("inflow", grouped(r.scalars.inflow_volume_m3) + " m3 entered", console);
+}
+
+/// Arrival and peak of each gauge; the files have the rest.
+void print_gauges(const MemberResult& r, Console& console) {
+  const bool cut = is_moving(r.censoring);
+  const auto arrival = [&](double s) {
+    if (!std::isnan(s)) return fmt::format("after {:.1f} s", s);
+    return cut ? std::string("not reached so far") : std::string("never reached");
+  };
+  for (const PointSeries& p : r.gauges.points)
+    print_line("gauge",
+               p.name + ": " + arrival(p.arrival_s) +
+                   (std::isnan(p.arrival_s) ? ""
+                                            : fmt::format(", at most {:.2f} m and {:.1f} m/s",
+                                                          p.thickness.value, p.speed.value)),
+               console);
+  for (const LineSeries& l : r.gauges.lines)
+    print_line("gauge",
+               l.name + ": " + arrival(l.arrival_s) +
+                   (std::isnan(l.arrival_s) ? ""
+                                            : fmt::format(", at most {:.3g} m3/s, {} m3 in all",
+                                                          l.discharge.value, grouped(l.total_m3))),
+               console);
+}
+
 /// The last line, so that a reader may stop there.
 std::string done_event(const MemberResult& r, const workflow::OutputFolder& folder) {
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
@@ -211,6 +239,8 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   print_states(r, console);
   print_mixture(r, console);
   print_erosion(r, console);
+  print_inflow(r, console);
+  print_gauges(r, console);
   line(r.formulation == "depth_averaged" ? "columns" : "particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,

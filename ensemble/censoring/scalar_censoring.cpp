@@ -71,6 +71,7 @@ constexpr std::array rows{
     ScalarCensoring{&M::solids_error, yes, yes},
     ScalarCensoring{&M::water_error, yes, yes},
     ScalarCensoring{&M::pore_clipped_fraction, no, no},
+    ScalarCensoring{&M::inflow_volume_m3, yes, least},
     ScalarCensoring{&M::eroded_volume_m3, least, least},
     ScalarCensoring{&M::entrained_mass_kg, least, least},
     ScalarCensoring{&M::volume_growth, least, least},

@@ -8,6 +8,7 @@
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
 #include "io/site/bed/bed_inputs.hpp"
+#include "io/site/flow/flow_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "io/site/observed/observed_outline.hpp"
 #include "io/site/release/release_requests.hpp"
@@ -185,6 +186,7 @@ void load_polygon(Loading& loading) {
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
+  loading.inputs.release_starts = std::move(read.starts);
   loading.set_release(std::move(read.pattern),
                       read.is_thickness ? ReleasePattern::thickness : ReleasePattern::cover);
   if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
@@ -231,10 +233,28 @@ void load_synthetic_source(Loading& loading) {
   loading.set_release(std::move(source), ReleasePattern::thickness);
 }
 
+/// Where mass enters and where the flow is followed; only checked while no ground is known.
+void load_flow(Loading& loading) {
+  FlowRead read = read_flow(loading.scenario, loading.grid());
+  SceneInputs& in = loading.inputs;
+  in.inflow = std::move(read.inflow);
+  in.gauge_points = std::move(read.points), in.gauge_lines = std::move(read.lines);
+  for (FlowFile& file : read.files) loading.take(file);
+  std::move(read.problems.begin(), read.problems.end(), std::back_inserter(loading.problems));
+}
+
 void load_release(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   const int named = !spec.polygon.empty() + !spec.thickness_raster.empty() + spec.box.has_value() +
                     spec.paraboloid.has_value() + spec.cylinder.has_value();
+  const bool none = named == 0 && !loading.synthetic_source;
+  if (none && !loading.scenario.inflow.empty()) {
+    loading.release_label = "inflow";
+    const auto& sources = loading.inputs.inflow;
+    if (!sources.empty())
+      loading.set_release(empty_release(sources, loading.grid()), ReleasePattern::thickness);
+    return;
+  }
   require(named <= 1,
           "release: names more than one source. Keep one of polygon, thickness_raster, "
           "box, paraboloid, cylinder.");
@@ -321,6 +341,7 @@ void check_without_terrain(Loading& loading) {
     });
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
+  load_flow(loading);
   check_zones(loading);
   load_bed_supply(loading);
   load_observed(loading);
@@ -336,8 +357,10 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     check_without_terrain(loading);
     loading.refuse_problems();
   }
+  load_flow(loading);
   loading.attempt([&] { load_release(loading); });
-  if (inputs.release)
+  const bool complete = inputs.inflow.size() == scenario.inflow.size();
+  if (inputs.release && complete)
     loading.attempt([&] {
       load_ground(loading);
       shape_release(scenario, inputs);
@@ -349,6 +372,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   load_bed_supply(loading);
   load_observed(loading);
   loading.refuse_problems();
+  expect(inputs.release && inputs.elevation, "a scene without problems has its release and ground");
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
   if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
   inputs.release_hash = hash_of_release(inputs);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/effect_table.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/dense/effect.hpp"
 #include "engine/effects/erosion/effect.hpp"
+#include "engine/effects/inflow/effect.hpp"
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/effects/isolated/effect.hpp"
 #include "engine/effects/kinetic/effect.hpp"
@@ -16,6 +18,8 @@
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace sturz {
 namespace {
@@ -113,6 +117,14 @@ Called erosion_called(const Scenario& s, const ScenePlan&) {
   if (!s.erosion) return by_key("erosion", false);
   return {true, erosion_text(*s.erosion)};
 }
+Called inflow_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.inflow.empty()) return by_key("inflow", false);
+  return {true, inflow_text(s, plan.inflow)};
+}
+Called later_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.later.empty()) return by_key("release.start_time_s", false);
+  return {true, later_text(plan.later, s, plan.bulk_density_kg_m3)};
+}
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
   if (const auto zone = zone_with_turbulence(s.basal); zone && !s.basal.turbulent_coefficient_m_s2)
     return {true, "`basal.zones[" + std::to_string(*zone) + "].turbulent_coefficient_m_s2`"};
@@ -159,15 +171,26 @@ void add_contacts(SceneParts& p) {
 }
 void add_pores(SceneParts& p) { add_mixture(p.state, grains, *p.plan.columns.mixture); }
 void add_columns(SceneParts& p) {
+  const Release& r = p.plan.release;
   if (p.plan.phases) {
     const double m = p.scenario.grains->solid_fraction.value;
-    const Release& r = p.plan.release;
     add_two_phases(p.step, p.state, *p.plan.phases, thickness_of(r, m), thickness_of(r, 1 - m),
                    r.covered, r.covered);
     return;
   }
-  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness,
-                     p.plan.release.covered);
+  add_depth_averaged(p.step, p.state, grains, p.plan.columns,
+                     std::span(r.thickness).first(p.plan.n_present),
+                     std::span(r.covered).first(p.plan.n_present));
+}
+/// Releases start as the run does: after short steps.
+double start_step(const SceneParts& p) {
+  return std::max(0.05 * std::sqrt(p.plan.bed.grid().cell_m / standard_gravity), 1e-5);
+}
+void add_sources(SceneParts& p) {
+  add_inflow(p.step, p.state, grains, {p.plan.inflow.columns, start_step(p)});
+}
+void add_later(SceneParts& p) {
+  add_inflow(p.step, p.state, grains, {p.plan.later, start_step(p)});
 }
 void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.plan.erosion); }
 
@@ -184,6 +207,8 @@ constexpr EffectRow table[] = {
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
     {EffectName::phase_drag, phases_called},
     {EffectName::erosion, erosion_called, add_eroded_bed, erosion_bytes_per_particle},
+    {EffectName::inflow, inflow_called, add_sources},
+    {EffectName::later_release, later_called, add_later},
     {"turbulent bed", turbulence_called},
     {"viscous bed", viscosity_called},
     {"zones of the bed", zones_called},

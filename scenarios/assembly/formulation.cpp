@@ -32,6 +32,9 @@ std::string column_key(const Scenario& s) {
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
   if (s.erosion) return "erosion";
+  if (!s.inflow.empty()) return "inflow";
+  if (s.release.start_time_s) return "release.start_time_s";
+  if (!s.release.start_time_attribute.empty()) return "release.start_time_attribute";
   return "";
 }
 

@@ -106,6 +106,32 @@ void warn_of_parabola(const Scenario& s, const ScenePlan& plan, Warnings& out) {
       "resolved");
 }
 
+/// Fewer columns side by side than this are a blot of their smoothing, whatever the line was.
+constexpr double least_columns_across = 4;
+
+/// What enters through too narrow a gate, or too late.
+void warn_of_inflow(const Scenario& s, const ScenePlan& plan, Warnings& out) {
+  const double dx = s.numerics.spacing_m, end = plan.end.end_time_s;
+  if (!plan.inflow.empty() && plan.inflow.narrowest_m < least_columns_across * dx)
+    out.push_back("unresolved inflow: " + short_number(plan.inflow.narrowest_m / dx) +
+                  " spacings of " + short_number(dx) + " m across its width of " +
+                  short_number(plan.inflow.narrowest_m) +
+                  " m, fewer than 4: it spreads wider and thinner than it entered. Use a "
+                  "numerics.spacing_m of " +
+                  rounded_down(plan.inflow.narrowest_m / least_columns_across) + " m or less");
+  double late = 0;
+  for (const auto* waiting : {&plan.later, &plan.inflow.columns})
+    for (const TimedArrival& c : *waiting)
+      if (c.time_s >= end) late += c.arrival.mass / plan.bulk_density_kg_m3;
+  if (late > 0)
+    out.push_back("cut inflow: " + short_number(late) + " m3 start or enter after the end at " +
+                  short_number(end) + " s. Use a larger numerics.end_time_s, or leave it out");
+  if (!plan.later.empty() && s.release.surface == ReleaseSurface::pre_failure)
+    out.emplace_back(
+        "later releases are dug out of the ground from the start (release.surface: pre_failure): "
+        "what comes over them before they start falls into their hole");
+}
+
 void warn_of_states(const Scenario& s, const ScenePlan& plan, Warnings& out) {
   if (!s.grains->states) return;
   if (plan.formulation.depth_averaged) {
@@ -133,6 +159,7 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
                   short_number(plan.stress.smoothing_length) +
                   " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
                   " m: the grains act as a parameter only");
+  warn_of_inflow(s, plan, out);
   warn_of_states(s, plan, out);
   warn_of_smooth_pile(s, plan, out);
   warn_of_parabola(s, plan, out);

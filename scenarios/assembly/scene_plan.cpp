@@ -7,6 +7,7 @@
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/inflow/plan_masses.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
@@ -350,12 +351,9 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
-  plan.release =
-      release_particles(plan.bed, thickness,
-                        {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
-                         s.ensemble.seed, member, plan.formulation.depth_averaged},
-                        in.release_cover.get());
-  plan.end = time_cap(s, in, plan.release.median_thickness_m, plan.bulk_density_kg_m3);
+  plan_masses(
+      s, in, thickness, member, [&](double m) { return bulk_density(s, m); }, plan);
+  plan_end(s, in, plan);
   const Window held = in.held();
   plan.zones = {in.zones, in.whole, held.row0, held.col0};
   plan.release_narrow_side_m = narrow_side(thickness, in.source_area_m2);
@@ -382,6 +380,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   }
   plan.available_energy_j =
       standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
+  plan.available_energy_j += available_energy(plan.inflow, lowest);
   return plan;
 }
 

@@ -164,10 +164,13 @@ BlockInfo optional_block(const char* path, const char* help, const Block<Owner>&
 void add_site_keys(std::vector<KeyInfo>&);      ///< title, terrain, release
 void add_material_keys(std::vector<KeyInfo>&);  ///< grains, basal, formulation
 void add_erosion_keys(std::vector<KeyInfo>&);   ///< erosion
+void add_inflow_keys(std::vector<KeyInfo>&);    ///< inflow
 void add_run_keys(std::vector<KeyInfo>&);       ///< numerics, domain, ensemble, hazard
+void add_gauge_keys(std::vector<KeyInfo>&);     ///< gauges
 // Their optional blocks.
 void add_site_blocks(std::vector<BlockInfo>&);
 void add_material_blocks(std::vector<BlockInfo>&);
 void add_erosion_blocks(std::vector<BlockInfo>&);
+void add_gauge_blocks(std::vector<BlockInfo>&);
 
 }  // namespace sturz::schema_rows

@@ -6,6 +6,7 @@
 #include "engine/effects/fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sturz {
 namespace {
@@ -58,13 +59,16 @@ void add_mixture(State& state, std::size_t set, const MixtureSettings& settings)
   enter_mixture(p, settings, 0);
 }
 
-void enter_mixture(MovingSet& p, const MixtureSettings& settings, std::size_t first) {
+void enter_mixture(MovingSet& p, const MixtureSettings& settings, std::size_t first,
+                   std::span<const Arrival> entering) {
   auto& solids = p.scalar(fields::solids_volume);
   auto& water = p.scalar(fields::water_volume);
   auto& fraction = p.scalar(fields::solid_fraction);
-  const double m = settings.solid_fraction;
   Sum grains, fluid;
   for (std::size_t i = first; i < p.size(); ++i) {
+    const double own =
+        entering.empty() ? settings.solid_fraction : entering[i - first].solid_fraction;
+    const double m = std::isnan(own) ? settings.solid_fraction : own;
     const double volume = p.mass[i] / settings.law.density(m);
     solids[i] = m * volume, water[i] = (1 - m) * volume, fraction[i] = m;
     grains.add(solids[i]), fluid.add(water[i]);

@@ -21,7 +21,9 @@ namespace sturz {
 /// "pore_pressure", "pore_gravity", and "excess_profile" where it is resolved.
 void add_mixture(State&, std::size_t set, const MixtureSettings&);
 /// Fills them for columns from `first` on, which are new, and the ledger with their volumes.
-void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first);
+/// \param entering of each of them, where it may bring a solid fraction of its own; or empty
+void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first,
+                   std::span<const Arrival> entering = {});
 
 /// Mass that joins a column from below, e.g. bed that a flow takes along.
 struct AddedMixture {

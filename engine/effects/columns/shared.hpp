@@ -9,6 +9,7 @@
 #include "engine/neighbors/column_cells.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -32,6 +33,11 @@ struct ColumnFlow {
   std::vector<double> bed_thickness;
   /// Impulses from another set come between the start of a step and the bed.
   bool has_exchange = false;
+  /// Columns with ids from this one on stand for the area that they were released on until this
+  /// step: for so long support radii find what lies around them.
+  static constexpr std::size_t settling_steps = 10;
+  std::uint32_t settle_from = 0;
+  std::size_t settle_until = settling_steps;
   double start_dt = 1e-3;           ///< of the first step [s]
   double fastest_wave = 0;          ///< largest sqrt(K g_n h) / h_s [1/s]
   double fastest_approach = 0;      ///< largest relative speed of neighbours / h_s [1/s]
