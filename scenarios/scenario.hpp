@@ -29,6 +29,29 @@ struct TerrainWindow {
   bool operator==(const TerrainWindow&) const = default;
 };
 
+/// A dam or deflecting wall along a line, raised on the ground before the run. Exactly one of line
+/// and points_m; exactly one of height_m, height_attribute, crest_elevation_m.
+struct DamSpec {
+  std::string line;                              ///< any OGR layer of lines
+  std::string layer;                             ///< layer name inside `line`; empty: the first
+  std::vector<std::array<double, 2>> points_m;   ///< map coordinates of the line's corners
+  std::optional<Uncertain> height_m;             ///< of the crest above the ground below it
+  std::string height_attribute;                  ///< field of `line` with it
+  std::optional<Uncertain> crest_elevation_m{};  ///< level crest at this elevation
+  double crest_width_m = 4;                      ///< flat top across the line
+  double side_slope = 1.5;                       ///< horizontal per vertical, of both sides
+  bool operator==(const DamSpec&) const = default;
+};
+
+/// Cells of the ground that stand above it, so that columns flow around them.
+struct BuildingsSpec {
+  std::string polygon;           ///< any OGR polygon layer
+  std::string layer;             ///< layer name inside `polygon`; empty: the first
+  double height_m = 10;          ///< of the roofs above the ground
+  std::string height_attribute;  ///< field of `polygon` with it, in metres
+  bool operator==(const BuildingsSpec&) const = default;
+};
+
 struct TerrainSpec {
   std::string raster;  ///< path of any GDAL raster; empty: synthetic
   std::optional<SyntheticTerrain> synthetic;
@@ -36,6 +59,8 @@ struct TerrainSpec {
   std::optional<double> cell_size_m;  ///< working grid; default: the raster's own
   TerrainEdge nodata = TerrainEdge::outflow;
   std::optional<TerrainWindow> window;  ///< absent: from the energy line
+  std::vector<DamSpec> dams;
+  std::optional<BuildingsSpec> buildings;
   bool operator==(const TerrainSpec&) const = default;
 };
 
@@ -196,6 +221,28 @@ struct BasalZone {
   bool operator==(const BasalZone&) const = default;
 };
 
+/// A raster in the place of one number of `basal`; nodata leaves that number.
+struct BasalRaster {
+  std::string path;                 ///< any GDAL raster, in the key's unit; empty: none
+  std::optional<Uncertain> factor;  ///< multiplies its values; 1 when absent
+  bool operator==(const BasalRaster&) const = default;
+};
+struct BasalRasters {
+  BasalRaster friction_coefficient, pore_pressure_ratio, cohesion_pa, turbulent_coefficient_m_s2;
+  std::string crs;  ///< of those files that have none
+  bool operator==(const BasalRasters&) const = default;
+};
+
+/// SamosAT's bed: friction that falls with speed and a logarithmic profile's drag; depth_averaged
+/// only. Its mu is `friction_coefficient`, its tau_0 `cohesion_pa` of basal.
+struct SamosAtSpec {
+  Uncertain fluidization_number{0.222};  ///< R_s0
+  Uncertain von_karman{0.43};            ///< kappa
+  Uncertain roughness_m{0.05};           ///< R
+  Uncertain profile_offset{4.13};        ///< B
+  bool operator==(const SamosAtSpec&) const = default;
+};
+
 struct BasalSpec {
   Uncertain friction_coefficient{0.4};
   Uncertain pore_pressure_ratio{0};
@@ -204,6 +251,8 @@ struct BasalSpec {
   std::optional<Uncertain> turbulent_coefficient_m_s2;  ///< Voellmy's xi; depth_averaged only
   std::optional<Uncertain> viscosity_pa_s;   ///< laminar drag at the bed; depth_averaged only
   std::optional<Uncertain> yield_stress_pa;  ///< Bingham, with viscosity_pa_s; depth_averaged only
+  std::optional<SamosAtSpec> samosat;        ///< absent: Coulomb with the terms above
+  BasalRasters rasters;                      ///< a zone's own number goes before a raster's
   std::vector<BasalZone> zones;              ///< where two overlap, the later one holds
   bool operator==(const BasalSpec&) const = default;
 };

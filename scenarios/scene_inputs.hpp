@@ -2,6 +2,7 @@
 /// The files of a scene, loaded once and shared by all its members.
 #pragma once
 
+#include "engine/effects/bed_rasters.hpp"
 #include "engine/terrain/terrain.hpp"
 #include "scenarios/assembly/reach.hpp"
 #include "scenarios/inflow/hydrograph.hpp"
@@ -36,6 +37,15 @@ struct Gauge {
   std::vector<Vec2> corners;
 };
 
+/// A number of the bed that a raster gives.
+struct BedLayerInput {
+  BedNumber number = BedNumber::friction;
+  /// On the held cells, NaN where the raster says nothing.
+  std::shared_ptr<const Raster<double>> values;
+  /// Of its values where the energy line comes, whatever is held; NaN where it says nothing there.
+  double least = 0, most = 0, mean = 0;
+};
+
 struct SceneInputs {
   /// As delivered (bed or pre-failure), NaN nodata: the part of the working grid that is held.
   std::shared_ptr<const Raster<double>> elevation;
@@ -54,6 +64,7 @@ struct SceneInputs {
   std::shared_ptr<const Terrain> ground, column_ground;
   /// Zone of the bed per held cell: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;
+  std::vector<BedLayerInput> bed_layers;  ///< of basal.rasters, in their order; mostly none
   /// What can be taken of the bed, on cells of the working grid: share of erosion.depth_m, or depth
   /// where erosion.depth_raster gives it [m]; nothing beyond. Null: the same everywhere.
   std::shared_ptr<const Raster<double>> bed_supply;

@@ -9,6 +9,7 @@
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
@@ -120,11 +121,11 @@ StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
 constexpr double settling = 1.5;
 
 /// How long a member will probably move [s]; its own end time where it gives one.
-double expected_time(const Scenario& s, const ScenePlan& plan) {
+double expected_time(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
   if (s.numerics.end_time_s || !s.domain.periodic.empty()) return plan.end.end_time_s;
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  const double friction = typical_friction(s);
+  const double friction = typical_friction(with_typical_bed(s, inputs));
   double moving = time_to_rest(plan.bed, plan.release, friction, start, plan.end.end_time_s);
   double deepest = plan.release.max_thickness_m, last = 0;
   if (!plan.later.empty()) last = plan.later.back().time_s;
@@ -183,7 +184,8 @@ ReleaseFacts release_facts(const ScenePlan& plan, double spacing_m) {
 double other_cost(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
   if (!has_both_formulations(s)) return 0;
   const CostEstimate cost =
-      estimate_cost(s, release_thickness(s.release, inputs), plan.bed, expected_time(s, plan));
+      estimate_cost(with_typical_bed(s, inputs), release_thickness(s.release, inputs), plan.bed,
+                    expected_time(s, inputs, plan));
   return plan.formulation.depth_averaged ? cost.full_stress / cost.depth_averaged
                                          : cost.depth_averaged / cost.full_stress;
 }
@@ -281,7 +283,7 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;
-  d.n_steps = std::ceil(expected_time(s, plan) / limit.dt);
+  d.n_steps = std::ceil(expected_time(s, inputs, plan) / limit.dt);
   d.end_time_s = plan.end.end_time_s;
   d.end_time_reason = plan.end.reason;
   d.ground = ground_line(s, inputs);

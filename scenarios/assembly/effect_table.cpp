@@ -16,6 +16,7 @@
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/raster_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +129,9 @@ Called later_called(const Scenario& s, const ScenePlan& plan) {
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
   if (const auto zone = zone_with_turbulence(s.basal); zone && !s.basal.turbulent_coefficient_m_s2)
     return {true, "`basal.zones[" + std::to_string(*zone) + "].turbulent_coefficient_m_s2`"};
+  if (!s.basal.turbulent_coefficient_m_s2 &&
+      !s.basal.rasters.turbulent_coefficient_m_s2.path.empty())
+    return {true, "`basal.rasters.turbulent_coefficient_m_s2`"};
   return by_key("basal.turbulent_coefficient_m_s2", s.basal.turbulent_coefficient_m_s2.has_value());
 }
 Called viscosity_called(const Scenario& s, const ScenePlan&) {
@@ -135,6 +139,14 @@ Called viscosity_called(const Scenario& s, const ScenePlan&) {
 }
 Called zones_called(const Scenario& s, const ScenePlan&) {
   return by_key("basal.zones", !s.basal.zones.empty());
+}
+Called rasters_called(const Scenario& s, const ScenePlan&) {
+  for (const RasterField& field : raster_fields)
+    if (names_raster(s.basal, field)) return by_key(raster_path(field).c_str(), true);
+  return by_key("basal.rasters", false);
+}
+Called samosat_called(const Scenario& s, const ScenePlan&) {
+  return by_key("basal.samosat", s.basal.samosat.has_value());
 }
 Called periods_called(const Scenario& s, const ScenePlan&) {
   return by_key("domain.periodic", !s.domain.periodic.empty());
@@ -211,7 +223,9 @@ constexpr EffectRow table[] = {
     {EffectName::later_release, later_called, add_later},
     {"turbulent bed", turbulence_called},
     {"viscous bed", viscosity_called},
+    {"samosat bed", samosat_called},
     {"zones of the bed", zones_called},
+    {"rasters of the bed", rasters_called},
     {"periodic images", periods_called},
     {EffectName::motion, always, add_drift},
     {"excavation", excavation_called},

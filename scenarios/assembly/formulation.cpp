@@ -29,6 +29,9 @@ std::string column_key(const Scenario& s) {
   if (s.basal.turbulent_coefficient_m_s2) return "basal.turbulent_coefficient_m_s2";
   if (s.basal.viscosity_pa_s) return "basal.viscosity_pa_s";
   if (zone_with_turbulence(s.basal)) return "basal.zones";
+  if (!s.basal.rasters.turbulent_coefficient_m_s2.path.empty())
+    return "basal.rasters.turbulent_coefficient_m_s2";
+  if (s.basal.samosat) return "basal.samosat";
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
   if (s.erosion) return "erosion";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a reader of the results has to know about the scene that was computed.
+#include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/release_lip.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
@@ -52,7 +53,7 @@ void warn_of_coarse_spacing(const Scenario& s, const ScenePlan& plan, Warnings& 
 /// Ground in the way at the lower end of the release. Under a tenth of the drive it is no matter.
 void warn_of_lip(const Scenario& s, const SceneInputs& in, const ScenePlan& plan, Warnings& out) {
   const bool dug_out = s.release.surface == ReleaseSurface::pre_failure;
-  const double friction = typical_friction(s);
+  const double friction = typical_friction(with_typical_bed(s, in));
   const ReleaseLip lip =
       release_lip(*in.elevation, release_thickness(s.release, in), dug_out, friction);
   if (!s.domain.periodic.empty() || lip.share_of_drive < 0.1) return;

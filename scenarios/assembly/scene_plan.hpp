@@ -31,6 +31,7 @@ struct ScenePlan {
   double release_narrow_side_m = 0;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
+  BedRasters rasters;                                        ///< over the zones
   GrainStressSettings stress;                                ///< full_stress
   ContactSettings contact;                                   ///< full_stress
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet

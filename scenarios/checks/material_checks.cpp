@@ -3,6 +3,7 @@
 #include "scenarios/checks/combination_checks.hpp"
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/raster_fields.hpp"
 #include "scenarios/schema/value_text.hpp"
 
 #include <algorithm>
@@ -178,10 +179,18 @@ void check_phases(const Scenario& s, Problems& problems) {
   refuse(wet.settling_speed_m_s && wet.drag_law != PhaseDragLaw::settling,
          "mixture.settling_speed_m_s",
          " (mixture.drag_law is permeability). Remove it or set mixture.drag_law: settling.");
-  if (s.erosion)
-    problems.push_back({"erosion",
-                        "erosion (mixture.phases is two: a bed would have to join two sets of "
-                        "columns, which is not computed). Remove it or set mixture.phases: one."});
+  const auto not_yet = [&](bool given, const std::string& path) {
+    if (given)
+      problems.push_back({path, path +
+                                    " (mixture.phases is two: what joins or brakes two sets of "
+                                    "columns this way is not computed). Remove it or set "
+                                    "mixture.phases: one."});
+  };
+  not_yet(s.erosion.has_value(), "erosion");
+  not_yet(!s.inflow.empty(), "inflow");
+  not_yet(s.release.start_time_s.has_value(), "release.start_time_s");
+  not_yet(!s.release.start_time_attribute.empty(), "release.start_time_attribute");
+  not_yet(names_any_raster(s.basal), "basal.rasters");
 }
 
 void check_drag(const Scenario& s, Problems& problems) {

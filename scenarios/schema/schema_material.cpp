@@ -174,6 +174,7 @@ void add_basal(std::vector<KeyInfo>& keys) {
   keys.push_back(key(basal, &BasalSpec::yield_stress_pa,
                      {"basal.yield_stress_pa", uncertain, "Pa", 0, no_limit,
                       "Yield stress of a Bingham fluid, with basal.viscosity_pa_s."}));
+  add_bed_field_keys(keys);
   keys.push_back(
       key(basal, &BasalSpec::zones,
           {"basal.zones", zone_list, "", -no_limit, no_limit,

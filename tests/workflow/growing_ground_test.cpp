@@ -67,6 +67,7 @@ class Growing : public Workflow {
                     fmt::arg("spacing", spacing), fmt::arg("formulation", formulation));
     if (!changes.empty())
       text = replaced(text, "  thickness_m: 5\n", "  thickness_m: 5\n" + changes);
+    if (!basal_.empty()) text = replaced(text, "basal:\n", "basal:\n" + basal_);
     write("scene.yaml", text);
     Recorder silent;
     return untouched(workflow::prepare_ensemble(request(fmt::format("out{}", ++n_jobs_)), silent));
@@ -126,6 +127,7 @@ class Growing : public Workflow {
   }
 
   int n_jobs_ = 0;
+  std::string basal_;  ///< lines of that block
 };
 
 TEST_F(Growing, ColumnsGetTheBitsOfTheWholeRaster) { expect_same_bits("", "depth_averaged", 10); }
@@ -133,6 +135,20 @@ TEST_F(Growing, ColumnsGetTheBitsOfTheWholeRaster) { expect_same_bits("", "depth
 TEST_F(Growing, ColumnsOnAveragedGroundToo) { expect_same_bits("", "depth_averaged", 13); }
 
 TEST_F(Growing, ParticlesToo) { expect_same_bits("", "full_stress", 10); }
+
+TEST_F(Growing, RastersOfTheBedGrowAlong) {
+  // Cells of 7 m in strips across the valley, with gaps: no multiple of anything.
+  Raster<double> mu(Grid{420, 190, west - 31, north + 17, 7, ""});
+  for (int r = 0; r < mu.grid.n_rows; ++r)
+    for (int c = 0; c < mu.grid.n_cols; ++c)
+      mu.at(r, c) = (r + c) % 11 == 0 ? nan_d : 0.2 + 0.1 * std::sin(c / 9.0) * std::cos(r / 5.0);
+  write_geotiff(path("mu.tif"), mu, {});
+  basal_ =
+      "  rasters: {friction_coefficient: mu.tif, crs: EPSG:32633, friction_coefficient_factor: "
+      "{uniform: [0.9, 1.1]}}\n";
+  expect_same_bits("", "depth_averaged", 10);
+  expect_same_bits("", "full_stress", 10);
+}
 
 TEST_F(Growing, ADugSourceAndASpeedThatBeatsTheLine) {
   expect_same_bits("  surface: pre_failure\n  velocity_m_s: [30, 5, 0]\n", "depth_averaged", 10);

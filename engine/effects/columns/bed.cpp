@@ -13,19 +13,24 @@ namespace sturz {
 namespace {
 
 struct OnBed {
-  double plastic, thickness, density, gravity;
+  double inside;  ///< what internal friction takes [m/s^2]
+  double normal_gravity, thickness, density, gravity;
 };
 
 /// By a bed whose pore pressure is a constant share of the weight.
 Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before, const Vec3& pull,
             double kick) {
-  if (!bed.has_rate()) return braked(before, pull, c.plastic, 0, kick);
-  // The rate at the mean speed of the step, found from the rate at its start: a steady flow
-  // keeps its exact speed at any length of step.
-  auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
+  const auto plastic = [&](double v) {
+    return bed.plastic(c.normal_gravity, c.thickness, c.density, v) + c.inside;
+  };
+  if (!bed.has_rate()) return braked(before, pull, plastic(0), 0, kick);
+  // The bed at the mean speed of the step, found from the bed at its start: a steady flow keeps
+  // its exact speed at any length of step.
+  const auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
   const double v0 = before.norm();
-  const double v1 = braked(before, pull, c.plastic, rate(v0), kick).norm();
-  return braked(before, pull, c.plastic, rate(0.5 * (v0 + v1)), kick);
+  const double v1 = braked(before, pull, plastic(v0), rate(v0), kick).norm();
+  const double mean = 0.5 * (v0 + v1);
+  return braked(before, pull, plastic(mean), rate(mean), kick);
 }
 
 /// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the bed acts last and can stop it.
@@ -86,14 +91,13 @@ class BedPass final : public Pass {
     Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
-    const int zone = flow_->zone_of(s.domain, p, i);
-    const BasalResistance& bed = set.bed[zone];
-    double plastic = bed.plastic(normal_gravity, thickness, set.density);
-    if (!set.spent_inside.empty())
-      plastic += flow_->share[i] * set.spent_inside[zone] *
-                 driving_thrust(p, i, n, pull, before, kick.time);
-    const Vec3 after =
-        slowed(bed, {plastic, thickness, set.density, s.gravity}, before, pull, kick.time);
+    BasalResistance own;
+    const BasalResistance& bed = flow_->bed_of(s.domain, p, i, own);
+    OnBed on{0, normal_gravity, thickness, set.density, s.gravity};
+    if (!set.spent_inside.empty() || set.spent_share > 0)
+      on.inside = flow_->share[i] * flow_->spent_over(s.domain, p, i, bed) *
+                  driving_thrust(p, i, n, pull, before, kick.time);
+    const Vec3 after = slowed(bed, on, before, pull, kick.time);
     return moved(s, p, i, before, before + kick.time * pull, after, kick);
   }
 
@@ -170,10 +174,9 @@ class BedPass final : public Pass {
   }
 
   void lay_bed(const State& s, const MovingSet& p, std::size_t first, WetBlock& b) const {
-    const auto& beds = flow_->settings.bed;
+    BasalResistance own;
     for (std::size_t k = 0; k < b.n; ++k) {
-      const BasalResistance& bed =
-          beds.size() == 1 ? beds[0] : beds[flow_->zone_of(s.domain, p, first + k)];
+      const BasalResistance& bed = flow_->bed_of(s.domain, p, first + k, own);
       b.friction[k] = bed.friction_coefficient, b.cohesion[k] = bed.cohesion_pa;
       b.drag[k] = bed.turbulent_coefficient > 0 ? s.gravity / bed.turbulent_coefficient : 0;
     }

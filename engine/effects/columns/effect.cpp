@@ -46,15 +46,16 @@ void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
   p.scalar(fields::thickness)[i] = thickness;
   p.scalar(fields::normal_gravity)[i] = g_n;
   if (set.mixture) start_pressure(p, *set.mixture, i);
-  const int zone = flow.zone_of(s.domain, p, i);
   if (Field* k = p.find(fields::earth_pressure)) {
-    const EarthPressure& e = set.earth_pressure[zone];
+    const EarthPressure e = flow.earth_pressure_of(s.domain, p, i);
     k->component[0][i] = std::clamp(1.0, e.active, e.passive);
   }
   // The ground takes what points into it at once; what points out of it lifts no column.
   const Velocity v = Velocity{p.vx[i], p.vy[i], p.vz[i]}.in_plane(ground[i].east, ground[i].north);
-  first.rate = std::max(
-      first.rate, set.bed[zone].rate(std::sqrt(v.norm2()), thickness, set.density, s.gravity));
+  BasalResistance own;
+  const BasalResistance& bed = flow.bed_of(s.domain, p, i, own);
+  first.rate =
+      std::max(first.rate, bed.rate(std::sqrt(v.norm2()), thickness, set.density, s.gravity));
   first.wave2 = std::max(
       first.wave2, s.gravity * known_z * known_thickness * 4 / (support_radius * support_radius));
   flow.release_thickness = std::max(flow.release_thickness, vertical_thickness);
@@ -134,16 +135,18 @@ std::shared_ptr<ColumnFlow> add_depth_averaged(Step& step, State& state, std::si
   expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
          "bed and earth pressure for every zone");
   const auto fluid = [](const BasalResistance& b) {
-    return b.pore_pressure_ratio > 0 || b.viscosity_pa_s > 0 || b.yield_stress_pa > 0;
+    return b.pore_pressure_ratio > 0 || b.viscosity_pa_s > 0 || b.yield_stress_pa > 0 || b.samosat;
   };
-  expect(!settings.mixture || std::none_of(settings.bed.begin(), settings.bed.end(), fluid),
-         "a mixture has its own pore pressure and viscosity");
+  const bool wet_bed = std::any_of(settings.bed.begin(), settings.bed.end(), fluid) ||
+                       settings.rasters.has(BedNumber::pore_pressure);
+  expect(!settings.mixture || !wet_bed, "a mixture has its own pore pressure and viscosity");
   for (const FieldKey* key :
        {&fields::thickness, &fields::support_radius, &fields::area_share, &fields::normal_gravity,
         &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
     p.add(*key);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
-  if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))
+  if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies) ||
+      (settings.rasters.any() && settings.active_passive))
     p.add(fields::earth_pressure);
   for (auto* a : {&p.ax, &p.ay, &p.az}) a->assign(p.size(), 0.0f);
   mark_start(state.domain, p, 0);

@@ -72,7 +72,10 @@ double surface_slope(const ParticleSet& p, const Squares& squares, const ColumnF
 /// Steeper than the friction of grains and bed, by the margin [-].
 double steepest_rest(const DepthAveragedSettings& s) {
   double friction = s.internal_friction;
-  for (const BasalResistance& bed : s.bed) friction = std::max(friction, bed.friction_coefficient);
+  for (const BasalResistance& bed : s.bed) {
+    const double most = s.rasters.range(bed, BedNumber::friction).second;
+    friction = std::max(friction, bed.samosat ? 2 * most : most);  // at rest, slowness()
+  }
   return std::tan(std::min(89 * degree, std::atan(friction) + margin_deg * degree));
 }
 
@@ -113,7 +116,8 @@ void warn_of_implausible(const State& s, const ColumnFlow& flow, std::vector<std
   const DepthAveragedSettings& set = flow.settings;
   const Domain& domain = s.domain;
   if (!(set.internal_friction > 0) || std::any_of(set.bed.begin(), set.bed.end(), is_sticky) ||
-      domain.x.active || domain.y.active || !domain.walls.empty())
+      set.rasters.has(BedNumber::cohesion) || domain.x.active || domain.y.active ||
+      !domain.walls.empty())
     return;
   const SteepRest steep = steep_rest(s, flow, steepest_rest(set));
   if (steep.share > share_that_counts)

@@ -288,7 +288,7 @@ class SweepPass final : public Pass {
                   double strain, double thickness) const {
     const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
     if (v2 < 1e-6 * standard_gravity * thickness) return k;  // at rest K stays as it came
-    const EarthPressure& e = flow_->settings.earth_pressure[flow_->zone_of(domain, p, i)];
+    const EarthPressure e = flow_->earth_pressure_of(domain, p, i);
     return e.strained(k, strain, flow_->settings.earth_pressure_stiffness);
   }
 

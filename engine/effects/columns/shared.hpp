@@ -8,6 +8,7 @@
 #include "engine/effects/step.hpp"
 #include "engine/neighbors/column_cells.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -60,6 +61,36 @@ struct ColumnFlow {
     double x = p.x[i], y = p.y[i], z = 0;
     domain.wrap(x, y, z);
     return settings.zones.at(x, y);
+  }
+  /// What lies below column i, with the numbers of rasters where there are any. \param own is
+  /// written where the bed is no zone's
+  const BasalResistance& bed_of(const Domain& domain, const ParticleSet& p, std::size_t i,
+                                BasalResistance& own) const {
+    const int zone = zone_of(domain, p, i);
+    const BasalResistance& bed = settings.bed[static_cast<std::size_t>(zone)];
+    if (!settings.rasters.any()) return bed;
+    double x = p.x[i], y = p.y[i], z = 0;
+    domain.wrap(x, y, z);
+    own = settings.rasters.over(bed, zone, x, y);
+    return own;
+  }
+  /// K of column i.
+  EarthPressure earth_pressure_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {
+    if (!settings.rasters.any())
+      return settings.earth_pressure[static_cast<std::size_t>(zone_of(domain, p, i))];
+    BasalResistance own;
+    return settings.active_passive ? settings.earth_pressure_over(bed_of(domain, p, i, own))
+                                   : EarthPressure();
+  }
+  /// Share of the thrust that internal friction takes of column i over that bed.
+  double spent_over(const Domain& domain, const ParticleSet& p, std::size_t i,
+                    const BasalResistance& bed) const {
+    if (!settings.rasters.any())
+      return settings.spent_inside.empty()
+                 ? 0
+                 : settings.spent_inside[static_cast<std::size_t>(zone_of(domain, p, i))];
+    if (!(settings.spent_share > 0)) return 0;
+    return settings.spent_share * std::max(0.0, 1 - settings.earth_pressure_over(bed).active);
   }
 };
 

@@ -100,6 +100,7 @@ ErosionSettings plan_erosion(const Scenario& s, const SceneInputs& in, const Ero
   }
   out.bed = place.bed;
   out.zones = place.zones;
+  out.rasters = place.rasters;
   out.cells = place.ground;
   if (in.bed_supply) {
     out.source.pattern = on_ground(in.bed_supply, in.terrain_grid(), place.ground);

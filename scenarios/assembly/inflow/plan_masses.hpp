@@ -19,4 +19,7 @@ void plan_masses(const Scenario& numbers, const SceneInputs&, const Raster<doubl
 /// The time counts from when the last of the mass has entered, but for a given end.
 void plan_end(const Scenario& numbers, const SceneInputs&, ScenePlan&);
 
+/// Of release and inflow where they fall to the lowest ground that they may reach [J].
+double available_energy(const Scenario& numbers, const SceneInputs&, const ScenePlan&);
+
 }  // namespace sturz
