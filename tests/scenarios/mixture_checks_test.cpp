@@ -18,11 +18,13 @@
 namespace sturz {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 std::vector<std::string> messages(const Scenario& s) {
   std::vector<std::string> texts;
@@ -189,11 +191,18 @@ TEST(TwoPhaseChecks, RefuseWhatTwoVelocitiesDoNotKnow) {
   Scenario s = two_phases();
   s.mixture->initial_pressure = InitialPressure::liquefied;
   s.basal.pore_pressure_ratio = 0.3;
+  s.mixture->pressure_profile = PressureProfile::resolved;
   s.erosion.emplace();
+  s.inflow.emplace_back();
+  s.release.start_time_s = Uncertain(5);
+  s.basal.rasters.friction_coefficient.path = "friction.tif";
   const auto all = messages(s);
-  EXPECT_THAT(all, Contains(HasSubstr("carries the grains' buoyancy and no excess pressure")));
+  const char* const no_pressure = "carries the grains' buoyancy and no excess pressure";
+  EXPECT_THAT(all, Contains(AllOf(StartsWith("mixture.initial_pressure"), HasSubstr(no_pressure))));
+  EXPECT_THAT(all, Contains(AllOf(StartsWith("mixture.pressure_profile"), HasSubstr(no_pressure))));
   EXPECT_THAT(all, Contains(HasSubstr("basal.pore_pressure_ratio")));
-  EXPECT_THAT(all, Contains(HasSubstr("a bed would have to join two sets of columns")));
+  for (const char* path : {"erosion", "inflow", "release.start_time_s", "basal.rasters"})
+    EXPECT_THAT(all, Contains(AllOf(StartsWith(path), HasSubstr("two sets of columns")))) << path;
   s = two_phases();
   s.mixture->initial_pressure_ratio = Uncertain(0.7);
   EXPECT_THAT(messages(s), Contains(HasSubstr("mixture.initial_pressure_ratio")));

@@ -215,7 +215,7 @@ void forecast(const State& s, MovingSet& p, const ColumnFlow& flow, double dt,
       const Vec3 pull(a.x, a.y, a.z);
       const BasalResistance& bed = flow.settings.bed[flow.zone_of(s.domain, p, i)];
       const double density = flow.settings.density;
-      const double plastic = bed.plastic(g_n[i], thickness[i], density);
+      const double plastic = bed.plastic(g_n[i], thickness[i], density, before.norm());
       // Drag at the speed of the start: what is forecast here is what slip is judged by.
       const double rate =
           bed.has_rate() ? bed.rate(before.norm(), thickness[i], density, s.gravity) : 0;
