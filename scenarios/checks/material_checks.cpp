@@ -181,10 +181,9 @@ void check_phases(const Scenario& s, Problems& problems) {
          " (mixture.drag_law is permeability). Remove it or set mixture.drag_law: settling.");
   const auto not_yet = [&](bool given, const std::string& path) {
     if (given)
-      problems.push_back({path, path +
-                                    " (mixture.phases is two: what joins or brakes two sets of "
-                                    "columns this way is not computed). Remove it or set "
-                                    "mixture.phases: one."});
+      problems.push_back({path, path + " (mixture.phases is two: what joins or brakes two sets of "
+                                       "columns this way is not computed). Remove it or set "
+                                       "mixture.phases: one."});
   };
   not_yet(s.erosion.has_value(), "erosion");
   not_yet(!s.inflow.empty(), "inflow");

@@ -165,7 +165,7 @@ void add_site_keys(std::vector<KeyInfo>&);       ///< title, terrain, release
 void add_material_keys(std::vector<KeyInfo>&);   ///< grains, basal, formulation
 void add_bed_field_keys(std::vector<KeyInfo>&);  ///< basal.samosat, basal.rasters: within basal
 void add_erosion_keys(std::vector<KeyInfo>&);    ///< erosion
-void add_inflow_keys(std::vector<KeyInfo>&);      ///< inflow
+void add_inflow_keys(std::vector<KeyInfo>&);     ///< inflow
 void add_run_keys(std::vector<KeyInfo>&);        ///< numerics, domain, ensemble, hazard
 void add_gauge_keys(std::vector<KeyInfo>&);      ///< gauges
 // Their optional blocks.
