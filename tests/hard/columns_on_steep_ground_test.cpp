@@ -271,7 +271,7 @@ struct Twins {
     EXPECT_LT(slower, 3);
     slowest = std::max(slowest, slower);
   }
-  void print(int n) const {
+  void print() const {
     wet.print(n);
     fmt::print(
         "grains and water to {:.1e}; a step at most {:.2f} times its dry twin's, all members "
@@ -289,7 +289,7 @@ TEST(SteepGround, WetColumnsSurviveEveryCorner) {
     SCOPED_TRACE(fmt::format("member {}", k));
     twins.survive_both(hard_member(static_cast<std::uint64_t>(k)), k);
   }
-  twins.print(n);
+  twins.print();
 }
 
 TEST(SteepGround, WetColumnsSurviveMonteMarsicano) {
@@ -313,7 +313,7 @@ TEST(SteepGround, WetColumnsSurviveMonteMarsicano) {
     m.scenario.numerics.end_time_s = 90;
     twins.survive_both(m, k);
   }
-  twins.print(n);
+  twins.print();
 }
 
 }  // namespace
