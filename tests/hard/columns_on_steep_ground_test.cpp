@@ -181,7 +181,7 @@ double lost_inside(const Ledger& ledger, const MemberScalars& s) {
 struct Twins {
   Worst dry, wet;
   double volumes = 0, slowest = 0, steps = 0, lost = 0;
-  int not_finite = 0, out_of_bounds = 0, unexplained = 0, n = 0;
+  int not_finite = 0, out_of_bounds = 0, unexplained = 0;
 
   /// One line a member for the script.
   void tell(int number, const MemberScalars& with, const MemberScalars& without,
@@ -202,7 +202,6 @@ struct Twins {
     const Simulation simulation = survive(soaked(plain, number), number, wet, with);
     survive(plain, number, dry, without);
     const MovingSet& p = simulation.parts().state.grains();
-    ++n;
     not_finite += !is_finite(p) || !all_within(p, true);
     out_of_bounds += !all_within(p, false);
     unexplained += std::abs(with.energy_residual) > 0.01;
