@@ -137,7 +137,8 @@ struct MixtureSpec {
   Uncertain stress_offset_pa{1000};
   Uncertain shear_grain_diameter_m{0.001};
   MixturePhases phases = MixturePhases::one;
-  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m where the speed is absent.
+  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m where the speed is
+  /// absent.
   PhaseDragLaw drag_law = PhaseDragLaw::permeability;
   std::optional<Uncertain> settling_speed_m_s;
   bool operator==(const MixtureSpec&) const = default;
