@@ -137,7 +137,9 @@ PERSONS = re.compile(r"\b(?:nobody|whoever|everybody|everyone|somebody|someone|a
 def words(root):
     patterns = {w: re.compile(rf"(?<![A-Za-z]){w}s?(?![A-Za-z])" if w == "DEM"
                               else rf"(?i:(?<![A-Za-z]){w}s?(?![A-Za-z]))") for w in FORBIDDEN_WORDS}
-    allowed = re.compile(r"gdaldem|GDALDEM|/proc/sys/kernel|smoothing[ _-]kernel|two[- ]phase", re.IGNORECASE)
+    # `phases`, the plural, are grains and liquid of `mixture.phases` and nothing else.
+    allowed = re.compile(r"gdaldem|GDALDEM|/proc/sys/kernel|smoothing[ _-]kernel|two[-_ ]phase|"
+                         r"phases|phase_(?:drag|plan|frame|pressure)", re.IGNORECASE)
     private = {re.compile(rf"\b(?:{w})\b"): known for w, known in PRIVATE_WORDS.items()}
     for path, name in sources(root, LIBRARIES, CODE + (".js", ".css")):
         for n, line in enumerate(lines_of(path), 1):
