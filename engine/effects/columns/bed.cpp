@@ -11,22 +11,6 @@
 namespace sturz {
 namespace {
 
-struct OnBed {
-  double plastic, thickness, density, gravity;
-};
-
-/// By a bed whose pore pressure is a constant share of the weight.
-Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before, const Vec3& pull,
-            double kick) {
-  if (!bed.has_rate()) return braked(before, pull, c.plastic, 0, kick);
-  // The rate at the mean speed of the step, found from the rate at its start: a steady flow
-  // keeps its exact speed at any length of step.
-  auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
-  const double v0 = before.norm();
-  const double v1 = braked(before, pull, c.plastic, rate(v0), kick).norm();
-  return braked(before, pull, c.plastic, rate(0.5 * (v0 + v1)), kick);
-}
-
 /// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the bed acts last and can stop it.
 class BedPass final : public Pass {
  public:
@@ -174,6 +158,21 @@ class BedPass final : public Pass {
       b.friction[k] = bed.friction_coefficient, b.cohesion[k] = bed.cohesion_pa;
       b.drag[k] = bed.turbulent_coefficient > 0 ? s.gravity / bed.turbulent_coefficient : 0;
     }
+  }
+
+  struct OnBed {
+    double plastic, thickness, density, gravity;
+  };
+  /// By a bed whose pore pressure is a constant share of the weight.
+  static Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before,
+                     const Vec3& pull, double kick) {
+    if (!bed.has_rate()) return braked(before, pull, c.plastic, 0, kick);
+    // The rate at the mean speed of the step, found from the rate at its start: a steady flow
+    // keeps its exact speed at any length of step.
+    auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
+    const double v0 = before.norm();
+    const double v1 = braked(before, pull, c.plastic, rate(v0), kick).norm();
+    return braked(before, pull, c.plastic, rate(0.5 * (v0 + v1)), kick);
   }
 
   /// What pressure adds to the motion that it drives, or would start [m/s^2]; what it takes to hold
