@@ -127,7 +127,7 @@ TEST(TwoPhaseColumns, LiquidRunsAheadTheMoreTheLessItIsHeld) {
 }
 
 TEST(TwoPhaseColumns, GiveTheSameBitsAtAnyNumberOfThreads) {
-  Scenario s = wet_ramp(0.6, 0.9);
+  Scenario s = wet_ramp(0.6, 0.85);
   s.mixture->phases = MixturePhases::two;
   s.mixture->permeability_m2 = Uncertain(1e-7);
   s.numerics.end_time_s = 1;
