@@ -61,6 +61,20 @@ constexpr auto words_of(InitialPressure) {
   return std::array{Word{hydrostatic, "hydrostatic"}, Word{liquefied, "liquefied"}};
 }
 
+/// Pore pressure inside a column: a parabola, or computed at nodes from the bed up.
+enum class PressureProfile { parabola, resolved };
+constexpr auto words_of(PressureProfile) {
+  using enum PressureProfile;
+  return std::array{Word{parabola, "parabola"}, Word{resolved, "resolved"}};
+}
+
+/// Where excess pore pressure drains to: the free surface, or the bed as well.
+enum class Drainage { top, both };
+constexpr auto words_of(Drainage) {
+  using enum Drainage;
+  return std::array{Word{top, "top"}, Word{both, "both"}};
+}
+
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
 enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {

@@ -136,6 +136,9 @@ struct MixtureSpec {
   Uncertain compressibility{0.05};
   Uncertain stress_offset_pa{1000};
   Uncertain shear_grain_diameter_m{0.001};
+  PressureProfile pressure_profile = PressureProfile::parabola;
+  std::optional<int> pressure_nodes;  ///< of a resolved profile; absent: 8
+  Drainage drainage = Drainage::top;  ///< `both` needs a resolved profile
   bool operator==(const MixtureSpec&) const = default;
 };
 

@@ -80,14 +80,23 @@ Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
                     " times as thick as it is wide; internal friction takes up to " +
                     short_number(100 * most) + " % of the thrust that drives"};
 }
-Called mixture_called(const Scenario& s, const ScenePlan&) {
+Called mixture_called(const Scenario& s, const ScenePlan& plan) {
   if (!s.mixture) return by_key("mixture", false);
   const double m = s.grains->solid_fraction.value,
                critical = s.mixture->critical_solid_fraction.value;
   const std::string than =
       " than critical (" + short_number(m) + ", " + short_number(critical) + ")";
-  return {true, m < critical ? "`mixture`: looser" + than + ", shear makes pore pressure"
-                             : "`mixture`: not looser" + than + ", shear takes pore pressure away"};
+  const ProfileSettings& profile = plan.columns.mixture->profile;
+  const std::string inside =
+      profile.nodes == 0 ? ""
+                         : "; excess pressure at " + std::to_string(profile.nodes) + " nodes, " +
+                               (profile.drained_bed
+                                    ? "drained at surface and bed: the bed brakes as in still water"
+                                    : "drained at the surface");
+  return {true,
+          (m < critical ? "`mixture`: looser" + than + ", shear makes pore pressure"
+                        : "`mixture`: not looser" + than + ", shear takes pore pressure away") +
+              inside};
 }
 Called erosion_called(const Scenario& s, const ScenePlan&) {
   if (!s.erosion) return by_key("erosion", false);

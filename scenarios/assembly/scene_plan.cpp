@@ -145,6 +145,9 @@ MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) 
   wet.law.compressibility = spec.compressibility.value;
   wet.law.stress_offset = spec.stress_offset_pa.value;
   wet.solid_fraction = grains.solid_fraction.value;
+  constexpr int usual_nodes = 8;
+  if (spec.pressure_profile == PressureProfile::resolved)
+    wet.profile = {spec.pressure_nodes.value_or(usual_nodes), spec.drainage == Drainage::both};
   if (spec.initial_pressure == InitialPressure::liquefied) wet.pressure_ratio = 1;
   if (spec.initial_pressure_ratio) wet.pressure_ratio = spec.initial_pressure_ratio->value;
   return wet;

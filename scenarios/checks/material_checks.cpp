@@ -135,6 +135,12 @@ void check_mixture(const Scenario& s, Problems& problems) {
   refuse(wet.initial_pressure == InitialPressure::liquefied && wet.initial_pressure_ratio,
          "mixture.initial_pressure_ratio",
          " (mixture.initial_pressure is liquefied, which is a ratio of 1). Keep one of them.");
+  const bool parabola = wet.pressure_profile == PressureProfile::parabola;
+  const char* const unresolved =
+      " (mixture.pressure_profile is parabola, which has no nodes and drains at the surface). Set "
+      "mixture.pressure_profile: resolved or remove it.";
+  refuse(parabola && wet.pressure_nodes, "mixture.pressure_nodes", unresolved);
+  refuse(parabola && wet.drainage == Drainage::both, "mixture.drainage", unresolved);
   if (!s.grains) return;
   const double heaviest = support(wet.fluid_density_kg_m3).second;
   const double lightest = support(s.grains->density_kg_m3).first;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys that say what moves and on what: grains, basal, formulation.
+#include "engine/effects/fields.hpp"
 #include "scenarios/materials/materials.hpp"
 #include "scenarios/schema/schema_rows.hpp"
 
@@ -125,6 +126,16 @@ void add_mixture_keys(std::vector<KeyInfo>& keys) {
   add(&MixtureSpec::shear_grain_diameter_m,
       {"mixture.shear_grain_diameter_m", uncertain, "m", 0, 1,
        "Grain size at which collisions loosen the sheared mass."});
+  keys.push_back(choice_key(mixture, &MixtureSpec::pressure_profile, "mixture.pressure_profile",
+                            "Excess pore pressure over the depth: a parabola, which drains thick "
+                            "masses 22 % too fast, or "
+                            "resolved at nodes."));
+  add(&MixtureSpec::pressure_nodes,
+      {"mixture.pressure_nodes", integer, "1", fields::least_pressure_nodes,
+       fields::most_pressure_nodes, "Nodes of a resolved profile; 8 when absent."});
+  keys.push_back(choice_key(mixture, &MixtureSpec::drainage, "mixture.drainage",
+                            "Where excess pore pressure of a resolved profile drains to: the free "
+                            "surface, or both it and the bed."));
 }
 
 void add_basal(std::vector<KeyInfo>& keys) {

@@ -69,6 +69,54 @@ TEST(MixtureChecks, SaysEverythingThatIsWrongAtOnce) {
     EXPECT_THAT(all, Contains(HasSubstr(text)));
 }
 
+TEST(MixtureChecks, AParabolaHasNoNodesAndDrainsAtTheSurface) {
+  Scenario s = wet_ramp();
+  s.mixture->pressure_nodes = 7;
+  s.mixture->drainage = Drainage::both;
+  EXPECT_THAT(messages(s),
+              Contains(HasSubstr("mixture.pressure_nodes = 7 (mixture.pressure_profile "
+                                 "is parabola")));
+  EXPECT_THAT(messages(s),
+              Contains(HasSubstr("mixture.drainage = both (mixture.pressure_profile")));
+  s.mixture->pressure_profile = PressureProfile::resolved;
+  EXPECT_THAT(messages(s), IsEmpty());
+  for (const int nodes : {4, 11}) {
+    s.mixture->pressure_nodes = nodes;
+    EXPECT_THAT(messages(s), Contains(HasSubstr("mixture.pressure_nodes")));
+  }
+}
+
+TEST(MixtureChecks, AThickMassWithAParabolaIsToldOfTheOtherChoice) {
+  SceneInputs in;
+  in.elevation = std::make_shared<const Raster<double>>(
+      test::raster_of([](double x, double) { return -0.3 * x; }, Grid{60, 60, 0, 60, 1, ""}));
+  const auto warned = [&](double thickness, PressureProfile profile) {
+    Scenario s;
+    s.formulation = Formulation::depth_averaged;
+    s.grains.emplace();
+    s.basal.friction_coefficient = 0.7;
+    s.numerics.spacing_m = 2;
+    s.mixture.emplace().pressure_profile = profile;
+    Raster<double> slab(in.elevation->grid);
+    for (int r = 10; r < 50; ++r)
+      for (int c = 10; c < 50; ++c) slab.at(r, c) = thickness;
+    SceneInputs with = in;
+    with.release = std::make_shared<const Raster<double>>(std::move(slab));
+    with.pattern = ReleasePattern::thickness;
+    const ScenePlan plan = plan_scene(s, with, 0);
+    for (const std::string& text : plan_warnings(s, plan))
+      if (text.find("drains too fast") != std::string::npos) {
+        EXPECT_THAT(text, HasSubstr("22 %"));
+        EXPECT_THAT(text, HasSubstr("mixture.pressure_profile: resolved"));
+        return true;
+      }
+    return false;
+  };
+  EXPECT_TRUE(warned(8, PressureProfile::parabola));
+  EXPECT_FALSE(warned(3, PressureProfile::parabola));
+  EXPECT_FALSE(warned(8, PressureProfile::resolved));
+}
+
 TEST(MixtureChecks, APileHasNoFrictionInsideWhereWaterCarriesPartOfIt) {
   Scenario s;
   s.formulation = Formulation::depth_averaged;

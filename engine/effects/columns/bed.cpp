@@ -4,6 +4,7 @@
 #include "engine/effects/columns/braking.hpp"
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
+#include "engine/effects/columns/wet_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -103,7 +104,9 @@ class BedPass final : public Pass {
     const WetBed bed(p, *flow_->settings.mixture, flow_->strain_rate);
     return summed(s, p, [&](std::size_t begin, std::size_t end, Works& out) {
       WetBlock block;
+      WetProfile profile(flow_->settings.mixture->profile);
       block.time = kick.time;
+      if (profile.mesh.nodes > 0) block.profile = &profile;
       for (std::size_t first = begin; first < end; first += block.n) {
         block.n = std::min(WetBlock::capacity, end - first);
         bed.read(block, first);

@@ -4,6 +4,7 @@
 
 #include "engine/effects/arrivals.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/laws/consolidation.hpp"
 #include "tests/support/hand_made.hpp"
 #include "tests/support/wet_box.hpp"
 
@@ -233,6 +234,55 @@ TEST(Mixture, BedThatJoinsAColumnBringsItsGrainsItsWaterAndItsPressure) {
   expect_within_bounds(p, wet.law);
 }
 
+class ResolvedMixture : public testing::TestWithParam<ProfileSettings> {};
+INSTANTIATE_TEST_SUITE_P(Drains, ResolvedMixture,
+                         testing::Values(ProfileSettings{8, false}, ProfileSettings{5, true}),
+                         [](const auto& i) { return i.param.drained_bed ? "Both" : "Top"; });
+
+TEST_P(ResolvedMixture, KeepsBothVolumesWhereMassLeaves) {  // T10
+  for (const double m : {0.5, 0.6, 0.68}) {
+    MixtureSettings wet = settings_of(m);
+    wet.profile = GetParam();
+    wet.law.permeability = 1e-8;
+    HandMade made = wet_columns(even_ground(24, 0.6), test::block({8, 6, 1}, {-4, -3, 0}),
+                                std::vector<double>(48, 0.8), wet, {6, 0.5, -3.6});
+    const MovingSet& p = made.state.grains();
+    for (int n = 0; n < 400 && p.size() > 0; ++n) {
+      made.advance();
+      const Volumes now(p);
+      ASSERT_NEAR((now.solids + p.ledger.lost_solids) / p.ledger.released_solids, 1, 1e-13);
+      ASSERT_NEAR((now.water + p.ledger.lost_water) / p.ledger.released_water, 1, 1e-13);
+      expect_within_bounds(p, wet.law);
+    }
+    EXPECT_GT(p.ledger.lost_solids, 0);
+  }
+}
+
+TEST_P(ResolvedMixture, BedThatJoinsLiftsWhatItStandsUnder) {
+  MixtureSettings wet = settings_of(0.62);
+  wet.profile = GetParam();
+  HandMade made = wet_columns(even_ground(40), test::block({4, 4, 1}, {-2, -2, 0}),
+                              std::vector<double>(16, 1), wet);
+  made.advance();
+  MovingSet& p = made.state.grains();
+  auto& nodes = p.components(fields::excess_profile_of(wet.profile.nodes));
+  const ProfileMesh mesh{wet.profile.nodes, wet.profile.drained_bed};
+  for (int j = 0; j < mesh.nodes; ++j) nodes[j][5] = 1000 * (1 - mesh.height(j));
+  p.scalar(fields::excess_pressure)[5] = mesh.drained_bed ? 0 : 1000;
+  AddedMixture bed{0.155, 0.095, 0.62, 500};  // a quarter of what is there
+  bed.drained_bed = mesh.drained_bed;
+  add_to_mixture(p, 5, bed);
+  for (int j = 1; j < mesh.nodes - 1; ++j) {
+    const double old = (mesh.height(j) - 0.2) / 0.8;
+    if (old < 0.5 * mesh.spacing()) continue;
+    EXPECT_NEAR(nodes[j][5], 1000 * (1 - old), 1e-9) << j;
+  }
+  EXPECT_NEAR(p.scalar(fields::excess_pressure)[5], mesh.drained_bed ? 0 : 1500, 1e-9);
+  if (!mesh.drained_bed) {
+    EXPECT_NEAR(nodes[0][5], 1500, 1e-9);
+  }
+}
+
 /// What is said of columns 1 m thick that start at rest on such a slope, after 4 s.
 std::string said_of(double slope_deg, double solid_fraction, double cohesion_pa = 0) {
   const MixtureSettings wet = settings_of(solid_fraction);
@@ -281,6 +331,11 @@ TEST(Mixture, IsNotThereWhereNothingAsksForIt) {
        {&fields::solid_fraction, &fields::solids_volume, &fields::water_volume,
         &fields::excess_pressure, &fields::pore_pressure, &fields::pore_gravity})
     EXPECT_FALSE(p.has(*key)) << key->name;
+  HandMade wet = wet_columns(even_ground(20), test::block({3, 3, 1}), std::vector<double>(9, 1),
+                             settings_of(0.6));
+  wet.advance();
+  for (const FieldKey& key : fields::excess_profile)
+    EXPECT_FALSE(wet.state.grains().has(key)) << "a parabola has no nodes";
   EXPECT_EQ(p.ledger.released_solids, 0);
   EXPECT_EQ(p.ledger.clipped_work, 0);
 }
