@@ -90,6 +90,18 @@ void print_states(const MemberResult& r, Console& console) {
                console);
 }
 
+/// How far grains and liquid came that move at two velocities.
+void print_phases(const MemberResult& r, Console& console) {
+  const MemberScalars& s = r.scalars;
+  if (std::isnan(s.solid_runout_m)) return;
+  const char* const least = r.censoring == Censoring::none ? "" : ">= ";
+  print_line(
+      "runout of each",
+      fmt::format("grains {}{:.1f} m, liquid {}{:.1f} m; drag took {} of the energy", least,
+                  s.solid_runout_m, least, s.liquid_runout_m, share_text(s.drag_loss_fraction)),
+      console);
+}
+
 /// Pore pressure of a mixture.
 void print_mixture(const MemberResult& r, Console& console) {
   if (!r.history.has_mixture) return;
@@ -199,6 +211,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                                      s.max_pressure_pa / 1e3));
   print_states(r, console);
   print_mixture(r, console);
+  print_phases(r, console);
   print_erosion(r, console);
   line("particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
