@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace sturz {
 namespace {
@@ -25,13 +26,23 @@ std::string head_of(const GaugeFindings& f) {
   return head;
 }
 
+/// ">= 0.193627" as "\u2265 0.194", in the unit that is shown; words stay as they are.
+std::string shown_quantile(const std::string& value, double factor) {
+  const std::size_t digits = value.find_first_of("0123456789");
+  if (digits == std::string::npos) return value;
+  std::string bound = value.substr(0, digits);
+  if (bound == ">= ") bound = "\u2265\u00A0";
+  return bound + shown_number(factor * std::strtod(value.c_str() + digits, nullptr));
+}
+
 std::string row_of(const GaugeRow& r) {
+  const DisplayUnit unit = display_unit(r.units);
   std::string row = fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{} of {}{}</td>", html_escape(r.gauge),
-      html_escape(words(r.quantity)), html_escape(display_unit(r.units).label), r.reached,
-      r.members, r.unknown > 0 ? fmt::format(", {} not known", r.unknown) : "");
+      html_escape(words(r.quantity)), html_escape(unit.label), r.reached, r.members,
+      r.unknown > 0 ? fmt::format(", {} not known", r.unknown) : "");
   for (const std::string& v : r.values)
-    row += fmt::format("<td class=\"n\">{}</td>", html_escape(v));
+    row += fmt::format("<td class=\"n\">{}</td>", html_escape(shown_quantile(v, unit.factor)));
   return row + "</tr>";
 }
 
@@ -72,7 +83,7 @@ std::string gauges_html(const ReportInput& input) {
   const GaugeFindings& f = *input.gauges;
   std::string html =
       "<section id=\"gauges\"><h2>Gauges</h2><div class=\"table-box short\" tabindex=\"0\">"
-      "<table><thead><tr>" +
+      "<table class=\"gauge-table\"><thead><tr>" +
       head_of(f) + "</tr></thead><tbody>";
   for (std::size_t k = 0; k < std::min(most_rows, f.rows.size()); ++k) html += row_of(f.rows[k]);
   html += "</tbody></table></div><div class=\"charts motion\">";

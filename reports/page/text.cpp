@@ -114,7 +114,7 @@ DisplayUnit display_unit(std::string_view udunits) {
     const char* label;
     double factor;
   };
-  static constexpr std::array<Row, 17> table{{{"m", "m", 1},
+  static constexpr std::array<Row, 19> table{{{"m", "m", 1},
                                               {"m2", "m²", 1},
                                               {"m3", "m³", 1},
                                               {"m s-1", "m/s", 1},
@@ -130,6 +130,8 @@ DisplayUnit display_unit(std::string_view udunits) {
                                               {"", "", 1},
                                               {"degree", "°", 1},
                                               {"kg m-3", "kg/m³", 1},
+                                              {"m3 s-1", "m³/s", 1},
+                                              {"N m-1", "kN/m", 1e-3},
                                               {"kg", "t", 1e-3}}};
   for (const auto& row : table)
     if (row.udunits == udunits) return {row.label, row.factor};
