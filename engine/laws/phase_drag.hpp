@@ -94,7 +94,7 @@ struct DragImpulse {
 /// driven evenly, and what it drives decays as exp(-steps). Where a step turns the slip round, the
 /// decay of what is left.
 inline Vec3 slip_taken(const Vec3& before, const Vec3& after, double steps) {
-  if (!(steps > 0)) return Vec3(0, 0, 0);
+  if (!(steps > 0)) return {0, 0, 0};
   const double decayed = -std::expm1(-steps);
   if (before.dot(after) < 0) return decayed * after;
   const double driven = steps > 1e-5 ? 1 - decayed / steps : 0.5 * steps;

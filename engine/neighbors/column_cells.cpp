@@ -180,7 +180,7 @@ void ColumnCells::make_groups(const ParticleSet& set, const std::vector<double>&
   while (begin < n) {
     const std::uint32_t row = sorted_[begin].cell / static_cast<std::uint32_t>(frame_.n_cols);
     const std::uint32_t row_end =
-        cell_begin_[(row + 1) * static_cast<std::uint32_t>(frame_.n_cols)];
+        cell_begin_[(std::size_t{row} + 1) * static_cast<std::size_t>(frame_.n_cols)];
     Box box;
     double longest = 0;
     std::uint32_t end = begin;

@@ -20,8 +20,9 @@ class FlowWorkflow : public Workflow {
     workflow::EnsembleRequest r = request(results);
     r.scene.overrides = {
         "formulation=depth_averaged",
-        "inflow=[{name: gully, hydrograph: flood.csv, line_m: [[-45, -6], [-45, 6]], "
-        "discharge_factor: {uniform: [0.5, 2]}}]",
+        std::string(
+            "inflow=[{name: gully, hydrograph: flood.csv, line_m: [[-45, -6], [-45, 6]], ") +
+            "discharge_factor: {uniform: [0.5, 2]}}]",
         "gauges.points=[{name: house, at_m: [-20, 0]}, {name: hill, at_m: [-20, 22]}]",
         "gauges.lines=[{name: road, points_m: [[-30, -20], [-30, 20]]}]",
         "gauges.interval_s=0.25",

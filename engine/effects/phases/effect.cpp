@@ -35,7 +35,7 @@ void add_phase_frame(Step& step, const std::shared_ptr<TwoPhases>& both) {
 }
 
 std::size_t two_phase_bytes_per_particle() {
-  return 2 * column_bytes_per_particle() + 2 * (5 * 4 + 6 * 8 + 4 * 8 + 3 * 8) +
+  return 2 * column_bytes_per_particle() + 2 * std::size_t{5 * 4 + 6 * 8 + 4 * 8 + 3 * 8} +
          DragNodes::bytes_per_column();
 }
 
