@@ -276,7 +276,8 @@ Column corner(int number) {
   wet.law.compressibility = std::pow(10, draw(-2.5, -0.5));
   wet.law.stress_offset = std::pow(10, draw(1, 4));
   wet.law.grain_diameter = std::pow(10, draw(-4, -0.5));
-  Column c(wet, std::pow(10, draw(-6, 1.5)), draw(0.5, 12));
+  const double gravity = draw(0.5, 12), thickness = std::pow(10, draw(-6, 1.5));
+  Column c(wet, thickness, gravity);
   c.b.gravity_seen[0] = number % 7 ? draw(0.5, 12) : -1;
   c.b.strain_rate[0] = draw(-5, 5);
   c.b.vx[0] = number % 5 ? draw(0, 60) : 0;
