@@ -3,6 +3,7 @@
 /// Included by .cpp files only.
 #pragma once
 
+#include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/ogr_polygons.hpp"
 #include "io/site/polygon_request.hpp"
@@ -44,6 +45,11 @@ PolygonLayer open_polygon_layer(const PolygonRequest& request);
 std::vector<PolygonFeature> read_features(
     PolygonLayer& layer, const PolygonRequest& request, const Grid& terrain,
     const std::function<void(OGRFeature&, PolygonFeature&)>& read_fields = {});
+
+/// What moves the layer's coordinates to the terrain's system; nullptr where they stay as they are.
+/// Completes the identity's shape with the system. \throws SetupError
+TransformPtr terrain_transform(PolygonLayer& layer, const PolygonRequest& request,
+                               const Grid& terrain);
 
 /// "polygon x 1 to 2, y 1 to 2; terrain x 0 to 5, y 0 to 5"
 std::string places_text(const OGREnvelope& polygon, const Grid& terrain);

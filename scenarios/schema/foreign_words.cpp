@@ -29,8 +29,8 @@ constexpr std::string_view density =
 constexpr std::string_view angle = "Use grains.friction_angle_deg.";
 constexpr std::string_view erosion = "Use the block erosion: law, growth_rate_per_m, depth_m, ...";
 constexpr std::string_view obstacles =
-    "Not supported. Put more friction there with basal.zones, or the obstacle into the terrain "
-    "raster.";
+    "Forest is friction: basal.zones or basal.rasters. Dams are terrain.dams, buildings "
+    "terrain.buildings.";
 constexpr std::string_view secondary =
     "Not supported: all mass starts at once. Make it part of the source, or a scene of its own.";
 constexpr std::string_view inflow =

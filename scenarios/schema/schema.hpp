@@ -29,14 +29,15 @@ enum class ValueKind {
   number_map,  ///< {text: number, ...}
   synthetic,   ///< {shape: {cell_size_m: .., own numbers ..}}
   wall_list,   ///< [{point_m: .., normal: .., ...}, ...]
+  dam_list,    ///< [{line: .., height_m: .., ...}, ...]
   zone_list,   ///< [{polygon: .., friction_coefficient: .., ...}, ...]
 };
 
 /// Typed value of a key; which alternative is used follows from the kind.
-using KeyValue =
-    std::variant<std::monostate, double, std::int64_t, std::string, bool, Uncertain,
-                 std::vector<double>, std::vector<std::string>, std::map<std::string, double>,
-                 SyntheticTerrain, std::vector<WallSpec>, std::vector<BasalZone>>;
+using KeyValue = std::variant<std::monostate, double, std::int64_t, std::string, bool, Uncertain,
+                              std::vector<double>, std::vector<std::string>,
+                              std::map<std::string, double>, SyntheticTerrain,
+                              std::vector<WallSpec>, std::vector<DamSpec>, std::vector<BasalZone>>;
 
 struct KeyInfo {
   std::string path;  ///< dotted, e.g. "basal.friction_coefficient"
