@@ -97,7 +97,43 @@ struct ReleaseSpec {
   ThicknessDirection thickness = ThicknessDirection::vertical;  ///< how thicknesses were measured
   ReleaseFloor floor = ReleaseFloor::uniform;                   ///< of a pre_failure release
   std::array<double, 3> velocity_m_s{0, 0, 0};
+  std::optional<Uncertain> start_time_s;  ///< absent: 0; of the whole release, depth_averaged only
+  std::string start_time_attribute;  ///< field of `polygon` with a time in seconds, in addition
   bool operator==(const ReleaseSpec&) const = default;
+};
+
+/// Mass that enters over time across a line or at a polygon; depth_averaged only.
+struct InflowSpec {
+  std::string name;        ///< what it is called in words; empty: its number
+  std::string hydrograph;  ///< CSV of time and discharge
+  // Exactly one of the next three.
+  std::string line, polygon;                  ///< any OGR layer
+  std::vector<std::array<double, 2>> line_m;  ///< corners of a line in map coordinates
+  std::string layer;                          ///< layer name inside the file; empty: the first
+  std::string crs;                            ///< where the file has none
+  std::optional<Uncertain> discharge_factor;  ///< of the hydrograph; absent: 1
+  std::optional<Uncertain> start_time_s;      ///< of the hydrograph's time 0; absent: 0
+  std::optional<Uncertain> speed_m_s;         ///< along the ground; absent: critical
+  std::optional<Uncertain> direction_deg;     ///< clockwise from north; absent: down the slope
+  bool operator==(const InflowSpec&) const = default;
+};
+
+/// A named point (one corner) or line.
+struct GaugeSpec {
+  std::string name;
+  std::vector<std::array<double, 2>> corners_m;  ///< map coordinates
+  bool operator==(const GaugeSpec&) const = default;
+};
+
+/// Where the run is followed over time.
+struct GaugesSpec {
+  double interval_s = 1;
+  std::vector<GaugeSpec> points, lines;
+  std::string file;                     ///< any OGR layer of points or lines
+  std::string layer;                    ///< layer name inside `file`; empty: the first
+  std::string name_attribute = "name";  ///< field of `file` with their names
+  std::string crs;                      ///< where `file` has none
+  bool operator==(const GaugesSpec&) const = default;
 };
 
 /// mu(I) = static + (dynamic - static) / (scale / I + 1)
@@ -161,8 +197,20 @@ struct MixtureSpec {
   Uncertain compressibility{0.05};
   Uncertain stress_offset_pa{1000};
   Uncertain shear_grain_diameter_m{0.001};
+  PressureProfile pressure_profile = PressureProfile::parabola;
+  std::optional<int> pressure_nodes;  ///< of a resolved profile; absent: 8
+  Drainage drainage = Drainage::top;  ///< `both` needs a resolved profile
+  MixturePhases phases = MixturePhases::one;
+  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m without a speed.
+  PhaseDragLaw drag_law = PhaseDragLaw::permeability;
+  std::optional<Uncertain> settling_speed_m_s;
   bool operator==(const MixtureSpec&) const = default;
 };
+
+/// Grains and liquid are two sets of columns.
+inline bool has_two_phases(const std::optional<MixtureSpec>& mixture) {
+  return mixture && mixture->phases == MixturePhases::two;
+}
 
 /// A part of the ground with values of its own; what it does not give is that of `basal`.
 struct BasalZone {
@@ -296,6 +344,7 @@ struct Scenario {
   std::string material;  ///< name of ready-made priors, see scenarios/materials; empty: none
   TerrainSpec terrain;
   ReleaseSpec release;
+  std::vector<InflowSpec> inflow;
   std::optional<GrainsSpec> grains;
   std::optional<MixtureSpec> mixture;  ///< absent: dry, or with basal.pore_pressure_ratio
   BasalSpec basal;
@@ -305,6 +354,7 @@ struct Scenario {
   DomainSpec domain;
   EnsembleSpec ensemble;
   HazardSpec hazard;
+  std::optional<GaugesSpec> gauges;
   std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;
 };

@@ -6,6 +6,7 @@
 #include "engine/terrain/terrain.hpp"
 #include "scenarios/assembly/reach.hpp"
 #include "scenarios/ground_structures.hpp"
+#include "scenarios/inflow/hydrograph.hpp"
 #include "scenarios/input_identity.hpp"
 
 #include <cstdint>
@@ -22,6 +23,19 @@ enum class ReleasePattern {
           ///< to volume_m3
   thickness,  ///< vertical thickness [m]; scaled when release.volume_m3 is given (once
               ///< shape_release has seen it: before, as release.thickness says)
+};
+
+/// Part of a release that starts at one time.
+struct ReleaseStart {
+  double start_s = 0;  ///< without release.start_time_s
+  /// Share of each cell of the release pattern that belongs to it, 0..1, on the pattern's cells.
+  std::shared_ptr<const Raster<double>> share;
+};
+
+/// A named point (one corner) or line in map coordinates [m].
+struct Gauge {
+  std::string name;
+  std::vector<Vec2> corners;
 };
 
 /// A number of the bed that a raster gives.
@@ -42,6 +56,10 @@ struct SceneInputs {
   ReleasePattern pattern = ReleasePattern::cover;
   /// Share of each cell of `release` that the source covers, 0..1; null: all of every cell > 0.
   std::shared_ptr<const Raster<double>> release_cover;
+  /// By ascending start; empty: all of it starts at once.
+  std::vector<ReleaseStart> release_starts;
+  std::vector<InflowSource> inflow;  ///< in the order of the scenario
+  std::vector<Gauge> gauge_points, gauge_lines;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
   /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.
   std::shared_ptr<const Terrain> ground, column_ground;

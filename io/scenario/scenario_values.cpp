@@ -3,6 +3,7 @@
 
 #include "io/scenario/dam_nodes.hpp"
 #include "io/scenario/distribution_nodes.hpp"
+#include "io/scenario/flow_nodes.hpp"
 #include "io/scenario/node_texts.hpp"
 #include "scenarios/schema/suggest.hpp"
 #include "scenarios/schema/value_text.hpp"
@@ -244,6 +245,15 @@ KeyValue read_value(const KeyInfo& key, const YamlNode& node, FileProblems& prob
     case ValueKind::zone_list:
       return read_items(key, node, "a list of zones, [{polygon: .., friction_coefficient: ..}]",
                         read_zone, problems);
+    case ValueKind::inflow_list:
+      return read_items(key, node, "a list of sources, [{hydrograph: .., line_m: ..}]", read_inflow,
+                        problems);
+    case ValueKind::gauge_points:
+      return read_items(key, node, "a list of points, [{name: .., at_m: [x, y]}]", read_gauge_point,
+                        problems);
+    case ValueKind::gauge_lines:
+      return read_items(key, node, "a list of lines, [{name: .., points_m: [[x, y], ..]}]",
+                        read_gauge_line, problems);
   }
   return {};
 }

@@ -149,7 +149,8 @@ PolygonLayer open_polygon_layer(const PolygonRequest& request) {
   layer.identity.role = request.key;
   layer.identity.file = file.path;
   layer.layer = &choose_layer(layer, request);
-  if (!request.thickness_attribute.empty()) refuse_other_shapes(layer, request);
+  if (!request.thickness_attribute.empty() || !request.start_time_attribute.empty())
+    refuse_other_shapes(layer, request);
   return layer;
 }
 
@@ -171,6 +172,9 @@ std::vector<PolygonFeature> read_features(
             fmt::format("{}: {} has no area. Draw it again.", layer.label, feature.name));
     if (read_fields) read_fields(*read, feature);
     reading.hash.add_values(std::span<const double>(&feature.thickness_m, 1));
+    // Only where it is asked for: what was hashed without it stays the same.
+    if (!request.start_time_attribute.empty())
+      reading.hash.add_values(std::span<const double>(&feature.start_s, 1));
     features.push_back(std::move(feature));
   }
   require(!features.empty(),

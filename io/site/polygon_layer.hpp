@@ -32,6 +32,7 @@ struct PolygonFeature {
   std::string name;  ///< "feature 3"
   PolygonsPtr polygons;
   double thickness_m = 1;
+  double start_s = 0;
 };
 
 /// "layer 'a' is used ..." goes to the notes. \throws SetupError naming key and file: missing file

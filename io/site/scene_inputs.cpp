@@ -7,6 +7,8 @@
 #include "io/gdal/gdal_raster.hpp"
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
+#include "io/site/bed/bed_inputs.hpp"
+#include "io/site/flow/flow_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "io/site/loading/loading.hpp"
 #include "io/site/observed/observed_outline.hpp"
@@ -129,13 +131,19 @@ void load_ground(Loading& loading) {
   take_ground(loading, read);
 }
 
+/// By how much `a` is beyond `b` [%]; what rounding alone makes of equal sums is none.
+double percent_beyond(double a, double b) {
+  const double percent = 100 * (a / b - 1);
+  return std::abs(percent) < 1e-9 ? 0 : percent;
+}
+
 /// Two numbers that a reader can hold against each other: the source's and the raster's.
 void note_rasterised(Loading& loading, double exact_m2) {
   const ReleaseSpec& release = loading.scenario.release;
   const double laid = raster_sum(*loading.inputs.release);
   std::string text =
       fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
-                  loading.release_label, exact_m2, laid, 100 * (laid / exact_m2 - 1));
+                  loading.release_label, exact_m2, laid, percent_beyond(laid, exact_m2));
   const bool vertical = release.thickness == ThicknessDirection::vertical;
   if (vertical && release.thickness_m && release.thickness_m->is_fixed())
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
@@ -151,6 +159,7 @@ void load_polygon(Loading& loading) {
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
+  loading.inputs.release_starts = std::move(read.starts);
   loading.set_release(std::move(read.pattern),
                       read.is_thickness ? ReleasePattern::thickness : ReleasePattern::cover);
   if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
@@ -197,10 +206,28 @@ void load_synthetic_source(Loading& loading) {
   loading.set_release(std::move(source), ReleasePattern::thickness);
 }
 
+/// Where mass enters and where the flow is followed; only checked while no ground is known.
+void load_flow(Loading& loading) {
+  FlowRead read = read_flow(loading.scenario, loading.grid());
+  SceneInputs& in = loading.inputs;
+  in.inflow = std::move(read.inflow);
+  in.gauge_points = std::move(read.points), in.gauge_lines = std::move(read.lines);
+  for (FlowFile& file : read.files) loading.take(file);
+  std::move(read.problems.begin(), read.problems.end(), std::back_inserter(loading.problems));
+}
+
 void load_release(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   const int named = !spec.polygon.empty() + !spec.thickness_raster.empty() + spec.box.has_value() +
                     spec.paraboloid.has_value() + spec.cylinder.has_value();
+  const bool none = named == 0 && !loading.synthetic_source;
+  if (none && !loading.scenario.inflow.empty()) {
+    loading.release_label = "inflow";
+    const auto& sources = loading.inputs.inflow;
+    if (!sources.empty())
+      loading.set_release(empty_release(sources, loading.grid()), ReleasePattern::thickness);
+    return;
+  }
   require(named <= 1,
           "release: names more than one source. Keep one of polygon, thickness_raster, "
           "box, paraboloid, cylinder.");
@@ -248,6 +275,7 @@ void check_without_terrain(Loading& loading) {
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
   check_structures(loading);
+  load_flow(loading);
   check_zones(loading);
   open_bed_layers(loading);
   load_bed_supply(loading);
@@ -264,9 +292,11 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     check_without_terrain(loading);
     loading.refuse_problems();
   }
+  load_flow(loading);
   loading.attempt([&] { load_release(loading); });
+  const bool complete = inputs.inflow.size() == scenario.inflow.size();
   open_bed_layers(loading);
-  if (inputs.release)
+  if (inputs.release && complete)
     loading.attempt([&] {
       load_ground(loading);
       load_structures(loading, [&](const Window& w) { return ground_of(loading, w); });
@@ -282,6 +312,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   load_bed_supply(loading);
   load_observed(loading);
   loading.refuse_problems();
+  expect(inputs.release && inputs.elevation, "a scene without problems has its release and ground");
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
   if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
   inputs.release_hash = hash_of_release(inputs);

@@ -35,6 +35,9 @@ std::string column_key(const Scenario& s) {
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
   if (s.erosion) return "erosion";
+  if (!s.inflow.empty()) return "inflow";
+  if (s.release.start_time_s) return "release.start_time_s";
+  if (!s.release.start_time_attribute.empty()) return "release.start_time_attribute";
   return "";
 }
 
@@ -140,6 +143,10 @@ double typical_friction(const Scenario& s) {
   if (!s.mixture) return dry * (1 - s.basal.pore_pressure_ratio.value);
   const MixtureSpec& wet = *s.mixture;
   const double m = s.grains->solid_fraction.value, fluid = wet.fluid_density_kg_m3.value;
+  if (has_two_phases(s.mixture)) {
+    const double grains = m * (s.grains->density_kg_m3.value - fluid);
+    return dry * std::max(liquefied_share, grains / (grains + fluid));
+  }
   const bool loose = m < wet.critical_solid_fraction.value;
   if (loose || wet.initial_pressure == InitialPressure::liquefied) return dry * liquefied_share;
   if (wet.initial_pressure_ratio)

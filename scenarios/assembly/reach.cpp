@@ -4,6 +4,7 @@
 #include "engine/core/constants.hpp"
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/inflow/inflow_plan.hpp"
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
@@ -173,12 +174,16 @@ EnergyLine energy_line(const Scenario& s, const SceneInputs& in, double surface_
   for (int r = 0; r < release.grid.n_rows; ++r)
     for (int c = 0; c < release.grid.n_cols; ++c)
       if (release.at(r, c) > 0) tight = joined(tight, {at.row0 + r, at.col0 + c, 1, 1});
+  for (const InflowSource& source : in.inflow)
+    tight = joined(tight, cells_below(source, in.terrain_grid()));
   line.release = tight;
   const auto& v = s.release.velocity_m_s;
   const double start2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   const bool on_top = s.release.surface == ReleaseSurface::bed;
   line.top_m = surface_m + (on_top ? greatest_thickness(s.release, in) : 0) +
                start2 / (2 * standard_gravity);
+  for (std::size_t i = 0; i < in.inflow.size(); ++i)
+    line.top_m = std::max(line.top_m, surface_m + greatest_head(s.inflow[i], in.inflow[i]));
   line.friction = least_friction(s, in);
   return line;
 }

@@ -8,6 +8,8 @@
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/inflow/plan_masses.hpp"
+#include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
 #include "scenarios/schema/number_text.hpp"
@@ -153,6 +155,9 @@ MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) 
   wet.law.compressibility = spec.compressibility.value;
   wet.law.stress_offset = spec.stress_offset_pa.value;
   wet.solid_fraction = grains.solid_fraction.value;
+  constexpr int usual_nodes = 8;
+  if (spec.pressure_profile == PressureProfile::resolved)
+    wet.profile = {spec.pressure_nodes.value_or(usual_nodes), spec.drainage == Drainage::both};
   if (spec.initial_pressure == InitialPressure::liquefied) wet.pressure_ratio = 1;
   if (spec.initial_pressure_ratio) wet.pressure_ratio = spec.initial_pressure_ratio->value;
   return wet;
@@ -171,7 +176,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   c.courant = s.numerics.courant;
   c.zones = plan.zones;
   c.rasters = plan.rasters;
-  if (s.mixture) c.mixture = plan_mixture(*s.grains, *s.mixture);
+  if (s.mixture && !has_two_phases(s.mixture)) c.mixture = plan_mixture(*s.grains, *s.mixture);
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
   const bool known = s.grains->friction || s.grains->friction_angle_deg;
@@ -190,6 +195,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   if (share > 0)
     for (const BasalResistance& b : bed)
       c.spent_inside.push_back(share * std::max(0.0, 1 - c.earth_pressure_over(b).active));
+  if (has_two_phases(s.mixture)) plan.phases = plan_phases(s, c, bed);
   c.bed = std::move(bed);
 }
 
@@ -304,24 +310,6 @@ void plan_eroded_bed(const Scenario& s, const SceneInputs& in,
        plan.columns.mixture ? &*plan.columns.mixture : nullptr, plan.rasters});
 }
 
-/// Of the release where it falls to the lowest ground that it may reach [J].
-double available_energy(const Scenario& s, const SceneInputs& in, const Release& release) {
-  const auto& v0 = s.release.velocity_m_s;
-  const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  double mass = 0, height = 0, lowest = 1e300;
-  for (std::size_t i = 0; i < release.x.size(); ++i) {
-    mass += release.mass[i];
-    height += release.mass[i] * release.z[i];
-  }
-  if (in.reach) {  // whatever part of the raster is held
-    lowest = in.reach->lowest_m;
-  } else {
-    for (double z : in.elevation->values)
-      if (std::isfinite(z)) lowest = std::min(lowest, z);
-  }
-  return standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
-}
-
 }  // namespace
 
 double pile_share(const Scenario& s, const ScenePlan& plan) {
@@ -375,12 +363,9 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
-  plan.release =
-      release_particles(plan.bed, thickness,
-                        {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
-                         s.ensemble.seed, member, plan.formulation.depth_averaged},
-                        in.release_cover.get());
-  plan.end = time_cap(s, in, plan.release.median_thickness_m, plan.bulk_density_kg_m3);
+  plan_masses(
+      s, in, thickness, member, [&](double m) { return bulk_density(s, m); }, plan);
+  plan_end(s, in, plan);
   const Window held = in.held();
   plan.zones = {in.zones, in.whole, held.row0, held.col0};
   plan.rasters = plan_bed_rasters(s, in);
@@ -393,7 +378,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   } else
     plan_full_stress(s, bed, plan);
 
-  plan.available_energy_j = available_energy(s, in, plan.release);
+  plan.available_energy_j = available_energy(s, in, plan);
   return plan;
 }
 

@@ -22,6 +22,7 @@ std::vector<Problem> validate(const Scenario& scenario) {
   check_structures(scenario, problems);
   check_bed(scenario, problems);
   check_erosion(scenario, problems);
+  check_flow(scenario, problems);
   check_ensemble(scenario, problems);
   check_hazard(scenario, problems);
   return problems;

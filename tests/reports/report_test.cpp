@@ -2,6 +2,7 @@
 #include "reports/page/report.hpp"
 
 #include "reports/figures/figures.hpp"
+#include "reports/page/sections.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <gtest/gtest.h>
@@ -310,6 +311,25 @@ TEST(ReportFigures, DrawTheObservedOutlineAndSayWhatItIs) {
   EXPECT_EQ(observed["label"], "observed: mapped <2017>");
   EXPECT_EQ(observed["rings"][0][2], nlohmann::json({160, 90}));
   EXPECT_EQ(observed["rings"][0].size(), 4U);
+}
+
+TEST(Report, NamesKeysWithoutTheUnitThatStandsBesideThem) {
+  const ReportTable samples{
+      {"basal.turbulent_coefficient_m_s2", "erosion.growth_rate_per_m", "mixture.permeability_m2",
+       "basal.viscosity_pa_s", "grains.density_kg_m3", "basal.friction_coefficient"},
+      {"m s-2", "m-1", "m2", "Pa s", "kg m-3", "1"},
+      {}};
+  const char* labels[] = {
+      "turbulent coefficient", "growth rate", "permeability", "viscosity", "density",
+      "friction coefficient"};
+  for (std::size_t k = 0; k < samples.columns.size(); ++k)
+    EXPECT_EQ(key_label(samples, k), labels[k]);
+}
+
+TEST(Report, SaysWhoseClockTheTimesAreOf) {
+  const auto results = testing::make_up_results();
+  EXPECT_TRUE(holds(make_report(results.ensemble_input()), "By the clock, summed over"));
+  EXPECT_TRUE(holds(make_report(results.ensemble_input()), "fade out up to two spacings"));
 }
 
 TEST(ReportFigures, ShowTheMostSevereOfJoinedCells) {

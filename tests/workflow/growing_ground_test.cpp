@@ -223,6 +223,48 @@ TEST_F(Growing, ZonesGrowAlong) {
       << "the zone must matter";
 }
 
+TEST_F(Growing, BedsThatAreTakenAlongGrowToo) {
+  write("channel.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32633"}},
+"features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":
+[[[500500,4599900],[502000,4599900],[502000,4600100],[500500,4600100],[500500,4599900]]]}}]})");
+  Raster<double> depths(Grid{130, 60, west + 170, north - 500, 5, ""}, 0.4);
+  write_geotiff(path("depths.tif"), depths, {});
+  Recorder silent;
+  const auto with_bed = [&](const std::string& bed, const char* window, double spacing) {
+    job(window, "", "depth_averaged", spacing);
+    write("scene.yaml", replaced(read("scene.yaml"), "numerics:",
+                                 "erosion: {growth_rate_per_m: 2.0e-3, " + bed + "}\nnumerics:"));
+    return untouched(
+        workflow::prepare_ensemble(request(fmt::format("eroded{}", ++n_jobs_)), silent));
+  };
+  for (const double spacing : {10.0, 13.0})  // the second on averaged ground
+    for (const std::string bed : {"depth_m: 0.5, polygon: channel.geojson",
+                                  "depth_raster: depths.tif, crs: 'EPSG:32633'"}) {
+      workflow::EnsembleJob small = with_bed(bed, tiny, spacing),
+                            full = with_bed(bed, everything, spacing);
+      const MemberResult a = workflow::run_member(small, 1, silent.cancel);
+      expect_same(a, workflow::run_member(full, 1, silent.cancel));
+      EXPECT_GT(level(small), 0) << bed;
+      EXPECT_GT(a.scalars.eroded_volume_m3, 1000) << bed;
+    }
+}
+
+TEST_F(Growing, MixturesToo) {
+  Recorder silent;
+  const auto wet = [&](const char* window) {
+    job(window);
+    std::string text =
+        replaced(read("scene.yaml"), "numerics:", "mixture: {permeability_m2: 1.0e-9}\nnumerics:");
+    write("scene.yaml", replaced(text, "{uniform: [0.25, 0.35]}", "{uniform: [0.6, 0.8]}"));
+    return untouched(workflow::prepare_ensemble(request(fmt::format("wet{}", ++n_jobs_)), silent));
+  };
+  workflow::EnsembleJob small = wet(tiny), full = wet(everything);
+  expect_same(workflow::run_member(small, 1, silent.cancel),
+              workflow::run_member(full, 1, silent.cancel));
+  EXPECT_GT(level(small), 0);
+}
+
 TEST_F(Growing, MapsOfAnEnsembleDoNotDependOnTheWindow) {
   Recorder heard;
   workflow::EnsembleJob small = job(tiny);

@@ -65,14 +65,11 @@ void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
 }
 
 /// A column stands for the part of its lattice cell that the source covers.
-void mark_areas(MovingSet& p, const DepthAveragedSettings& set, std::span<const double> covered) {
-  const GroundColumns ground(p);
-  const auto &radius = p.scalar(fields::support_radius), &thickness = p.scalar(fields::thickness);
-  auto& share = p.scalar(fields::area_share);
-  for (std::size_t i = 0; i < covered.size(); ++i)
-    share[i] =
-        covered[i] * set.spacing * set.spacing /
-        column_area(radius[i], ground[i].normal().z(), p.mass[i] / set.density, thickness[i]);
+void mark_area(MovingSet& p, const DepthAveragedSettings& set, std::size_t i, double covered) {
+  p.scalar(fields::area_share)[i] =
+      covered * set.spacing * set.spacing /
+      column_area(p.scalar(fields::support_radius)[i], GroundColumns(p)[i].normal().z(),
+                  p.mass[i] / set.density, p.scalar(fields::thickness)[i]);
 }
 
 void start_columns(const State& s, MovingSet& p, ColumnFlow& flow,
@@ -113,17 +110,25 @@ bool look_up_ground(const State& s, ParticleSet& p, const GroundColumns& ground,
 
 void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t first) {
   p.fate.resize(p.size());
-  if (flow.settings.mixture) enter_mixture(p, *flow.settings.mixture, first);
+  if (flow.settings.mixture) enter_mixture(p, *flow.settings.mixture, first, p.entering);
   FirstRates rates;
-  for (std::size_t i = first; i < p.size(); ++i) start_column(s, p, flow, i, 0, rates);
+  for (std::size_t i = first; i < p.size(); ++i) {
+    const Arrival& a = p.entering[i - first];
+    start_column(s, p, flow, i, a.thickness, rates);
+    if (!a.released) continue;
+    mark_area(p, flow.settings, i, a.covered);
+    if (s.n_steps >= flow.settle_until) flow.settle_from = p.id[i];
+    flow.settle_until = s.n_steps + ColumnFlow::settling_steps;
+  }
   flow.fastest_wave = std::max(flow.fastest_wave, std::sqrt(rates.wave2));
 }
 
 std::size_t column_bytes_per_particle() { return 48 + 2 * 40 + 7 * 4 + 16; }
 
-void add_depth_averaged(Step& step, State& state, std::size_t set,
-                        const DepthAveragedSettings& settings, std::span<const double> thickness,
-                        std::span<const double> covered) {
+std::shared_ptr<ColumnFlow> add_depth_averaged(Step& step, State& state, std::size_t set,
+                                               const DepthAveragedSettings& settings,
+                                               std::span<const double> thickness,
+                                               std::span<const double> covered) {
   MovingSet& p = state.sets[set];
   expect(thickness.size() == p.size(), "one thickness per column");
   expect(covered.empty() || covered.size() == p.size(), "one cover per column");
@@ -147,10 +152,11 @@ void add_depth_averaged(Step& step, State& state, std::size_t set,
   mark_start(state.domain, p, 0);
   auto flow = std::make_shared<ColumnFlow>(set, settings);
   start_columns(state, p, *flow, thickness);
-  mark_areas(p, settings, covered);
+  for (std::size_t i = 0; i < covered.size(); ++i) mark_area(p, settings, i, covered[i]);
   add_column_pressure(step, flow);
   add_column_bed(step, flow);
   add_column_motion(step, flow);
+  return flow;
 }
 
 }  // namespace sturz

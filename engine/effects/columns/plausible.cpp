@@ -5,7 +5,10 @@
 #include "engine/neighbors/column_smoothing.hpp"
 
 #include <algorithm>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
+#include <string>
 #include <unordered_map>
 
 namespace sturz {
@@ -17,6 +20,14 @@ constexpr double overshoot = 0.1;  ///< of the release's thickness that smoothin
 constexpr double share_that_counts = 0.01;
 
 std::string whole(double value) { return std::to_string(std::lround(value)); }
+
+/// A height that never reads as 0: two digits, whole from 10 on.
+std::string height(double value) {
+  if (std::abs(value) >= 9.95) return whole(value);
+  std::ostringstream text;
+  text << std::setprecision(2) << value;
+  return text.str();
+}
 
 /// Columns by square of the map as wide as the longest support radius.
 class Squares {
@@ -97,10 +108,11 @@ SteepRest steep_rest(const State& s, const ColumnFlow& flow, double limit) {
 void warn_of_implausible(const State& s, const ColumnFlow& flow, std::vector<std::string>& out) {
   const double above = flow.highest_surface - flow.release_top;
   if (above > overshoot * flow.release_thickness)
-    out.push_back("columns: the mass rose " + whole(above) +
+    out.push_back("columns: the mass rose " + height(above) +
                   " m above its highest point at release, more than its energy allows (it was " +
-                  whole(flow.release_thickness) +
-                  " m thick). Use a finer spacing or formulation: full_stress");
+                  height(flow.release_thickness) +
+                  " m thick). Use a finer spacing, or formulation: full_stress where the scene's "
+                  "effects exist in it");
   const DepthAveragedSettings& set = flow.settings;
   const Domain& domain = s.domain;
   if (!(set.internal_friction > 0) || std::any_of(set.bed.begin(), set.bed.end(), is_sticky) ||

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -27,6 +28,17 @@ struct ColumnFlow {
       lateral_gravity;              ///< pressure over density and thickness where K = 1 [m/s^2]
   std::vector<double> strain_rate;  ///< div v of each column [1/s]; empty without a mixture
   bool steep = false;               ///< some share is under one
+  /// Of cells that a second set of columns shares; null: cells around this set alone.
+  const ColumnFrame* frame = nullptr;
+  /// Thickness that the drag of the bed acts over, of each column [m]; empty: its own.
+  std::vector<double> bed_thickness;
+  /// Impulses from another set come between the start of a step and the bed.
+  bool has_exchange = false;
+  /// Columns with ids from this one on stand for the area that they were released on until this
+  /// step: for so long support radii find what lies around them.
+  static constexpr std::size_t settling_steps = 10;
+  std::uint32_t settle_from = 0;
+  std::size_t settle_until = settling_steps;
   double start_dt = 1e-3;           ///< of the first step [s]
   double fastest_wave = 0;          ///< largest sqrt(K g_n h) / h_s [1/s]
   double fastest_approach = 0;      ///< largest relative speed of neighbours / h_s [1/s]
@@ -159,6 +171,14 @@ bool look_up_ground(const State&, ParticleSet&, const GroundColumns&, std::size_
 /// A kick at t_n leads from the middle of the last step to the middle of this one.
 inline double kick_interval(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }
 
+/// Where gravity, pressure and bed alone would lead the columns in this step; all [n].
+struct ColumnForecast {
+  std::vector<double> vx, vy, vz;  ///< [m/s]
+  /// Of columns that the bed holds: how much more it could hold [m/s]; else zero.
+  std::vector<double> spare;
+};
+void forecast(const State&, MovingSet&, const ColumnFlow&, double dt, ColumnForecast&);
+
 /// Puts columns from `first` on that entered during the run on the ground, without neighbours yet.
 void enter_columns(const State&, ColumnFlow&, MovingSet&, std::size_t first);
 
@@ -171,6 +191,8 @@ SteepRest steep_rest(const State&, const ColumnFlow&, double limit);
 /// Says what no mass of grains does: a surface above the energy head of the release, a rest steeper
 /// than friction allows.
 void warn_of_implausible(const State&, const ColumnFlow&, std::vector<std::string>&);
+/// Says that a mixture lies still only as long as its pores pull: it dilated, and water flows back.
+void warn_of_suction(const State&, const ColumnFlow&, std::vector<std::string>&);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
 void add_column_bed(Step&, const std::shared_ptr<ColumnFlow>&);       ///< gravity and bed

@@ -5,6 +5,7 @@
 #include "engine/core/cancel.hpp"
 #include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
+#include "ensemble/gauges/gauge_statistics.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
@@ -35,6 +36,7 @@ struct PageContent {
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
   std::span<const std::vector<Vec2>> observed;    ///< rings of the observed outline [m]
+  const GaugeFindings* gauges = nullptr;          ///< see gauge_files.hpp
   const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 
