@@ -20,6 +20,9 @@
 namespace sturz {
 namespace {
 
+/// Along one line; a dam is no longer than that, and what is longer is a broken file.
+constexpr double most_points = 1e5;
+
 PolygonRequest request_of(const Scenario& scenario, std::size_t dam) {
   const DamSpec& spec = scenario.terrain.dams[dam];
   PolygonRequest request;
@@ -223,6 +226,11 @@ DamRead read_dam_lines(const Scenario& scenario, std::size_t dam, const Grid& te
       line.length_m += (read_line.corners[i + 1] - read_line.corners[i]).norm();
     require(line.length_m > 0,
             line.name + ": its line has no length (all its corners are one place). Draw it again.");
+    require(
+        line.length_m <= most_points * terrain.cell_m,
+        fmt::format("{}: its line is {:.6g} m long (too long for cells of {:g} m). Draw the part "
+                    "that the flow may meet.",
+                    line.name, line.length_m, terrain.cell_m));
     line.points = densified(read_line.corners, terrain.cell_m);
     find_ground(line, terrain, read);
   }

@@ -15,6 +15,7 @@ namespace sturz::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -129,6 +130,17 @@ TEST_F(StructureInputs, WhatIsWrongWithALineIsNamed) {
   write("dam.geojson",
         collection(feature("LineString", "[[500105,4600305],[500305,4600305]]", R"({"h": -1})")));
   EXPECT_THAT(refusal(), HasSubstr("height of feature 0 is -1 (must be > 0 and <= 200 m)"));
+}
+
+TEST_F(StructureInputs, LinesBeyondTheEarthAreRefused) {
+  for (const char* corner : {"[1e300,4600305]", "[500105,-1e18]", "[1e10,1e10]"}) {
+    scene.terrain.dams.clear();
+    line_file(feature("LineString", std::string("[[500105,4600305],") + corner + "]"));
+    EXPECT_THAT(refusal(), HasSubstr("(no place on the earth). Draw it again.")) << corner;
+  }
+  scene.terrain.dams.clear();
+  line_file(feature("LineString", "[[500105,4600305],[9e8,4600305]]"));
+  EXPECT_THAT(refusal(), AnyOf(HasSubstr("lie on no known ground"), HasSubstr("too long")));
 }
 
 TEST_F(StructureInputs, FilesAreLookedAtInOneRound) {
