@@ -5,6 +5,7 @@
 #include "engine/effects/bed_rasters.hpp"
 #include "engine/terrain/terrain.hpp"
 #include "scenarios/assembly/reach.hpp"
+#include "scenarios/ground_structures.hpp"
 #include "scenarios/inflow/hydrograph.hpp"
 #include "scenarios/input_identity.hpp"
 
@@ -64,6 +65,7 @@ struct SceneInputs {
   std::shared_ptr<const Terrain> ground, column_ground;
   /// Zone of the bed per held cell: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;
+  GroundStructures structures;  ///< dams and buildings; those of all members stand in `elevation`
   std::vector<BedLayerInput> bed_layers;  ///< of basal.rasters, in their order; mostly none
   /// What can be taken of the bed, on cells of the working grid: share of erosion.depth_m, or depth
   /// where erosion.depth_raster gives it [m]; nothing beyond. Null: the same everywhere.

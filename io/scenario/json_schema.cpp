@@ -2,6 +2,7 @@
 #include "io/scenario/json_schema.hpp"
 
 #include "io/scenario/distribution_nodes.hpp"
+#include "scenarios/schema/dam_fields.hpp"
 #include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/zone_fields.hpp"
@@ -115,6 +116,23 @@ Json zones() {
   return {{"type", "array"}, {"items", zone}, {"maxItems", most_basal_zones}};
 }
 
+/// A line and a height.
+Json dams() {
+  Json properties = Json::object();
+  for (const auto& text : dam_texts) properties[text.name] = words();
+  properties["points_m"] = {
+      {"type", "array"}, {"items", numbers({{"type", "number"}}, 2)}, {"minItems", 2}};
+  for (const auto& field : dam_fields)
+    properties[field.name] = uncertain(number(field.min, field.max, field.above_min));
+  for (const auto& fixed : dam_numbers)
+    properties[fixed.name] = number(fixed.min, fixed.max, false);
+  Json dam = object(properties, Json::array());
+  dam["oneOf"] = {{{"required", {"height_m"}}},
+                  {{"required", {"height_attribute"}}},
+                  {{"required", {"crest_elevation_m"}}}};
+  return {{"type", "array"}, {"items", dam}, {"maxItems", most_dams}};
+}
+
 Json corners(int least) {
   return {{"type", "array"}, {"items", numbers({{"type", "number"}}, 2)}, {"minItems", least}};
 }
@@ -166,6 +184,8 @@ Json value_of(const KeyInfo& key) {
       return synthetic();
     case ValueKind::wall_list:
       return walls();
+    case ValueKind::dam_list:
+      return dams();
     case ValueKind::zone_list:
       return zones();
     case ValueKind::inflow_list:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/scenario/scenario_values.hpp"
 
+#include "io/scenario/dam_nodes.hpp"
 #include "io/scenario/distribution_nodes.hpp"
 #include "io/scenario/flow_nodes.hpp"
 #include "io/scenario/node_texts.hpp"
@@ -42,7 +43,7 @@ std::optional<double> read_fixed_number(const std::string& path, const YamlNode&
 KeyValue read_plain_number(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
   const auto number = read_fixed_number(
       key.path, node,
-      "Only numbers of release, inflow, grains, basal, mixture and erosion can be uncertain.",
+      "Only numbers of release, inflow, grains, basal, mixture, erosion and dams can be uncertain.",
       problems);
   return number ? KeyValue{*number} : KeyValue{};
 }
@@ -237,6 +238,9 @@ KeyValue read_value(const KeyInfo& key, const YamlNode& node, FileProblems& prob
       return read_synthetic(key, node, problems);
     case ValueKind::wall_list:
       return read_items(key, node, "a list of walls, [{point_m: .., normal: ..}]", read_wall,
+                        problems);
+    case ValueKind::dam_list:
+      return read_items(key, node, "a list of dams, [{line: .., height_m: ..}]", read_dam,
                         problems);
     case ValueKind::zone_list:
       return read_items(key, node, "a list of zones, [{polygon: .., friction_coefficient: ..}]",

@@ -274,6 +274,7 @@ void check_without_terrain(Loading& loading) {
     });
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
+  check_structures(loading);
   load_flow(loading);
   check_zones(loading);
   open_bed_layers(loading);
@@ -298,6 +299,8 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   if (inputs.release && complete)
     loading.attempt([&] {
       load_ground(loading);
+      load_structures(loading, [&](const Window& w) { return ground_of(loading, w); });
+      stand_structures(loading);
       shape_release(scenario, inputs);
     });
   if (inputs.elevation) {
@@ -332,6 +335,7 @@ SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& firs
   inputs.whole = whole;
   inputs.level = level;
   take_ground(loading, read);
+  stand_structures(loading);
   open_bed_layers(loading);
   load_zones(loading);
   load_bed_layers(loading);

@@ -151,6 +151,10 @@ Called samosat_called(const Scenario& s, const ScenePlan&) {
 Called periods_called(const Scenario& s, const ScenePlan&) {
   return by_key("domain.periodic", !s.domain.periodic.empty());
 }
+Called structures_called(const Scenario& s, const ScenePlan&) {
+  if (s.terrain.dams.empty() && s.terrain.buildings) return by_key("terrain.buildings", true);
+  return by_key("terrain.dams", !s.terrain.dams.empty());
+}
 Called excavation_called(const Scenario& s, const ScenePlan&) {
   return {s.release.surface == ReleaseSurface::pre_failure,
           "`release.surface: " + std::string(to_string(s.release.surface)) + "`"};
@@ -229,6 +233,7 @@ constexpr EffectRow table[] = {
     {"periodic images", periods_called},
     {EffectName::motion, always, add_drift},
     {"excavation", excavation_called},
+    {"dams and buildings", structures_called},
 };
 
 }  // namespace

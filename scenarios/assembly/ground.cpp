@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/ground.hpp"
 
+#include "scenarios/assembly/structures/column_ground.hpp"
+#include "scenarios/assembly/structures/dams.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -43,13 +46,30 @@ std::shared_ptr<const HeldGround> held_ground(const SceneInputs& in, const Grid&
   return std::make_shared<const HeldGround>(whole, std::move(part), lowest);
 }
 
+/// With the dams that each member raises by itself.
+std::shared_ptr<const Raster<double>> elevation_of(const Scenario& s, const SceneInputs& in) {
+  if (!in.structures.any_by_member()) return in.elevation;
+  auto own = std::make_shared<Raster<double>>(*in.elevation);
+  raise_dams(in.structures, s.terrain.dams, WhichDams::by_member, *own);
+  return own;
+}
+
 Terrain fine(const Scenario& s, const SceneInputs& in) {
-  return {held_ground(in, in.terrain_grid(), in.elevation), rule_of(s)};
+  return {held_ground(in, in.terrain_grid(), elevation_of(s, in)), rule_of(s)};
+}
+
+/// Columns have a ground of their own where it is averaged, or a dam keeps its crest under
+/// rounding.
+bool has_column_ground(const SceneInputs& in, int factor) {
+  return factor > 1 || !in.structures.dams.empty();
 }
 
 Terrain averaged(const Scenario& s, const SceneInputs& in, int factor) {
   const Grid& whole = in.terrain_grid();
-  auto part = std::make_shared<const Raster<double>>(coarsened(*in.elevation, whole, factor));
+  const auto elevation = elevation_of(s, in);
+  Raster<double> mean = coarsened(*elevation, whole, factor);
+  if (in.structures.any()) stand_on_columns_ground(s, in, factor, *elevation, mean);
+  auto part = std::make_shared<const Raster<double>>(std::move(mean));
   return {held_ground(in, coarse_grid(whole, factor), std::move(part)), rule_of(s)};
 }
 
@@ -97,19 +117,21 @@ Raster<double> coarsened(const Raster<double>& part, const Grid& whole, int fact
 Terrain scene_ground(const Scenario& s, const SceneInputs& in, const Domain& domain,
                      bool for_columns) {
   const int factor = for_columns ? column_ground_factor(s, in) : 1;
-  const auto& prepared = factor > 1 ? in.column_ground : in.ground;
+  const bool own = for_columns && has_column_ground(in, factor);
+  const auto& prepared = own ? in.column_ground : in.ground;
   if (prepared && prepared->grid().cell_m == factor * in.elevation->grid.cell_m) return *prepared;
-  if (factor > 1) return averaged(s, in, factor);
+  if (own) return averaged(s, in, factor);
   const bool periodic = domain.x.active || domain.y.active;
   if (!periodic) return fine(s, in);
   return {with_repeats(*in.elevation, domain), rule_of(s)};
 }
 
 void prepare_grounds(const Scenario& s, SceneInputs& in) {
-  if (!s.domain.periodic.empty()) return;
+  if (!s.domain.periodic.empty() || in.structures.any_by_member()) return;
   in.ground = std::make_shared<const Terrain>(fine(s, in));
   const int factor = column_ground_factor(s, in);
-  if (factor > 1) in.column_ground = std::make_shared<const Terrain>(averaged(s, in, factor));
+  if (has_column_ground(in, factor))
+    in.column_ground = std::make_shared<const Terrain>(averaged(s, in, factor));
 }
 
 }  // namespace sturz

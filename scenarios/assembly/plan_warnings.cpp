@@ -5,6 +5,7 @@
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/assembly/start_checks.hpp"
+#include "scenarios/assembly/structures/structure_warnings.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -181,6 +182,9 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
 Warnings scene_warnings(const Scenario& s, const SceneInputs& in, const ScenePlan& plan) {
   Warnings out = plan_warnings(s, plan);
   warn_of_lip(s, in, plan, out);
+  for (std::string& warning :
+       structure_warnings(s, in, plan.bed.grid().cell_m, plan.formulation.depth_averaged))
+    out.push_back(std::move(warning));
   return out;
 }
 

@@ -2,6 +2,7 @@
 // Checks of one value by itself.
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/checks/validate.hpp"
+#include "scenarios/schema/dam_fields.hpp"
 #include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/suggest.hpp"
@@ -79,6 +80,7 @@ struct Checker {
   }
   void operator()(const SyntheticTerrain& v) const;
   void operator()(const std::vector<WallSpec>& v) const;
+  void operator()(const std::vector<DamSpec>& v) const;
   void operator()(const std::vector<BasalZone>& v) const;
   void operator()(const std::vector<InflowSpec>& v) const;
   void operator()(const std::vector<GaugeSpec>& v) const;
@@ -198,6 +200,33 @@ void Checker::operator()(const std::vector<WallSpec>& v) const {
     Checker{friction, problems}(wall.friction_coefficient);
     const auto removal = part(whole, "remove_at_s", "s", 0, 1e5);
     if (wall.remove_at_s) Checker{removal, problems}(*wall.remove_at_s);
+  }
+}
+
+void Checker::operator()(const std::vector<DamSpec>& v) const {
+  if (v.size() > most_dams)
+    add(key.path + " = " + std::to_string(v.size()) + " dams (must be at most " +
+        std::to_string(most_dams) + "). Put lines of equal shape into one layer.");
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    KeyInfo whole = key;
+    whole.path = item_path(key, i);
+    for (const DamField& field : dam_fields) {
+      const KeyInfo limits = dam_key(i, field);
+      if (const auto& number = v[i].*field.value) Checker{limits, problems}(*number);
+    }
+    for (const DamNumber& number : dam_numbers) {
+      const auto limits = part(whole, number.name, number.units, number.min, number.max);
+      Checker{limits, problems}(v[i].*number.value);
+    }
+    const auto corner = part(whole, "points_m", "m", -1e8, 1e8);
+    for (const auto& [x, y] : v[i].points_m)
+      Checker{corner, problems}(x), Checker{corner, problems}(y);
+    if (v[i].points_m.size() == 1)
+      add(corner.path + " (a line has two corners or more). Give [[x, y], [x, y]].");
+    if (v[i].points_m.size() > most_dam_corners)
+      add(corner.path + " = " + std::to_string(v[i].points_m.size()) +
+          " corners (must be at most " + std::to_string(most_dam_corners) +
+          "). Put it into a file.");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Design, correlation and hazard thresholds.
 #include "scenarios/checks/combination_checks.hpp"
+#include "scenarios/schema/dam_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/suggest.hpp"
 #include "scenarios/schema/value_text.hpp"
@@ -39,6 +40,8 @@ std::vector<std::string> keys_to_correlate(const Scenario& s) {
   if (!keys.empty()) return keys;
   for (const auto& key : schema())
     if (key.kind == ValueKind::uncertain) keys.push_back(key.path);
+  for (std::size_t i = 0; i < s.terrain.dams.size(); ++i)
+    for (const DamField& field : dam_fields) keys.push_back(dam_path(i, field));
   for (std::size_t i = 0; i < s.basal.zones.size(); ++i)
     for (const ZoneField& field : zone_fields) keys.push_back(zone_path(i, field));
   return keys;

@@ -29,8 +29,8 @@ constexpr std::string_view density =
 constexpr std::string_view angle = "Use grains.friction_angle_deg.";
 constexpr std::string_view erosion = "Use the block erosion: law, growth_rate_per_m, depth_m, ...";
 constexpr std::string_view obstacles =
-    "Not supported. Put more friction there with basal.zones, or the obstacle into the terrain "
-    "raster.";
+    "Forest is friction: basal.zones or basal.rasters. Dams are terrain.dams, buildings "
+    "terrain.buildings.";
 constexpr std::string_view secondary =
     "Use release.start_time_attribute: a field of release.polygon with the time of each polygon.";
 constexpr std::string_view inflow =

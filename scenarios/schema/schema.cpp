@@ -2,6 +2,7 @@
 #include "scenarios/schema/schema.hpp"
 
 #include "engine/core/error.hpp"
+#include "scenarios/schema/dam_fields.hpp"
 #include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/schema_rows.hpp"
@@ -29,6 +30,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   std::vector<BlockInfo> blocks;
   schema_rows::add_site_blocks(blocks);
   schema_rows::add_material_blocks(blocks);
+  schema_rows::add_structure_blocks(blocks);
   schema_rows::add_bed_field_blocks(blocks);
   schema_rows::add_erosion_blocks(blocks);
   schema_rows::add_gauge_blocks(blocks);
@@ -99,6 +101,9 @@ void for_each_path(const KeyInfo& key, KeyValue& value,
                    const std::function<void(std::string&)>& visit) {
   if (auto* text = std::get_if<std::string>(&value); text && key.kind == ValueKind::path)
     visit(*text);
+  if (auto* dams = std::get_if<std::vector<DamSpec>>(&value))
+    for (auto& dam : *dams)
+      if (!dam.line.empty()) visit(dam.line);
   if (auto* zones = std::get_if<std::vector<BasalZone>>(&value))
     for (auto& zone : *zones) visit(zone.polygon);
   if (auto* sources = std::get_if<std::vector<InflowSpec>>(&value))
@@ -126,6 +131,24 @@ void add_uncertain_zones(const std::vector<BasalZone>& zones, std::vector<Uncert
       if (number && number->distribution)
         found.push_back({zone_path(i, field), basal_key(field).units, *number->distribution});
     }
+}
+
+void add_uncertain_dams(const std::vector<DamSpec>& dams, std::vector<UncertainKey>& found) {
+  for (std::size_t i = 0; i < dams.size(); ++i)
+    for (const DamField& field : dam_fields) {
+      const auto& number = dams[i].*field.value;
+      if (number && number->distribution)
+        found.push_back({dam_path(i, field), "m", *number->distribution});
+    }
+}
+
+/// Number and field of "terrain.dams[2].height_m"; nothing for other paths.
+std::optional<std::pair<std::size_t, const DamField*>> dam_of(const std::string& path) {
+  if (!path.starts_with("terrain.dams[")) return std::nullopt;
+  for (std::size_t i = 0; i < most_dams; ++i)
+    for (const DamField& field : dam_fields)
+      if (path == dam_path(i, field)) return std::pair(i, &field);
+  return std::nullopt;
 }
 
 void add_uncertain_inflows(const std::vector<InflowSpec>& sources,
@@ -161,6 +184,7 @@ std::optional<std::pair<std::size_t, const ZoneField*>> zone_of(const std::strin
 std::vector<UncertainKey> uncertain_keys(const Scenario& scenario) {
   std::vector<UncertainKey> found;
   for (const auto& key : schema()) {
+    if (key.kind == ValueKind::dam_list) add_uncertain_dams(scenario.terrain.dams, found);
     if (key.kind == ValueKind::zone_list) add_uncertain_zones(scenario.basal.zones, found);
     if (key.kind == ValueKind::inflow_list) add_uncertain_inflows(scenario.inflow, found);
     if (key.kind != ValueKind::uncertain) continue;
@@ -174,6 +198,7 @@ std::vector<UncertainKey> uncertain_keys(const Scenario& scenario) {
 
 std::optional<KeyInfo> key_of_number(const std::string& path) {
   if (const KeyInfo* key = find_key(path)) return *key;
+  if (const auto dam = dam_of(path)) return dam_key(dam->first, *dam->second);
   if (const auto source = inflow_of(path)) return inflow_key(source->first, *source->second);
   const auto zone = zone_of(path);
   return zone ? std::optional(zone_key(zone->first, *zone->second)) : std::nullopt;
@@ -182,6 +207,10 @@ std::optional<KeyInfo> key_of_number(const std::string& path) {
 Scenario with_value(Scenario scenario, const std::string& path, double value) {
   if (const auto zone = zone_of(path); zone && zone->first < scenario.basal.zones.size()) {
     scenario.basal.zones[zone->first].*zone->second->value = Uncertain(value);
+    return scenario;
+  }
+  if (const auto dam = dam_of(path); dam && dam->first < scenario.terrain.dams.size()) {
+    scenario.terrain.dams[dam->first].*dam->second->value = Uncertain(value);
     return scenario;
   }
   if (const auto source = inflow_of(path); source && source->first < scenario.inflow.size()) {

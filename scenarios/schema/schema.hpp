@@ -29,6 +29,7 @@ enum class ValueKind {
   number_map,    ///< {text: number, ...}
   synthetic,     ///< {shape: {cell_size_m: .., own numbers ..}}
   wall_list,     ///< [{point_m: .., normal: .., ...}, ...]
+  dam_list,      ///< [{line: .., height_m: .., ...}, ...]
   zone_list,     ///< [{polygon: .., friction_coefficient: .., ...}, ...]
   inflow_list,   ///< [{hydrograph: .., line_m: [[x, y], ..], ...}, ...]
   gauge_points,  ///< [{name: .., at_m: [x, y]}, ...]
@@ -39,8 +40,8 @@ enum class ValueKind {
 using KeyValue =
     std::variant<std::monostate, double, std::int64_t, std::string, bool, Uncertain,
                  std::vector<double>, std::vector<std::string>, std::map<std::string, double>,
-                 SyntheticTerrain, std::vector<WallSpec>, std::vector<BasalZone>,
-                 std::vector<InflowSpec>, std::vector<GaugeSpec>>;
+                 SyntheticTerrain, std::vector<WallSpec>, std::vector<DamSpec>,
+                 std::vector<BasalZone>, std::vector<InflowSpec>, std::vector<GaugeSpec>>;
 
 struct KeyInfo {
   std::string path;  ///< dotted, e.g. "basal.friction_coefficient"

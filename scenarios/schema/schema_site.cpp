@@ -46,6 +46,7 @@ void add_terrain(std::vector<KeyInfo>& keys) {
       choice_key(terrain, &TerrainSpec::nodata, "terrain.nodata",
                  "What the edge of the known ground does to the mass: lets it out or holds it."));
   add_window(keys);
+  add_structure_keys(keys);
 }
 
 void add_shapes(std::vector<KeyInfo>& keys) {

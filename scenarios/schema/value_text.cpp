@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/schema/value_text.hpp"
 
+#include "scenarios/schema/dam_fields.hpp"
 #include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/zone_fields.hpp"
@@ -74,6 +75,18 @@ std::string zone_text(const BasalZone& zone) {
   return map.text();
 }
 
+std::string dam_text(const DamSpec& dam) {
+  MapText map;
+  for (const DamText& text : dam_texts)
+    if (!(dam.*text.value).empty()) map.add(text.name, quoted_text(dam.*text.value));
+  if (!dam.points_m.empty())
+    map.add("points_m", list_text(dam.points_m, [](const auto& c) { return numbers_text(c); }));
+  for (const DamField& field : dam_fields)
+    if (const auto& value = dam.*field.value) map.add(field.name, uncertain_text(*value));
+  for (const DamNumber& number : dam_numbers) map.add(number.name, dam.*number.value);
+  return map.text();
+}
+
 std::string corners_text(const std::vector<std::array<double, 2>>& corners) {
   return list_text(corners, [](const auto& c) { return numbers_text(c); });
 }
@@ -128,6 +141,7 @@ struct ToText {
   }
   std::string operator()(const SyntheticTerrain& v) const { return synthetic_text(v); }
   std::string operator()(const std::vector<WallSpec>& v) const { return list_text(v, wall_text); }
+  std::string operator()(const std::vector<DamSpec>& v) const { return list_text(v, dam_text); }
   std::string operator()(const std::vector<BasalZone>& v) const { return list_text(v, zone_text); }
   std::string operator()(const std::vector<InflowSpec>& v) const {
     return list_text(v, inflow_text);

@@ -10,6 +10,7 @@
 #include "io/netcdf/grid_netcdf.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/bed/bed_raster.hpp"
 #include "io/site/thickness_raster.hpp"
 #include "io/site/zone_cells.hpp"
 #include "tests/io/io_fixture.hpp"
@@ -83,6 +84,9 @@ TEST_F(ForeignBytes, AbsurdGeotransformsAreRefused) {
     const auto refusal = AllOf(HasSubstr("in.tif"), HasSubstr("broken geotransform"));
     EXPECT_THAT(message_of([&] { read_elevation(r); }), refusal) << affine[1];
     if (affine[5] == -4e6) continue;  // a thickness is not measured
+    BedRasterLimits limits;
+    limits.key = find_key("basal.friction_coefficient");
+    EXPECT_THAT(message_of([&] { BedRasterFile(r, limits, terrain); }), refusal) << affine[1];
     EXPECT_THAT(message_of([&] { read_thickness(r, terrain); }), refusal) << affine[1];
   }
 }

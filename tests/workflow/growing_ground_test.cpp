@@ -63,7 +63,7 @@ class Growing : public Workflow {
                             const std::string& formulation = "depth_averaged",
                             double spacing = 10) {
     std::string text =
-        fmt::format(fmt::runtime(scene_text), fmt::arg("window", window),
+        fmt::format(fmt::runtime(scene_text), fmt::arg("window", window + terrain_),
                     fmt::arg("spacing", spacing), fmt::arg("formulation", formulation));
     if (!changes.empty())
       text = replaced(text, "  thickness_m: 5\n", "  thickness_m: 5\n" + changes);
@@ -127,7 +127,8 @@ class Growing : public Workflow {
   }
 
   int n_jobs_ = 0;
-  std::string basal_;  ///< lines of that block
+  std::string basal_;    ///< lines of that block
+  std::string terrain_;  ///< ", key: value" of that block
 };
 
 TEST_F(Growing, ColumnsGetTheBitsOfTheWholeRaster) { expect_same_bits("", "depth_averaged", 10); }
@@ -146,6 +147,20 @@ TEST_F(Growing, RastersOfTheBedGrowAlong) {
   basal_ =
       "  rasters: {friction_coefficient: mu.tif, crs: EPSG:32633, friction_coefficient_factor: "
       "{uniform: [0.9, 1.1]}}\n";
+  expect_same_bits("", "depth_averaged", 10);
+  expect_same_bits("", "full_stress", 10);
+}
+
+TEST_F(Growing, DamsAndBuildingsStandOnAnyPart) {
+  write("house.geojson",
+        R"({"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name":
+"urn:ogc:def:crs:EPSG::32633"}}, "features": [{"type": "Feature", "properties": {}, "geometry":
+{"type": "Polygon", "coordinates": [[[500900, 4599985], [500930, 4599985], [500930, 4600015],
+[500900, 4600015], [500900, 4599985]]]}}]})");
+  terrain_ =
+      ", buildings: {polygon: house.geojson, height_m: 6}, dams: [{points_m: [[500650, 4599900], "
+      "[500700, 4600100]], height_m: 3, side_slope: 1}, {points_m: [[500560, 4600000], [500560, "
+      "4600060]], crest_width_m: 12, height_m: {uniform: [1, 3]}}]";
   expect_same_bits("", "depth_averaged", 10);
   expect_same_bits("", "full_stress", 10);
 }

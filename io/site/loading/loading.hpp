@@ -61,6 +61,11 @@ struct Loading {
   const Grid& grid() const { return inputs.whole; }
 };
 
+// Dams and buildings, on ground that was just read or is not known at all.
+void load_structures(Loading&, const ReadGround& read);  ///< their files, and what they do
+void stand_structures(Loading&);                         ///< those of all members
+void check_structures(Loading&);
+
 // The bed: each attempts what it does, and says what was read.
 void load_zones(Loading&);
 void check_zones(Loading&);      ///< what can be said of zones when no ground is known
