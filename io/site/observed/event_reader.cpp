@@ -76,7 +76,7 @@ void read_areas(Reading& r) {
        o.deposit_sd_m.value_or(0), r.read.event.deposit);
 }
 
-/// A DEM of difference tells where the source lay how much was lost, not what lies there.
+/// An elevation difference tells where the source lay how much was lost, not what lies there.
 std::size_t mask_source(Raster<double>& value, const Grid& maps, const Raster<double>& release) {
   const Window at = window_of(value.grid, maps);
   std::size_t masked = 0;
