@@ -189,6 +189,11 @@ TEST_F(ObservedEvents, LinesAndPoints) {
   EXPECT_EQ(*in.event->farthest, Vec2(500400, 4600100));
   EXPECT_EQ(in.event->farthest_sd_m, 12);
   EXPECT_EQ(in.identities.back().role, "observation.farthest_point");
+  EXPECT_THAT(in.warnings, Not(Contains(HasSubstr("observation.thalweg"))));
+  write("thalweg.geojson",
+        collection(feature("LineString", "[[500400,4600100],[500300,4600200],[500225,4600225]]")));
+  EXPECT_THAT(load_scene_inputs(scene).warnings,
+              Contains(HasSubstr("observation.thalweg: its start lies farther")));
 }
 
 TEST_F(ObservedEvents, NumbersAreTakenOver) {
