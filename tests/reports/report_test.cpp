@@ -351,8 +351,8 @@ TEST(Report, ShowsTheNearestMembersBesideWhatWasObserved) {
   EXPECT_TRUE(holds(table, "title=\"at least: the member is cut off\">\u2265\u00A09.5</td>"));
   EXPECT_EQ(count(table.substr(0, table.find("</table>")), "<tr"), 1U + 1 + 10);  // head, observed
   const std::string first = table.substr(table.find("<th scope=\"row\" data-v=\""));
-  EXPECT_TRUE(first.starts_with(
-      fmt::format("<th scope=\"row\" data-v=\"{}\"", scores.comparison.simulated.members.back())));
+  const std::int64_t last = scores.comparison.simulated.members.back();
+  EXPECT_TRUE(first.starts_with("<th scope=\"row\" data-v=\"" + std::to_string(last) + "\""));
   EXPECT_GT(count(page, "covered by member 30, the nearest to what was observed</li>"), 0U);
   EXPECT_GT(count(page, "stroke=\"#7b1fa2\""), 0U);
   EXPECT_TRUE(holds(page.substr(page.find("id=\"member-table\"")), "outline iou"));
