@@ -96,7 +96,7 @@ TEST(ObservationMessages, UnlikeIsNotCompared) {
 
 TEST(ObservationMessages, WhatSaysNothingOrTwice) {
   EXPECT_THAT(problems("  threshold_m: 0.2\n"),
-              ElementsAre(StartsWith("scenario.yaml:5:1: observation (nothing is compared)")));
+              ElementsAre(StartsWith("scenario.yaml:6:3: observation (nothing is compared)")));
   EXPECT_THAT(problems("  farthest_point: a.gpkg\n  farthest_point_m: [1, 2]\n"
                        "  farthest_point_sd_m: 3\n"),
               ElementsAre(HasSubstr("observation.farthest_point_m (farthest_point names the "

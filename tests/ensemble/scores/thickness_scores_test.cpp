@@ -25,7 +25,7 @@ TEST(ThicknessScores, OfACoupleOfCellsByHand) {
   EXPECT_DOUBLE_EQ(s.within, 2.0 / 3);
   EXPECT_DOUBLE_EQ(s.volume_ratio, 5 / 3.05);
   // Bands over 0 .. 10: the first holds 2 and 3, the last 1 and 0, beyond 0.05 and 2.
-  EXPECT_NEAR(s.band_overlap, (2 + 0 + 0.0) / 5, 0.011);
+  EXPECT_DOUBLE_EQ(s.band_overlap, (2 + 0 + 0.05) / 5);
 }
 
 TEST(ThicknessScores, TheThresholdSaysWhichCellsCount) {
