@@ -202,8 +202,7 @@ struct MixtureSpec {
   std::optional<int> pressure_nodes;  ///< of a resolved profile; absent: 8
   Drainage drainage = Drainage::top;  ///< `both` needs a resolved profile
   MixturePhases phases = MixturePhases::one;
-  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m where the speed is
-  /// absent.
+  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m without a speed.
   PhaseDragLaw drag_law = PhaseDragLaw::permeability;
   std::optional<Uncertain> settling_speed_m_s;
   bool operator==(const MixtureSpec&) const = default;

@@ -8,8 +8,8 @@
 ///   settling      a_f (1 - g) G / [U (P F + (1 - P) B)], P = a_s^4,
 ///                 F = g/180 (a_f/a_s)^3 Re, B = a_f^(M - 1), Re = rho_f U d/mu
 ///                 (Pudasaini 2012, as in r.avaflow, linear in the slip; its mass-flux term is 0,
-///                 its exponent of P 4, so that F, which grows as a_s^-3, lets a lone grain settle
-///                 at U)
+///                 its exponent of P 4, so that F, which grows as a_s^-3, lets one grain alone
+///                 settle at U)
 /// with M of Richardson and Zaki (1954), and U of a single grain by Ferguson and Church (2004).
 /// Beyond 0.3 <= a_s <= 0.8 (permeability) and 0.01 <= a_s <= 0.9 (settling) the rate at the bound
 /// holds: the laws are made for packings, and both have no limit there.

@@ -43,11 +43,11 @@ enum class IntensityClass { none, medium, high };
 constexpr auto words_of(Quantity) {
   using enum Quantity;
   return std::array{
-      Word{reached, "reached"},     Word{thickness, "thickness"}, Word{speed, "speed"},
-      Word{energy, "energy"},       Word{pressure, "pressure"},   Word{arrival, "arrival"},
-      Word{deposit, "deposit"},     Word{left, "left"},           Word{eroded, "eroded"},
-      Word{solid, "solid"},         Word{liquid, "liquid"},       Word{intensity, "intensity"},
-      Word{members, "members"},     Word{other, "other"}};
+      Word{reached, "reached"}, Word{thickness, "thickness"}, Word{speed, "speed"},
+      Word{energy, "energy"},   Word{pressure, "pressure"},   Word{arrival, "arrival"},
+      Word{deposit, "deposit"}, Word{left, "left"},           Word{eroded, "eroded"},
+      Word{solid, "solid"},     Word{liquid, "liquid"},       Word{intensity, "intensity"},
+      Word{members, "members"}, Word{other, "other"}};
 }
 constexpr auto words_of(Statistic) {
   using enum Statistic;

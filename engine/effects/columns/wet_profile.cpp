@@ -78,7 +78,7 @@ void WetProfile::step(const MixtureLaw& given, const Lanes& c, double part, cons
   const int n = mesh.nodes, last = n - 1;
   const bool tight = !mesh.drained_bed;
   const double per_spacing = 1 / mesh.spacing();
-  Lane reach, gained, reach_slope, gained_slope, ratio[most_nodes], answer[most_nodes];
+  Lane reach, gained, spread_slope, gained_slope, ratio[most_nodes], answer[most_nodes];
 #pragma omp simd
   for (std::size_t l = 0; l < width; ++l) {
     const double borne = greater(0, c.room[l] - (tight ? from[0][l] : 0));
@@ -87,7 +87,7 @@ void WetProfile::step(const MixtureLaw& given, const Lanes& c, double part, cons
     const double time = part * c.time[l], per_dz = per_spacing * c.per_thickness[l];
     const double per_area = time * per_dz * per_dz;
     reach[l] = rates.diffusivity * per_area, gained[l] = rates.source * time;
-    reach_slope[l] = tight ? rates.diffusivity_slope * per_area : 0;
+    spread_slope[l] = tight ? rates.diffusivity_slope * per_area : 0;
     gained_slope[l] = tight ? rates.source_slope * time : 0;
   }
   for (int j = 0; j < n; ++j) {
@@ -103,7 +103,7 @@ void WetProfile::step(const MixtureLaw& given, const Lanes& c, double part, cons
       const double pivot = 1 / (1 + diagonal * r - lower * (j > 0 ? ratio[j - 1][l] : 0));
       ratio[j][l] = upper * r * pivot;
       to[j][l] = (here + gained[l] + lower * (j > 0 ? to[j - 1][l] : 0)) * pivot;
-      answer[j][l] = (gained_slope[l] + reach_slope[l] * (below - 2 * here + above) +
+      answer[j][l] = (gained_slope[l] + spread_slope[l] * (below - 2 * here + above) +
                       lower * (j > 0 ? answer[j - 1][l] : 0)) *
                      pivot;
     }

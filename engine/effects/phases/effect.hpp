@@ -4,7 +4,8 @@
 /// columns' twin of the two-phase coupling in three dimensions). With h = h_s + h_f, g =
 /// rho_f/rho_s and G the reaction of the ground per mass:
 ///   D u_s = -(G/h_s) grad(h_s^2/2 + (1 - g) h_s h_f/2) - g G grad h_f + drag - (1 - g S) G mu
-///   D u_f = -G grad h_f - G grad h_s - drag rho_s h_s/(rho_f h_f) - 3 eta u_f/(rho_f h^2) - G u_f^2/(xi h)
+///   D u_f = -G grad h_f - G grad h_s - drag rho_s h_s/(rho_f h_f) - 3 eta u_f/(rho_f h^2) - G
+///   u_f^2/(xi h)
 /// S is the share of the grains' pores that liquid fills, at their densest packing: dry grains have
 /// no buoyancy.
 #pragma once

@@ -35,13 +35,13 @@ inline double mass_error_of(const MovingSet& p) {
 
 /// Farthest cell from the release's centre where the layer passes the limit and the flow came [m],
 /// and the layer's largest value [m].
-struct PhaseReach {
+struct PhaseExtent {
   double runout = 0, thickest = 0;
 };
-inline PhaseReach reach_of(const MemberResult& r, PeakLayer layer, const ReleaseFacts& release,
-                           double limit_m) {
+inline PhaseExtent extent_of(const MemberResult& r, PeakLayer layer, const ReleaseFacts& release,
+                             double limit_m) {
   const Window& w = r.window;
-  PhaseReach out;
+  PhaseExtent out;
   for (int row = 0; row < w.n_rows; ++row)
     for (int col = 0; col < w.n_cols; ++col) {
       const std::size_t k = static_cast<std::size_t>(row) * w.n_cols + col;
@@ -59,8 +59,8 @@ inline void write_phases(const State& s, const SimulationParts& parts, MemberRes
   if (!parts.peaks.settings().by_set) return;
   MemberScalars& m = r.scalars;
   const double limit = parts.peaks.settings().runout_limit_m;
-  const PhaseReach solid = reach_of(r, PeakLayer::solid, parts.facts.release, limit);
-  const PhaseReach liquid = reach_of(r, PeakLayer::liquid, parts.facts.release, limit);
+  const PhaseExtent solid = extent_of(r, PeakLayer::solid, parts.facts.release, limit);
+  const PhaseExtent liquid = extent_of(r, PeakLayer::liquid, parts.facts.release, limit);
   m.solid_runout_m = solid.runout, m.max_solid_thickness_m = solid.thickest;
   m.liquid_runout_m = liquid.runout, m.max_liquid_thickness_m = liquid.thickest;
   m.solid_front_travel_m = front_of(s.sets[0]);

@@ -31,7 +31,7 @@ struct InflowPlan {
   double first_s = 0, last_s = 0;     ///< of their times
   double peak_m3_s = 0;               ///< largest of a source
   double most_thickness_m = 0, most_speed_m_s = 0;
-  double narrowest_m = 1e300;  ///< width of the narrowest source
+  double narrowest_m = 1e300;                       ///< width of the narrowest source
   double x_m = 0, y_m = 0;                          ///< mean place, by volume
   double top_x_m = 0, top_y_m = 0, top_m = -1e300;  ///< highest surface
   double fall_kg_m = 0;                             ///< mass times elevation
