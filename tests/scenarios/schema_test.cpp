@@ -149,9 +149,9 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_THAT(names_in_block("grains.friction"),
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
-              ElementsAre("title", "terrain", "release", "material", "grains", "mixture", "basal",
-                          "formulation", "erosion", "numerics", "domain", "ensemble", "hazard",
-                          "observation"));
+              ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture",
+                          "basal", "formulation", "erosion", "numerics", "domain", "ensemble",
+                          "hazard", "gauges", "observation"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;
