@@ -278,7 +278,7 @@ struct Twins {
     EXPECT_LT(slower, 3);
     slowest = std::max(slowest, slower);
   }
-  void print() const {
+  void print(int n) const {
     wet.print(n);
     fmt::print(
         "grains and water to {:.1e}; a step at most {:.2f} times its dry twin's, all members "
@@ -296,7 +296,7 @@ TEST(SteepGround, WetColumnsSurviveEveryCorner) {
     SCOPED_TRACE(fmt::format("member {}", k));
     twins.survive_both(hard_member(static_cast<std::uint64_t>(k)), k);
   }
-  twins.print();
+  twins.print(n);
 }
 
 TEST(SteepGround, WetColumnsSurviveMonteMarsicano) {
@@ -320,7 +320,7 @@ TEST(SteepGround, WetColumnsSurviveMonteMarsicano) {
     m.scenario.numerics.end_time_s = 90;
     twins.survive_both(m, k);
   }
-  twins.print();
+  twins.print(n);
 }
 
 }  // namespace

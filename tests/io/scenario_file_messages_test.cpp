@@ -200,7 +200,7 @@ TEST(ScenarioMessages, AllProblemsComeTogetherInFileOrder) {
   EXPECT_THAT(
       found,
       ElementsAre("scenario.yaml: release (no source given). Add one of polygon, "
-                  "thickness_raster, box, paraboloid, cylinder.",
+                  "thickness_raster, box, paraboloid, cylinder, or an inflow.",
                   "scenario.yaml:1:36: terrain.nodata = lava (must be one of outflow, wall).",
                   "scenario.yaml:2:1: relase (unknown key). Did you mean release?",
                   "scenario.yaml:3:30: grains.friction_angle_deg = 240 (must be in 0..60). Was it "
