@@ -119,6 +119,20 @@ std::string as_known(const MemberResult& r, double MemberScalars::*field, const 
   return text + " so far";
 }
 
+/// How far grains and liquid came that move at two velocities.
+void print_phases(const MemberResult& r, Console& console) {
+  if (std::isnan(r.scalars.solid_runout_m)) return;
+  const auto far = [&r](double MemberScalars::*field) {
+    return as_known(r, field, fmt::format("{:.1f} m", r.scalars.*field));
+  };
+  print_line(
+      "runout of each",
+      fmt::format("grains {}, liquid {}; drag took {} of the energy", far(&M::solid_runout_m),
+                  far(&M::liquid_runout_m),
+                  as_known(r, &M::drag_loss_fraction, share_text(r.scalars.drag_loss_fraction))),
+      console);
+}
+
 /// Pore pressure of a mixture.
 void print_mixture(const MemberResult& r, Console& console) {
   if (!r.history.has_mixture) return;
@@ -242,6 +256,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                    largest(&M::max_pressure_pa, "{:.1f} kPa", 1e3)));
   print_states(r, console);
   print_mixture(r, console);
+  print_phases(r, console);
   print_erosion(r, console);
   print_inflow(r, console);
   print_gauges(r, console);

@@ -126,7 +126,9 @@ std::vector<std::string> description_lines(const Scene& scene) {
                               d.layers, d.release_volume_m3 > 0 ? "release" : "the inflow's peak"));
   if (columns)
     lines.emplace_back(
-        scene.scenario.mixture
+        has_two_phases(scene.scenario.mixture) ? "not in columns: vertical structure, dilute "
+                                                 "states, excess pore pressure of two phases"
+        : scene.scenario.mixture
             ? "not in columns: vertical structure, dilute states, water that runs ahead of the "
               "grains"
             : "not in columns: vertical structure, dilute states, a resolved pore fluid "

@@ -214,9 +214,8 @@ void carry_over(const RasterSource& s, OGRCoordinateTransformation* transform, c
       const Patch patch = cell_on_grid(s, col, row, transform, g);
       const double area = own_area > 0 ? own_area : patch.area() * g.cell_m * g.cell_m;
       const double volume = thickness * area, inside = spread(patch, volume, g, at, volumes);
-      const double counts = may_reach_beyond ? inside : volume;
-      result.volume_m3 += counts;
-      result.area_m2 += area * counts / volume;
+      result.volume_m3 += may_reach_beyond ? inside : volume;
+      result.area_m2 += may_reach_beyond ? area * inside / volume : area;
       all += volume;
       placed += inside;
       if (volume - inside > volume_round_off * volume) lost.add(volume - inside, patch);

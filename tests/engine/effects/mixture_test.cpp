@@ -234,46 +234,6 @@ TEST(Mixture, BedThatJoinsAColumnBringsItsGrainsItsWaterAndItsPressure) {
   expect_within_bounds(p, wet.law);
 }
 
-/// What is said of columns 1 m thick that start at rest on such a slope, after 4 s.
-std::string said_of(double slope_deg, double solid_fraction, double cohesion_pa = 0) {
-  const MixtureSettings wet = settings_of(solid_fraction);
-  HandMade made = wet_columns(even_ground(60, std::tan(slope_deg * std::numbers::pi / 180)),
-                              test::block({8, 8, 1}, {-20, -4, 0}), std::vector<double>(64, 1), wet,
-                              {0, 0, 0}, {}, cohesion_pa);
-  while (made.state.time < 4) made.advance();
-  std::vector<std::string> said;
-  made.step.warnings(made.state, said);
-  std::string text;
-  for (const std::string& sentence : said) text += sentence + "\n";
-  return text;
-}
-
-TEST(Mixture, ThatOnlySuctionHoldsIsNotAtRestForGood) {
-  // Denser than critical it sticks at once, and half its weight is still water's: tan 40 degrees
-  // times that half holds 22 degrees.
-  for (const double slope_deg : {26.0, 31.0}) {
-    const std::string dense = said_of(slope_deg, 0.66);
-    EXPECT_THAT(dense, HasSubstr("only suction holds it")) << slope_deg;
-    // k = 2.2e-11 m2 and 1/alpha = 2e5 Pa: 1/kappa is 4.5 min where the patch is 0.86 m thick, and
-    // 2 at its edges, which are half as thick.
-    EXPECT_THAT(dense, ContainsRegex("away in about [2-5] min")) << slope_deg;
-  }
-  EXPECT_EQ(said_of(15, 0.66), "") << "friction holds it";
-  EXPECT_EQ(said_of(31, 0.66, 4000), "") << "cohesion does";
-  EXPECT_EQ(said_of(31, 0.60), "") << "it runs";
-}
-
-TEST(Mixture, WithoutANumberForItsPressureItIsNotAtRest) {
-  for (const bool stiff : {true, false}) {
-    MixtureSettings wet = settings_of(0.6);
-    (stiff ? wet.law.compressibility : wet.law.fluid_viscosity) = 1e-310;
-    HandMade made = wet_columns(even_ground(60, 0.5), test::block({4, 4, 1}, {-20, -2, 0}),
-                                std::vector<double>(16, 1), wet);
-    for (int n = 0; n < 10 && made.state.grains().motion.finite; ++n) made.advance();
-    EXPECT_FALSE(made.state.grains().motion.finite) << "the run must end as diverged";
-  }
-}
-
 class ResolvedMixture : public testing::TestWithParam<ProfileSettings> {};
 INSTANTIATE_TEST_SUITE_P(Drains, ResolvedMixture,
                          testing::Values(ProfileSettings{8, false}, ProfileSettings{5, true}),
@@ -320,6 +280,46 @@ TEST_P(ResolvedMixture, BedThatJoinsLiftsWhatItStandsUnder) {
   EXPECT_NEAR(p.scalar(fields::excess_pressure)[5], mesh.drained_bed ? 0 : 1500, 1e-9);
   if (!mesh.drained_bed) {
     EXPECT_NEAR(nodes[0][5], 1500, 1e-9);
+  }
+}
+
+/// What is said of columns 1 m thick that start at rest on such a slope, after 4 s.
+std::string said_of(double slope_deg, double solid_fraction, double cohesion_pa = 0) {
+  const MixtureSettings wet = settings_of(solid_fraction);
+  HandMade made = wet_columns(even_ground(60, std::tan(slope_deg * std::numbers::pi / 180)),
+                              test::block({8, 8, 1}, {-20, -4, 0}), std::vector<double>(64, 1), wet,
+                              {0, 0, 0}, {}, cohesion_pa);
+  while (made.state.time < 4) made.advance();
+  std::vector<std::string> said;
+  made.step.warnings(made.state, said);
+  std::string text;
+  for (const std::string& sentence : said) text += sentence + "\n";
+  return text;
+}
+
+TEST(Mixture, ThatOnlySuctionHoldsIsNotAtRestForGood) {
+  // Denser than critical it sticks at once, and half its weight is still water's: tan 40 degrees
+  // times that half holds 22 degrees.
+  for (const double slope_deg : {26.0, 31.0}) {
+    const std::string dense = said_of(slope_deg, 0.66);
+    EXPECT_THAT(dense, HasSubstr("only suction holds it")) << slope_deg;
+    // k = 2.2e-11 m2 and 1/alpha = 2e5 Pa: 1/kappa is 4.5 min where the patch is 0.86 m thick, and
+    // 2 at its edges, which are half as thick.
+    EXPECT_THAT(dense, ContainsRegex("away in about [2-5] min")) << slope_deg;
+  }
+  EXPECT_EQ(said_of(15, 0.66), "") << "friction holds it";
+  EXPECT_EQ(said_of(31, 0.66, 4000), "") << "cohesion does";
+  EXPECT_EQ(said_of(31, 0.60), "") << "it runs";
+}
+
+TEST(Mixture, WithoutANumberForItsPressureItIsNotAtRest) {
+  for (const bool stiff : {true, false}) {
+    MixtureSettings wet = settings_of(0.6);
+    (stiff ? wet.law.compressibility : wet.law.fluid_viscosity) = 1e-310;
+    HandMade made = wet_columns(even_ground(60, 0.5), test::block({4, 4, 1}, {-20, -2, 0}),
+                                std::vector<double>(16, 1), wet);
+    for (int n = 0; n < 10 && made.state.grains().motion.finite; ++n) made.advance();
+    EXPECT_FALSE(made.state.grains().motion.finite) << "the run must end as diverged";
   }
 }
 
