@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenarios/choices.hpp"
+#include "scenarios/observation/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
 #include <array>
@@ -355,6 +356,7 @@ struct Scenario {
   EnsembleSpec ensemble;
   HazardSpec hazard;
   std::optional<GaugesSpec> gauges;
+  std::optional<ObservationSpec> observation;  ///< absent: members are not scored
   std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;
 };

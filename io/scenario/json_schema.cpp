@@ -133,6 +133,17 @@ Json dams() {
   return {{"type", "array"}, {"items", dam}, {"maxItems", most_dams}};
 }
 
+/// Maps of numbers and points by name.
+Json records(const KeyInfo& key) {
+  Json properties = Json::object(), required = Json::array();
+  for (const RecordField& field : key.fields) {
+    const Json one = number(field.min, field.max, false);
+    properties[field.name] = field.size == 1 ? one : numbers(one, static_cast<int>(field.size));
+    if (field.required) required.push_back(field.name);
+  }
+  return {{"type", "array"}, {"items", object(properties, required)}};
+}
+
 Json corners(int least) {
   return {{"type", "array"}, {"items", numbers({{"type", "number"}}, 2)}, {"minItems", least}};
 }
@@ -188,6 +199,8 @@ Json value_of(const KeyInfo& key) {
       return dams();
     case ValueKind::zone_list:
       return zones();
+    case ValueKind::record_list:
+      return records(key);
     case ValueKind::inflow_list:
       return inflows();
     case ValueKind::gauge_points:

@@ -11,6 +11,7 @@
 #include "io/site/flow/flow_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "io/site/loading/loading.hpp"
+#include "io/site/observed/event_reader.hpp"
 #include "io/site/observed/observed_outline.hpp"
 #include "io/site/release/release_requests.hpp"
 #include "io/site/release_hash.hpp"
@@ -262,6 +263,20 @@ void load_observed(Loading& loading) {
   });
 }
 
+/// The same for what members are scored against.
+void load_event(Loading& loading) {
+  if (!loading.scenario.observation) return;
+  loading.attempt([&] {
+    const Grid& terrain = loading.grid();
+    const Grid maps = terrain.n_cols > 0 ? hazard_grid(loading.scenario, terrain) : Grid{};
+    EventRead read = read_observed_event(loading.scenario, maps, loading.inputs.release.get());
+    loading.take_words(read);
+    for (InputIdentity& identity : read.identities) loading.take_identity(identity);
+    std::move(read.rings.begin(), read.rings.end(), std::back_inserter(loading.inputs.observed));
+    loading.inputs.event = std::make_shared<const ObservedEvent>(std::move(read.event));
+  });
+}
+
 /// What can be said of release and zones when the terrain cannot be read.
 void check_without_terrain(Loading& loading) {
   const Scenario& scenario = loading.scenario;
@@ -280,6 +295,7 @@ void check_without_terrain(Loading& loading) {
   open_bed_layers(loading);
   load_bed_supply(loading);
   load_observed(loading);
+  load_event(loading);
 }
 
 }  // namespace
@@ -311,6 +327,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   }
   load_bed_supply(loading);
   load_observed(loading);
+  load_event(loading);
   loading.refuse_problems();
   expect(inputs.release && inputs.elevation, "a scene without problems has its release and ground");
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);

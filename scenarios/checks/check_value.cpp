@@ -82,6 +82,7 @@ struct Checker {
   void operator()(const std::vector<WallSpec>& v) const;
   void operator()(const std::vector<DamSpec>& v) const;
   void operator()(const std::vector<BasalZone>& v) const;
+  void operator()(const std::vector<NumberRecord>& v) const;
   void operator()(const std::vector<InflowSpec>& v) const;
   void operator()(const std::vector<GaugeSpec>& v) const;
   void corners(const std::string& path, const std::vector<std::array<double, 2>>& v) const;
@@ -228,6 +229,18 @@ void Checker::operator()(const std::vector<DamSpec>& v) const {
           " corners (must be at most " + std::to_string(most_dam_corners) +
           "). Put it into a file.");
   }
+}
+
+void Checker::operator()(const std::vector<NumberRecord>& v) const {
+  for (std::size_t i = 0; i < v.size(); ++i)
+    for (const RecordField& field : key.fields) {
+      KeyInfo whole = key;
+      whole.path = item_path(key, i);
+      const auto own = part(whole, field.name, field.units, field.min, field.max);
+      const auto found = v[i].find(field.name);
+      if (found == v[i].end()) continue;
+      for (const double number : found->second) Checker{own, problems}(number);
+    }
 }
 
 void Checker::operator()(const std::vector<BasalZone>& v) const {

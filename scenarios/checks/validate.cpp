@@ -25,6 +25,7 @@ std::vector<Problem> validate(const Scenario& scenario) {
   check_flow(scenario, problems);
   check_ensemble(scenario, problems);
   check_hazard(scenario, problems);
+  check_observation(scenario, problems);
   return problems;
 }
 

@@ -23,6 +23,7 @@ std::vector<KeyInfo> all_keys() {
   schema_rows::add_erosion_keys(keys);
   schema_rows::add_run_keys(keys);
   schema_rows::add_gauge_keys(keys);
+  schema_rows::add_observation_keys(keys);
   return keys;
 }
 
@@ -34,6 +35,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   schema_rows::add_bed_field_blocks(blocks);
   schema_rows::add_erosion_blocks(blocks);
   schema_rows::add_gauge_blocks(blocks);
+  schema_rows::add_observation_blocks(blocks);
   return blocks;
 }
 
@@ -91,7 +93,6 @@ std::span<const LaterKey> later_keys() {
   static const std::vector<LaterKey> keys = {
       {"fluid", "a pore fluid with particles of its own"},
       {"coupling", "drag between fluid and grains"},
-      {"observation", "comparison with a mapped deposit"},
       {"prior", "ready-made distributions by material"},
   };
   return keys;

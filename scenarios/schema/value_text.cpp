@@ -87,6 +87,14 @@ std::string dam_text(const DamSpec& dam) {
   return map.text();
 }
 
+/// A point as a list, a single number without brackets.
+std::string record_text(const NumberRecord& record) {
+  MapText map;
+  for (const auto& [name, numbers] : record)
+    map.add(name, numbers.size() == 1 ? number_text(numbers.front()) : numbers_text(numbers));
+  return map.text();
+}
+
 std::string corners_text(const std::vector<std::array<double, 2>>& corners) {
   return list_text(corners, [](const auto& c) { return numbers_text(c); });
 }
@@ -143,6 +151,9 @@ struct ToText {
   std::string operator()(const std::vector<WallSpec>& v) const { return list_text(v, wall_text); }
   std::string operator()(const std::vector<DamSpec>& v) const { return list_text(v, dam_text); }
   std::string operator()(const std::vector<BasalZone>& v) const { return list_text(v, zone_text); }
+  std::string operator()(const std::vector<NumberRecord>& v) const {
+    return list_text(v, record_text);
+  }
   std::string operator()(const std::vector<InflowSpec>& v) const {
     return list_text(v, inflow_text);
   }

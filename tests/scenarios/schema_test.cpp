@@ -31,8 +31,11 @@ KeyValue unusual_value(const KeyInfo& key) {
       return std::string("unusual");
     case ValueKind::choice:
       return key.choices.back();
-    case ValueKind::flag:
-      return !std::get<bool>(key.get(Scenario{}));
+    case ValueKind::flag: {
+      const KeyValue given = key.get(Scenario{});  // none in a block that is absent
+      const bool* flag = std::get_if<bool>(&given);
+      return flag == nullptr || !*flag;
+    }
     case ValueKind::uncertain: {
       Uncertain u;
       u.distribution = Distribution{};
@@ -63,6 +66,12 @@ KeyValue unusual_value(const KeyInfo& key) {
       return std::vector<GaugeSpec>{{"bridge", {{{1, 2}}}}};
     case ValueKind::gauge_lines:
       return std::vector<GaugeSpec>{{"road", {{{1, 2}}, {{3, 4}}}}};
+    case ValueKind::record_list: {
+      NumberRecord record;
+      for (const RecordField& field : key.fields)
+        record[field.name].assign(field.size, (field.min + field.max) / 2);
+      return std::vector<NumberRecord>{record};
+    }
   }
   return {};
 }
@@ -114,7 +123,11 @@ TEST(Schema, UnitsStandInTheNames) {
   for (const auto& key : schema()) {
     if (key.units.empty() || key.units == "1") continue;
     ASSERT_TRUE(tails.count(key.units)) << key.path << " [" << key.units << "]";
-    EXPECT_TRUE(key.path.ends_with(tails.at(key.units))) << key.path << " [" << key.units << "]";
+    // A measured number and its standard deviation stand in a block that says the unit of both.
+    std::string named = key.path;
+    for (const char* part : {".value", ".sd"})
+      if (named.ends_with(part)) named.resize(named.rfind('.'));
+    EXPECT_TRUE(named.ends_with(tails.at(key.units))) << key.path << " [" << key.units << "]";
   }
 }
 
@@ -135,10 +148,10 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_FALSE(is_block("grain"));
   EXPECT_THAT(names_in_block("grains.friction"),
               ElementsAre("static", "dynamic", "inertial_number_scale"));
-  EXPECT_THAT(
-      names_in_block(""),
-      ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture", "basal",
-                  "formulation", "erosion", "numerics", "domain", "ensemble", "hazard", "gauges"));
+  EXPECT_THAT(names_in_block(""),
+              ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture",
+                          "basal", "formulation", "erosion", "numerics", "domain", "ensemble",
+                          "hazard", "gauges", "observation"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

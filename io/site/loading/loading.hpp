@@ -30,16 +30,23 @@ struct Loading {
   OpenBedLayers bed_layers;                 ///< of basal.rasters
   std::vector<std::string> problems;        ///< of files that cannot be used
 
+  template <class Read>
+  void take_words(Read& read) {
+    std::move(read.notes.begin(), read.notes.end(), std::back_inserter(inputs.notes));
+    std::move(read.warnings.begin(), read.warnings.end(), std::back_inserter(inputs.warnings));
+  }
+  void take_identity(InputIdentity& identity) {
+    std::error_code error;
+    const auto name = std::filesystem::proximate(identity.file, scenario.directory, error);
+    const bool inside_file = identity.file.starts_with("/vsi");
+    if (!scenario.directory.empty() && !error && !inside_file) identity.file = name.string();
+    inputs.identities.push_back(std::move(identity));
+  }
   /// Notes, warnings and identity of a file that was read.
   template <class Read>
   void take(Read& read) {
-    std::move(read.notes.begin(), read.notes.end(), std::back_inserter(inputs.notes));
-    std::move(read.warnings.begin(), read.warnings.end(), std::back_inserter(inputs.warnings));
-    std::error_code error;
-    const auto name = std::filesystem::proximate(read.identity.file, scenario.directory, error);
-    const bool inside_file = read.identity.file.starts_with("/vsi");
-    if (!scenario.directory.empty() && !error && !inside_file) read.identity.file = name.string();
-    inputs.identities.push_back(std::move(read.identity));
+    take_words(read);
+    take_identity(read.identity);
   }
   /// Goes on after a problem, so that all files are looked at in one round.
   template <class Call>
