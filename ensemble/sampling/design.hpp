@@ -40,6 +40,8 @@ struct DesignTable {
 ///                    a key that depends on an earlier one through `correlation` is not sliced)
 ///   sobol            Sobol' points with a random digital shift of their top 32 bits; a longer
 ///                    table starts with the shorter one
+///   morris           sets of one row per key and one more, see sampling/structured_cube.hpp
+///   saltelli         sets of one row per key and two more; both go on set by set
 /// The same seed gives the same bits.
 /// \throws SetupError naming the key when members, a distribution or the correlation is unusable
 DesignTable draw_design(const Scenario& scenario);
