@@ -42,6 +42,14 @@ constexpr auto words_of(ReleaseFloor) {
   return std::array{Word{uniform, "uniform"}, Word{tapered, "tapered"}};
 }
 
+/// What a raster of an observed deposit holds: thicknesses, or differences of two elevation models.
+enum class ThicknessSign { thickness, rise_positive, fall_positive };
+constexpr auto words_of(ThicknessSign) {
+  using enum ThicknessSign;
+  return std::array{Word{thickness, "thickness"}, Word{rise_positive, "rise_positive"},
+                    Word{fall_positive, "fall_positive"}};
+}
+
 /// Lateral earth pressure of columns; `automatic` is `active` for piles and isotropic for sheets.
 enum class LateralPressure { automatic, isotropic, active, active_passive };
 constexpr auto words_of(LateralPressure) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenarios/choices.hpp"
+#include "scenarios/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
 #include <array>
@@ -256,6 +257,7 @@ struct Scenario {
   DomainSpec domain;
   EnsembleSpec ensemble;
   HazardSpec hazard;
+  std::optional<ObservationSpec> observation;  ///< absent: members are not scored
   std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;
 };

@@ -5,6 +5,7 @@
 #include "engine/terrain/terrain.hpp"
 #include "scenarios/assembly/reach.hpp"
 #include "scenarios/input_identity.hpp"
+#include "scenarios/observed_event.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -39,8 +40,11 @@ struct SceneInputs {
   /// What can be taken of the bed, on cells of the working grid: share of erosion.depth_m, or depth
   /// where erosion.depth_raster gives it [m]; nothing beyond. Null: the same everywhere.
   std::shared_ptr<const Raster<double>> bed_supply;
-  /// Rings of hazard.observed_polygon in the terrain's system [m]; empty: none.
+  /// Rings to be drawn in the terrain's system [m]: of hazard.observed_polygon, else of what
+  /// `observation` outlines; empty: none.
   std::vector<std::vector<Vec2>> observed;
+  /// What members are scored against; null: the scene has no `observation`.
+  std::shared_ptr<const ObservedEvent> event;
   Grid hazard_grid;           ///< the maps' common grid
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =

@@ -6,6 +6,7 @@
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/app/score_text.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/censoring/scalar_censoring.hpp"
 #include "ensemble/workflow/members/single_run.hpp"
@@ -154,18 +155,21 @@ void warn_of_run(const workflow::RunStored& stored, Console& console) {
 }
 
 /// The last line, so that a reader may stop there.
-std::string done_event(const MemberResult& r, const workflow::OutputFolder& folder) {
+std::string done_event(const MemberResult& r, const workflow::RunStored& stored,
+                       const workflow::OutputFolder& folder) {
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
   for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = r.scalars.*scalar.field;
-  return json_text(nlohmann::ordered_json{{"event", "done"},
-                                          {"outcome", to_string(r.outcome)},
-                                          {"censored", to_string(r.censoring)},
-                                          {"reason", r.reason},
-                                          {"state_hash", fmt::format("{:016x}", r.state_hash)},
-                                          {"scalars", scalars},
-                                          {"effect_seconds", as_json(r.effect_seconds)},
-                                          {"pass_seconds", as_json(r.pass_seconds)},
-                                          {"folder", folder.root.string()}});
+  nlohmann::ordered_json event{{"event", "done"},
+                               {"outcome", to_string(r.outcome)},
+                               {"censored", to_string(r.censoring)},
+                               {"reason", r.reason},
+                               {"state_hash", fmt::format("{:016x}", r.state_hash)},
+                               {"scalars", scalars}};
+  if (stored.scores) event["comparison"] = score_json(*stored.scores, 0);
+  event["effect_seconds"] = as_json(r.effect_seconds);
+  event["pass_seconds"] = as_json(r.pass_seconds);
+  event["folder"] = folder.root.string();
+  return json_text(event);
 }
 
 void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, Console& console) {
@@ -226,10 +230,13 @@ int run(const Options& options, Console& console) {
   }
   const workflow::RunStored stored = workflow::store_run(run, result);
   print_summary(result, run.folder, console);
+  if (stored.scores)
+    for (const auto& [name, text] : score_lines(*stored.scores, 0))
+      print_line(name.c_str(), text, console);
   warn_of_run(stored, console);
   const bool valid = is_valid(result.outcome);
   if (!valid) console.error(fmt::format("the member is not valid: {}", result.reason));
-  console.event(done_event(result, run.folder));
+  console.event(done_event(result, stored, run.folder));
   return valid ? ok : too_many_failed;
 }
 

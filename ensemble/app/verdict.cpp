@@ -3,6 +3,7 @@
 
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/score_text.hpp"
 #include "ensemble/workflow/readable.hpp"
 
 #include <fmt/core.h>
@@ -24,16 +25,30 @@ nlohmann::json censoring_json(const CensoringReport& r) {
           {"too_many", r.too_many()}};
 }
 
+/// The best three, with all that they are compared by.
+nlohmann::json nearest_json(const workflow::MapsMade& made) {
+  nlohmann::json members = nlohmann::json::array();
+  for (const std::size_t row : best_rows(*made.scores)) {
+    if (members.size() == 3) break;
+    nlohmann::json member = score_json(*made.scores, row);
+    member["member"] = made.numbers[row];
+    members.push_back(std::move(member));
+  }
+  return members;
+}
+
 std::string done_event(const workflow::MapsMade& made) {
-  return json_text(nlohmann::json{{"event", "done"},
-                                  {"planned", made.planned},
-                                  {"finished", made.finished},
-                                  {"valid", made.valid},
-                                  {"failed", made.failed()},
-                                  {"censoring", censoring_json(made.censoring)},
-                                  {"members_with_warnings", made.warned_members},
-                                  {"hazard_hash", made.hazard_hash},
-                                  {"folder", made.folder.root.string()}});
+  nlohmann::json event{{"event", "done"},
+                       {"planned", made.planned},
+                       {"finished", made.finished},
+                       {"valid", made.valid},
+                       {"failed", made.failed()},
+                       {"censoring", censoring_json(made.censoring)},
+                       {"members_with_warnings", made.warned_members},
+                       {"hazard_hash", made.hazard_hash},
+                       {"folder", made.folder.root.string()}};
+  if (made.scores) event["nearest"] = nearest_json(made);
+  return json_text(event);
 }
 
 /// What is cut off, and what the members themselves warn of: most of it once, with counts.
@@ -61,6 +76,9 @@ int verdict(const workflow::MapsMade& made, Console& console) {
   console.say("  report.html   look here first");
   console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
   console.say("  members.csv   one row per member");
+  if (made.scores)
+    if (const std::string near = nearest_text(*made.scores, made.numbers); !near.empty())
+      console.say("  " + near);
   warn_of_members(made.censoring, made.warnings, made.finished, console);
   const bool too_many = made.too_many_failed();
   if (made.failed() > 0 && made.valid > 0 && !too_many)

@@ -84,14 +84,18 @@ static_assert(rows.size() * sizeof(double) == sizeof(MemberScalars));
 
 std::span<const ScalarCensoring> scalar_censoring() { return rows; }
 
+Known weaker(Known left, Known moving, Censoring censoring) {
+  Known weakest = Known::exactly;
+  if (has_left(censoring)) weakest = std::max(weakest, left);
+  if (is_moving(censoring)) weakest = std::max(weakest, moving);
+  return weakest;
+}
+
 Known known(double MemberScalars::*field, Censoring censoring) {
   const auto* row = std::find_if(rows.begin(), rows.end(),
                                  [&](const ScalarCensoring& r) { return r.field == field; });
   expect(row != rows.end(), "scalar_censoring has a row for every scalar");
-  Known weakest = Known::exactly;
-  if (has_left(censoring)) weakest = std::max(weakest, row->left);
-  if (is_moving(censoring)) weakest = std::max(weakest, row->moving);
-  return weakest;
+  return weaker(row->left, row->moving, censoring);
 }
 
 std::vector<Observation> observations(std::span<const MemberSummary> members,

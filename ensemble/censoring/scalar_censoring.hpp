@@ -22,6 +22,10 @@ struct ScalarCensoring {
 ///   exactly      the release, the computation itself
 std::span<const ScalarCensoring> scalar_censoring();
 
+/// What is known of a number of which is known `left` where mass left, and `moving` where it still
+/// moved.
+Known weaker(Known left, Known moving, Censoring censoring);
+
 /// \throws std::logic_error for a scalar without a row
 Known known(double MemberScalars::*field, Censoring censoring);
 

@@ -29,15 +29,27 @@ using Cells = std::vector<std::string>;
 
 std::string line_of(const Cells& cells) { return fmt::format("{}\n", fmt::join(cells, ",")); }
 
-std::string header(const DesignTable& design) {
+std::string header(const DesignTable& design, const ScoreTable* scores) {
   Cells cells{"member", "outcome", "censored", "reason", "formulation"};
   for (const std::string& key : design.keys) cells.push_back(quoted(key));
   for (const ScalarInfo& scalar : scalar_table()) cells.emplace_back(scalar.name);
+  if (scores != nullptr) {
+    for (const ScoreInfo& score : scores->columns) cells.push_back("score_" + score.name);
+    cells.emplace_back("score_bounds");
+  }
   cells.insert(cells.end(), {"binding_limit", "warnings", "state_hash"});
   return line_of(cells);
 }
 
-std::string row(const DesignTable& design, const MemberSummary& m) {
+void add_scores(const ScoreTable& scores, std::size_t i, Cells& cells) {
+  const auto& own = scores.rows.at(i);  // empty without a valid result
+  for (std::size_t k = 0; k < scores.columns.size(); ++k)
+    cells.push_back(own.empty() ? std::string() : number(own[k].value));
+  cells.push_back(quoted(bounds_text(scores, i)));
+}
+
+std::string row(const DesignTable& design, const MemberSummary& m, const ScoreTable* scores,
+                std::size_t i) {
   require(m.member >= 0 && m.member < design.n_members(),
           fmt::format("member {} is not in the design table of {} members (results of another "
                       "ensemble?). Use the directory that the design was written to.",
@@ -49,6 +61,7 @@ std::string row(const DesignTable& design, const MemberSummary& m) {
   const bool has_result = m.outcome != Outcome::failed && m.outcome != Outcome::cancelled;
   for (const ScalarInfo& scalar : scalar_table())
     cells.push_back(has_result ? number(m.scalars.*scalar.field) : std::string());
+  if (scores != nullptr) add_scores(*scores, i, cells);
   cells.push_back(quoted(m.binding_limit));
   cells.push_back(quoted(m.warnings));
   cells.push_back(has_result ? fmt::format("{:016x}", m.state_hash) : std::string());
@@ -57,13 +70,15 @@ std::string row(const DesignTable& design, const MemberSummary& m) {
 
 }  // namespace
 
-std::string members_csv(const DesignTable& design, std::span<const MemberSummary> members) {
+std::string members_csv(const DesignTable& design, std::span<const MemberSummary> members,
+                        const ScoreTable* scores) {
   std::vector<const MemberSummary*> ordered;
   for (const MemberSummary& m : members) ordered.push_back(&m);
   std::sort(ordered.begin(), ordered.end(),
             [](const auto* a, const auto* b) { return a->member < b->member; });
-  std::string text = header(design);
-  for (const MemberSummary* m : ordered) text += row(design, *m);
+  std::string text = header(design, scores);
+  for (const MemberSummary* m : ordered)
+    text += row(design, *m, scores, static_cast<std::size_t>(m - members.data()));
   return text;
 }
 

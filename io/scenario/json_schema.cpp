@@ -114,6 +114,17 @@ Json zones() {
   return {{"type", "array"}, {"items", zone}, {"maxItems", most_basal_zones}};
 }
 
+/// Maps of numbers and points by name.
+Json records(const KeyInfo& key) {
+  Json properties = Json::object(), required = Json::array();
+  for (const RecordField& field : key.fields) {
+    const Json one = number(field.min, field.max, false);
+    properties[field.name] = field.size == 1 ? one : numbers(one, static_cast<int>(field.size));
+    if (field.required) required.push_back(field.name);
+  }
+  return {{"type", "array"}, {"items", object(properties, required)}};
+}
+
 Json value_of(const KeyInfo& key) {
   Json plain = number(key.min, key.max, key.above_min);
   switch (key.kind) {
@@ -145,6 +156,8 @@ Json value_of(const KeyInfo& key) {
       return walls();
     case ValueKind::zone_list:
       return zones();
+    case ValueKind::record_list:
+      return records(key);
   }
   return {};
 }

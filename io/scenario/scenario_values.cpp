@@ -207,11 +207,57 @@ bool read_zone(const std::string& path, const YamlNode& node, BasalZone& zone,
   return problems.size() == before;
 }
 
+/// "time_s, distance_m, point_m [x, y]"
+std::vector<std::string> field_names(const KeyInfo& key) {
+  std::vector<std::string> names;
+  for (const RecordField& field : key.fields) names.emplace_back(field.name);
+  return names;
+}
+
+bool read_field(const std::string& path, const RecordField& field, const YamlNode& node,
+                NumberRecord& record, FileProblems& problems) {
+  if (field.size == 1) {
+    const auto number = read_fixed_number(
+        path, node, "An observation is a number with its standard deviation.", problems);
+    if (number) record[field.name] = {*number};
+    return number.has_value();
+  }
+  const auto numbers = read_numbers(path, node, problems);
+  if (!numbers) return false;
+  if (numbers->size() != field.size) {
+    add_mismatch(path, node, "two numbers, [x, y]", "", problems);
+    return false;
+  }
+  record[field.name] = *numbers;
+  return true;
+}
+
+bool read_record(const KeyInfo& key, const std::string& path, const YamlNode& node,
+                 NumberRecord& record, FileProblems& problems) {
+  const std::size_t before = problems.size();
+  if (node.kind != Kind::map) {
+    add_mismatch(path, node, "numbers by name: " + comma_separated(field_names(key)), "", problems);
+    return false;
+  }
+  for (const RecordField& field : key.fields)
+    if (field.required && !node.find(field.name))
+      problems.push_back({node.at, path + " (" + field.name + " is missing). Add it."});
+  for (const auto& [name, at, value] : node.entries) {
+    const auto field =
+        std::find_if(key.fields.begin(), key.fields.end(),
+                     [&, &wanted = name](const auto& f) { return f.name == wanted; });
+    if (field == key.fields.end())
+      problems.push_back({at, unknown_text(path, name, field_names(key))});
+    else
+      read_field(path + "." + name, *field, value, record, problems);
+  }
+  return problems.size() == before;
+}
+
 /// A list of maps, each read by `read_item`.
-template <class Item>
+template <class Item, class ReadItem>
 KeyValue read_items(const KeyInfo& key, const YamlNode& node, const char* expected,
-                    bool (*read_item)(const std::string&, const YamlNode&, Item&, FileProblems&),
-                    FileProblems& problems) {
+                    ReadItem read_item, FileProblems& problems) {
   if (node.kind != Kind::list) {
     add_mismatch(key.path, node, expected, "", problems);
     return {};
@@ -255,11 +301,18 @@ KeyValue read_value(const KeyInfo& key, const YamlNode& node, FileProblems& prob
     case ValueKind::synthetic:
       return read_synthetic(key, node, problems);
     case ValueKind::wall_list:
-      return read_items(key, node, "a list of walls, [{point_m: .., normal: ..}]", read_wall,
-                        problems);
+      return read_items<WallSpec>(key, node, "a list of walls, [{point_m: .., normal: ..}]",
+                                  read_wall, problems);
     case ValueKind::zone_list:
-      return read_items(key, node, "a list of zones, [{polygon: .., friction_coefficient: ..}]",
-                        read_zone, problems);
+      return read_items<BasalZone>(key, node,
+                                   "a list of zones, [{polygon: .., friction_coefficient: ..}]",
+                                   read_zone, problems);
+    case ValueKind::record_list:
+      return read_items<NumberRecord>(
+          key, node, "a list of measurements, [{..}, {..}]",
+          [&key](const std::string& path, const YamlNode& item, NumberRecord& record,
+                 FileProblems& found) { return read_record(key, path, item, record, found); },
+          problems);
   }
   return {};
 }

@@ -52,38 +52,6 @@ void refuse_other_shapes(const PolygonLayer& layer, const PolygonRequest& reques
                   layer.label, layer.layer->GetName(), OGRGeometryTypeToName(type), request.what));
 }
 
-/// nullptr where the coordinates stay as they are.
-TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request,
-                              const Grid& terrain) {
-  OGREnvelope box;
-  if (layer.layer->GetExtent(&box, true) != OGRERR_NONE) box = {};  // an empty layer has none
-  const OGRSpatialReference* own = layer.layer->GetSpatialRef();
-  if (terrain.crs_wkt.empty() && !request.without_terrain) {
-    layer.identity.shape = crs_identity(OGRSpatialReference());
-    if (own != nullptr || !request.crs.empty())
-      layer.notes.push_back(layer.label +
-                            ": its coordinates are taken as they are, because the terrain "
-                            "has no coordinate system");
-    return nullptr;
-  }
-  std::string note, warning;
-  const OGRSpatialReference from = settle_crs(own,
-                                              {layer.label, request.crs_key, request.crs,
-                                               request.fallback_crs_key, request.fallback_crs},
-                                              {box.MinX, box.MaxX, box.MinY, box.MaxY, 0}, note)
-                                       .crs;
-  layer.identity.shape = crs_identity(from);
-  if (!note.empty()) layer.notes.push_back(note);
-  if (request.without_terrain) return nullptr;
-  const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
-  TransformPtr to_terrain = transform_between(from, to, layer.label, &warning);
-  if (!warning.empty()) layer.warnings.push_back(warning);
-  if (to_terrain)
-    layer.notes.push_back(
-        fmt::format("{}: reprojected from {} to {}", layer.label, crs_name(from), crs_name(to)));
-  return to_terrain;
-}
-
 /// What the steps below share.
 struct Reading {
   PolygonLayer& layer;
@@ -141,6 +109,37 @@ PolygonsPtr polygons_of(Reading& reading, const OGRGeometry& geometry, const std
 }
 
 }  // namespace
+
+TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request,
+                              const Grid& terrain) {
+  OGREnvelope box;
+  if (layer.layer->GetExtent(&box, true) != OGRERR_NONE) box = {};  // an empty layer has none
+  const OGRSpatialReference* own = layer.layer->GetSpatialRef();
+  if (terrain.crs_wkt.empty() && !request.without_terrain) {
+    layer.identity.shape = crs_identity(OGRSpatialReference());
+    if (own != nullptr || !request.crs.empty())
+      layer.notes.push_back(layer.label +
+                            ": its coordinates are taken as they are, because the terrain "
+                            "has no coordinate system");
+    return nullptr;
+  }
+  std::string note, warning;
+  const OGRSpatialReference from = settle_crs(own,
+                                              {layer.label, request.crs_key, request.crs,
+                                               request.fallback_crs_key, request.fallback_crs},
+                                              {box.MinX, box.MaxX, box.MinY, box.MaxY, 0}, note)
+                                       .crs;
+  layer.identity.shape = crs_identity(from);
+  if (!note.empty()) layer.notes.push_back(note);
+  if (request.without_terrain) return nullptr;
+  const OGRSpatialReference to = crs_from_wkt(terrain.crs_wkt);
+  TransformPtr to_terrain = transform_between(from, to, layer.label, &warning);
+  if (!warning.empty()) layer.warnings.push_back(warning);
+  if (to_terrain)
+    layer.notes.push_back(
+        fmt::format("{}: reprojected from {} to {}", layer.label, crs_name(from), crs_name(to)));
+  return to_terrain;
+}
 
 PolygonLayer open_polygon_layer(const PolygonRequest& request) {
   const InputFile file = find_input(request.key, request.path, request.directory);

@@ -3,6 +3,7 @@
 /// Included by .cpp files only.
 #pragma once
 
+#include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
 #include "io/gdal/ogr_polygons.hpp"
 #include "io/site/polygon_request.hpp"
@@ -36,6 +37,11 @@ struct PolygonFeature {
 /// "layer 'a' is used ..." goes to the notes. \throws SetupError naming key and file: missing file
 ///   or layer
 PolygonLayer open_polygon_layer(const PolygonRequest& request);
+
+/// From the layer's coordinates to the terrain's; nullptr where they stay as they are. What was
+/// settled goes to the notes and the identity. \throws SetupError: no coordinate system
+TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request,
+                              const Grid& terrain);
 
 /// All features, in file order. What was reprojected, mended or taken as it is goes to the notes.
 /// \param read_fields called for each feature to fill in what its fields say

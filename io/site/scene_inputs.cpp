@@ -9,6 +9,7 @@
 #include "io/gdal/raster_source.hpp"
 #include "io/site/bed/bed_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
+#include "io/site/observed/event_reader.hpp"
 #include "io/site/observed/observed_outline.hpp"
 #include "io/site/release/release_requests.hpp"
 #include "io/site/release_hash.hpp"
@@ -43,16 +44,23 @@ struct Loading {
   std::unique_ptr<ElevationRaster> raster;  ///< of terrain.raster
   std::vector<std::string> problems;        ///< of files that cannot be used
 
+  template <class Read>
+  void take_words(Read& read) {
+    std::move(read.notes.begin(), read.notes.end(), std::back_inserter(inputs.notes));
+    std::move(read.warnings.begin(), read.warnings.end(), std::back_inserter(inputs.warnings));
+  }
+  void take_identity(InputIdentity& identity) {
+    std::error_code error;
+    const auto name = std::filesystem::proximate(identity.file, scenario.directory, error);
+    const bool inside_file = identity.file.starts_with("/vsi");
+    if (!scenario.directory.empty() && !error && !inside_file) identity.file = name.string();
+    inputs.identities.push_back(std::move(identity));
+  }
   /// Notes, warnings and identity of a file that was read.
   template <class Read>
   void take(Read& read) {
-    std::move(read.notes.begin(), read.notes.end(), std::back_inserter(inputs.notes));
-    std::move(read.warnings.begin(), read.warnings.end(), std::back_inserter(inputs.warnings));
-    std::error_code error;
-    const auto name = std::filesystem::proximate(read.identity.file, scenario.directory, error);
-    const bool inside_file = read.identity.file.starts_with("/vsi");
-    if (!scenario.directory.empty() && !error && !inside_file) read.identity.file = name.string();
-    inputs.identities.push_back(std::move(read.identity));
+    take_words(read);
+    take_identity(read.identity);
   }
   /// Goes on after a problem, so that all files are looked at in one round.
   template <class Call>
@@ -303,6 +311,20 @@ void load_observed(Loading& loading) {
   });
 }
 
+/// The same for what members are scored against; drawn where nothing else is.
+void load_event(Loading& loading) {
+  if (!loading.scenario.observation) return;
+  loading.attempt([&] {
+    const Grid& terrain = loading.grid();
+    const Grid maps = terrain.n_cols > 0 ? hazard_grid(loading.scenario, terrain) : Grid{};
+    EventRead read = read_observed_event(loading.scenario, maps, loading.inputs.release.get());
+    loading.take_words(read);
+    for (InputIdentity& identity : read.identities) loading.take_identity(identity);
+    if (loading.inputs.observed.empty()) loading.inputs.observed = std::move(read.rings);
+    loading.inputs.event = std::make_shared<const ObservedEvent>(std::move(read.event));
+  });
+}
+
 /// What can be said of release and zones when the terrain cannot be read.
 void check_without_terrain(Loading& loading) {
   const Scenario& scenario = loading.scenario;
@@ -318,6 +340,7 @@ void check_without_terrain(Loading& loading) {
   check_zones(loading);
   load_bed_supply(loading);
   load_observed(loading);
+  load_event(loading);
 }
 
 }  // namespace
@@ -342,6 +365,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     check_zones(loading);
   load_bed_supply(loading);
   load_observed(loading);
+  load_event(loading);
   loading.refuse_problems();
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
   if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));

@@ -99,7 +99,10 @@ std::string north_arrow(const Frame& frame) {
 }
 
 std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks& marks) {
-  std::string outline, cells, observed;
+  std::string outline, cells, observed, nearest;
+  for (const MapLine& l : marks.nearest)
+    nearest += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", frame.x(l.x0), frame.y(l.y0),
+                           frame.x(l.x1), frame.y(l.y1));
   for (const auto& ring : marks.observed)
     for (std::size_t i = 0; i < ring.size(); ++i)
       observed += fmt::format("{}{:.1f} {:.1f}", i == 0 ? 'M' : 'L', frame.x(ring[i].x()),
@@ -127,6 +130,9 @@ std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks&
         "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3.2\"/>"
         "<path d=\"{0}\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.4\"/>",
         outline);
+  if (!nearest.empty())
+    svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#7b1fa2\" stroke-width=\"1.4\"/>",
+                       nearest);
   if (!observed.empty())
     svg += fmt::format(
         "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3.6\"/>"
@@ -177,15 +183,23 @@ std::string observed_label(const std::string& note) {
   return note.empty() ? "observed" : "observed: " + note;
 }
 
+std::string nearest_label(std::int64_t member, bool single) {
+  return single ? "covered by this run"
+                : fmt::format("covered by member {}, the nearest to what was observed", member);
+}
+
 std::string marks_legend_html(const MapMarks& marks) {
   const bool left =
       std::any_of(marks.left.begin(), marks.left.end(), [](float v) { return v > 0; });
-  if (marks.release.empty() && marks.observed.empty() && !left) return {};
+  if (marks.release.empty() && marks.observed.empty() && marks.nearest.empty() && !left) return {};
   std::string html = "<ul class=\"legend marks\">";
   if (!marks.release.empty()) html += "<li><span class=\"swatch release\"></span>release</li>";
   if (!marks.observed.empty())
     html += "<li><span class=\"swatch observed\"></span>" +
             html_escape(observed_label(marks.observed_note)) + "</li>";
+  if (!marks.nearest.empty())
+    html +=
+        "<li><span class=\"swatch nearest\"></span>" + html_escape(marks.nearest_label) + "</li>";
   if (left) html += "<li><span class=\"swatch left\"></span>mass left the terrain here</li>";
   return html + "</ul>";
 }

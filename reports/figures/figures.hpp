@@ -19,13 +19,17 @@ struct MapMarks {
   std::vector<MapLine> release;                 ///< outline of the cells covered at the start
   std::span<const std::vector<Vec2>> observed;  ///< closed rings of a mapped event [m]
   std::string observed_note;                    ///< what they are; may be empty
+  std::vector<MapLine> nearest;                 ///< outline of what the member nearest to it covers
+  std::string nearest_label;
   std::vector<float> left;  ///< [scene.cells], > 0 where mass left the terrain; may be empty
 };
-/// All but the observed outline.
+/// All but the observed outline and the member nearest to it.
 MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
                    const Raster<std::uint8_t>* release);
 /// "observed: NOTE"
 std::string observed_label(const std::string& note);
+/// "member 7, nearest to what was observed"; of a single run "this run".
+std::string nearest_label(std::int64_t member, bool single);
 
 /// Hidden SVG that holds the hillshade picture once, under the id `hillshade`, and the pattern
 /// `hatch`; every figure of a page refers to them.

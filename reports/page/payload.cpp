@@ -93,6 +93,13 @@ Json observed_json(const ReportInput& input) {
   return {{"label", observed_label(input.observed_note)}, {"rings", std::move(rings)}};
 }
 
+/// {"label": ..., "lines": [[x0, y0, x1, y1], ...]}; null where no member is scored.
+Json nearest_json(const ReportInput& input) {
+  if (input.nearest == nullptr) return nullptr;
+  return {{"label", nearest_label(input.nearest_member, input.hazard == nullptr)},
+          {"lines", release_json(input.nearest)}};
+}
+
 Json legend_json(const Legend& legend) {
   Json classes = Json::array();
   for (const auto& c : legend.classes)
@@ -150,13 +157,10 @@ Json maps_json(const ReportInput& input, const MapScene& scene, const LayerStack
     if (layer == first) start = static_cast<int>(layers.size());
     layers.push_back(layer_json(scene, maps, *layer, input, n_valid));
   }
-  return {{"cells", grid_json(scene.cells)},
-          {"ground", ground_json(scene.ground)},
-          {"view", grid_json(scene.ground.grid)},
-          {"start", start},
-          {"release", release_json(input.release)},
-          {"observed", observed_json(input)},
-          {"layers", std::move(layers)}};
+  return {{"cells", grid_json(scene.cells)},        {"ground", ground_json(scene.ground)},
+          {"view", grid_json(scene.ground.grid)},   {"start", start},
+          {"release", release_json(input.release)}, {"observed", observed_json(input)},
+          {"nearest", nearest_json(input)},         {"layers", std::move(layers)}};
 }
 
 /// Whether the runout grows with sampled key `k`, over the shown members.

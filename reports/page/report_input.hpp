@@ -7,6 +7,7 @@
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
 #include "ensemble/hazard/convergence.hpp"
+#include "ensemble/scores/score_table.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 
 #include <cstdint>
@@ -49,6 +50,9 @@ struct ReportInput {
   const Raster<std::uint8_t>* release = nullptr;  ///< 1: covered at the start; may be null
   std::span<const std::vector<Vec2>> observed;    ///< closed rings of a mapped event [m]
   std::string observed_note;                      ///< what they are, in words; may be empty
+  const ScoreTable* scores = nullptr;  ///< one row per entry of `members`; null: none is scored
+  const Raster<std::uint8_t>* nearest = nullptr;  ///< covered by the best member; may be null
+  std::int64_t nearest_member = 0;                ///< its number
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

@@ -67,6 +67,10 @@ std::string still_figures(const ReportInput& input, const MapScene& scene, const
   MapMarks marks = map_marks(scene, maps, input.release);
   marks.observed = input.observed;
   marks.observed_note = input.observed_note;
+  if (input.nearest != nullptr) {
+    marks.nearest = cell_outline(*input.nearest);
+    marks.nearest_label = nearest_label(input.nearest_member, input.hazard == nullptr);
+  }
   for (const Layer* layer : still_layers(maps)) {
     input.cancel.check();
     html += still_figure(scene, maps, *layer, input.resolved_thickness_m, marks);

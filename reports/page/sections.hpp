@@ -27,6 +27,8 @@ std::string motion_html(const ReportInput& input);
 std::string left_out_html(const std::vector<MemberSummary>& members);
 /// Places for histogram, scatter plots, convergence; the script fills them.
 std::string charts_html(const ReportInput& input, const Headline& h);
+/// What was observed beside what the nearest members give; empty text where nothing was observed.
+std::string observed_html(const ReportInput& input, const Headline& h);
 std::string members_html(const ReportInput& input, const Headline& h);
 /// Description, timings, notes.
 std::string computation_html(const ReportInput& input, const Headline& h);

@@ -79,6 +79,7 @@ struct Checker {
   void operator()(const SyntheticTerrain& v) const;
   void operator()(const std::vector<WallSpec>& v) const;
   void operator()(const std::vector<BasalZone>& v) const;
+  void operator()(const std::vector<NumberRecord>& v) const;
 
   void check_support(const Distribution& d, const std::string& shown) const;
   void check_word(const std::string& word) const;
@@ -195,6 +196,18 @@ void Checker::operator()(const std::vector<WallSpec>& v) const {
     const auto removal = part(whole, "remove_at_s", "s", 0, 1e5);
     if (wall.remove_at_s) Checker{removal, problems}(*wall.remove_at_s);
   }
+}
+
+void Checker::operator()(const std::vector<NumberRecord>& v) const {
+  for (std::size_t i = 0; i < v.size(); ++i)
+    for (const RecordField& field : key.fields) {
+      KeyInfo whole = key;
+      whole.path = item_path(key, i);
+      const auto own = part(whole, field.name, field.units, field.min, field.max);
+      const auto found = v[i].find(field.name);
+      if (found == v[i].end()) continue;
+      for (const double number : found->second) Checker{own, problems}(number);
+    }
 }
 
 void Checker::operator()(const std::vector<BasalZone>& v) const {

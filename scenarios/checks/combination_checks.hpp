@@ -13,5 +13,6 @@ void check_material(const Scenario&, std::vector<Problem>&);
 void check_erosion(const Scenario&, std::vector<Problem>&);
 void check_ensemble(const Scenario&, std::vector<Problem>&);
 void check_hazard(const Scenario&, std::vector<Problem>&);
+void check_observation(const Scenario&, std::vector<Problem>&);
 
 }  // namespace sturz

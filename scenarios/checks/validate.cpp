@@ -22,6 +22,7 @@ std::vector<Problem> validate(const Scenario& scenario) {
   check_erosion(scenario, problems);
   check_ensemble(scenario, problems);
   check_hazard(scenario, problems);
+  check_observation(scenario, problems);
   return problems;
 }
 

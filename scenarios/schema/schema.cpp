@@ -19,6 +19,7 @@ std::vector<KeyInfo> all_keys() {
   schema_rows::add_material_keys(keys);
   schema_rows::add_erosion_keys(keys);
   schema_rows::add_run_keys(keys);
+  schema_rows::add_observation_keys(keys);
   return keys;
 }
 
@@ -27,6 +28,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   schema_rows::add_site_blocks(blocks);
   schema_rows::add_material_blocks(blocks);
   schema_rows::add_erosion_blocks(blocks);
+  schema_rows::add_observation_blocks(blocks);
   return blocks;
 }
 
@@ -84,7 +86,6 @@ std::span<const LaterKey> later_keys() {
   static const std::vector<LaterKey> keys = {
       {"fluid", "a pore fluid with particles of its own"},
       {"coupling", "drag between fluid and grains"},
-      {"observation", "comparison with a mapped deposit"},
       {"prior", "ready-made distributions by material"},
   };
   return keys;

@@ -26,17 +26,28 @@ enum class ValueKind {
   uncertain,    ///< number, or a distribution in its place
   number_list,  ///< [a, b, ...]
   text_list,
-  number_map,  ///< {text: number, ...}
-  synthetic,   ///< {shape: {cell_size_m: .., own numbers ..}}
-  wall_list,   ///< [{point_m: .., normal: .., ...}, ...]
-  zone_list,   ///< [{polygon: .., friction_coefficient: .., ...}, ...]
+  number_map,   ///< {text: number, ...}
+  synthetic,    ///< {shape: {cell_size_m: .., own numbers ..}}
+  wall_list,    ///< [{point_m: .., normal: .., ...}, ...]
+  zone_list,    ///< [{polygon: .., friction_coefficient: .., ...}, ...]
+  record_list,  ///< [{name: number or [x, y], ...}, ...], names out of KeyInfo::fields
 };
 
 /// Typed value of a key; which alternative is used follows from the kind.
 using KeyValue =
     std::variant<std::monostate, double, std::int64_t, std::string, bool, Uncertain,
                  std::vector<double>, std::vector<std::string>, std::map<std::string, double>,
-                 SyntheticTerrain, std::vector<WallSpec>, std::vector<BasalZone>>;
+                 SyntheticTerrain, std::vector<WallSpec>, std::vector<BasalZone>,
+                 std::vector<NumberRecord>>;
+
+/// One name that an entry of a record_list may hold.
+struct RecordField {
+  const char* name;
+  const char* units;
+  double min, max;
+  std::size_t size = 1;  ///< numbers: 1, or 2 for a point
+  bool required = false;
+};
 
 struct KeyInfo {
   std::string path;  ///< dotted, e.g. "basal.friction_coefficient"
@@ -54,6 +65,7 @@ struct KeyInfo {
   std::vector<std::string> later_choices;  ///< words that a later version will know
   /// Words of earlier versions and what they are called now.
   std::map<std::string, std::string> renamed_choices = {};
+  std::vector<RecordField> fields = {};  ///< record_list
 };
 
 /// All keys in file order.

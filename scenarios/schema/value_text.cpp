@@ -73,6 +73,14 @@ std::string zone_text(const BasalZone& zone) {
   return map.text();
 }
 
+/// A point as a list, a single number without brackets.
+std::string record_text(const NumberRecord& record) {
+  MapText map;
+  for (const auto& [name, numbers] : record)
+    map.add(name, numbers.size() == 1 ? number_text(numbers.front()) : numbers_text(numbers));
+  return map.text();
+}
+
 std::string synthetic_text(const SyntheticTerrain& terrain) {
   MapText own;
   own.add("cell_size_m", terrain.cell_size_m);
@@ -99,6 +107,9 @@ struct ToText {
   std::string operator()(const SyntheticTerrain& v) const { return synthetic_text(v); }
   std::string operator()(const std::vector<WallSpec>& v) const { return list_text(v, wall_text); }
   std::string operator()(const std::vector<BasalZone>& v) const { return list_text(v, zone_text); }
+  std::string operator()(const std::vector<NumberRecord>& v) const {
+    return list_text(v, record_text);
+  }
 };
 
 /// Words that YAML readers take for something else than text.

@@ -31,8 +31,11 @@ KeyValue unusual_value(const KeyInfo& key) {
       return std::string("unusual");
     case ValueKind::choice:
       return key.choices.back();
-    case ValueKind::flag:
-      return !std::get<bool>(key.get(Scenario{}));
+    case ValueKind::flag: {
+      const KeyValue given = key.get(Scenario{});  // none in a block that is absent
+      const bool* flag = std::get_if<bool>(&given);
+      return flag == nullptr || !*flag;
+    }
     case ValueKind::uncertain: {
       Uncertain u;
       u.distribution = Distribution{};
@@ -52,6 +55,12 @@ KeyValue unusual_value(const KeyInfo& key) {
       return std::vector<WallSpec>{{{1, 2, 3}, {0, 1, 0}, 0.3, 4.0}};
     case ValueKind::zone_list:
       return std::vector<BasalZone>{{"unusual.gpkg", "plate", 0.3, {}, 50.0}};
+    case ValueKind::record_list: {
+      NumberRecord record;
+      for (const RecordField& field : key.fields)
+        record[field.name].assign(field.size, (field.min + field.max) / 2);
+      return std::vector<NumberRecord>{record};
+    }
   }
   return {};
 }

@@ -9,7 +9,9 @@
 namespace sturz::workflow {
 
 std::vector<InputIdentity> of_members(std::vector<InputIdentity> inputs) {
-  std::erase_if(inputs, [](const InputIdentity& i) { return i.role == "hazard.observed_polygon"; });
+  std::erase_if(inputs, [](const InputIdentity& i) {
+    return i.role == "hazard.observed_polygon" || i.role.starts_with("observation.");
+  });
   return inputs;
 }
 

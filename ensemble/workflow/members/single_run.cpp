@@ -121,6 +121,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   LayerStack peaks = peak_layers(result, ground.get(), scene.inputs.terrain_grid());
   RunStored stored{censoring_report({&summary, 1}, 0),
                    member_warnings({&summary, 1}, manifest.warnings)};
+  if (scene.inputs.event) stored.scores = score_result(result, scene.inputs.event);
   stored.censoring.where = where_mass_left(peaks, scene.inputs.terrain_grid());
   manifest.censored = one_line(stored.censoring);
   manifest.hazard_hash = fmt::format("{:016x}", hash_of(peaks));
@@ -144,9 +145,13 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   page.members = {&summary, 1};
   page.run = &result;
   page.where_mass_left = stored.censoring.where;
-  const Raster<std::uint8_t> release = release_footprint(MemberStore(folder.members()));
+  const MemberStore store(folder.members());
+  const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
   page.observed = scene.inputs.observed;
+  const NearestMember nearest = nearest_member(store, stored.scores, scene.inputs.event);
+  page.scores = stored.scores ? &*stored.scores : nullptr;
+  page.nearest = &nearest;
   write_page(folder, manifest, scene.medians, page);
   return stored;
 }

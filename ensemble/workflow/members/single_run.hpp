@@ -4,6 +4,7 @@
 
 #include "engine/simulation/member_result.hpp"
 #include "ensemble/censoring/censoring_report.hpp"
+#include "ensemble/scores/score_table.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
@@ -54,6 +55,7 @@ MemberResult compute_run(const SingleRun&, Observer&, const std::atomic<bool>& c
 struct RunStored {
   CensoringReport censoring;
   std::vector<MemberWarning> warnings;  ///< its own, those that `describe` did not give
+  std::optional<ScoreTable> scores{};   ///< one row, where something was observed
 };
 
 /// Writes member, maps, manifest and page. \throws IoError

@@ -66,6 +66,15 @@ std::string write_hazard(const OutputFolder& folder, const MemberStore& store,
   return fmt::format("{:016x}", hashed.value());
 }
 
+/// Members against what was observed. Nothing of it is stored with them: an observation may come
+/// later, or change, and only this is made anew.
+void add_scores(MapsMade& made, const MemberStore& store, const SceneInputs& inputs,
+                CancelFlag cancel) {
+  if (!inputs.event) return;
+  made.scores = score_members(store, inputs.event, cancel);
+  for (const MemberSummary& m : store.members()) made.numbers.push_back(m.member);
+}
+
 /// A member may be lost or damaged between its computation and the maps.
 void require_complete(const OutputFolder& folder, const MemberStore& store,
                       const DesignTable& design, Observer& observer) {
@@ -107,7 +116,9 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   manifest.maps_of.clear();
   manifest.write(folder.manifest());
 
-  write_text_atomic(folder.members_csv(), members_csv(design, store.members()));
+  add_scores(made, store, inputs, cancel);
+  write_text_atomic(folder.members_csv(),
+                    members_csv(design, store.members(), made.scores ? &*made.scores : nullptr));
   ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
   HazardContext context = context_of(manifest, scenario, design);
   context.ground = ground.get();
@@ -133,6 +144,9 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
   page.observed = inputs.observed;
+  const NearestMember nearest = nearest_member(store, made.scores, inputs.event);
+  page.scores = made.scores ? &*made.scores : nullptr;
+  page.nearest = &nearest;
   manifest.hazard_hash = hash;
   manifest.maps_of = members_hash(store, design.n_members());
   write_page(folder, manifest, scenario, page);

@@ -6,6 +6,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/censoring/censoring_report.hpp"
 #include "ensemble/sampling/design.hpp"
+#include "ensemble/scores/score_table.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
@@ -14,6 +15,7 @@
 #include "scenarios/scene_inputs.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,8 @@ struct MapsMade {
   double max_failed_fraction = 0;       ///< ensemble.max_failed_fraction of the scenario
   double seconds = 0;                   ///< of making them
   std::string hazard_hash;              ///< of every value of the maps
+  std::optional<ScoreTable> scores;     ///< where something was observed
+  std::vector<std::int64_t> numbers;    ///< of the members, in the order of the scores' rows
 
   std::int64_t failed() const { return finished - valid; }
   /// More of the finished members failed than the scenario accepts, or there are none.
@@ -50,10 +54,11 @@ struct MapsRequest {
   const SceneInputs& inputs;  ///< for where the ground is known, and the page's relief
 };
 
-/// Reads the members' maps, writes members.csv, hazard.nc, hazard/*.tif with their styles and list,
-/// and report.html. Memory holds a few hundred MB whatever the size of terrain and ensemble. When
-/// it is cancelled or fails, the manifest has no hash until all files belong together again.
-/// \throws SetupError; IoError when the disk refuses (members are not touched); Cancelled
+/// Scores the members where something was observed, reads their maps, writes members.csv,
+/// hazard.nc, hazard/*.tif with their styles and list, and report.html. Memory holds a few hundred
+/// MB whatever the size of terrain and ensemble. When it is cancelled or fails, the manifest has no
+/// hash until all files belong together again. \throws SetupError; IoError when the disk refuses
+/// (members are not touched); Cancelled
 MapsMade make_maps(const MapsRequest&, const MemberStore&, Observer&, CancelFlag cancel = {});
 
 /// The same at the end of an ensemble, whose computing time so far goes into the manifest.

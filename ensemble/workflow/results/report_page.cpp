@@ -113,6 +113,14 @@ void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const
 
 }  // namespace
 
+NearestMember nearest_member(const MemberParts& source, const std::optional<ScoreTable>& scores,
+                             const std::shared_ptr<const ObservedEvent>& event) {
+  if (!scores) return {};
+  const std::vector<std::size_t> rows = best_rows(*scores);
+  if (rows.empty()) return {};
+  return {source.members()[rows.front()].member, shown_cells(source, rows.front(), event)};
+}
+
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
                 const PageContent& content) {
   ReportInput input;
@@ -132,6 +140,11 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.release = content.release;
   input.observed = content.observed;
   input.observed_note = scenario.hazard.observed_note;
+  input.scores = content.scores;
+  if (content.nearest != nullptr && content.nearest->member) {
+    input.nearest = &content.nearest->cells;
+    input.nearest_member = *content.nearest->member;
+  }
   input.warnings = still_true(manifest.warnings, content.members);
   input.notes = manifest.notes;
   input.cancel = content.cancel;
@@ -191,6 +204,14 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
   if (finished.inputs) page.observed = finished.inputs->observed;
+  std::optional<ScoreTable> scores;
+  NearestMember nearest;
+  if (finished.inputs && finished.inputs->event) {
+    scores = score_members(store, finished.inputs->event, cancel);
+    nearest = nearest_member(store, scores, finished.inputs->event);
+    page.scores = &*scores;
+    page.nearest = &nearest;
+  }
   if (finished.inputs)
     page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
   page.members = store.members();

@@ -7,6 +7,7 @@
 #include "engine/simulation/member_result.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
+#include "ensemble/scores/score_table.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
@@ -14,6 +15,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +25,15 @@ namespace sturz::workflow {
 
 /// How many cells a page's maps have at most: more are joined, see coarse_layers().
 inline constexpr std::size_t page_cells = 450'000;
+
+/// The member whose covered cells a page draws beside the observed outline.
+struct NearestMember {
+  std::optional<std::int64_t> member;  ///< nothing: none is scored
+  Raster<std::uint8_t> cells;
+};
+/// That of the smallest misfit, see best_rows().
+NearestMember nearest_member(const MemberParts&, const std::optional<ScoreTable>&,
+                             const std::shared_ptr<const ObservedEvent>&);
 
 /// What there is to show; absent parts are null or empty.
 struct PageContent {
@@ -35,6 +47,8 @@ struct PageContent {
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
   std::span<const std::vector<Vec2>> observed;    ///< rings of the observed outline [m]
+  const ScoreTable* scores = nullptr;             ///< rows in the order of `members`
+  const NearestMember* nearest = nullptr;
   const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
 };
 

@@ -153,6 +153,9 @@ export async function startMaps(page) {
     if (maps.observed)
       marks.append(element('li', {}, element('span', {class: 'swatch observed'}),
                            maps.observed.label));
+    if (maps.nearest)
+      marks.append(element('li', {}, element('span', {class: 'swatch nearest'}),
+                           maps.nearest.label));
     if (left?.values.some((v) => v > 0))
       marks.append(element('li', {}, element('span', {class: 'swatch left'}),
                            'mass left the terrain here'));

@@ -139,7 +139,7 @@ function cellShape(values, grid) {
   return squares.length > 0 ? new Feature(new MultiPolygon(squares)) : null;
 }
 
-/** Outlines of the release and of a mapped event, and cells where mass left: what every map of the page shows. */
+/** Outlines of the release, of a mapped event and of the member nearest to it, and cells where mass left: what every map of the page shows. */
 function marksLayer(maps, leftValues) {
   const source = new VectorSource();
   if (maps.release.length > 0) {
@@ -150,6 +150,12 @@ function marksLayer(maps, leftValues) {
       new Style({stroke: new Stroke({color: '#111', width: 1.8})}),
     ]);
     source.addFeature(outline);
+  }
+  if (maps.nearest) {
+    const covered = new Feature(new MultiLineString(
+        maps.nearest.lines.map(([x0, y0, x1, y1]) => [[x0, y0], [x1, y1]])));
+    covered.setStyle(new Style({stroke: new Stroke({color: '#7b1fa2', width: 1.8})}));
+    source.addFeature(covered);
   }
   if (maps.observed) {
     const mapped = new Feature(new MultiLineString(maps.observed.rings));

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/site/observed/event_reader.hpp"
+
+#include "engine/core/error.hpp"
+#include "io/gdal/gdal_handles.hpp"
+#include "io/site/observed/observed_files.hpp"
+#include "io/site/stand_in_crs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace sturz {
+namespace {
+
+/// What the steps below share.
+struct Reading {
+  const Scenario& scenario;
+  const ObservationSpec& spec;
+  const Grid& maps;
+  EventRead read;
+  std::vector<std::string> problems;
+
+  template <class Call>
+  void attempt(Call call) {
+    try {
+      call();
+    } catch (const SetupError& problem) {
+      problems.emplace_back(problem.what());
+    }
+  }
+  void take(FileRead& file) {
+    std::move(file.notes.begin(), file.notes.end(), std::back_inserter(read.notes));
+    std::move(file.warnings.begin(), file.warnings.end(), std::back_inserter(read.warnings));
+    read.identities.push_back(std::move(file.identity));
+  }
+  bool has_maps() const { return maps.n_cols > 0; }
+  PolygonRequest layer(const char* key, const std::string& path, const std::string& name,
+                       const char* layer_key, const char* what) const {
+    PolygonRequest request;
+    request.path = path;
+    request.layer = name;
+    request.key = key;
+    request.layer_key = layer_key;
+    request.directory = scenario.directory;
+    request.crs = spec.crs;
+    request.crs_key = "observation.crs";
+    request.what = what;
+    request.without_terrain = !has_maps();
+    stand_in_with_terrain(request, scenario.terrain);
+    return request;
+  }
+};
+
+void read_areas(Reading& r) {
+  const auto area = [&r](const PolygonRequest& request, double sd_m,
+                         std::optional<ObservedArea>& into) {
+    if (request.path.empty()) return;
+    r.attempt([&] {
+      AreaRead read = read_observed_area(request, r.maps);
+      r.take(read);
+      if (r.read.rings.empty()) r.read.rings = std::move(read.rings);
+      read.area.sd_m = sd_m;
+      into = std::move(read.area);
+    });
+  };
+  const ObservationSpec& o = r.spec;
+  area(r.layer("observation.outline", o.outline, o.outline_layer, "observation.outline_layer",
+               "observed outline"),
+       o.outline_sd_m.value_or(0), r.read.event.outline);
+  area(r.layer("observation.deposit", o.deposit, o.deposit_layer, "observation.deposit_layer",
+               "observed deposit"),
+       o.deposit_sd_m.value_or(0), r.read.event.deposit);
+}
+
+/// A DEM of difference tells where the source lay how much was lost, not what lies there.
+std::size_t mask_source(Raster<double>& value, const Grid& maps, const Raster<double>& release) {
+  const Window at = window_of(value.grid, maps);
+  std::size_t masked = 0;
+  const Grid& g = release.grid;
+  for (int row = 0; row < g.n_rows; ++row)
+    for (int col = 0; col < g.n_cols; ++col) {
+      if (!(release.at(row, col) > 0)) continue;
+      const double edge = 1e-6 * maps.cell_m, x = g.x_center(col), y = g.y_center(row);
+      const double half = g.cell_m / 2 - edge;
+      for (int r = maps.row_of(y + half); r <= maps.row_of(y - half); ++r)
+        for (int c = maps.col_of(x - half); c <= maps.col_of(x + half); ++c) {
+          if (!at.contains(r, c)) continue;
+          double& v = value.at(r - at.row0, c - at.col0);
+          masked += std::isfinite(v);
+          v = nan_d;
+        }
+    }
+  return masked;
+}
+
+void read_thickness(Reading& r, const Raster<double>* release) {
+  const ObservationSpec& o = r.spec;
+  if (o.deposit_thickness.empty()) return;
+  RasterRequest request;
+  request.path = o.deposit_thickness;
+  request.key = "observation.deposit_thickness";
+  request.directory = r.scenario.directory;
+  request.crs = o.crs;
+  request.crs_key = "observation.crs";
+  stand_in_with_terrain(request, r.scenario.terrain);
+  ThicknessValuesRead read = read_observed_thickness(request, o.thickness_sign, r.maps);
+  ObservedThickness thickness{std::move(read.value), o.thickness_sign != ThicknessSign::thickness,
+                              o.thickness_sd_m.value_or(0)};
+  const std::string label = request.key + " = " + request.path;
+  if (thickness.net_change && r.has_maps()) {
+    const std::size_t source = release ? mask_source(thickness.value, r.maps, *release) : 0;
+    std::size_t fell = 0;
+    for (double& v : thickness.value.values)
+      if (o.mask_erosion && v < 0) v = nan_d, ++fell;
+    read.notes.push_back(
+        fmt::format("{}: net change, not compared in {} cells of the source{}", label, source,
+                    o.mask_erosion ? fmt::format(" and {} where the ground fell", fell) : ""));
+  }
+  r.take(read);
+  r.read.event.thickness = std::move(thickness);
+}
+
+std::optional<Measured> measured(const std::optional<MeasuredSpec>& spec) {
+  if (!spec) return std::nullopt;
+  return Measured{spec->value.value_or(0), spec->sd.value_or(0)};
+}
+
+std::optional<double> number_in(const NumberRecord& record, const char* name) {
+  const auto found = record.find(name);
+  return found == record.end() ? std::nullopt : std::optional(found->second.front());
+}
+
+/// \pre the record has a point
+Vec2 point_in(const NumberRecord& record) {
+  const std::vector<double>& xy = record.at("point_m");
+  return {xy.at(0), xy.at(1)};
+}
+
+void take_numbers(const Scenario& scenario, ObservedEvent& event) {
+  const ObservationSpec& o = *scenario.observation;
+  event.runout_m = measured(o.runout_m);
+  event.h_over_l = measured(o.h_over_l);
+  event.com_travel_m = measured(o.com_travel_m);
+  event.volume_m3 = measured(o.volume_m3);
+  event.area_m2 = measured(o.area_m2);
+  for (const NumberRecord& record : o.fronts) {
+    ObservedFront front;
+    front.time_s = number_in(record, "time_s").value_or(0);
+    front.distance_m = number_in(record, "distance_m");
+    if (!front.distance_m) front.point = point_in(record);
+    front.sd_m = number_in(record, "sd_m");
+    front.sd_s = number_in(record, "sd_s");
+    event.fronts.push_back(front);
+  }
+  for (const NumberRecord& record : o.speeds)
+    event.speeds.push_back(
+        {point_in(record),
+         {number_in(record, "speed_m_s").value_or(0), number_in(record, "sd_m_s").value_or(0)}});
+  if (o.farthest_point_m) event.farthest = Vec2((*o.farthest_point_m)[0], (*o.farthest_point_m)[1]);
+  event.farthest_sd_m = o.farthest_point_sd_m.value_or(0);
+  event.threshold_given = o.threshold_m.has_value();
+  event.threshold_m = o.threshold_m.value_or(event.threshold_m);
+  event.spacing_m = scenario.numerics.spacing_m;
+}
+
+void read_corners(Reading& r) {
+  const ObservationSpec& o = r.spec;
+  if (!o.thalweg.empty())
+    r.attempt([&] {
+      CornersRead read =
+          read_observed_line(r.layer("observation.thalweg", o.thalweg, "", "", "thalweg"), r.maps);
+      r.take(read);
+      r.read.event.thalweg = std::move(read.corners);
+    });
+  if (!o.farthest_point.empty())
+    r.attempt([&] {
+      CornersRead read = read_observed_point(
+          r.layer("observation.farthest_point", o.farthest_point, "", "", "farthest point"),
+          r.maps);
+      r.take(read);
+      r.read.event.farthest = read.corners.front();
+    });
+}
+
+Vec2 centre_of(const Raster<double>& release) {
+  Vec2 sum = Vec2::Zero();
+  double weight = 0;
+  const Grid& g = release.grid;
+  for (int row = 0; row < g.n_rows; ++row)
+    for (int col = 0; col < g.n_cols; ++col) {
+      const double v = std::max(0.0, release.at(row, col));
+      sum += v * Vec2(g.x_center(col) - g.west_m, g.y_center(row) - g.north_m);
+      weight += v;
+    }
+  return Vec2(g.west_m, g.north_m) + (weight > 0 ? Vec2(sum / weight) : Vec2(Vec2::Zero()));
+}
+
+/// A point of the scene that no member can reach was mostly written in another system.
+void require_on_maps(Reading& r) {
+  const auto check = [&r](const Vec2& p, const std::string& what) {
+    const Grid& g = r.maps;
+    if (g.contains(g.row_of(p.y()), g.col_of(p.x()))) return;
+    r.problems.push_back(fmt::format(
+        "{} = [{:.10g}, {:.10g}]: lies beyond the terrain (x {:.10g} to {:.10g}, y {:.10g} to "
+        "{:.10g}). Give coordinates in the terrain's system.",
+        what, p.x(), p.y(), g.west_m, g.east_m(), g.south_m(), g.north_m));
+  };
+  const ObservedEvent& event = r.read.event;
+  if (event.farthest) check(*event.farthest, "observation.farthest_point");
+  for (std::size_t i = 0; i < event.fronts.size(); ++i)
+    if (!event.fronts[i].distance_m)
+      check(event.fronts[i].point, fmt::format("observation.fronts[{}].point_m", i));
+  for (std::size_t i = 0; i < event.speeds.size(); ++i)
+    check(event.speeds[i].point, fmt::format("observation.speeds[{}].point_m", i));
+}
+
+/// A deposit lies where something passed: two layers that say otherwise are of different events,
+/// or in different places.
+void compare_areas(EventRead& read) {
+  const auto& [outline, deposit] = std::pair(read.event.outline, read.event.deposit);
+  if (!outline || !deposit) return;
+  const Grid& o = outline->cover.grid;
+  const Grid& d = deposit->cover.grid;
+  double all = 0, beyond = 0;
+  for (int row = 0; row < d.n_rows; ++row)
+    for (int col = 0; col < d.n_cols; ++col) {
+      const int r = o.row_of(d.y_center(row)), c = o.col_of(d.x_center(col));
+      const double passed = o.contains(r, c) ? outline->cover.at(r, c) : 0;
+      all += deposit->cover.at(row, col);
+      beyond += std::max(0.0, deposit->cover.at(row, col) - passed);
+    }
+  if (beyond > 0.05 * all)
+    read.warnings.push_back(fmt::format(
+        "observation.deposit: {:.0f} % of it lie outside observation.outline, which should hold "
+        "all that was passed over; do both show the same event, in the right coordinate system?",
+        100 * beyond / all));
+}
+
+void note_threshold(const ObservedEvent& event, EventRead& read) {
+  const bool areas = event.outline || event.deposit || event.thickness || event.area_m2;
+  if (!areas || event.threshold_given) return;
+  read.notes.push_back(
+      fmt::format("observation.threshold_m: {:g} m (not given), at least a tenth of the spacing in "
+                  "full_stress: members count as covering cells that are thicker",
+                  event.threshold_m));
+}
+
+}  // namespace
+
+EventRead read_observed_event(const Scenario& scenario, const Grid& maps,
+                              const Raster<double>* release) {
+  const GdalScope scope;
+  Reading r{scenario, *scenario.observation, maps, {}, {}};
+  take_numbers(scenario, r.read.event);
+  if (release != nullptr) r.read.event.origin = centre_of(*release);
+  read_areas(r);
+  r.attempt([&] { read_thickness(r, release); });
+  read_corners(r);
+  if (r.has_maps()) require_on_maps(r);
+  require(r.problems.empty(), fmt::format("{}", fmt::join(r.problems, "\n")));
+  if (r.has_maps()) compare_areas(r.read);
+  note_threshold(r.read.event, r.read);
+  return std::move(r.read);
+}
+
+}  // namespace sturz
