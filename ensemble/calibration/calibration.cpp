@@ -41,10 +41,10 @@ Usable usable(const CalibrationData& data, std::vector<std::string>& warnings) {
   u.members.resize(simulated.values.size());
   for (std::size_t q = 0; q < observed.size(); ++q) {
     if (simulated.values.size() > 1 && is_constant(data, q)) {
-      warnings.push_back(
-          fmt::format("{} is {} {} in every member: it tells nothing of the uncertain values and is "
-                      "left out.",
-                      observed[q].name, simulated.values.front()[q].value, observed[q].unit));
+      warnings.push_back(fmt::format(
+          "{} is {} {} in every member: it tells nothing of the uncertain values and is "
+          "left out.",
+          observed[q].name, simulated.values.front()[q].value, observed[q].unit));
       continue;
     }
     u.observed.push_back(observed[q]);
@@ -179,11 +179,13 @@ Calibration calibrate(const CalibrationData& data, const CalibrationSettings& se
                       std::size_t n_next) {
   const auto& simulated = data.comparison.simulated;
   expect(data.cube.size() == simulated.values.size(), "a point of the prior for each member");
-  require(!data.keys.empty(), "no value is uncertain (there is nothing to calibrate). Give a key a "
-                              "distribution, such as basal.friction_coefficient: {uniform: [0.1, "
-                              "0.5]}.");
-  require(!data.cube.empty(), "no valid member (there is nothing to learn from). Their reasons are "
-                              "in members.csv.");
+  require(!data.keys.empty(),
+          "no value is uncertain (there is nothing to calibrate). Give a key a "
+          "distribution, such as basal.friction_coefficient: {uniform: [0.1, "
+          "0.5]}.");
+  require(!data.cube.empty(),
+          "no valid member (there is nothing to learn from). Their reasons are "
+          "in members.csv.");
   Calibration c;
   const Usable u = usable(data, c.warnings);
   const Likelihood likelihood(u.observed, u.members, settings.discrepancy);

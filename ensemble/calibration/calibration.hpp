@@ -44,16 +44,16 @@ struct DiscrepancyFound {
 
 struct Calibration {
   Posterior posterior;
-  std::string reason;  ///< why this method
+  std::string reason;                      ///< why this method
   std::vector<ObservedQuantity> observed;  ///< those that count
   std::vector<DiscrepancyFound> discrepancies;
   Identifiability identifiability;
   std::vector<PredictedQuantity> check;
   HeldOut held_out;
-  std::optional<BestFit> best;               ///< by emulator
-  std::vector<EmulatorReport> emulators;     ///< by emulator
-  std::vector<std::vector<double>> next;     ///< points worth computing next; by emulator
-  std::vector<std::string> warnings;         ///< whole sentences
+  std::optional<BestFit> best;            ///< by emulator
+  std::vector<EmulatorReport> emulators;  ///< by emulator
+  std::vector<std::vector<double>> next;  ///< points worth computing next; by emulator
+  std::vector<std::string> warnings;      ///< whole sentences
 };
 
 /// \param n_next how many points to compute next are wanted

@@ -11,7 +11,7 @@ namespace sturz {
 /// A direction in the unit cube of the prior along which the posterior is 1 / variance_left times
 /// narrower (in variance) than the prior.
 struct Direction {
-  double variance_left = 1;  ///< posterior variance along it over the prior's 1/12
+  double variance_left = 1;   ///< posterior variance along it over the prior's 1/12
   std::vector<double> along;  ///< [n_dims], length 1, largest component positive
 };
 
@@ -23,11 +23,11 @@ struct Ridge {
 };
 
 struct Identifiability {
-  std::vector<double> mean, sd;           ///< [n_dims] of the posterior in the unit cube
-  std::vector<double> variance_removed;   ///< [n_dims]: 1 - variance / (1/12), not below 0
+  std::vector<double> mean, sd;                  ///< [n_dims] of the posterior in the unit cube
+  std::vector<double> variance_removed;          ///< [n_dims]: 1 - variance / (1/12), not below 0
   std::vector<std::vector<double>> correlation;  ///< [n_dims][n_dims]
-  std::vector<Direction> directions;      ///< [n_dims], the best known one first
-  std::vector<Ridge> ridges;              ///< |correlation| of 0.6 and more, strongest first
+  std::vector<Direction> directions;             ///< [n_dims], the best known one first
+  std::vector<Ridge> ridges;                     ///< |correlation| of 0.6 and more, strongest first
 };
 
 Identifiability identifiability_of(const Posterior&);

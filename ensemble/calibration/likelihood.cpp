@@ -88,8 +88,9 @@ SimulatedRow exact_row(std::span<const Observation> member) {
 Likelihood::Likelihood(std::vector<ObservedQuantity> observed,
                        std::span<const std::vector<Observation>> members, double relative_sd)
     : observed_(std::move(observed)), relative_sd_(relative_sd) {
-  require(!observed_.empty(), "nothing was observed (there is nothing to calibrate with). Give the "
-                              "scene an `observation` block.");
+  require(!observed_.empty(),
+          "nothing was observed (there is nothing to calibrate with). Give the "
+          "scene an `observation` block.");
   require(std::isfinite(relative_sd) && relative_sd >= 0,
           fmt::format("discrepancy {} (must be 0 or more: a share of the observed value).",
                       relative_sd));
@@ -98,12 +99,12 @@ Likelihood::Likelihood(std::vector<ObservedQuantity> observed,
     const Spread s = spread_of(observed_[q], members, q);
     const double sd = observed_[q].sd;
     range_.push_back(std::max(s.most - s.least, 6 * sd));
-    const double of_zero =
-        std::isfinite(s.least_size) ? s.least_size / default_discrepancy : sd;
-    scale_.push_back(std::max(observed_[q].value != 0 ? std::abs(observed_[q].value) : of_zero, sd));
+    const double of_zero = std::isfinite(s.least_size) ? s.least_size / default_discrepancy : sd;
+    scale_.push_back(
+        std::max(observed_[q].value != 0 ? std::abs(observed_[q].value) : of_zero, sd));
     const std::string name = kind_of_quantity(observed_[q].name);
-    auto kind = std::find_if(kinds_.begin(), kinds_.end(),
-                             [&](const Kind& k) { return k.name == name; });
+    auto kind =
+        std::find_if(kinds_.begin(), kinds_.end(), [&](const Kind& k) { return k.name == name; });
     if (kind == kinds_.end()) kind = kinds_.insert(kinds_.end(), {name, {}});
     kind->quantities.push_back(q);
   }
@@ -179,16 +180,15 @@ std::vector<double> Likelihood::node_probabilities(
     std::size_t kind, std::span<const SimulatedValue> simulated) const {
   std::vector<double> p = log_nodes(simulated, kinds_[kind], [](std::size_t) { return true; });
   const double sum = log_sum_of(p);
-  for (double& v : p) v = sum == minus_infinity ? 1.0 / static_cast<double>(p.size())
-                                                : std::exp(v - sum);
+  for (double& v : p)
+    v = sum == minus_infinity ? 1.0 / static_cast<double>(p.size()) : std::exp(v - sum);
   return p;
 }
 
 double Likelihood::below(std::span<const SimulatedValue> simulated, std::size_t q, double level,
                          bool with_itself) const {
-  const std::vector<double> logs = log_nodes(simulated, kind_of(q), [&](std::size_t other) {
-    return with_itself || other != q;
-  });
+  const std::vector<double> logs = log_nodes(
+      simulated, kind_of(q), [&](std::size_t other) { return with_itself || other != q; });
   const double sum = log_sum_of(logs);
   SimulatedValue s = simulated[q];
   if (s.known == Known::not_at_all) s.value = observed_[q].value - range_[q] / 2;  // anywhere

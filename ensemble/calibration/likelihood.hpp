@@ -12,10 +12,10 @@
 /// between outlines) it is the least value that any member reaches over the default relative_sd: no
 /// model here is known to do better.
 ///
-/// A simulated value of which only a lower bound c is known may be anything from c to c + range, all
-/// alike: the density is then Phi((observed - c) / s) / range, which falls like the normal's tail
-/// where the bound lies above the observation and stays small and even where it lies below. One
-/// that is not known at all has 1 / range.
+/// A simulated value of which only a lower bound c is known may be anything from c to c + range,
+/// all alike: the density is then Phi((observed - c) / s) / range, which falls like the normal's
+/// tail where the bound lies above the observation and stays small and even where it lies below.
+/// One that is not known at all has 1 / range.
 #pragma once
 
 #include "ensemble/scores/comparison.hpp"

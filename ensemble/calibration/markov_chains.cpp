@@ -99,9 +99,9 @@ ChainSample sample_chains(const std::function<double(std::span<const double>)>& 
                           const std::vector<std::vector<double>>& starts,
                           const Eigen::MatrixXd& covariance, const ChainLengths& lengths,
                           std::uint64_t seed) {
-  expect(static_cast<int>(starts.size()) == lengths.chains && lengths.chains > 1 &&
-             lengths.kept >= 8,
-         "a start for each of several chains");
+  expect(
+      static_cast<int>(starts.size()) == lengths.chains && lengths.chains > 1 && lengths.kept >= 8,
+      "a start for each of several chains");
   const std::size_t n_dims = starts.front().size();
   const OT::Function target = openturns_function(n_dims, [&](std::span<const double> u) {
     for (const double x : u)

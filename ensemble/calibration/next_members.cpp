@@ -38,8 +38,7 @@ std::vector<std::vector<double>> next_members(const Likelihood& likelihood,
     std::vector<double> gains;
     for (const auto& point : candidates) gains.push_back(gain(likelihood, known, point));
     const auto best = std::max_element(gains.begin(), gains.end());
-    if (best == gains.end() ||
-        *best < known_well * static_cast<double>(likelihood.n_quantities()))
+    if (best == gains.end() || *best < known_well * static_cast<double>(likelihood.n_quantities()))
       break;
     chosen.push_back(candidates[static_cast<std::size_t>(best - gains.begin())]);
     known = known.with_point(chosen.back());

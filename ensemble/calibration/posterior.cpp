@@ -164,8 +164,7 @@ Posterior emulated_posterior(const Likelihood& likelihood, const EmulatorSet& em
 
 BestFit best_fit(const Likelihood& likelihood, const EmulatorSet& emulators, std::size_t n_dims,
                  std::uint64_t seed) {
-  const FirstLook look =
-      first_look(likelihood, emulators, n_dims, seed, likelihood.n_quantities());
+  const FirstLook look = first_look(likelihood, emulators, n_dims, seed, likelihood.n_quantities());
   std::vector<std::size_t> order(look.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

@@ -23,7 +23,7 @@ struct Posterior {
   std::vector<double> weights;            ///< [n], they add up to 1
   std::vector<SimulatedRow> simulated;    ///< [n][n_quantities], what is expected there
   double effective_size = 0;
-  double censored_share = 0;  ///< weight of points whose values are not all fully known
+  double censored_share = 0;          ///< weight of points whose values are not all fully known
   std::optional<ChainSample> chains;  ///< of an emulator, without the points
 };
 

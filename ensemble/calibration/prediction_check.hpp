@@ -16,7 +16,7 @@ struct PredictedQuantity {
   std::string name, unit;
   double observed = 0;
   double median = 0, lower = 0, upper = 0;  ///< 5 % and 95 %
-  double below = 0;  ///< predicted probability of less than was observed
+  double below = 0;                         ///< predicted probability of less than was observed
 };
 
 /// Each quantity under the posterior that knows it: what falls outside is not explained at all.

@@ -140,11 +140,10 @@ void GaussianProcess::look_left_out() {
   const auto n = static_cast<Index>(points_.size());
   const Eigen::MatrixXd inverse_factor =
       factor_.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::MatrixXd part =
-      trend_factor_.triangularView<Eigen::Lower>().solve(whitened_trend_.transpose() *
-                                                         inverse_factor);
-  const Eigen::VectorXd diagonal = inverse_factor.colwise().squaredNorm().transpose() -
-                                   part.colwise().squaredNorm().transpose();
+  const Eigen::MatrixXd part = trend_factor_.triangularView<Eigen::Lower>().solve(
+      whitened_trend_.transpose() * inverse_factor);
+  const Eigen::VectorXd diagonal =
+      inverse_factor.colwise().squaredNorm().transpose() - part.colwise().squaredNorm().transpose();
   const Eigen::VectorXd errors = weights_.cwiseQuotient(diagonal);
   const Eigen::VectorXd ratio =  // squared, over the predicted variance
       errors.array().square() * diagonal.array() / signal_;
@@ -162,8 +161,8 @@ double GaussianProcess::mean_at(std::span<const double> point) const {
 GaussianPrediction GaussianProcess::at(std::span<const double> point) const {
   const Eigen::VectorXd k = covariances(point), f = trend(point);
   const Eigen::VectorXd white = factor_.triangularView<Eigen::Lower>().solve(k);
-  const Eigen::VectorXd of_trend = trend_factor_.triangularView<Eigen::Lower>().solve(
-      f - whitened_trend_.transpose() * white);
+  const Eigen::VectorXd of_trend =
+      trend_factor_.triangularView<Eigen::Lower>().solve(f - whitened_trend_.transpose() * white);
   const double scale =
       signal_ * divide_ * divide_ * (fixed_inflation_ > 0 ? fixed_inflation_ : left_out_.inflation);
   return {shift_ + divide_ * (f.dot(coefficients_) + k.dot(weights_)),

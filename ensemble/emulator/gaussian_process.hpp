@@ -71,7 +71,7 @@ class GaussianProcess {
   Scales scales_;
   bool linear_ = false;  ///< the trend
   std::vector<std::vector<double>> points_;
-  Eigen::VectorXd values_;          ///< [n], shifted and divided
+  Eigen::VectorXd values_;  ///< [n], shifted and divided
   double shift_ = 0, divide_ = 1;
   Eigen::MatrixXd scaled_;          ///< [n_dims][n], points / length
   Eigen::MatrixXd factor_;          ///< L of K = L L^T, [n][n]

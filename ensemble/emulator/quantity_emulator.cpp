@@ -22,12 +22,8 @@ struct Lesson {
   }
 };
 
-bool is_exact(const Observation& o) {
-  return o.known == Known::exactly && std::isfinite(o.value);
-}
-bool is_bound(const Observation& o) {
-  return o.known == Known::at_least && std::isfinite(o.value);
-}
+bool is_exact(const Observation& o) { return o.known == Known::exactly && std::isfinite(o.value); }
+bool is_bound(const Observation& o) { return o.known == Known::at_least && std::isfinite(o.value); }
 
 Lesson exact_members(const Points& cube, std::span<const Observation> simulated) {
   Lesson lesson;
@@ -46,10 +42,11 @@ void check(const Lesson& lesson, const std::string& quantity, std::size_t n_dims
                       quantity, lesson.values.size(), report.n_at_least, report.n_not_known, n_dims,
                       n_dims + 5));
   const auto [least, most] = std::minmax_element(lesson.values.begin(), lesson.values.end());
-  require(*least < *most,
-          fmt::format("{}: {} in every member (it does not depend on the uncertain values and tells "
-                      "nothing of them). Leave it out, or widen the distributions.",
-                      quantity, *least));
+  require(
+      *least < *most,
+      fmt::format("{}: {} in every member (it does not depend on the uncertain values and tells "
+                  "nothing of them). Leave it out, or widen the distributions.",
+                  quantity, *least));
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ namespace sturz {
 /// What an emulator is made of and how good it is.
 struct EmulatorReport {
   std::string quantity;
-  std::int64_t n_exact = 0;         ///< members that it knows
-  std::int64_t n_at_least = 0;      ///< members of which only a lower bound is known
-  std::int64_t n_bounds_used = 0;   ///< of these: bound above what the others say, taken as value
-  std::int64_t n_not_known = 0;     ///< members that say nothing of it: left out
-  double q2 = 0, coverage95 = 0;    ///< see LeaveOneOut
+  std::int64_t n_exact = 0;        ///< members that it knows
+  std::int64_t n_at_least = 0;     ///< members of which only a lower bound is known
+  std::int64_t n_bounds_used = 0;  ///< of these: bound above what the others say, taken as value
+  std::int64_t n_not_known = 0;    ///< members that say nothing of it: left out
+  double q2 = 0, coverage95 = 0;   ///< see LeaveOneOut
   double inflation = 1;
-  double noise_sd = 0;              ///< of a member about the smooth function, unit of the quantity
+  double noise_sd = 0;  ///< of a member about the smooth function, unit of the quantity
 };
 
 /// At most so many members teach one emulator: its algebra costs the cube of their number.
@@ -42,8 +42,7 @@ struct QuantityEmulator {
 /// \param cube [n][n_dims] \param simulated [n]
 /// \throws SetupError naming the quantity: fewer exact members than n_dims + 5, or one and the same
 ///   value in all of them
-QuantityEmulator emulate(const std::string& quantity,
-                         const std::vector<std::vector<double>>& cube,
+QuantityEmulator emulate(const std::string& quantity, const std::vector<std::vector<double>>& cube,
                          std::span<const Observation> simulated);
 
 }  // namespace sturz

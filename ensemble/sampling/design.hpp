@@ -48,6 +48,12 @@ DesignTable draw_design(const Scenario& scenario);
 /// The same from its parts.
 DesignTable draw_design(std::span<const UncertainKey> keys, const EnsembleSpec& spec);
 
+/// Values of points of the unit cube, copula and quantile functions applied. \param cube
+/// [n][n_keys] \return [n][n_keys] in the keys' units
+std::vector<std::vector<double>> values_at(std::span<const UncertainKey> keys,
+                                           const EnsembleSpec& spec,
+                                           const std::vector<std::vector<double>>& cube);
+
 /// The user's own table (`design: table`), already read: columns may come in any order and must
 /// be the scenario's uncertain keys, no more and no fewer; each value must lie in the key's range
 /// and in the support of the distribution that the scenario gives for it. With

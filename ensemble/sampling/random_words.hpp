@@ -20,8 +20,7 @@ enum class Stream : std::uint32_t {
 std::uint32_t random_word(std::uint64_t seed, Stream stream, std::uint32_t index,
                           std::uint32_t block = 0);
 /// The same on the open interval (0, 1).
-double random_unit(std::uint64_t seed, Stream stream, std::uint32_t index,
-                   std::uint32_t block = 0);
+double random_unit(std::uint64_t seed, Stream stream, std::uint32_t index, std::uint32_t block = 0);
 
 /// OpenTURNS has one generator for the whole process: who uses it holds this, and it is seeded
 /// anew each time. Its seed has 32 bits; mixing lets all 64 of ours count.

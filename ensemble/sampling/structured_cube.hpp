@@ -18,8 +18,7 @@ inline constexpr double morris_step = 0.5;
 /// moves by morris_step, every coordinate once, in random order. Coordinates lie in the middle of
 /// eighths: the ends of the cube are infinite for priors without bounds.
 /// \return [n][n_dims]
-std::vector<std::vector<double>> morris_cube(std::size_t n, std::size_t n_dims,
-                                             std::uint64_t seed);
+std::vector<std::vector<double>> morris_cube(std::size_t n, std::size_t n_dims, std::uint64_t seed);
 
 /// Sets of n_dims + 2 rows (Saltelli and others 2010): a, b, and for each coordinate k the row a
 /// with that of b in place k. a and b are the halves of one shifted Sobol' point of 2 n_dims

@@ -21,7 +21,7 @@ std::size_t moved(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 MorrisMeasure measure(std::span<const double> effects, std::int64_t n_censored) {
-  MorrisMeasure m{nan_d, nan_d, nan_d, nan_d, static_cast<std::int64_t>(effects.size()),
+  MorrisMeasure m{nan_d,     nan_d, nan_d, nan_d, static_cast<std::int64_t>(effects.size()),
                   n_censored};
   const auto n = static_cast<double>(effects.size());
   if (effects.empty()) return m;

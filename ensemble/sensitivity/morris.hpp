@@ -13,12 +13,12 @@ namespace sturz {
 /// Of one uncertain value. An effect is the difference of the result over the step in the unit cube
 /// of the prior: the change that the whole range of the prior would make at that slope.
 struct MorrisMeasure {
-  double mean = 0;             ///< mu: falls or grows; near 0 beside a large mu* it does both
-  double mean_absolute = 0;    ///< mu*: how much it matters
+  double mean = 0;                 ///< mu: falls or grows; near 0 beside a large mu* it does both
+  double mean_absolute = 0;        ///< mu*: how much it matters
   double mean_absolute_error = 0;  ///< standard error of mu*
-  double deviation = 0;        ///< sigma: not straight, or depends on the others
-  std::int64_t n = 0;          ///< effects that count
-  std::int64_t n_censored = 0; ///< effects left out: an end of the step is not fully known
+  double deviation = 0;            ///< sigma: not straight, or depends on the others
+  std::int64_t n = 0;              ///< effects that count
+  std::int64_t n_censored = 0;     ///< effects left out: an end of the step is not fully known
 };
 
 /// Measures of every coordinate from the trajectories of a design (morris_cube). Only steps

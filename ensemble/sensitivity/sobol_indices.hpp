@@ -19,9 +19,9 @@ struct Share {
 
 /// Of one result.
 struct SobolIndices {
-  std::vector<Share> first;   ///< [n_dims], by the value alone
-  std::vector<Share> total;   ///< [n_dims], with every joint effect it has a part in
-  std::int64_t n_sets = 0;    ///< sets of n_dims + 2 evaluations that count
+  std::vector<Share> first;     ///< [n_dims], by the value alone
+  std::vector<Share> total;     ///< [n_dims], with every joint effect it has a part in
+  std::int64_t n_sets = 0;      ///< sets of n_dims + 2 evaluations that count
   std::int64_t n_left_out = 0;  ///< sets left out: one of their members is not fully known
 };
 
@@ -35,7 +35,7 @@ std::optional<SobolIndices> sobol_indices(const std::vector<std::vector<double>>
 
 /// From an emulator of the members, whatever their design. The intervals hold the estimator's error
 /// and the emulator's: a jackknife over ten groups of members left out, lengths kept. What the
-/// emulator does not know, 1 - Q2 of the variance, is nobody's share.
+/// emulator does not know, 1 - Q2 of the variance, is in no share.
 struct EmulatedIndices {
   SobolIndices indices;
   EmulatorReport emulator;

@@ -98,11 +98,12 @@ void check_sets(const Scenario& s, Problems& problems) {
                                               "values that depend on one another have no "
                                               "meaning). Remove it or use another design."});
   if (members > 0 && members % set != 0)
-    problems.push_back(
-        {"ensemble.members",
-         "ensemble.members = " + std::to_string(members) + " (design " + design + " takes sets of " +
-             std::to_string(set) + " members for " + std::to_string(set - (design == "morris" ? 1 : 2)) +
-             " uncertain values). Use " + std::to_string((members / set + 1) * set) + "."});
+    problems.push_back({"ensemble.members", "ensemble.members = " + std::to_string(members) +
+                                                " (design " + design + " takes sets of " +
+                                                std::to_string(set) + " members for " +
+                                                std::to_string(set - (design == "morris" ? 1 : 2)) +
+                                                " uncertain values). Use " +
+                                                std::to_string((members / set + 1) * set) + "."});
 }
 
 void check_rising(const std::vector<double>& levels, const char* path, Problems& problems) {

@@ -68,8 +68,8 @@ void expect_exact(const Identifiability& found, double n_effective) {
     EXPECT_NEAR(found.sd[d], sd, sd * 4 / std::sqrt(2 * n_effective)) << d;
     EXPECT_NEAR(found.variance_removed[d], 1 - 12 * sd * sd, 0.05);
   }
-  const double correlation = exact.covariance(0, 1) /
-                             std::sqrt(exact.covariance(0, 0) * exact.covariance(1, 1));
+  const double correlation =
+      exact.covariance(0, 1) / std::sqrt(exact.covariance(0, 0) * exact.covariance(1, 1));
   EXPECT_NEAR(found.correlation[0][1], correlation, 4 / std::sqrt(n_effective));
 }
 
@@ -81,8 +81,7 @@ CalibrationSettings without_discrepancy(PosteriorMethod method) {
 }
 
 TEST(Calibration, WeightsRecoverTheClosedForm) {
-  const Calibration c =
-      calibrate(linear_data(8192), without_discrepancy(PosteriorMethod::weights));
+  const Calibration c = calibrate(linear_data(8192), without_discrepancy(PosteriorMethod::weights));
   EXPECT_GT(c.posterior.effective_size, 100);
   expect_exact(c.identifiability, c.posterior.effective_size);
 }
@@ -166,8 +165,8 @@ std::vector<double> flow(const std::vector<double>& u) {
 const std::vector<std::string> flow_names{"travel_m", "speed_m_s", "area_m2", "thickness_m"};
 
 struct Twins {
-  CalibrationData data = data_of(flow, 40, {{"a", 1, 1, ""}, {"b", 1, 1, ""}, {"c", 1, 1, ""},
-                                            {"d", 1, 1, ""}});
+  CalibrationData data =
+      data_of(flow, 40, {{"a", 1, 1, ""}, {"b", 1, 1, ""}, {"c", 1, 1, ""}, {"d", 1, 1, ""}});
   EmulatorSet emulators{data.comparison.observed, data.cube, data.comparison.simulated.values};
 
   std::vector<ObservedQuantity> observed(const std::vector<double>& truth, double discrepancy,
@@ -258,8 +257,7 @@ TEST(Twins, HeldOutQuantitiesArePredictedBetterThanByThePrior) {
   CalibrationData data = twins.data;
   data.comparison.observed = twins.observed({0.4, 0.6}, 0, 11);
   for (const PosteriorMethod method : {PosteriorMethod::emulator, PosteriorMethod::weights}) {
-    if (method == PosteriorMethod::weights)
-      data = data_of(flow, 2000, data.comparison.observed);
+    if (method == PosteriorMethod::weights) data = data_of(flow, 2000, data.comparison.observed);
     CalibrationSettings settings;
     settings.method = method;
     const Calibration c = calibrate(data, settings);

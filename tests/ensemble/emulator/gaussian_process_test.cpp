@@ -23,7 +23,9 @@ namespace {
 
 using Points = std::vector<std::vector<double>>;
 
-double wavy(std::span<const double> u) { return std::sin(5 * u[0]) + u[1] * u[1] + 0.3 * u[0] * u[1]; }
+double wavy(std::span<const double> u) {
+  return std::sin(5 * u[0]) + u[1] * u[1] + 0.3 * u[0] * u[1];
+}
 
 std::vector<double> values_at(const Points& points) {
   std::vector<double> values;
@@ -79,7 +81,8 @@ TEST(GaussianProcess, LeftOutErrorsAreThoseOfAProcessWithoutThePoint) {
     std::vector<double> their_values = values;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     their_values.erase(their_values.begin() + static_cast<std::ptrdiff_t>(i));
-    errors += std::pow(GaussianProcess(others, their_values, scales).mean_at(points[i]) - values[i], 2);
+    errors +=
+        std::pow(GaussianProcess(others, their_values, scales).mean_at(points[i]) - values[i], 2);
     squares += std::pow(values[i] - mean, 2);
   }
   const GaussianProcess whole(points, values, scales);
@@ -148,7 +151,8 @@ TEST(QuantityEmulator, RefusesWhatTellsNothing) {
   std::vector<Observation> censored = exactly(cube_of(30)), same = censored;
   for (auto& o : censored) o.known = Known::at_least;
   for (auto& o : same) o.value = 7;
-  EXPECT_THAT(error_of(cube_of(30), censored), HasSubstr("runout_m: 0 members say its value, of 30"));
+  EXPECT_THAT(error_of(cube_of(30), censored),
+              HasSubstr("runout_m: 0 members say its value, of 30"));
   EXPECT_THAT(error_of(cube_of(30), same), HasSubstr("runout_m: 7 in every member"));
   EXPECT_THAT(error_of(cube_of(1), exactly(cube_of(1))), HasSubstr("needs 7 at least"));
   EXPECT_THAT(error_of({}, {}), HasSubstr("no member"));

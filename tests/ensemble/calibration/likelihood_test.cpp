@@ -74,8 +74,7 @@ TEST(Likelihood, BoundsExcludeFromAboveAndSayLittleFromBelow) {
   EXPECT_LT(bound(900), bound(770) - 15);           // 6.5 standard deviations too far
   EXPECT_TRUE(std::isfinite(bound(1e6)));
   EXPECT_LT(bound(1e6), bound(1e5));
-  EXPECT_NEAR(likelihood.log_of(SimulatedRow{{NAN, 0, Known::not_at_all}}), -std::log(400.0),
-              1e-9);
+  EXPECT_NEAR(likelihood.log_of(SimulatedRow{{NAN, 0, Known::not_at_all}}), -std::log(400.0), 1e-9);
   // An exact hit is worth more than any bound, an exact miss less than one that leaves it open.
   EXPECT_GT(likelihood.log_of(SimulatedRow{{770}}), bound(400));
   EXPECT_LT(likelihood.log_of(SimulatedRow{{600}}), bound(600));

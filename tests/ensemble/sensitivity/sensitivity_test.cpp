@@ -82,9 +82,9 @@ TEST(SobolIndices, GFunctionLiesInsideTheIntervals) {
 TEST(SobolIndices, SetsWithCensoredMembersAreLeftOutAndCounted) {
   const Points cube = saltelli_cube(64UL * 5, 3, 2);
   auto some = results(cube, ishigami);
-  some[7].known = Known::at_least;       // set 1
-  some[40].known = Known::not_at_all;    // set 8
-  some[43].value = std::nan("");         // set 8 again
+  some[7].known = Known::at_least;     // set 1
+  some[40].known = Known::not_at_all;  // set 8
+  some[43].value = std::nan("");       // set 8 again
   const auto found = sobol_indices(cube, some);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->n_sets, 62);
