@@ -31,7 +31,7 @@ struct ObservationSpec {
   std::optional<double> deposit_sd_m;
   std::string deposit_thickness;  ///< raster, read as `thickness_sign` says
   ThicknessSign thickness_sign = ThicknessSign::thickness;
-  bool mask_erosion = true;  ///< of a DEM of difference: cells below zero are not compared
+  bool mask_erosion = true;  ///< of an elevation difference: cells below zero are not compared
   std::optional<double> thickness_sd_m;
   std::string farthest_point;                             ///< layer of one point ...
   std::optional<std::array<double, 2>> farthest_point_m;  ///< ... or its map coordinates

@@ -40,7 +40,7 @@ struct SceneInputs {
   /// What can be taken of the bed, on cells of the working grid: share of erosion.depth_m, or depth
   /// where erosion.depth_raster gives it [m]; nothing beyond. Null: the same everywhere.
   std::shared_ptr<const Raster<double>> bed_supply;
-  /// Rings to be drawn in the terrain's system [m]: of hazard.observed_polygon, else of what
+  /// Rings to be drawn in the terrain's system [m]: of hazard.observed_polygon and of what
   /// `observation` outlines; empty: none.
   std::vector<std::vector<Vec2>> observed;
   /// What members are scored against; null: the scene has no `observation`.

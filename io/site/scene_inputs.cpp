@@ -311,7 +311,7 @@ void load_observed(Loading& loading) {
   });
 }
 
-/// The same for what members are scored against; drawn where nothing else is.
+/// The same for what members are scored against.
 void load_event(Loading& loading) {
   if (!loading.scenario.observation) return;
   loading.attempt([&] {
@@ -320,7 +320,7 @@ void load_event(Loading& loading) {
     EventRead read = read_observed_event(loading.scenario, maps, loading.inputs.release.get());
     loading.take_words(read);
     for (InputIdentity& identity : read.identities) loading.take_identity(identity);
-    if (loading.inputs.observed.empty()) loading.inputs.observed = std::move(read.rings);
+    std::move(read.rings.begin(), read.rings.end(), std::back_inserter(loading.inputs.observed));
     loading.inputs.event = std::make_shared<const ObservedEvent>(std::move(read.event));
   });
 }

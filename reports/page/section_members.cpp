@@ -99,6 +99,34 @@ std::string full_name(const ScalarColumn& c) {
   return c.label;
 }
 
+/// The scores by which a reader sorts members; the others are in members.csv.
+std::vector<std::size_t> sorting_scores(const ReportInput& input) {
+  std::vector<std::size_t> shown;
+  for (std::size_t k = 0; input.scores != nullptr && k < input.scores->columns.size(); ++k)
+    if (const std::string& name = input.scores->columns[k].name;
+        name == "misfit" || name.ends_with("_iou"))
+      shown.push_back(k);
+  return shown;
+}
+
+std::string score_heads(const ReportInput& input) {
+  std::string heads;
+  for (const std::size_t k : sorting_scores(input)) {
+    const ScoreInfo& score = input.scores->columns[k];
+    heads += header_cell(words(score.name), "", score.long_name);
+  }
+  return heads;
+}
+
+std::string score_cells(const ReportInput& input, std::size_t i) {
+  std::string cells;
+  for (const std::size_t k : sorting_scores(input)) {
+    const auto& own = input.scores->rows.at(i);
+    cells += own.empty() ? number_cell(nan_d) : scalar_cell(own[k].value, own[k].known);
+  }
+  return cells;
+}
+
 std::string table_head(const ReportTable& samples, bool with_samples,
                        const std::vector<ScalarColumn>& columns) {
   std::string head = header_cell("member", "", "Number of the member") +
@@ -130,7 +158,7 @@ std::string table_row(const ReportInput& input, std::size_t i,
   for (const auto& c : columns)
     row += scalar_cell(has_scalars ? factor_of(c) * m.scalars.*c.field : nan_d,
                        known(c.field, m.censoring));
-  return row + "</tr>";
+  return row + score_cells(input, i) + "</tr>";
 }
 
 std::string lost_members(const std::vector<MemberSummary>& members) {
@@ -198,8 +226,8 @@ std::string members_html(const ReportInput& input, const Headline& h) {
          (n > 1 ? "<div class=\"table-box\" tabindex=\"0\">"
                 : "<div class=\"table-box short\" tabindex=\"0\">") +
          "<table id=\"member-table\"><thead><tr>" +
-         table_head(input.samples, !input.samples.rows.empty(), columns) + "</tr></thead><tbody>" +
-         rows + "</tbody></table></div></section>";
+         table_head(input.samples, !input.samples.rows.empty(), columns) + score_heads(input) +
+         "</tr></thead><tbody>" + rows + "</tbody></table></div></section>";
 }
 
 }  // namespace sturz

@@ -45,7 +45,7 @@ void check_thickness(const Scenario& s, const Check& check) {
   if (!difference)
     check.add("mask_erosion",
               "= false (deposit_thickness holds thicknesses: nothing in it can be below zero). "
-              "Remove it, or say with thickness_sign which way a DEM of difference counts.");
+              "Remove it, or say with thickness_sign which way an elevation difference counts.");
   else if (!s.erosion)
     check.add("mask_erosion",
               "= false (the scene has no erosion, so no member lowers the ground: cells where it "

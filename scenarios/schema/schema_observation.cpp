@@ -57,17 +57,19 @@ void add_outlines(std::vector<KeyInfo>& keys) {
 void add_thickness(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
   using O = ObservationSpec;
-  add_text(keys, &O::deposit_thickness, "observation.deposit_thickness", path,
-           "Raster of the deposit's vertical thickness, or a DEM of difference (thickness_sign); "
-           "nodata was not measured. Compared with a member's mass at rest.");
+  add_text(
+      keys, &O::deposit_thickness, "observation.deposit_thickness", path,
+      "Raster of the deposit's vertical thickness, or an elevation difference (thickness_sign); "
+      "nodata was not measured. Compared with a member's mass at rest.");
   keys.push_back(choice_key(
       observation, &O::thickness_sign, "observation.thickness_sign",
       "What deposit_thickness holds: thickness; or the ground's rise (after - before) or fall "
       "(before - after), a net change that is not compared where the source was."));
-  keys.push_back(key(observation, &O::mask_erosion,
-                     {"observation.mask_erosion", flag, "", -no_limit, no_limit,
-                      "Leave out cells of a DEM of difference where the ground fell; false needs "
-                      "a scene with erosion, whose net change is then compared."}));
+  keys.push_back(
+      key(observation, &O::mask_erosion,
+          {"observation.mask_erosion", flag, "", -no_limit, no_limit,
+           "Leave out cells of an elevation difference where the ground fell; false needs "
+           "a scene with erosion, whose net change is then compared."}));
   add_length(keys, &O::thickness_sd_m, "observation.thickness_sd_m", 1e3,
              "Standard deviation of deposit_thickness.");
 }

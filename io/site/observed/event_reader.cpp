@@ -76,7 +76,7 @@ void read_areas(Reading& r) {
        o.deposit_sd_m.value_or(0), r.read.event.deposit);
 }
 
-/// A DEM of difference tells where the source lay how much was lost, not what lies there.
+/// An elevation difference tells where the source lay how much was lost, not what lies there.
 std::size_t mask_source(Raster<double>& value, const Grid& maps, const Raster<double>& release) {
   const Window at = window_of(value.grid, maps);
   std::size_t masked = 0;
@@ -221,7 +221,8 @@ void require_on_maps(Reading& r) {
 /// A deposit lies where something passed: two layers that say otherwise are of different events,
 /// or in different places.
 void compare_areas(EventRead& read) {
-  const auto& [outline, deposit] = std::pair(read.event.outline, read.event.deposit);
+  const auto& outline = read.event.outline;
+  const auto& deposit = read.event.deposit;
   if (!outline || !deposit) return;
   const Grid& o = outline->cover.grid;
   const Grid& d = deposit->cover.grid;
@@ -238,6 +239,16 @@ void compare_areas(EventRead& read) {
         "observation.deposit: {:.0f} % of it lie outside observation.outline, which should hold "
         "all that was passed over; do both show the same event, in the right coordinate system?",
         100 * beyond / all));
+}
+
+/// Distances count from the line's start.
+void doubt_direction(EventRead& read) {
+  const ObservedEvent& e = read.event;
+  if (e.thalweg.empty()) return;
+  if ((e.thalweg.front() - e.origin).norm() > (e.thalweg.back() - e.origin).norm())
+    read.warnings.emplace_back(
+        "observation.thalweg: its start lies farther from the source than its end (distances count "
+        "from the start). Turn the line round if it was drawn upwards.");
 }
 
 void note_threshold(const ObservedEvent& event, EventRead& read) {
@@ -263,6 +274,7 @@ EventRead read_observed_event(const Scenario& scenario, const Grid& maps,
   if (r.has_maps()) require_on_maps(r);
   require(r.problems.empty(), fmt::format("{}", fmt::join(r.problems, "\n")));
   if (r.has_maps()) compare_areas(r.read);
+  if (release != nullptr) doubt_direction(r.read);
   note_threshold(r.read.event, r.read);
   return std::move(r.read);
 }

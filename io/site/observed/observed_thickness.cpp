@@ -44,7 +44,7 @@ class SourceCells {
 /// Cells of the maps under the corners and edges of the source.
 Window window_under(const RasterSource& s, OGRCoordinateTransformation* to_maps, const Grid& maps) {
   double west = INFINITY, east = -INFINITY, south = INFINITY, north = -INFINITY;
-  constexpr int n = 16;  // an edge bends a little on its way into another system
+  constexpr int n = 16;  // an edge is curved a little on its way into another system
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) {
       if (i % n != 0 && j % n != 0) continue;
@@ -75,7 +75,8 @@ void refuse_negative(const RasterSource& source) {
       std::find_if(source.values.begin(), source.values.end(), [](double v) { return v < 0; });
   if (below == source.values.end()) return;
   throw SetupError(fmt::format(
-      "{}: holds {:g} (a thickness cannot be below zero). If it is a DEM of difference, say with "
+      "{}: holds {:g} (a thickness cannot be below zero). If it is an elevation difference, say "
+      "with "
       "observation.thickness_sign which way it counts: rise_positive (after - before) or "
       "fall_positive (before - after).",
       source.label, *below));
