@@ -102,9 +102,12 @@ constexpr auto words_of(ErosionSupply) {
 enum class Design { monte_carlo, latin_hypercube, sobol, table, morris, saltelli };
 constexpr auto words_of(Design) {
   using enum Design;
-  return std::array{Word{monte_carlo, "monte_carlo"}, Word{latin_hypercube, "latin_hypercube"},
-                    Word{sobol, "sobol"}, Word{table, "table"},
-                    Word{morris, "morris"}, Word{saltelli, "saltelli"}};
+  return std::array{Word{monte_carlo, "monte_carlo"},
+                    Word{latin_hypercube, "latin_hypercube"},
+                    Word{sobol, "sobol"},
+                    Word{table, "table"},
+                    Word{morris, "morris"},
+                    Word{saltelli, "saltelli"}};
 }
 
 }  // namespace sturz

@@ -126,7 +126,7 @@ void GaussianProcess::solve() {
   trend_factor_ = of_trend.matrixL();
   coefficients_ = of_trend.solve(whitened_trend_.transpose() * white);
   const Eigen::VectorXd rest = white - whitened_trend_ * coefficients_;
-  weights_ = lower.transpose().solve(rest);
+  weights_ = factor_.transpose().triangularView<Eigen::Upper>().solve(rest);
   const auto free = static_cast<double>(n - trends.cols());
   // Values on a straight line leave nothing: a speck keeps the logarithm finite.
   signal_ = fixed_signal_ > 0 ? fixed_signal_ : std::max(rest.squaredNorm() / free, 1e-12);

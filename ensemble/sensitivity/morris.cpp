@@ -25,20 +25,19 @@ MorrisMeasure measure(std::span<const double> effects, std::int64_t n_censored) 
                   n_censored};
   const auto n = static_cast<double>(effects.size());
   if (effects.empty()) return m;
-  double sum = 0, absolute = 0, squares = 0;
+  m.mean = m.mean_absolute = 0;
   for (const double e : effects) {
-    sum += e;
-    absolute += std::abs(e);
-    squares += e * e;
+    m.mean += e / n;
+    m.mean_absolute += std::abs(e) / n;
   }
-  m.mean = sum / n;
-  m.mean_absolute = absolute / n;
   if (effects.size() < 2) return m;
-  const auto sd = [&](double mean) {
-    return std::sqrt(std::max(0.0, (squares - n * mean * mean) / (n - 1)));
-  };
-  m.deviation = sd(m.mean);
-  m.mean_absolute_error = sd(m.mean_absolute) / std::sqrt(n);
+  double squares = 0, absolute_squares = 0;
+  for (const double e : effects) {
+    squares += (e - m.mean) * (e - m.mean);
+    absolute_squares += std::pow(std::abs(e) - m.mean_absolute, 2);
+  }
+  m.deviation = std::sqrt(squares / (n - 1));
+  m.mean_absolute_error = std::sqrt(absolute_squares / (n - 1) / n);
   return m;
 }
 

@@ -2,6 +2,7 @@
 // sturz calibrate: an ensemble, what was observed, and what is then known of the uncertain values.
 #include "ensemble/workflow/calibration/calibrate.hpp"
 
+#include "engine/core/cancel.hpp"
 #include "engine/core/error.hpp"
 #include "ensemble/app/back_analysis/calibration_text.hpp"
 #include "ensemble/app/commands.hpp"
@@ -75,30 +76,33 @@ void tell(const workflow::Calibrated& c, const std::string& folder, Console& con
   console.event(json_text(done));  // the last line, so that a reader may stop there
 }
 
+/// Members, maps, posterior and its files.
+workflow::Calibrated compute(const Options& options, const workflow::CalibrateRequest& request,
+                             ConsoleObserver& observer, Console& console) {
+  workflow::EnsembleJob job = workflow::prepare_calibration(request, observer);
+  for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
+  console.note(command_text(options));
+  console.say(
+      fmt::format("{} members, {} finished before", job.design.n_members(), job.finished_before));
+  const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
+  console.clear_progress();
+  require(run.stop_error.empty(), run.stop_error);
+  if (run.interrupted) throw Cancelled();
+  const workflow::MapsMade maps = workflow::make_maps(job, observer, interrupt_flag());
+  workflow::Calibrated c =
+      workflow::calibrate_ensemble(request, job, maps, observer, interrupt_flag());
+  workflow::write_posterior(job.folder, c);
+  console.clear_progress();
+  return c;
+}
+
 int calibrate(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   const workflow::CalibrateRequest request = request_of(options);
-  std::string folder;
-  {
-    workflow::EnsembleJob job = workflow::prepare_calibration(request, observer);
-    folder = job.folder.root.string();
-    for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
-    console.note(command_text(options));
-    console.say(
-        fmt::format("{} members, {} finished before", job.design.n_members(), job.finished_before));
-    const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
-    console.clear_progress();
-    require(run.stop_error.empty(), run.stop_error);
-    if (run.interrupted) throw Cancelled();
-    const workflow::MapsMade maps = workflow::make_maps(job, observer, interrupt_flag());
-    const workflow::Calibrated c =
-        workflow::calibrate_ensemble(request, job, maps, observer, interrupt_flag());
-    workflow::write_posterior(job.folder, c);
-    console.clear_progress();
-    job.lock.reset();  // the page takes it anew
-    workflow::rewrite_page(folder, observer, interrupt_flag());
-    tell(c, folder, console);
-  }
+  // The job and its lock are gone when the page takes the folder's.
+  const workflow::Calibrated c = compute(options, request, observer, console);
+  workflow::rewrite_page(request.ensemble.folder, observer, interrupt_flag());
+  tell(c, request.ensemble.folder.string(), console);
   return ok;
 }
 

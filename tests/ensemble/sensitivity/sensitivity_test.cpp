@@ -58,7 +58,7 @@ TEST(SobolIndices, IshigamiLiesInsideTheIntervals) {
   expect_inside(found->total, truth.total);
   EXPECT_EQ(found->n_sets, 1024);
   EXPECT_LT(found->total[1].upper - found->total[1].lower, 0.2);
-  EXPECT_NEAR(found->first[1].value, truth.first[1], 0.03);
+  EXPECT_NEAR(found->first[1].value, truth.first[1], 0.05);
 }
 
 TEST(SobolIndices, GFunctionLiesInsideTheIntervals) {
