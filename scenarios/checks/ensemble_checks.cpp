@@ -84,6 +84,7 @@ void check_correlation(const Scenario& s, Problems& problems) {
 /// A design whose rows belong together in sets: how many make one set, 1 where each stands alone.
 int rows_of_a_set(const Scenario& s) {
   const int keys = static_cast<int>(uncertain_keys(s).size());
+  if (keys == 0) return 1;  // a member of such a design
   if (s.ensemble.design == Design::morris) return keys + 1;
   return s.ensemble.design == Design::saltelli ? keys + 2 : 1;
 }
