@@ -37,7 +37,7 @@ std::string figures(const ReportTable& before, const ReportTable& after) {
     was.push_back(before.rows.empty() ? Column{} : column_of(before, k));
     is.push_back(column_of(after, k));
   }
-  std::string html = "<div class=\"charts scatter\">";
+  std::string html = "<div class=\"charts posterior\">";
   for (std::size_t k = 0; k < is.size(); ++k)
     html += figure(key_label(after, k), marginal_svg(was[k], is[k], label_of(after, k)));
   for (std::size_t b = 1; b < is.size(); ++b)
