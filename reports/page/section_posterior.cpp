@@ -65,7 +65,7 @@ std::string keys_table(const PosteriorShown& p) {
         "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td class=\"n\">{}</td></tr>",
         html_escape(label_of(p.rows, k)), interval(key.before[0], key.before[1], key.before[2]),
-        interval(key.after[0], key.after[1], key.after[2]), percent_text(key.variance_removed));
+        interval(key.after[0], key.after[1], key.after[2]), html_escape(percent_text(key.variance_removed)));
   }
   return html + "</tbody></table></div>";
 }
@@ -91,8 +91,8 @@ std::string check_table(const PosteriorShown& p) {
   html += "<p class=\"note\">Held out one by one: ";
   std::string pieces;
   for (const auto& [nominal, inside] : p.reliability)
-    pieces += fmt::format("{}{} of {} intervals", pieces.empty() ? "" : ", ", percent_text(inside),
-                          percent_text(nominal));
+    pieces += fmt::format("{}{} of {} intervals", pieces.empty() ? "" : ", ",
+                          html_escape(percent_text(inside)), html_escape(percent_text(nominal)));
   return html + "share of quantities inside the central interval: " + pieces + ".</p>";
 }
 
