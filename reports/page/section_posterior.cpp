@@ -65,7 +65,8 @@ std::string keys_table(const PosteriorShown& p) {
         "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td class=\"n\">{}</td></tr>",
         html_escape(label_of(p.rows, k)), interval(key.before[0], key.before[1], key.before[2]),
-        interval(key.after[0], key.after[1], key.after[2]), html_escape(percent_text(key.variance_removed)));
+        interval(key.after[0], key.after[1], key.after[2]),
+        html_escape(percent_text(key.variance_removed)));
   }
   return html + "</tbody></table></div>";
 }

@@ -76,9 +76,14 @@ void tell(const workflow::Calibrated& c, const std::string& folder, Console& con
   console.event(json_text(done));  // the last line, so that a reader may stop there
 }
 
+struct Computed {
+  workflow::Calibrated found;
+  bool too_many_failed = false;
+};
+
 /// Members, maps, posterior and its files.
-workflow::Calibrated compute(const Options& options, const workflow::CalibrateRequest& request,
-                             ConsoleObserver& observer, Console& console) {
+Computed compute(const Options& options, const workflow::CalibrateRequest& request,
+                 ConsoleObserver& observer, Console& console) {
   workflow::EnsembleJob job = workflow::prepare_calibration(request, observer);
   for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
   console.note(command_text(options));
@@ -89,9 +94,14 @@ workflow::Calibrated compute(const Options& options, const workflow::CalibrateRe
   require(run.stop_error.empty(), run.stop_error);
   if (run.interrupted) throw Cancelled();
   const workflow::MapsMade maps = workflow::make_maps(job, observer, interrupt_flag());
-  workflow::Calibrated c =
-      workflow::calibrate_ensemble(request, job, maps, observer, interrupt_flag());
-  workflow::write_posterior(job.folder, c);
+  if (maps.failed() > 0)
+    console.warn(
+        fmt::format("{} of {} members failed and say nothing of the uncertain values; "
+                    "their reasons are in members.csv.",
+                    maps.failed(), maps.finished));
+  Computed c{workflow::calibrate_ensemble(request, job, maps, observer, interrupt_flag()),
+             maps.too_many_failed()};
+  workflow::write_posterior(job.folder, c.found);
   console.clear_progress();
   return c;
 }
@@ -100,10 +110,10 @@ int calibrate(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   const workflow::CalibrateRequest request = request_of(options);
   // The job and its lock are gone when the page takes the folder's.
-  const workflow::Calibrated c = compute(options, request, observer, console);
+  const Computed c = compute(options, request, observer, console);
   workflow::rewrite_page(request.ensemble.folder, observer, interrupt_flag());
-  tell(c, request.ensemble.folder.string(), console);
-  return ok;
+  tell(c.found, request.ensemble.folder.string(), console);
+  return c.too_many_failed ? too_many_failed : ok;
 }
 
 }  // namespace
