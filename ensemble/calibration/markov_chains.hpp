@@ -13,8 +13,9 @@ namespace sturz {
 
 struct ChainLengths {
   int chains = 4;
-  int burn_in = 500;  ///< steps of each that are thrown away; the step length adapts to them
-  int kept = 1500;    ///< steps of each
+  int burn_in = 500;      ///< steps of each that are thrown away; the step length adapts to them
+  int kept = 1500;        ///< steps of each
+  int first_look = 2048;  ///< points of the prior that tell where to start and how wide to step
 };
 
 /// Above this the chains tell different things.

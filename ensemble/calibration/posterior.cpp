@@ -18,7 +18,6 @@ namespace {
 
 using Points = std::vector<std::vector<double>>;
 
-constexpr std::size_t n_first_look = 2048;
 /// The first look is flattened until so many of its points count.
 constexpr double wanted_of_first_look = 40;
 
@@ -40,9 +39,9 @@ struct FirstLook {
 };
 
 FirstLook first_look(const Likelihood& likelihood, const EmulatorSet& emulators, std::size_t n_dims,
-                     std::uint64_t seed, std::size_t left_out) {
+                     int n_points, std::uint64_t seed, std::size_t left_out) {
   FirstLook look;
-  look.points = draw_unit_cube(Design::sobol, n_first_look, n_dims, seed);
+  look.points = draw_unit_cube(Design::sobol, static_cast<std::size_t>(n_points), n_dims, seed);
   for (const auto& u : look.points)
     look.logs.push_back(likelihood.log_without(emulators.at(u), left_out));
   return look;
@@ -140,7 +139,8 @@ EmulatorSet EmulatorSet::with_point(std::span<const double> point) const {
 Posterior emulated_posterior(const Likelihood& likelihood, const EmulatorSet& emulators,
                              std::size_t n_dims, const ChainLengths& lengths, std::uint64_t seed,
                              std::size_t left_out) {
-  const FirstLook look = first_look(likelihood, emulators, n_dims, seed, left_out);
+  const FirstLook look =
+      first_look(likelihood, emulators, n_dims, lengths.first_look, seed, left_out);
   const std::vector<double> weights = flattened_weights(look.logs);
   Points starts;
   for (const std::size_t i : resampled(weights, static_cast<std::size_t>(lengths.chains)))
@@ -164,7 +164,8 @@ Posterior emulated_posterior(const Likelihood& likelihood, const EmulatorSet& em
 
 BestFit best_fit(const Likelihood& likelihood, const EmulatorSet& emulators, std::size_t n_dims,
                  std::uint64_t seed) {
-  const FirstLook look = first_look(likelihood, emulators, n_dims, seed, likelihood.n_quantities());
+  const FirstLook look = first_look(likelihood, emulators, n_dims, ChainLengths{}.first_look, seed,
+                                    likelihood.n_quantities());
   std::vector<std::size_t> order(look.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
