@@ -62,7 +62,7 @@ std::size_t compared(const ScoreTable& t, std::size_t row) {
 std::vector<std::pair<std::string, std::string>> score_lines(const ScoreTable& t, std::size_t row) {
   std::vector<std::pair<std::string, std::string>> lines;
   if (t.rows.at(row).empty()) return lines;
-  for (const char* area : {"outline", "deposit"})
+  for (const char* area : {"outline", "deposit", "thickness"})
     if (const std::string text = area_text(t, row, area); !text.empty())
       lines.emplace_back(area, text);
   const std::vector<Observation>& simulated = t.comparison.simulated.values[compared(t, row)];
@@ -111,7 +111,8 @@ std::string nearest_text(const ScoreTable& t, std::span<const std::int64_t> numb
       fmt::format("nearest to what was observed: member {} (misfit {}", numbers[rows.front()],
                   known_text(misfit, fmt::format("{:.3g}", misfit.value)));
   for (const auto& [name, label] :
-       {std::pair("outline_iou", "outline IoU"), std::pair("deposit_iou", "deposit IoU")})
+       {std::pair("outline_iou", "outline IoU"), std::pair("deposit_iou", "deposit IoU"),
+        std::pair("thickness_iou", "thickness IoU")})
     if (t.column(name)) text += fmt::format(", {} {:.3f}", label, score(name).value);
   text += ")";
   for (std::size_t i = 1; i < std::min<std::size_t>(rows.size(), 3); ++i)

@@ -43,6 +43,22 @@ void compare(const std::string& name, const std::string& unit, const std::string
   sheet.compare({name, observed.value, observed.sd, unit}, value, known);
 }
 
+/// What is made of a table. \param grows of hits, \param either of what may go up or down
+void add_rates(const Contingency& t, const std::string& name, const std::string& noun, Known grows,
+               Known either, ScoreSheet& sheet) {
+  sheet.add(
+      {name + "_iou", "1", "intersection over union of " + noun + ", the CSI: TP / (TP + FP + FN)",
+       Better::larger},
+      intersection_over_union(t), either);
+  sheet.add({name + "_hit_rate", "1", "TP / (TP + FN)", Better::larger}, hit_rate(t), grows);
+  sheet.add({name + "_false_alarm_ratio", "1", "FP / (TP + FP)", Better::smaller},
+            false_alarm_ratio(t), either);
+  sheet.add({name + "_hss", "1",
+             "Heidke skill, 2 (TP TN - FP FN) / ((TP + FN)(FN + TN) + (TP + FP)(FP + TN))",
+             Better::larger},
+            heidke_skill(t), either);
+}
+
 }  // namespace
 
 EventScorer::Area::Area(const ObservedArea& area, const Grid& maps, const CellDistances& distances)
@@ -133,19 +149,7 @@ void EventScorer::score_area(const Area& area, const std::string& name, const st
              "side",
              Better::larger},
             t.neither_m2, either);
-  sheet.add({name + "_iou", "1",
-             "intersection over union of " + noun +
-                 ", the CSI: TP / (TP + FP "
-                 "+ FN)",
-             Better::larger},
-            intersection_over_union(t), either);
-  sheet.add({name + "_hit_rate", "1", "TP / (TP + FN)", Better::larger}, hit_rate(t), grows);
-  sheet.add({name + "_false_alarm_ratio", "1", "FP / (TP + FP)", Better::smaller},
-            false_alarm_ratio(t), either);
-  sheet.add({name + "_hss", "1",
-             "Heidke skill, 2 (TP TN - FP FN) / ((TP + FN)(FN + TN) + (TP + FP)(FP + TN))",
-             Better::larger},
-            heidke_skill(t), either);
+  add_rates(t, name, noun, grows, either, sheet);
   const SegmentIndex own(outer_boundary(cells), 2 * maps_.cell_m);
   const BoundaryDistance d = boundary_distance(own, area.outline, maps_.cell_m / 2, 2 * area.sd_m);
   sheet.add({name + "_distance_m", "m", "mean distance of the two outer boundaries, both ways",
@@ -189,6 +193,7 @@ void EventScorer::score_thickness(const MemberView& member, ScoreSheet& sheet) c
   const Window at = window_of(observed.value.grid, maps_);
   std::vector<ThicknessPair> pairs;
   PathProfile mapped(band_cells * maps_.cell_m), own(band_cells * maps_.cell_m);
+  Contingency table;
   const double limit = threshold_m(member);
   for (int r = 0; r < at.n_rows; ++r)
     for (int c = 0; c < at.n_cols; ++c) {
@@ -199,12 +204,17 @@ void EventScorer::score_thickness(const MemberView& member, ScoreSheet& sheet) c
       if (observed.net_change) lies -= member.at(PeakLayer::eroded, row, col);
       const double distance = distances_.at(row, col);
       pairs.push_back({value, lies, distance});
+      double& area = value > limit ? (lies > limit ? table.hit_m2 : table.missed_m2)
+                                   : (lies > limit ? table.false_m2 : table.neither_m2);
+      area += cell_area(maps_);
       if (value > limit) mapped.add(distance, cell_area(maps_), value);
       if (lies > limit) own.add(distance, cell_area(maps_), lies);
     }
   const ThicknessScores s = thickness_scores(pairs, limit, 2 * observed.sd_m);
   // What left lies elsewhere, if it lies on measured ground at all.
   const Known known = weaker(Known::not_at_all, Known::not_at_all, member.censoring);
+  add_rates(table, "thickness", "what is thicker than the threshold, of the measured cells",
+            weaker(Known::at_least, Known::not_at_all, member.censoring), known, sheet);
   const char* what = observed.net_change ? "net change of the ground" : "deposit's thickness";
   sheet.add({"thickness_rmse_m", "m",
              std::string(what) + ", root mean square of the differences where either is above the "

@@ -4,6 +4,7 @@
 
 #include "ensemble/scores/comparison.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,12 +26,12 @@ struct ScoreInfo {
 class ScoreSheet {
  public:
   void add(ScoreInfo info, double value, Known known) {
-    if (value != value) known = Known::not_at_all;
+    if (std::isnan(value)) known = Known::not_at_all;
     columns.push_back(std::move(info));
     scores.push_back({value, known});
   }
   void compare(ObservedQuantity quantity, double value, Known known) {
-    if (value != value) known = Known::not_at_all;
+    if (std::isnan(value)) known = Known::not_at_all;
     observed.push_back(std::move(quantity));
     simulated.push_back({value, known});
   }

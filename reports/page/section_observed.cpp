@@ -91,6 +91,20 @@ std::string member_row(const ReportInput& input, std::size_t i,
   return row + "</tr>";
 }
 
+const char* good_values(Better better) {
+  switch (better) {
+    case Better::larger:
+      return "larger is better";
+    case Better::smaller:
+      return "smaller is better";
+    case Better::nearer_one:
+      return "nearer to 1 is better";
+    case Better::nearer_zero:
+      break;
+  }
+  return "nearer to 0 is better";
+}
+
 std::string table_head(const ReportInput& input, const std::vector<std::size_t>& shown) {
   std::string head = head_cell("member", "", "Number of the member");
   if (!input.samples.rows.empty())
@@ -100,7 +114,8 @@ std::string table_head(const ReportInput& input, const std::vector<std::size_t>&
                         input.samples.columns[k]);
   for (const std::size_t k : shown) {
     const ScoreInfo& score = input.scores->columns[k];
-    head += head_cell(label_of(score.name), score.unit, score.long_name);
+    head += head_cell(label_of(score.name), score.unit,
+                      score.long_name + "; " + good_values(score.better));
   }
   for (const ObservedQuantity& q : input.scores->comparison.observed)
     head += head_cell(label_of(q.name), q.unit, "Compared with what was observed: " + q.name);

@@ -112,7 +112,11 @@ TEST(Schema, UnitsStandInTheNames) {
   for (const auto& key : schema()) {
     if (key.units.empty() || key.units == "1") continue;
     ASSERT_TRUE(tails.count(key.units)) << key.path << " [" << key.units << "]";
-    EXPECT_TRUE(key.path.ends_with(tails.at(key.units))) << key.path << " [" << key.units << "]";
+    // A measured number and its standard deviation stand in a block that says the unit of both.
+    std::string named = key.path;
+    for (const char* part : {".value", ".sd"})
+      if (named.ends_with(part)) named.resize(named.rfind('.'));
+    EXPECT_TRUE(named.ends_with(tails.at(key.units))) << key.path << " [" << key.units << "]";
   }
 }
 
@@ -135,7 +139,8 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
               ElementsAre("title", "terrain", "release", "material", "grains", "mixture", "basal",
-                          "formulation", "erosion", "numerics", "domain", "ensemble", "hazard"));
+                          "formulation", "erosion", "numerics", "domain", "ensemble", "hazard",
+                          "observation"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

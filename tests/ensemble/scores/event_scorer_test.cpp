@@ -146,11 +146,18 @@ TEST(EventScorer, ThicknessAgainstARaster) {
   thickness.sd_m = 0.5;
   e->thickness = thickness;
   const ScoreTable t = score_result(slide(0, 22), e);  // 2 m in columns 17 .. 21
+  EXPECT_DOUBLE_EQ(score(t, "thickness_iou").value, 1);
   EXPECT_DOUBLE_EQ(score(t, "thickness_rmse_m").value, 0.5);
   EXPECT_DOUBLE_EQ(score(t, "thickness_bias_m").value, -0.5);
   EXPECT_DOUBLE_EQ(score(t, "thickness_within_2sd").value, 1);
   EXPECT_DOUBLE_EQ(score(t, "thickness_volume_ratio").value, 0.8);
   EXPECT_DOUBLE_EQ(score(t, "misfit").value, 1);
+  // Three of five columns, and two that nothing was found in; beyond the raster nothing is known.
+  const ScoreTable shorter = score_result(slide(0, 20), e);
+  EXPECT_DOUBLE_EQ(score(shorter, "thickness_iou").value, 3.0 / 7);
+  EXPECT_DOUBLE_EQ(score(shorter, "thickness_false_alarm_ratio").value, 2.0 / 5);
+  // No cell of the raster is free of both.
+  EXPECT_DOUBLE_EQ(score(shorter, "thickness_hss").value, 2.0 * (0 - 2 * 2) / (5 * 2 + 5 * 2));
 }
 
 TEST(EventScorer, NetChangeIsComparedWithDepositLessErosion) {
