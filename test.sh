@@ -82,7 +82,7 @@ stage_asan() {
   done
 }
 
-declare -A fuzz_runs=([scenario]=12000 [design]=100000 [polygons]=6000 [rasters]=4000 [netcdf]=800
+declare -A fuzz_runs=([scenario]=12000 [design]=100000 [hydrograph]=100000 [polygons]=6000 [rasters]=4000 [netcdf]=800
                       [manifest]=60000)
 
 stage_fuzz() {

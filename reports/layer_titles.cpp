@@ -27,6 +27,10 @@ std::string title(Quantity q) {
       return "Mass past the terrain's edge";
     case Quantity::eroded:
       return "Eroded depth";
+    case Quantity::solid:
+      return "Thickness of grains alone";
+    case Quantity::liquid:
+      return "Thickness of liquid alone";
     case Quantity::intensity:
       return "Intensity";
     case Quantity::members:

@@ -158,6 +158,18 @@ Scenario wet_ramp(double solid_fraction, double spacing_m) {
   return s;
 }
 
+Scenario channel(double spacing_m) {
+  Scenario s = on_ground("Channel on an even slope", "plane", 2,
+                         {{"slope_deg", 20}, {"length_m", 200}, {"width_m", 40}});
+  s.formulation = Formulation::depth_averaged;
+  s.basal.friction_coefficient = 0.1;
+  s.basal.turbulent_coefficient_m_s2 = Uncertain(80);
+  s.domain.walls = {WallSpec{{0, -10, 0}, {0, 1, 0}, 0, std::nullopt},
+                    WallSpec{{0, 10, 0}, {0, -1, 0}, 0, std::nullopt}};
+  s.numerics.spacing_m = spacing_m;
+  return s;
+}
+
 Scenario bagnold_slab(double slope_deg, int layers) {
   const double height = 0.1, spacing = height / layers, side = 6 * spacing;
   Scenario s = on_ground("Glass beads flow down an even slope", "plane", spacing,

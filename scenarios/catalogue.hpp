@@ -44,6 +44,10 @@ Scenario ramp_slide(double azimuth_deg = 90, double spacing_m = 3);
 /// looser than 0.64 it liquefies and runs out, denser it stays on the slope; depth_averaged.
 Scenario wet_ramp(double solid_fraction = 0.62, double spacing_m = 3);
 
+/// A smooth straight channel, 20 m wide and 200 m long on an even 20 degree slope, whose bed brakes
+/// with Voellmy's mu 0.1 and xi 80 m/s2; without any mass, for an inflow; depth_averaged.
+Scenario channel(double spacing_m = 2);
+
 /// V7: a slab 0.1 m thick of glass beads, periodic in x and y, on an even slope with a bed that
 /// holds its lowest layer: a tenth rougher than the slope is steep. Starts at rest.
 /// \param layers  spacings over the thickness

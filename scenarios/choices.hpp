@@ -69,6 +69,34 @@ constexpr auto words_of(InitialPressure) {
   return std::array{Word{hydrostatic, "hydrostatic"}, Word{liquefied, "liquefied"}};
 }
 
+/// Pore pressure inside a column: a parabola, or computed at nodes from the bed up.
+enum class PressureProfile { parabola, resolved };
+constexpr auto words_of(PressureProfile) {
+  using enum PressureProfile;
+  return std::array{Word{parabola, "parabola"}, Word{resolved, "resolved"}};
+}
+
+/// Where excess pore pressure drains to: the free surface, or the bed as well.
+enum class Drainage { top, both };
+constexpr auto words_of(Drainage) {
+  using enum Drainage;
+  return std::array{Word{top, "top"}, Word{both, "both"}};
+}
+
+/// Velocities of a mixture: grains and water together, or each its own.
+enum class MixturePhases { one, two };
+constexpr auto words_of(MixturePhases) {
+  using enum MixturePhases;
+  return std::array{Word{one, "one"}, Word{two, "two"}};
+}
+
+/// What drag between grains and liquid follows from.
+enum class PhaseDragLaw { permeability, settling };
+constexpr auto words_of(PhaseDragLaw) {
+  using enum PhaseDragLaw;
+  return std::array{Word{permeability, "permeability"}, Word{settling, "settling"}};
+}
+
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
 enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {

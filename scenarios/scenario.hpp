@@ -3,7 +3,7 @@
 #pragma once
 
 #include "scenarios/choices.hpp"
-#include "scenarios/observation_spec.hpp"
+#include "scenarios/observation/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
 #include <array>
@@ -30,6 +30,29 @@ struct TerrainWindow {
   bool operator==(const TerrainWindow&) const = default;
 };
 
+/// A dam or deflecting wall along a line, raised on the ground before the run. Exactly one of line
+/// and points_m; exactly one of height_m, height_attribute, crest_elevation_m.
+struct DamSpec {
+  std::string line;                              ///< any OGR layer of lines
+  std::string layer;                             ///< layer name inside `line`; empty: the first
+  std::vector<std::array<double, 2>> points_m;   ///< map coordinates of the line's corners
+  std::optional<Uncertain> height_m;             ///< of the crest above the ground below it
+  std::string height_attribute;                  ///< field of `line` with it
+  std::optional<Uncertain> crest_elevation_m{};  ///< level crest at this elevation
+  double crest_width_m = 4;                      ///< flat top across the line
+  double side_slope = 1.5;                       ///< horizontal per vertical, of both sides
+  bool operator==(const DamSpec&) const = default;
+};
+
+/// Cells of the ground that stand above it, so that columns flow around them.
+struct BuildingsSpec {
+  std::string polygon;           ///< any OGR polygon layer
+  std::string layer;             ///< layer name inside `polygon`; empty: the first
+  double height_m = 10;          ///< of the roofs above the ground
+  std::string height_attribute;  ///< field of `polygon` with it, in metres
+  bool operator==(const BuildingsSpec&) const = default;
+};
+
 struct TerrainSpec {
   std::string raster;  ///< path of any GDAL raster; empty: synthetic
   std::optional<SyntheticTerrain> synthetic;
@@ -37,6 +60,8 @@ struct TerrainSpec {
   std::optional<double> cell_size_m;  ///< working grid; default: the raster's own
   TerrainEdge nodata = TerrainEdge::outflow;
   std::optional<TerrainWindow> window;  ///< absent: from the energy line
+  std::vector<DamSpec> dams;
+  std::optional<BuildingsSpec> buildings;
   bool operator==(const TerrainSpec&) const = default;
 };
 
@@ -73,7 +98,43 @@ struct ReleaseSpec {
   ThicknessDirection thickness = ThicknessDirection::vertical;  ///< how thicknesses were measured
   ReleaseFloor floor = ReleaseFloor::uniform;                   ///< of a pre_failure release
   std::array<double, 3> velocity_m_s{0, 0, 0};
+  std::optional<Uncertain> start_time_s;  ///< absent: 0; of the whole release, depth_averaged only
+  std::string start_time_attribute;  ///< field of `polygon` with a time in seconds, in addition
   bool operator==(const ReleaseSpec&) const = default;
+};
+
+/// Mass that enters over time across a line or at a polygon; depth_averaged only.
+struct InflowSpec {
+  std::string name;        ///< what it is called in words; empty: its number
+  std::string hydrograph;  ///< CSV of time and discharge
+  // Exactly one of the next three.
+  std::string line, polygon;                  ///< any OGR layer
+  std::vector<std::array<double, 2>> line_m;  ///< corners of a line in map coordinates
+  std::string layer;                          ///< layer name inside the file; empty: the first
+  std::string crs;                            ///< where the file has none
+  std::optional<Uncertain> discharge_factor;  ///< of the hydrograph; absent: 1
+  std::optional<Uncertain> start_time_s;      ///< of the hydrograph's time 0; absent: 0
+  std::optional<Uncertain> speed_m_s;         ///< along the ground; absent: critical
+  std::optional<Uncertain> direction_deg;     ///< clockwise from north; absent: down the slope
+  bool operator==(const InflowSpec&) const = default;
+};
+
+/// A named point (one corner) or line.
+struct GaugeSpec {
+  std::string name;
+  std::vector<std::array<double, 2>> corners_m;  ///< map coordinates
+  bool operator==(const GaugeSpec&) const = default;
+};
+
+/// Where the run is followed over time.
+struct GaugesSpec {
+  double interval_s = 1;
+  std::vector<GaugeSpec> points, lines;
+  std::string file;                     ///< any OGR layer of points or lines
+  std::string layer;                    ///< layer name inside `file`; empty: the first
+  std::string name_attribute = "name";  ///< field of `file` with their names
+  std::string crs;                      ///< where `file` has none
+  bool operator==(const GaugesSpec&) const = default;
 };
 
 /// mu(I) = static + (dynamic - static) / (scale / I + 1)
@@ -137,8 +198,20 @@ struct MixtureSpec {
   Uncertain compressibility{0.05};
   Uncertain stress_offset_pa{1000};
   Uncertain shear_grain_diameter_m{0.001};
+  PressureProfile pressure_profile = PressureProfile::parabola;
+  std::optional<int> pressure_nodes;  ///< of a resolved profile; absent: 8
+  Drainage drainage = Drainage::top;  ///< `both` needs a resolved profile
+  MixturePhases phases = MixturePhases::one;
+  /// Of `phases: two`, as is the next; `settling` is by grains.diameter_m without a speed.
+  PhaseDragLaw drag_law = PhaseDragLaw::permeability;
+  std::optional<Uncertain> settling_speed_m_s;
   bool operator==(const MixtureSpec&) const = default;
 };
+
+/// Grains and liquid are two sets of columns.
+inline bool has_two_phases(const std::optional<MixtureSpec>& mixture) {
+  return mixture && mixture->phases == MixturePhases::two;
+}
 
 /// A part of the ground with values of its own; what it does not give is that of `basal`.
 struct BasalZone {
@@ -149,6 +222,28 @@ struct BasalZone {
   bool operator==(const BasalZone&) const = default;
 };
 
+/// A raster in the place of one number of `basal`; nodata leaves that number.
+struct BasalRaster {
+  std::string path;                 ///< any GDAL raster, in the key's unit; empty: none
+  std::optional<Uncertain> factor;  ///< multiplies its values; 1 when absent
+  bool operator==(const BasalRaster&) const = default;
+};
+struct BasalRasters {
+  BasalRaster friction_coefficient, pore_pressure_ratio, cohesion_pa, turbulent_coefficient_m_s2;
+  std::string crs;  ///< of those files that have none
+  bool operator==(const BasalRasters&) const = default;
+};
+
+/// SamosAT's bed: friction that falls with speed and a logarithmic profile's drag; depth_averaged
+/// only. Its mu is `friction_coefficient`, its tau_0 `cohesion_pa` of basal.
+struct SamosAtSpec {
+  Uncertain fluidization_number{0.222};  ///< R_s0
+  Uncertain von_karman{0.43};            ///< kappa
+  Uncertain roughness_m{0.05};           ///< R
+  Uncertain profile_offset{4.13};        ///< B
+  bool operator==(const SamosAtSpec&) const = default;
+};
+
 struct BasalSpec {
   Uncertain friction_coefficient{0.4};
   Uncertain pore_pressure_ratio{0};
@@ -157,6 +252,8 @@ struct BasalSpec {
   std::optional<Uncertain> turbulent_coefficient_m_s2;  ///< Voellmy's xi; depth_averaged only
   std::optional<Uncertain> viscosity_pa_s;   ///< laminar drag at the bed; depth_averaged only
   std::optional<Uncertain> yield_stress_pa;  ///< Bingham, with viscosity_pa_s; depth_averaged only
+  std::optional<SamosAtSpec> samosat;        ///< absent: Coulomb with the terms above
+  BasalRasters rasters;                      ///< a zone's own number goes before a raster's
   std::vector<BasalZone> zones;              ///< where two overlap, the later one holds
   bool operator==(const BasalSpec&) const = default;
 };
@@ -248,6 +345,7 @@ struct Scenario {
   std::string material;  ///< name of ready-made priors, see scenarios/materials; empty: none
   TerrainSpec terrain;
   ReleaseSpec release;
+  std::vector<InflowSpec> inflow;
   std::optional<GrainsSpec> grains;
   std::optional<MixtureSpec> mixture;  ///< absent: dry, or with basal.pore_pressure_ratio
   BasalSpec basal;
@@ -257,6 +355,7 @@ struct Scenario {
   DomainSpec domain;
   EnsembleSpec ensemble;
   HazardSpec hazard;
+  std::optional<GaugesSpec> gauges;
   std::optional<ObservationSpec> observation;  ///< absent: members are not scored
   std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;

@@ -2,10 +2,12 @@
 /// The files of a scene, loaded once and shared by all its members.
 #pragma once
 
+#include "engine/effects/bed_rasters.hpp"
 #include "engine/terrain/terrain.hpp"
 #include "scenarios/assembly/reach.hpp"
+#include "scenarios/inflow/hydrograph.hpp"
 #include "scenarios/input_identity.hpp"
-#include "scenarios/observed_event.hpp"
+#include "scenarios/observation/observed_event.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +25,28 @@ enum class ReleasePattern {
               ///< shape_release has seen it: before, as release.thickness says)
 };
 
+/// Part of a release that starts at one time.
+struct ReleaseStart {
+  double start_s = 0;  ///< without release.start_time_s
+  /// Share of each cell of the release pattern that belongs to it, 0..1, on the pattern's cells.
+  std::shared_ptr<const Raster<double>> share;
+};
+
+/// A named point (one corner) or line in map coordinates [m].
+struct Gauge {
+  std::string name;
+  std::vector<Vec2> corners;
+};
+
+/// A number of the bed that a raster gives.
+struct BedLayerInput {
+  BedNumber number = BedNumber::friction;
+  /// On the held cells, NaN where the raster says nothing.
+  std::shared_ptr<const Raster<double>> values;
+  /// Of its values where the energy line comes, whatever is held; NaN where it says nothing there.
+  double least = 0, most = 0, mean = 0;
+};
+
 struct SceneInputs {
   /// As delivered (bed or pre-failure), NaN nodata: the part of the working grid that is held.
   std::shared_ptr<const Raster<double>> elevation;
@@ -32,11 +56,16 @@ struct SceneInputs {
   ReleasePattern pattern = ReleasePattern::cover;
   /// Share of each cell of `release` that the source covers, 0..1; null: all of every cell > 0.
   std::shared_ptr<const Raster<double>> release_cover;
+  /// By ascending start; empty: all of it starts at once.
+  std::vector<ReleaseStart> release_starts;
+  std::vector<InflowSource> inflow;  ///< in the order of the scenario
+  std::vector<Gauge> gauge_points, gauge_lines;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is
   /// coarser; null: each member makes its own. See scenarios/assembly/ground.hpp.
   std::shared_ptr<const Terrain> ground, column_ground;
   /// Zone of the bed per held cell: 0 none, k the k-th of basal.zones; null: no zones.
   std::shared_ptr<const Raster<std::uint8_t>> zones;
+  std::vector<BedLayerInput> bed_layers;  ///< of basal.rasters, in their order; mostly none
   /// What can be taken of the bed, on cells of the working grid: share of erosion.depth_m, or depth
   /// where erosion.depth_raster gives it [m]; nothing beyond. Null: the same everywhere.
   std::shared_ptr<const Raster<double>> bed_supply;

@@ -12,7 +12,7 @@ namespace sturz {
 ///
 /// Kinetic energy changes only through accounted works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
-///   lost_energy - taken_energy + added_energy - entrainment_loss + outer_work.
+///   lost_energy - taken_energy + added_energy - entrainment_loss - drag_loss + outer_work.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
 /// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
@@ -21,8 +21,12 @@ struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
   double added_mass = 0, taken_mass = 0;                     ///< by effects, after the release
   double added_energy = 0, taken_energy = 0;                 ///< kinetic energy that went with it
+  double added_volume = 0;      ///< bulk, of added mass that has one [m^3]
   double entrained_mass = 0;    ///< taken up of the bed, at rest until then
   double entrainment_loss = 0;  ///< of kinetic energy, by mixing with it
+  double drag_loss = 0;         ///< of kinetic energy, by drag between two sets of columns
+  /// Mass times time at which drag was raised to keep two velocities solvable [kg s].
+  double drag_raised = 0;
   double outer_work = 0;  ///< by what nothing below names: effects such as wind, ground that moves
 
   /// Now. Potential is the accounted change since release: it counts what left as it was when it
@@ -57,6 +61,7 @@ struct Ledger {
   /// Elastic energy of pore pressures that their bounds cut off (docs/physics.md F.7).
   double clipped_work = 0;
 
+  Vec3 added_momentum{0, 0, 0};  ///< of all that entered after the start
   /// Sum of m a dt of pair forces alone: zero but for rounding.
   Vec3 stress_impulse{0, 0, 0};
   double stress_impulse_scale = 0;  ///< sum of |m a dt|
@@ -82,8 +87,8 @@ struct Ledger {
     return (kinetic - kinetic_0) + potential + (elastic - elastic_0) + (spring - spring_0) +
            frictional + granular + collisions - conducted + granular_lost + plastic + friction +
            rest_damping + damping() + rotational + isolated_elastic + isolated_dissipated() +
-           numerical() - diffusion + lost_energy + taken_energy - added_energy + entrainment_loss -
-           outer_work;
+           numerical() - diffusion + lost_energy + taken_energy - added_energy + entrainment_loss +
+           drag_loss - outer_work;
   }
 };
 
@@ -109,11 +114,13 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
                                &Ledger::released_solids,  &Ledger::lost_solids,
                                &Ledger::released_water,   &Ledger::lost_water,
                                &Ledger::clipped_work,     &Ledger::entrained_mass,
-                               &Ledger::entrainment_loss};
+                               &Ledger::entrainment_loss, &Ledger::drag_loss,
+                               &Ledger::drag_raised,      &Ledger::added_volume};
   // An entry that is added above but forgotten here would silently miss from every total.
-  static_assert(sizeof(Ledger) == (std::size(entries) + 3) * sizeof(double));
+  static_assert(sizeof(Ledger) == (std::size(entries) + 6) * sizeof(double));
   for (const Entry entry : entries) this->*entry += other.*entry;
   stress_impulse += other.stress_impulse;
+  added_momentum += other.added_momentum;
   return *this;
 }
 

@@ -13,7 +13,9 @@ void place(MovingSet& p, std::size_t i, const Arrival& a) {
   p.vx[i] = a.velocity.x(), p.vy[i] = a.velocity.y(), p.vz[i] = a.velocity.z();
   p.mass[i] = a.mass;
   p.motion.max_speed = std::max(p.motion.max_speed, a.velocity.norm());
-  p.ledger.added_mass += a.mass;
+  (a.released ? p.ledger.released_mass : p.ledger.added_mass) += a.mass;
+  p.ledger.added_volume += a.volume;
+  p.ledger.added_momentum += a.mass * a.velocity;
   p.ledger.added_energy += 0.5 * a.mass * a.velocity.squaredNorm();
 }
 
@@ -34,6 +36,7 @@ void mark_start(const Domain& domain, MovingSet& p, std::size_t first) {
 std::size_t enter_arrivals(const Domain& domain, MovingSet& p) {
   const std::size_t first = p.grow(p.arrivals.size());
   for (std::size_t k = 0; k < p.arrivals.size(); ++k) place(p, first + k, p.arrivals[k]);
+  p.entering.swap(p.arrivals);
   p.arrivals.clear();
   if (Field* before = p.find(fields::velocity_before))
     for (std::size_t i = first; i < p.size(); ++i)

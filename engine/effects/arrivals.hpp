@@ -7,7 +7,8 @@
 namespace sturz {
 
 /// Makes particles of a set's arrivals: new ids, fields at their initial values, where they start
-/// and what they bring in the ledger. Velocities count as those of the last half step.
+/// and what they bring in the ledger. Velocities count as those of the last half step. They stay
+/// readable in MovingSet::entering until others enter.
 /// \return storage index of the first of them; the others follow
 std::size_t enter_arrivals(const Domain&, MovingSet&);
 

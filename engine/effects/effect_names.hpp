@@ -16,7 +16,10 @@ struct EffectName {
   static constexpr std::string_view isolated_contacts = "contacts of isolated particles";
   static constexpr std::string_view column_pressure = "lateral pressure of columns";
   static constexpr std::string_view pore_pressure = "pore pressure and dilatancy";
+  static constexpr std::string_view phase_drag = "drag between grains and liquid";
   static constexpr std::string_view erosion = "erosion of the bed";
+  static constexpr std::string_view inflow = "inflow";
+  static constexpr std::string_view later_release = "later releases";
   static constexpr std::string_view walls = "walls";
   static constexpr std::string_view motion = "motion";
   /// No scenario key asks for it: peak maps, history, limits of the time step.

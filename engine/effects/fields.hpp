@@ -77,6 +77,17 @@ inline constexpr FieldKey pore_pressure{"pore_pressure", 1, "Pa", "pore pressure
 /// found the thickness.
 inline constexpr FieldKey pore_gravity{"pore_gravity", 1, "m s-2", "pore pressure", -1.0};
 
+/// Excess pressure at the nodes of a resolved profile, from the bed up; one key for each number of
+/// nodes, least_pressure_nodes and up.
+inline constexpr int least_pressure_nodes = 5, most_pressure_nodes = 10;
+inline constexpr FieldKey excess_profile[] = {
+    {"excess_profile", 5, "Pa", "pore pressure"}, {"excess_profile", 6, "Pa", "pore pressure"},
+    {"excess_profile", 7, "Pa", "pore pressure"}, {"excess_profile", 8, "Pa", "pore pressure"},
+    {"excess_profile", 9, "Pa", "pore pressure"}, {"excess_profile", 10, "Pa", "pore pressure"}};
+constexpr const FieldKey& excess_profile_of(int nodes) {
+  return excess_profile[nodes - least_pressure_nodes];
+}
+
 // Of a bed that the flow takes along (erosion/).
 /// Part of a column's mass that was bed.
 inline constexpr FieldKey entrained_mass{"entrained_mass", 1, "kg", "erosion"};

@@ -7,7 +7,9 @@
 #include "engine/core/vec.hpp"
 #include "engine/particles/particle_set.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -47,11 +49,16 @@ enum class Fate : std::uint8_t {
   taken,
 };
 
-/// A particle that an effect wants to add.
+/// A particle that an effect wants to add. What follows its mass is for columns.
 struct Arrival {
   Vec3 position{0, 0, 0};  ///< [m]
   Vec3 velocity{0, 0, 0};  ///< [m/s]
   double mass = 0;         ///< [kg]
+  double volume = 0;       ///< bulk; 0: its effect counts none [m^3]
+  double thickness = 0;    ///< vertical; 0: what it gives itself [m]
+  double covered = 1;      ///< share of its lattice cell that its source covers [-]
+  double solid_fraction = std::numeric_limits<double>::quiet_NaN();  ///< NaN: that of the set [-]
+  bool released = false;  ///< part of the release, which started later
 };
 
 /// A particle that crossed the edge of the known ground.
@@ -92,6 +99,10 @@ struct MovingSet : ParticleSet {
   Ledger ledger;
   /// Particles that passes of this step want to add; they enter at its end.
   std::vector<Arrival> arrivals;
+  /// Those that entered last, in storage order; for Pass::entered.
+  std::vector<Arrival> entering;
+  /// Particles that wait for their time to enter: of a later release, of an inflow that goes on.
+  std::size_t to_come = 0;
 };
 
 }  // namespace sturz

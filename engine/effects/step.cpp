@@ -18,9 +18,9 @@ std::string_view to_string(Stage stage) {
 NamedSeconds by_pass(std::span<const PassTime> passes) {
   NamedSeconds out;
   for (const PassTime& p : passes) {
-    out.emplace_back(p.name, p.seconds - p.part_seconds);
+    add_seconds(out, p.name, p.seconds - p.part_seconds);
     if (!p.part.effect.empty())
-      out.emplace_back(p.name + ", " + std::string(p.part.name), p.part_seconds);
+      add_seconds(out, p.name + ", " + std::string(p.part.name), p.part_seconds);
   }
   return out;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the bed takes from a depth-averaged column: Coulomb with pore pressure, cohesion, and the
-/// optional turbulent (Voellmy), laminar and Bingham terms.
+/// optional turbulent (Voellmy), laminar, Bingham and SamosAT terms.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,8 @@ namespace sturz {
 ///   laminar    3 eta v / (rho h^2)               docs/physics.md A.8 (Eq. 32)
 ///   Bingham    tau_b / (rho h) with 2 tau_b^3 - 3 (tau_y + 2 eta v/h) tau_b^2 + tau_y^3 = 0, the
 ///              depth-averaged velocity of a Bingham film (Laigle & Coussot 1997 [M])
+///   SamosAT    mu (1 - r_u) g_n (1 + R_s0/(R_s0 + R_s)) + v^2 / (h (ln(h/R)/kappa + B)^2) with
+///              R_s = v^2/((1 - r_u) g_n h), in place of Coulomb and Voellmy: docs/physics.md A.8
 struct BasalResistance {
   double friction_coefficient = 0.4;  ///< mu [-]
   double pore_pressure_ratio = 0;     ///< r_u [-]
@@ -22,6 +24,12 @@ struct BasalResistance {
   double turbulent_coefficient = 0;   ///< xi [m/s^2]; 0: none
   double viscosity_pa_s = 0;          ///< eta [Pa s]; 0: none
   double yield_stress_pa = 0;         ///< tau_y [Pa]
+
+  bool samosat = false;                ///< the four that follow count
+  double fluidization_number = 0.222;  ///< R_s0 [-]
+  double von_karman = 0.43;            ///< kappa [-]
+  double roughness_m = 0.05;           ///< R [m]
+  double profile_offset = 4.13;        ///< B [-]
 
   double effective_friction() const { return friction_coefficient * (1 - pore_pressure_ratio); }
 
@@ -38,11 +46,24 @@ struct BasalResistance {
     return yield_stress_pa / std::min(1.0, x);
   }
 
-  bool has_rate() const { return turbulent_coefficient > 0 || viscosity_pa_s > 0; }
+  bool has_rate() const { return turbulent_coefficient > 0 || viscosity_pa_s > 0 || samosat; }
+
+  /// How many times its friction the SamosAT bed has at this speed: two at rest, one when fast.
+  double slowness(double speed, double normal_gravity, double thickness) const {
+    const double pressure = (1 - pore_pressure_ratio) * normal_gravity * thickness;
+    return pressure > 0 ? 1 + fluidization_number / (fluidization_number + speed * speed / pressure)
+                        : 1;
+  }
 
   /// Deceleration per speed by the terms that grow with speed [1/s].
   double rate(double speed, double thickness, double density, double gravity) const {
     double k = 0;
+    if (samosat) {
+      // Thinner than the roughness the profile's logarithm would turn negative.
+      const double profile =
+          std::log(std::max(1.0, thickness / roughness_m)) / von_karman + profile_offset;
+      k += speed / (thickness * profile * profile);
+    }
     if (turbulent_coefficient > 0) k += gravity * speed / (turbulent_coefficient * thickness);
     if (viscosity_pa_s > 0) {
       const double v = std::max(speed, 1e-9);  // Bingham: the rate is infinite at rest
@@ -51,9 +72,11 @@ struct BasalResistance {
     return k;
   }
 
-  /// Deceleration that does not depend on speed and can stop a column [m/s^2].
-  double plastic(double normal_gravity, double thickness, double density) const {
-    return effective_friction() * normal_gravity +
+  /// Deceleration that can stop a column [m/s^2]; of all laws but SamosAT it is the same at any
+  /// speed.
+  double plastic(double normal_gravity, double thickness, double density, double speed) const {
+    const double times = samosat ? slowness(speed, normal_gravity, thickness) : 1;
+    return times * effective_friction() * normal_gravity +
            (cohesion_pa + yield_stress_pa) / (density * thickness);
   }
 };

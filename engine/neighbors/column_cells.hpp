@@ -15,6 +15,15 @@
 
 namespace sturz {
 
+/// Where cells lie and how fine positions are told apart; sets that share one find each other's
+/// columns.
+struct ColumnFrame {
+  double width = 1, height = 1;   ///< of a cell [m]
+  double west = 0, south = 0;     ///< [m]
+  double origin_z = 0, unit = 1;  ///< [m]; metres per position unit
+  std::int32_t n_cols = 1, n_rows = 1;
+};
+
 class ColumnCells {
  public:
   /// Sorts the columns and their periodic images by cell and fills the records' positions; within
@@ -22,6 +31,18 @@ class ColumnCells {
   /// \param support_radius  of each column [m], [n]; its largest bounds what images
   /// exist
   void build(const ParticleSet&, const Domain&, const std::vector<double>& support_radius);
+  /// The same in a frame that holds the columns of more sets, \see frame_of.
+  void build(const ParticleSet&, const Domain&, const std::vector<double>& support_radius,
+             const ColumnFrame&);
+
+  /// A frame around the columns of two sets. \param support_radius  of each set's columns [m]
+  static ColumnFrame frame_of(const ParticleSet&, const ParticleSet&,
+                              const std::vector<double>& support_radius,
+                              const std::vector<double>& other_support_radius);
+  /// The groups of `others`, which has the same frame, with runs of records of these cells.
+  void list_across(const ColumnCells& others, const ParticleSet& other_set,
+                   const std::vector<double>& other_support_radius,
+                   std::vector<ColumnGroup>& groups, std::vector<ColumnRun>& runs) const;
 
   /// Records and images, in order of their cells.
   std::size_t size() const { return source_.size(); }
@@ -38,18 +59,17 @@ class ColumnCells {
     std::uint32_t source, cell;
     double dx, dy, dz;  ///< of a periodic image [m]
   };
-  void choose_frame(const ParticleSet&, double longest, double mean);
   void collect(const ParticleSet&, const Domain&, double support_radius);
   void sort_items();
   void place(const ParticleSet&);
   void make_groups(const ParticleSet&, const std::vector<double>& support_radius);
   struct Box;
-  void add_runs(const Box&, double support_radius);
+  void add_runs(const Box&, double support_radius, std::vector<ColumnRun>&) const;
+  Box box_of(const ParticleSet&, std::uint32_t begin, std::uint32_t end) const;
   std::int32_t col_of(double x) const;
   std::int32_t row_of(double y) const;
 
-  double width_ = 1, height_ = 1, west_ = 0, south_ = 0, origin_z_ = 0, unit_ = 1;
-  std::int32_t n_cols_ = 1, n_rows_ = 1;
+  ColumnFrame frame_;
   std::vector<Item> items_, sorted_;
   std::vector<std::uint32_t> source_, cell_begin_, next_;
   std::vector<std::uint8_t> is_image_;

@@ -43,6 +43,24 @@ struct ColumnView {
   double unit_m = 1;  ///< metres per position unit
 };
 
+/// Columns of one set and those of another near them, see ColumnCells::list_across.
+struct AcrossView {
+  const ColumnRecord* records = nullptr;  ///< of the groups
+  const ColumnRecord* others = nullptr;   ///< of the runs; the same position units
+  const ColumnGroup* groups = nullptr;
+  const ColumnRun* runs = nullptr;
+  double unit_m = 1;
+};
+
+/// Sums per record over the other set, each [n_records]; see phases/sums.hpp.
+struct AcrossOutput {
+  float* thickness;  ///< sum V_j W_ij [m]
+  float* ax;
+  float* ay;
+  float* az;        ///< -G grad of that thickness [m/s^2]
+  float* approach;  ///< largest relative speed of a neighbour, squared [m^2/s^2]
+};
+
 /// Constants of the pair terms of columns.
 struct ColumnConstants {
   double viscosity = 0.5;  ///< alpha of Monaghan's viscosity between approaching columns

@@ -83,6 +83,19 @@ void write_travel(const State& s, const ReleaseFacts& release, MemberScalars& m)
   m.deposit_com_y_m = sums.present > 0 ? sums.my / sums.present : nan_d;
 }
 
+double runout_of(const MemberResult& result, const ReleaseFacts& release) {
+  const Window& w = result.window;
+  double far2 = 0;
+  for (int r = 0; r < w.n_rows; ++r)
+    for (int c = 0; c < w.n_cols; ++c) {
+      if (std::isnan(result.layer(PeakLayer::arrival)[std::size_t(r) * w.n_cols + c])) continue;
+      const double dx = result.grid.x_center(w.col0 + c) - release.x_m;
+      const double dy = result.grid.y_center(w.row0 + r) - release.y_m;
+      far2 = std::max(far2, dx * dx + dy * dy);
+    }
+  return std::sqrt(far2);
+}
+
 double mass_on_terrain(const State& s) {
   Sum total;
   for (const MovingSet& set : s.sets)

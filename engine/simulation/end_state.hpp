@@ -30,6 +30,8 @@ void write_travel(const State&, const ReleaseFacts&, MemberScalars&);
 void write_crown_to_toe(const Terrain& ground, const ReleaseFacts&,
                         std::span<const PeakMaps::Cell> deposit, std::span<const Vec2> left,
                         const Grid& grid, MemberScalars&);
+/// From the release's centre of mass to the farthest reached cell [m]; zero where none is.
+double runout_of(const MemberResult&, const ReleaseFacts&);
 /// Of all that is still there [kg].
 double mass_on_terrain(const State&);
 /// The places of write_crown_to_toe.

@@ -15,6 +15,8 @@ constexpr std::array<PeakLayerInfo, n_peak_layers> layer_infos{{
     {"mass_left", "mass per area that crossed the edge of the known ground, where last seen",
      "kg m-2", 0},
     {"eroded_depth", "vertical depth of bed that the flow took along", "m", 0},
+    {"peak_solid_thickness", "largest volume of grains over area over time", "m", 0},
+    {"peak_liquid_thickness", "largest volume of liquid over area over time", "m", 0},
 }};
 
 using M = MemberScalars;
@@ -130,6 +132,8 @@ constexpr std::array scalar_infos{
     ScalarInfo{"pore_clipped_fraction", "1",
                "elastic energy of pore pressures beyond their bounds / released energy",
                &M::pore_clipped_fraction},
+    ScalarInfo{"inflow_volume_m3", "m3", "bulk volume that entered as inflow by the end",
+               &M::inflow_volume_m3},
     ScalarInfo{"eroded_volume_m3", "m3", "volume of bed that the flow took along, as it lay",
                &M::eroded_volume_m3},
     ScalarInfo{"entrained_mass_kg", "kg", "mass of bed that the flow took up",
@@ -141,6 +145,27 @@ constexpr std::array scalar_infos{
     ScalarInfo{"entrainment_loss_fraction", "1",
                "kinetic energy that mixing with the bed took / released energy",
                &M::entrainment_loss_fraction},
+    ScalarInfo{"solid_runout_m", "m",
+               "as runout_m, to the farthest cell with grains above the limit; two phases",
+               &M::solid_runout_m},
+    ScalarInfo{"liquid_runout_m", "m",
+               "as runout_m, to the farthest cell with liquid above the limit; two phases",
+               &M::liquid_runout_m},
+    ScalarInfo{"solid_front_travel_m", "m", "as front_travel_m, of the grains",
+               &M::solid_front_travel_m},
+    ScalarInfo{"liquid_front_travel_m", "m", "as front_travel_m, of the liquid",
+               &M::liquid_front_travel_m},
+    ScalarInfo{"max_solid_thickness_m", "m", "largest volume of grains over area",
+               &M::max_solid_thickness_m},
+    ScalarInfo{"max_liquid_thickness_m", "m", "largest volume of liquid over area",
+               &M::max_liquid_thickness_m},
+    ScalarInfo{"drag_loss_fraction", "1",
+               "energy that drag between grains and liquid took / released energy",
+               &M::drag_loss_fraction},
+    ScalarInfo{"drag_raised_fraction", "1",
+               "share of mass and time with drag raised to keep the slip where the equations have "
+               "a solution",
+               &M::drag_raised_fraction},
 };
 // A scalar that is added to the struct but forgotten here would silently miss from every file.
 static_assert(scalar_infos.size() * sizeof(double) == sizeof(MemberScalars));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/named_seconds.hpp"
+#include "engine/simulation/gauges/gauge_result.hpp"
 #include "engine/simulation/history.hpp"
 #include "engine/simulation/outcome.hpp"
 #include "engine/terrain/raster.hpp"
@@ -19,8 +20,19 @@ namespace sturz {
 
 /// Per-cell results of a member. Peaks are maxima over time of each product at one instant
 /// (never max(h) max(v)^2).
-enum class PeakLayer { thickness, speed, energy, pressure, arrival, deposit, left, eroded };
-inline constexpr int n_peak_layers = 8;
+enum class PeakLayer {
+  thickness,
+  speed,
+  energy,
+  pressure,
+  arrival,
+  deposit,
+  left,
+  eroded,
+  solid,
+  liquid
+};
+inline constexpr int n_peak_layers = 10;
 
 struct PeakLayerInfo {
   const char* name;  ///< variable name, e.g. "peak_thickness"
@@ -93,18 +105,31 @@ struct MemberScalars {
   double solids_error = 0;             ///< (kept + lost - released) / released volume of grains
   double water_error = 0;              ///< the same of water, in pores and film
   double pore_clipped_fraction = 0;    ///< work of pore pressures beyond bounds / released energy
+  /// Bulk volume that entered as inflow by the end; NaN without inflow.
+  double inflow_volume_m3 = nan_d;
   // Of a bed that the flow takes along; NaN without one.
   double eroded_volume_m3 = nan_d;           ///< of the bed, at its own density
   double entrained_mass_kg = nan_d;          ///< taken up by the flow
-  double volume_growth = nan_d;              ///< (released + entrained) / released mass
+  double volume_growth = nan_d;              ///< (brought + entrained) / brought mass
   double max_eroded_depth_m = nan_d;         ///< vertical, of a cell of the ground
   double entrainment_loss_fraction = nan_d;  ///< kinetic energy lost by mixing / released energy
+  // Of grains and liquid at two velocities; NaN without.
+  double solid_runout_m = nan_d;  ///< as runout_m, to the farthest cell with enough grains
+  double liquid_runout_m = nan_d;
+  double solid_front_travel_m = nan_d;  ///< as front_travel_m, of each phase
+  double liquid_front_travel_m = nan_d;
+  double max_solid_thickness_m = nan_d;  ///< volume of grains over area, largest cell of its peak
+  double max_liquid_thickness_m = nan_d;
+  double drag_loss_fraction = nan_d;    ///< energy that drag between them took / released energy
+  double drag_raised_fraction = nan_d;  ///< mass x time with drag raised to keep the slip solvable
 };
 
 /// Whether a member has this layer: `left` is kept only where mass left, `eroded` only where the
-/// flow takes its bed along.
+/// flow takes its bed along, `solid` and `liquid` only where they move apart.
 inline bool is_kept(PeakLayer layer, Censoring censoring, const MemberScalars& scalars) {
   if (layer == PeakLayer::eroded) return !std::isnan(scalars.eroded_volume_m3);
+  if (layer == PeakLayer::solid || layer == PeakLayer::liquid)
+    return !std::isnan(scalars.solid_runout_m);
   return layer != PeakLayer::left || has_left(censoring);
 }
 
@@ -131,6 +156,7 @@ struct MemberResult {
   bool needs_more_ground = false;
   MemberScalars scalars;
   MemberHistory history;  ///< not part of any hash
+  GaugeResult gauges;     ///< where the scene has some
   /// Computing time of each pass, and of what lies between steps; adds up to wall_s. Not part of
   /// any hash.
   NamedSeconds pass_seconds;
@@ -138,7 +164,7 @@ struct MemberResult {
   NamedSeconds effect_seconds;
   Grid grid;      ///< the whole hazard grid
   Window window;  ///< the part that was touched
-  /// Each [window.n_rows][window.n_cols]; `left` and `eroded` empty where not kept (is_kept).
+  /// Each [window.n_rows][window.n_cols]; empty where not kept (is_kept).
   std::array<std::vector<float>, n_peak_layers> layers;
 
   std::vector<float>& layer(PeakLayer p) { return layers[static_cast<int>(p)]; }

@@ -4,10 +4,12 @@
 
 #include "engine/effects/state.hpp"
 #include "engine/effects/step.hpp"
+#include "engine/simulation/gauges/gauge_recorder.hpp"
 #include "engine/simulation/peak_maps.hpp"
 #include "engine/simulation/stop_rule.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace sturz {
@@ -29,6 +31,7 @@ struct RunFacts {
   double spacing_m = 1;   ///< the finest initial particle spacing
   double least_dt_s = 0;  ///< below it the member has diverged
   ReleaseFacts release = {};
+  bool has_inflow = false;  ///< mass enters over time
   std::string warnings = {};
 };
 
@@ -38,6 +41,7 @@ struct SimulationParts {
   PeakMaps peaks;
   StopRule stop;
   RunFacts facts = {};
+  std::optional<GaugeSettings> gauges = {};  ///< absent: none
 };
 
 }  // namespace sturz

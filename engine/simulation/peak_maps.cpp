@@ -78,6 +78,7 @@ double PeakMaps::Width::area(std::size_t i, double mass) const {
 /// Widths of all sets, and the cells that they can touch.
 Window PeakMaps::bounds_of(std::span<const MovingSet> sets) {
   expect(!sets.empty() && sets.size() <= 2, "one set, or two");
+  expect(!settings_.by_set || sets.size() == 2, "of two sets each can be told apart");
   expect((n_sets_ == 0 || n_sets_ == sets.size()), "the sets stay the same");
   n_sets_ = sets.size();
   widths_.clear();
@@ -203,10 +204,16 @@ void PeakMaps::keep_peaks(double time_s) {
     row.set_intervals(time_s > last_s_ ? static_cast<float>(time_s - last_s_) : 1,
                       last_s_ > before_s_ ? static_cast<float>(last_s_ - before_s_) : 1);
   row.is_odd = n_records_ % 2 != 0;
+  if (settings_.by_set) {
+    row.per_first = row.per_area * static_cast<float>(widths_[0].volume_per_mass);
+    row.per_second = row.per_area * static_cast<float>(widths_[1].volume_per_mass);
+  }
   ++n_records_;
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot) {
     const SumTiles::Open& open = sums_.tiles()[slot];
     PeakTile& peaks = peaks_.at(open.tile_row, open.tile_col);
+    if (settings_.by_set && peaks.first.empty())
+      peaks.first.assign(PeakTile::n_cells, 0), peaks.second.assign(PeakTile::n_cells, 0);
     if (peaks.n_seen + 1 != n_records_ && peaks.rows_seen != 0)
       peaks.last = peaks.before = {}, peaks.rows_seen = 0;
     peaks.n_seen = n_records_;
@@ -290,9 +297,12 @@ void PeakMaps::write_left(std::span<const MovingSet> sets, MemberResult& result)
 PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
   constexpr int edge = PeakTile::edge;
   const Window& w = result.window;
-  for (int k = 0; k < n_peak_layers; ++k)
-    result.layers[static_cast<std::size_t>(k)].assign(w.n_cells(),
-                                                      info(static_cast<PeakLayer>(k)).untouched);
+  for (int k = 0; k < n_peak_layers; ++k) {
+    const auto layer = static_cast<PeakLayer>(k);
+    const bool of_set = layer == PeakLayer::solid || layer == PeakLayer::liquid;
+    if (of_set && !settings_.by_set) continue;
+    result.layer(layer).assign(w.n_cells(), info(layer).untouched);
+  }
   Totals totals;
   for (const PeakTile& p : peaks_.tiles())
     for (std::size_t cell = 0; cell < PeakTile::n_cells; ++cell) {
@@ -307,6 +317,10 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
       result.layer(PeakLayer::pressure)[k] = p.pressure[cell];
       if (reached) result.layer(PeakLayer::arrival)[k] = p.arrival[cell];
       result.layer(PeakLayer::deposit)[k] = p.deposit[cell];
+      if (!p.first.empty()) {
+        result.layer(PeakLayer::solid)[k] = p.first[cell];
+        result.layer(PeakLayer::liquid)[k] = p.second[cell];
+      }
       totals.reached += reached;
       totals.covered += p.covered[cell];
       totals.thickness = std::max(totals.thickness, p.thickness[cell]);

@@ -20,6 +20,7 @@ struct PeakMapSettings {
   /// Width of a particle with a field "support_radius" (a column) over that radius: one and a half
   /// mean distances of columns, so that a lattice leaves no pattern on the map.
   double width_per_radius = 0.375;
+  bool by_set = false;  ///< of two sets: also the largest thickness of each
 };
 
 /// Spreads particles over cells with a quadratic B-spline of width max(dx, cell), normalised to

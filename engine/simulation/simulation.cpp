@@ -10,6 +10,7 @@
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "engine/simulation/sums/mixture_state.hpp"
+#include "engine/simulation/sums/phases.hpp"
 #include "engine/simulation/sums/state_hash.hpp"
 #include "engine/simulation/travel.hpp"
 
@@ -17,6 +18,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace sturz {
 namespace {
@@ -61,6 +63,7 @@ class Run {
     State& s = parts_.state;
     for (MovingSet& set : s.sets) set.ledger.kinetic_0 = set.ledger.kinetic;
     parts_.step.admit(s);
+    if (parts_.gauges) gauges_.emplace(*parts_.gauges, s);
     record();
     sample_diagnostics();
     frame(true);
@@ -86,9 +89,16 @@ class Run {
     if (ended_) return true;
     if (s.terrain.needs_more())
       return end(Outcome::cancelled, "ground beyond the part that was read is needed");
-    if (s.n_particles() == 0) return end(Outcome::left_terrain, "all mass left the terrain");
+    if (s.n_particles() == 0 && !waits())
+      return end(Outcome::left_terrain, "all mass left the terrain");
     if (parts_.stop.out_of_time(s.time)) return end(Outcome::out_of_time, "");
     return false;
+  }
+
+  /// For mass that is still to enter.
+  bool waits() const {
+    const auto& sets = parts_.state.sets;
+    return std::any_of(sets.begin(), sets.end(), [](const auto& p) { return p.to_come > 0; });
   }
 
   bool end(Outcome outcome, std::string reason) {
@@ -109,6 +119,7 @@ class Run {
         result_.scalars.max_mach =
             std::max(result_.scalars.max_mach, set.motion.max_speed / set.sound_speed);
     }
+    if (gauges_) gauges_->after_step(s);
     to_next_record_ += parts_.peaks.share_of_record(s.sets, s.previous_dt);
     if (to_next_record_ >= 1) record();
     // A step of columns may be as long as the interval; looking costs as much as a pass.
@@ -152,7 +163,7 @@ class Run {
         m.max_density_error = std::max(m.max_density_error, density_error(c->component[0]));
     const double kinetic = s.ledger().kinetic;
     peak_energy_ = std::max(peak_energy_, kinetic);
-    at_rest_ = parts_.stop.at_rest({s.time, kinetic, now_.front, now_.com});
+    at_rest_ = parts_.stop.at_rest({s.time, kinetic, now_.front, now_.com, waits()});
     if (at_rest_ && parts_.stop.stops_at_rest() && !ended_) end(Outcome::settled, "");
   }
 
@@ -253,6 +264,7 @@ class Run {
     for (const std::string& text : said)
       result_.warnings += (result_.warnings.empty() ? "" : "; ") + text;
     if (sound) write_final_state();
+    if (gauges_ && sound) result_.gauges = gauges_->finish(s);
     for (const auto& [name, count] : bound_)
       if (count > most_) most_ = count, result_.binding_limit = name;
     const auto rows = history_.rows();
@@ -279,11 +291,15 @@ class Run {
     m.release_layers = release.layers;
     m.released_mass_kg = ledger.released_mass;
     m.lost_mass_kg = ledger.lost_mass;
-    m.lost_fraction = ledger.lost_mass / brought;
-    m.mass_error = (mass_on_terrain(s) + ledger.lost_mass + ledger.taken_mass - brought) / brought;
+    if (parts_.facts.has_inflow) m.inflow_volume_m3 = ledger.added_volume;
+    if (brought > 0) {  // not before anything started
+      m.lost_fraction = ledger.lost_mass / brought;
+      m.mass_error =
+          (mass_on_terrain(s) + ledger.lost_mass + ledger.taken_mass - brought) / brought;
+    }
     const double released = ledger.available_energy();
     m.energy_residual = released > 0 ? ledger.residual() / released : 0;
-    m.take_off_fraction = s.time > 0 ? ledger.detachment / (brought * s.time) : 0;
+    m.take_off_fraction = s.time > 0 && brought > 0 ? ledger.detachment / (brought * s.time) : 0;
     m.n_particles = static_cast<double>(n_created(s) - removed_before_);
     if (s.bed_supply) write_erosion(*s.bed_supply, ledger, m);
   }
@@ -314,13 +330,14 @@ class Run {
     const Ledger ledger = s.ledger();
     parts_.peaks.finish(s.sets, result_);
     write_eroded_depth(s, result_);
-    result_.scalars.runout_m = runout();
+    result_.scalars.runout_m = runout_of(result_, parts_.facts.release);
+    write_phases(s, parts_, result_);
     write_crown_to_toe(s.terrain, parts_.facts.release, parts_.peaks.deposit_cells(),
                        places_left(s), result_.grid, result_.scalars);
     result_.state_hash = hash_of(s);
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
-      result_.reason = std::to_string(100 * ledger.lost_mass / ledger.brought_mass()) +
+      result_.reason = std::to_string(std::lround(100 * ledger.lost_mass / ledger.brought_mass())) +
                        " % of the mass left the terrain";
       if (ledger.leaked_mass > 0) result_.reason += ", some of it through the ground";
     }
@@ -339,20 +356,6 @@ class Run {
         {"peak maps, history, limits", std::max(0.0, rest), std::string(EffectName::bookkeeping)});
     result_.pass_seconds = by_pass(passes);
     result_.effect_seconds = by_effect(passes);
-  }
-
-  /// From the release's centre of mass to the farthest reached cell [m].
-  double runout() const {
-    const Window& w = result_.window;
-    double far2 = 0;
-    for (int r = 0; r < w.n_rows; ++r)
-      for (int c = 0; c < w.n_cols; ++c) {
-        if (std::isnan(result_.layer(PeakLayer::arrival)[std::size_t(r) * w.n_cols + c])) continue;
-        const double dx = result_.grid.x_center(w.col0 + c) - parts_.facts.release.x_m;
-        const double dy = result_.grid.y_center(w.row0 + r) - parts_.facts.release.y_m;
-        far2 = std::max(far2, dx * dx + dy * dy);
-      }
-    return std::sqrt(far2);
   }
 
   SimulationParts& parts_;
@@ -376,6 +379,7 @@ class Run {
   StateTimes state_times_;
   HistoryRecorder history_;
   FrameBuffers frames_;
+  std::optional<GaugeRecorder> gauges_;
 };
 
 }  // namespace

@@ -18,7 +18,7 @@ bool StopRule::at_rest(const MotionSummary& now) {
   peak_energy_ = std::max(peak_energy_, now.kinetic_energy_j);
   armed_ |=
       now.time_s > arming_time_s_ || now.kinetic_energy_j > 1e-4 * settings_.available_energy_j;
-  if (!armed_ ||
+  if (!armed_ || now.waits ||
       now.kinetic_energy_j >
           settings_.energy_fraction * std::max(peak_energy_, 1e-4 * settings_.available_energy_j)) {
     window_open_ = false;

@@ -19,6 +19,7 @@ struct MotionSummary {
   double kinetic_energy_j = 0;
   double front_m = 0;  ///< farthest horizontal displacement of a particle
   double com_m = 0;    ///< horizontal displacement of the centre of mass
+  bool waits = false;  ///< mass is still to enter: nothing is at rest
 };
 
 /// At rest: kinetic energy below a share of its peak (1 %, as in the practice of snow avalanches),

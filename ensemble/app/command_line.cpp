@@ -109,8 +109,13 @@ int command_line(int argc, char** argv) {
   try {
     grammar.program.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    if (grammar.program.exit(problem) == 0) return after_output(ok);
     const std::string hint = hint_on_words(grammar.program, {argv + 1, argv + argc});
+    // One was given: that "a subcommand is required" says less than the hint.
+    if (!hint.empty() && command_named(grammar.program, argv[1]) == nullptr) {
+      std::cerr << hint << "\nRun with --help for more information.\n";
+      return usage_or_scenario_error;
+    }
+    if (grammar.program.exit(problem) == 0) return after_output(ok);
     if (!hint.empty()) std::cerr << hint << "\n";
     return usage_or_scenario_error;
   }

@@ -15,6 +15,7 @@ nlohmann::ordered_json forecast_json(const workflow::Forecast& f) {
           {"workers", f.workers},
           {"tried", f.tried},
           {"tried_members", f.tried_members},
+          {"cut_off_members", f.cut_off_members},
           {"tried_spacing_m", f.tried_spacing_m},
           {"trial_cpu_s", f.trial_s},
           {"slowdown", f.slowdown},

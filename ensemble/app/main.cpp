@@ -3,6 +3,7 @@
 #include "ensemble/app/console/interrupt.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -31,5 +32,6 @@ int main(int argc, char** argv) {
     setenv("OPENBLAS_NUM_THREADS", "1", 0);
     execv("/proc/self/exe", argv);  // comes back only when it fails; then spinning it is
   }
+  prctl(PR_SET_NAME, "sturz");  // it began as /proc/self/exe, and `top` would say "exe"
   return sturz::app::command_line(argc, argv);
 }

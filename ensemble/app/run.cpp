@@ -91,32 +91,6 @@ void print_states(const MemberResult& r, Console& console) {
                console);
 }
 
-/// Pore pressure of a mixture.
-void print_mixture(const MemberResult& r, Console& console) {
-  if (!r.history.has_mixture) return;
-  const MemberScalars& s = r.scalars;
-  print_line(
-      "pore pressure",
-      fmt::format("{} of the weight at most, {} at the end (mass mean)",
-                  share_text(s.max_pore_pressure_ratio), share_text(s.end_pore_pressure_ratio)),
-      console);
-  print_line("solid fraction",
-             fmt::format("{:.4f} at the end, {:.3g} m3 of water given off and carried",
-                         s.end_solid_fraction, s.end_film_m3),
-             console);
-}
-
-/// What the flow took of its bed.
-void print_erosion(const MemberResult& r, Console& console) {
-  const MemberScalars& s = r.scalars;
-  if (std::isnan(s.eroded_volume_m3)) return;
-  print_line(
-      "erosion",
-      fmt::format("{} m3 of the bed, up to {:.2f} m deep; the flow grew {:.2f} times (V_f/V_0)",
-                  grouped(s.eroded_volume_m3), s.max_eroded_depth_m, s.volume_growth),
-      console);
-}
-
 /// The effects by what they cost, as shares of the computing time.
 void print_effects(const MemberResult& r, Console& console) {
   NamedSeconds times = r.effect_seconds;
@@ -133,7 +107,7 @@ using M = MemberScalars;
 
 /// ">= 812 m" of a member that is cut off, "812 m so far" where the end may lie either way.
 std::string as_known(const MemberResult& r, double MemberScalars::*field, const std::string& text) {
-  if (std::isnan(r.scalars.*field)) return "none";
+  if (std::isnan(r.scalars.*field)) return is_censored(r.censoring) ? "not known" : "none";
   switch (known(field, r.censoring)) {
     case Known::exactly:
       return text;
@@ -145,6 +119,38 @@ std::string as_known(const MemberResult& r, double MemberScalars::*field, const 
   return text + " so far";
 }
 
+/// Pore pressure of a mixture.
+void print_mixture(const MemberResult& r, Console& console) {
+  if (!r.history.has_mixture) return;
+  const auto share = [&r](double MemberScalars::*field) {
+    return as_known(r, field, share_text(r.scalars.*field));
+  };
+  print_line("pore pressure",
+             fmt::format("{} of the weight at most, {} at the end (mass mean)",
+                         share(&M::max_pore_pressure_ratio), share(&M::end_pore_pressure_ratio)),
+             console);
+  print_line(
+      "solid fraction",
+      fmt::format(
+          "{} at the end, {} of water given off and carried",
+          as_known(r, &M::end_solid_fraction, fmt::format("{:.4f}", r.scalars.end_solid_fraction)),
+          as_known(r, &M::end_film_m3, fmt::format("{:.3g} m3", r.scalars.end_film_m3))),
+      console);
+}
+
+/// What the flow took of its bed.
+void print_erosion(const MemberResult& r, Console& console) {
+  const MemberScalars& s = r.scalars;
+  if (std::isnan(s.eroded_volume_m3)) return;
+  print_line("erosion",
+             fmt::format(
+                 "{} of the bed, up to {} deep; by mass the flow grew {}",
+                 as_known(r, &M::eroded_volume_m3, grouped(s.eroded_volume_m3) + " m3"),
+                 as_known(r, &M::max_eroded_depth_m, fmt::format("{:.2f} m", s.max_eroded_depth_m)),
+                 as_known(r, &M::volume_growth, fmt::format("{:.2f} times", s.volume_growth))),
+             console);
+}
+
 /// What is cut off of the run, and what it warns of itself.
 void warn_of_run(const workflow::RunStored& stored, Console& console) {
   std::string cut;
@@ -152,6 +158,34 @@ void warn_of_run(const workflow::RunStored& stored, Console& console) {
     cut += (cut.empty() ? "" : " ") + sentence;
   if (!cut.empty()) console.warn(cut);
   for (const MemberWarning& w : stored.warnings) console.warn(w.example);
+}
+
+void print_inflow(const MemberResult& r, Console& console) {
+  if (std::isnan(r.scalars.inflow_volume_m3)) return;
+  print_line("inflow", grouped(r.scalars.inflow_volume_m3) + " m3 entered", console);
+}
+
+/// Arrival and peak of each gauge; the files have the rest.
+void print_gauges(const MemberResult& r, Console& console) {
+  const bool cut = is_moving(r.censoring);
+  const auto arrival = [&](double s) {
+    if (!std::isnan(s)) return fmt::format("after {:.1f} s", s);
+    return cut ? std::string("not reached so far") : std::string("never reached");
+  };
+  for (const PointSeries& p : r.gauges.points)
+    print_line("gauge",
+               p.name + ": " + arrival(p.arrival_s) +
+                   (std::isnan(p.arrival_s) ? ""
+                                            : fmt::format(", at most {:.2f} m and {:.1f} m/s",
+                                                          p.thickness.value, p.speed.value)),
+               console);
+  for (const LineSeries& l : r.gauges.lines)
+    print_line("gauge",
+               l.name + ": " + arrival(l.arrival_s) +
+                   (std::isnan(l.arrival_s) ? ""
+                                            : fmt::format(", at most {:.3g} m3/s, {} m3 in all",
+                                                          l.discharge.value, grouped(l.total_m3))),
+               console);
 }
 
 /// The last line, so that a reader may stop there.
@@ -195,16 +229,23 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                                 std::atan(s.crown_to_toe_ratio) * 180 / std::numbers::pi))));
   line("area",
        fmt::format("{} reached, {} deposit", area(&M::reached_area_m2), area(&M::deposit_area_m2)));
-  line("largest speed", fmt::format("{:.1f} m/s (mean of the mass {:.1f} m/s)", s.max_speed_m_s,
-                                    s.max_mean_speed_m_s));
-  line("largest thickness",
-       fmt::format("{:.2f} m (deposit {:.2f} m)", s.max_thickness_m, s.max_deposit_m));
-  line("largest energy", fmt::format("{:.1f} kJ/m2, pressure {:.1f} kPa", s.max_energy_j_m2 / 1e3,
-                                     s.max_pressure_pa / 1e3));
+  const auto largest = [&r](double MemberScalars::*field, const char* format, double unit = 1) {
+    return as_known(r, field, fmt::format(fmt::runtime(format), r.scalars.*field / unit));
+  };
+  line("largest speed",
+       fmt::format("{} (mean of the mass {})", largest(&M::max_speed_m_s, "{:.1f} m/s"),
+                   largest(&M::max_mean_speed_m_s, "{:.1f} m/s")));
+  line("largest thickness", fmt::format("{} (deposit {})", largest(&M::max_thickness_m, "{:.2f} m"),
+                                        largest(&M::max_deposit_m, "{:.2f} m")));
+  line("largest energy",
+       fmt::format("{}, pressure {}", largest(&M::max_energy_j_m2, "{:.1f} kJ/m2", 1e3),
+                   largest(&M::max_pressure_pa, "{:.1f} kPa", 1e3)));
   print_states(r, console);
   print_mixture(r, console);
   print_erosion(r, console);
-  line("particles",
+  print_inflow(r, console);
+  print_gauges(r, console);
+  line(r.formulation == "depth_averaged" ? "columns" : "particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
   line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,
                                    s.energy_residual));

@@ -71,11 +71,20 @@ constexpr std::array rows{
     ScalarCensoring{&M::solids_error, yes, yes},
     ScalarCensoring{&M::water_error, yes, yes},
     ScalarCensoring{&M::pore_clipped_fraction, no, no},
+    ScalarCensoring{&M::inflow_volume_m3, yes, least},
     ScalarCensoring{&M::eroded_volume_m3, least, least},
     ScalarCensoring{&M::entrained_mass_kg, least, least},
     ScalarCensoring{&M::volume_growth, least, least},
     ScalarCensoring{&M::max_eroded_depth_m, least, least},
     ScalarCensoring{&M::entrainment_loss_fraction, no, no},
+    ScalarCensoring{&M::solid_runout_m, least, least},
+    ScalarCensoring{&M::liquid_runout_m, least, least},
+    ScalarCensoring{&M::solid_front_travel_m, least, least},
+    ScalarCensoring{&M::liquid_front_travel_m, least, least},
+    ScalarCensoring{&M::max_solid_thickness_m, least, least},
+    ScalarCensoring{&M::max_liquid_thickness_m, least, least},
+    ScalarCensoring{&M::drag_loss_fraction, no, no},
+    ScalarCensoring{&M::drag_raised_fraction, no, no},
 };
 // A scalar without a row would pass as fully known.
 static_assert(rows.size() * sizeof(double) == sizeof(MemberScalars));

@@ -100,9 +100,10 @@ void CellStatistics::intensity(const CellRows& rows, std::size_t i, std::size_t 
                                arrived = rows.of(PeakLayer::arrival, i);
   std::int64_t high = 0, medium = 0;
   for (std::size_t m = 0; m < h.size(); ++m) {
+    if (std::isnan(arrived[m])) continue;  // the smoothing's tail beyond the last column
     const bool is_high = is_high_debris_flow_intensity(h[m], v[m]);
     high += is_high;
-    medium += !is_high && !std::isnan(arrived[m]);
+    medium += !is_high;
   }
   put(layers_.high_intensity, 0, cell, share(high));
   put(layers_.medium_intensity, 0, cell, share(medium));

@@ -99,6 +99,12 @@ class Builder {
     if (extras.eroded)
       out_.quantities.push_back(
           add_peak({PeakLayer::eroded, "eroded_depth", &HazardSpec::eroded_depth_m}));
+    if (extras.phases) {
+      out_.quantities.push_back(
+          add_peak({PeakLayer::solid, "solid_thickness", &HazardSpec::thickness_m}));
+      out_.quantities.push_back(
+          add_peak({PeakLayer::liquid, "liquid_thickness", &HazardSpec::thickness_m}));
+    }
     add_intensities();
     return std::move(out_);
   }
@@ -166,7 +172,8 @@ class Builder {
     layers.units_per_si = unit.per_si;
     const std::vector<double>& thresholds = spec_.*q.thresholds;
     if (!thresholds.empty()) {
-      const bool is_thickness = q.source == PeakLayer::thickness;
+      const bool is_thickness = q.source == PeakLayer::thickness || q.source == PeakLayer::solid ||
+                                q.source == PeakLayer::liquid;
       const LayerAxis axis{name + "_threshold", "", unit.name, thresholds};
       std::vector<float> si;
       for (const double t : thresholds)
@@ -208,7 +215,7 @@ class Builder {
     };
     out_.high_intensity =
         layer(IntensityClass::high,
-              fmt::format("peak thickness > {} m and peak speed > {} m/s of one member, "
+              fmt::format("reached, peak thickness > {} m and peak speed > {} m/s of one member, "
                           "not necessarily at one instant",
                           swiss_thickness_m, swiss_speed_m_s));
     out_.medium_intensity = layer(IntensityClass::medium, "reached, but not of high intensity");

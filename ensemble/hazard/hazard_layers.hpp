@@ -41,6 +41,7 @@ struct HazardLayers {
 struct HazardExtras {
   bool left = false;    ///< mass of some member crossed the edge of the known ground
   bool eroded = false;  ///< the flow takes its bed along
+  bool phases = false;  ///< grains and liquid move apart
 };
 
 /// All layers, and what a cell holds that no member touched: probability 0 (upper bound that of 0

@@ -94,6 +94,7 @@ HazardExtras extras_of(const std::vector<MemberSummary>& members) {
     if (!is_valid(m.outcome)) continue;
     extras.left |= is_kept(PeakLayer::left, m.censoring, m.scalars);
     extras.eroded |= is_kept(PeakLayer::eroded, m.censoring, m.scalars);
+    extras.phases |= is_kept(PeakLayer::solid, m.censoring, m.scalars);
   }
   return extras;
 }
@@ -105,6 +106,7 @@ std::vector<PeakLayer> read_layers_of(const HazardExtras& extras) {
     const auto layer = static_cast<PeakLayer>(i);
     if (layer == PeakLayer::left && !extras.left) continue;
     if (layer == PeakLayer::eroded && !extras.eroded) continue;
+    if ((layer == PeakLayer::solid || layer == PeakLayer::liquid) && !extras.phases) continue;
     layers.push_back(layer);
   }
   return layers;

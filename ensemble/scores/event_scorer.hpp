@@ -14,7 +14,7 @@
 #include "ensemble/scores/path_distance.hpp"
 #include "ensemble/scores/path_profile.hpp"
 #include "ensemble/scores/score_sheet.hpp"
-#include "scenarios/observed_event.hpp"
+#include "scenarios/observation/observed_event.hpp"
 
 #include <cstdint>
 #include <memory>

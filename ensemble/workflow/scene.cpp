@@ -112,14 +112,18 @@ std::vector<std::string> description_lines(const Scene& scene) {
   std::string passes;
   for (const std::string& pass : d.passes) passes += (passes.empty() ? "" : " > ") + pass;
   lines.push_back("step: " + passes);
-  lines.push_back(fmt::format("release: {} m3 on {} m2", grouped(d.release_volume_m3),
-                              grouped(d.release_area_m2)) +
-                  readings_text(scene));
+  if (d.release_volume_m3 > 0)
+    lines.push_back(fmt::format("release: {} m3 on {} m2", grouped(d.release_volume_m3),
+                                grouped(d.release_area_m2)) +
+                    readings_text(scene));
+  if (d.inflow_volume_m3 > 0)
+    lines.push_back(
+        fmt::format("inflow: {} m3 until {:.6g} s", grouped(d.inflow_volume_m3), d.inflow_end_s));
   lines.push_back(bulk_density_line(scene));
   const bool columns = d.formulation == to_string(Formulation::depth_averaged);
-  lines.push_back(fmt::format("{}: {}, {} m apart; {:.1f} spacings thick at release",
+  lines.push_back(fmt::format("{}: {}, {} m apart; {:.1f} spacings thick at {}",
                               columns ? "columns" : "particles", d.n_particles, d.spacing_m,
-                              d.layers));
+                              d.layers, d.release_volume_m3 > 0 ? "release" : "the inflow's peak"));
   if (columns)
     lines.emplace_back(
         scene.scenario.mixture

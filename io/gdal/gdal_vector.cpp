@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
 
 namespace sturz {
 namespace {
@@ -17,12 +19,13 @@ namespace {
 struct Reading {
   const PolygonRequest& request;
   PolygonLayer layer;
-  int thickness_field = -1;
+  int thickness_field = -1, start_field = -1;
   PolygonRelease result;
 };
 
-int find_thickness_field(const Reading& reading) {
-  const std::string& name = reading.request.thickness_attribute;
+/// Of a number that the features hold. \param key scenario key that names the field
+/// \param what e.g. "the thickness in metres"
+int find_field(const Reading& reading, const std::string& name, const char* key, const char* what) {
   if (name.empty()) return -1;
   const std::string& label = reading.layer.label;
   OGRFeatureDefn& fields = *reading.layer.layer->GetLayerDefn();
@@ -30,17 +33,16 @@ int find_thickness_field(const Reading& reading) {
   if (index >= 0) {
     const OGRFieldType type = fields.GetFieldDefn(index)->GetType();
     require(type == OFTReal || type == OFTInteger || type == OFTInteger64,
-            fmt::format("{}: field '{}' (release.thickness_attribute) holds no numbers but {}. "
-                        "Store the thickness in metres as a number.",
-                        label, name, OGRFieldDefn::GetFieldTypeName(type)));
+            fmt::format("{}: field '{}' ({}) holds no numbers but {}. Store {} as a number.", label,
+                        name, key, OGRFieldDefn::GetFieldTypeName(type), what));
     return index;
   }
   std::vector<std::string> names;
   names.reserve(static_cast<std::size_t>(fields.GetFieldCount()));
   for (int i = 0; i < fields.GetFieldCount(); ++i)
     names.emplace_back(fields.GetFieldDefn(i)->GetNameRef());
-  throw SetupError(fmt::format("{}: has no field '{}' (release.thickness_attribute). It has: {}.",
-                               label, name, names.empty() ? "none" : comma_separated(names)));
+  throw SetupError(fmt::format("{}: has no field '{}' ({}). It has: {}.", label, name, key,
+                               names.empty() ? "none" : comma_separated(names)));
 }
 
 double thickness_of(const Reading& reading, OGRFeature& feature, const std::string& name) {
@@ -55,12 +57,45 @@ double thickness_of(const Reading& reading, OGRFeature& feature, const std::stri
   return thickness;
 }
 
+double start_of(const Reading& reading, OGRFeature& feature, const std::string& name) {
+  const std::string& field = reading.request.start_time_attribute;
+  require(feature.IsFieldSetAndNotNull(reading.start_field),
+          fmt::format("{}: {} has no value in '{}'. Give the time of its start in seconds.",
+                      reading.layer.label, name, field));
+  const double start = feature.GetFieldAsDouble(reading.start_field);
+  require(start >= 0 && start <= 1e5,
+          fmt::format("{}: {} has {} = {:g} (a start must be in 0..1e5 s). Give seconds.",
+                      reading.layer.label, name, field, start));
+  return start;
+}
+
 std::vector<PolygonFeature> read_sources(Reading& reading, const Grid& terrain) {
-  if (reading.thickness_field < 0) return read_features(reading.layer, reading.request, terrain);
-  const auto read_thickness = [&](OGRFeature& read, PolygonFeature& feature) {
-    feature.thickness_m = thickness_of(reading, read, feature.name);
-  };
-  return read_features(reading.layer, reading.request, terrain, read_thickness);
+  if (reading.thickness_field < 0 && reading.start_field < 0)
+    return read_features(reading.layer, reading.request, terrain);
+  return read_features(reading.layer, reading.request, terrain,
+                       [&](OGRFeature& read, PolygonFeature& feature) {
+                         if (reading.thickness_field >= 0)
+                           feature.thickness_m = thickness_of(reading, read, feature.name);
+                         if (reading.start_field >= 0)
+                           feature.start_s = start_of(reading, read, feature.name);
+                       });
+}
+
+/// Which part of the pattern starts when.
+void divide_by_start(const std::vector<PolygonFeature>& sources, const Grid& terrain,
+                     const Window& under, PolygonRelease& result) {
+  std::map<double, std::vector<const PolygonFeature*>> groups;
+  for (const PolygonFeature& source : sources) groups[source.start_s].push_back(&source);
+  for (const auto& [start, features] : groups) {
+    PolygonCover cover(terrain, under);
+    for (const PolygonFeature* f : features) lay_down(*f->polygons, f->thickness_m, cover);
+    Raster<double> share = cover.finish();
+    for (std::size_t i = 0; i < share.values.size(); ++i) {
+      const double all = result.pattern.values[i];
+      share.values[i] = all > 0 ? std::min(1.0, std::max(0.0, share.values[i] / all)) : 0;
+    }
+    result.starts.push_back({start, std::make_shared<const Raster<double>>(std::move(share))});
+  }
 }
 
 /// Without thicknesses the features are one source; what two of them cover counts once.
@@ -92,7 +127,8 @@ void refuse_overlaps(const Reading& reading, const std::vector<PolygonFeature>& 
               fmt::format("{}: {} and {} overlap by {:.6g} m2 (which '{}' holds there?). Cut one "
                           "of them back.",
                           reading.layer.label, sources[i].name, sources[j].name, area,
-                          reading.request.thickness_attribute));
+                          (reading.thickness_field >= 0 ? reading.request.thickness_attribute
+                                                        : reading.request.start_time_attribute)));
     }
 }
 
@@ -122,11 +158,14 @@ void require_inside(const Reading& reading, const PolygonFeature& source, const 
 
 PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& terrain) {
   const GdalScope scope;
-  Reading reading{request, open_polygon_layer(request), -1, {}};
-  reading.thickness_field = find_thickness_field(reading);
+  Reading reading{request, open_polygon_layer(request), -1, -1, {}};
+  reading.thickness_field = find_field(reading, request.thickness_attribute,
+                                       "release.thickness_attribute", "the thickness in metres");
+  reading.start_field = find_field(reading, request.start_time_attribute,
+                                   "release.start_time_attribute", "the time in seconds");
   reading.result.is_thickness = reading.thickness_field >= 0;
   std::vector<PolygonFeature> sources = read_sources(reading, terrain);
-  if (reading.result.is_thickness) {
+  if (reading.result.is_thickness || reading.start_field >= 0) {
     refuse_overlaps(reading, sources);
   } else {
     merge(reading, sources);
@@ -150,6 +189,7 @@ PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& 
   }
   reading.result.pattern = cover.finish();
   if (reading.result.is_thickness) reading.result.cover = share.finish();
+  if (reading.start_field >= 0) divide_by_start(sources, terrain, under, reading.result);
   reading.result.notes = std::move(reading.layer.notes);
   reading.result.warnings = std::move(reading.layer.warnings);
   reading.result.identity = std::move(reading.layer.identity);

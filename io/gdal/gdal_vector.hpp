@@ -5,6 +5,7 @@
 #include "engine/terrain/raster.hpp"
 #include "io/site/polygon_request.hpp"
 #include "scenarios/input_identity.hpp"
+#include "scenarios/scene_inputs.hpp"
 
 #include <string>
 #include <vector>
@@ -14,7 +15,10 @@ namespace sturz {
 struct PolygonRelease {
   Raster<double>
       pattern;  ///< on cells of the terrain around the polygons: share 0..1, or thickness [m]
-  Raster<double> cover;       ///< where the pattern is a thickness: share 0..1 of the same cells
+  Raster<double> cover;  ///< where the pattern is a thickness: share 0..1 of the same cells
+  /// Of each start time that the features name, ascending: share of what the pattern has in a cell
+  /// that starts then. Empty without release.start_time_attribute.
+  std::vector<ReleaseStart> starts;
   bool is_thickness = false;  ///< a thickness attribute was read
   double area_m2 = 0;         ///< exact, of all polygons together
   double volume_m3 = 0;       ///< exact, 0 without a thickness attribute

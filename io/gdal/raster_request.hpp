@@ -21,6 +21,8 @@ struct RasterRequest {
   std::string fallback_crs;  ///< stands in only when the file has none; empty: refuse
   std::string fallback_crs_key;
   double factor = 1;                  ///< multiplies the values of a thickness raster
+  bool is_scaled_later = false;       ///< they need not be metres yet
+  bool may_reach_beyond = false;      ///< what it has beyond the terrain is left out, not refused
   std::optional<double> cell_size_m;  ///< wanted cells; default: the raster's own
   double max_cells = max_raster_cells;
 };

@@ -42,11 +42,12 @@ void refuse_picture(RasterSource& source, GDALDataset& dataset, RasterQuantity q
   const bool colours = meaning == GCI_RedBand || meaning == GCI_HueBand ||
                        meaning == GCI_CyanBand || meaning == GCI_YCbCr_YBand;
   if (palette || colours)
-    throw SetupError(
-        fmt::format("{}: is a colour picture ({} bands, the first is {}; no heights "
-                    "or thicknesses). Name the raster that it was made from.",
-                    source.label, dataset.GetRasterCount(),
-                    palette ? "an index into a palette" : GDALGetColorInterpretationName(meaning)));
+    throw SetupError(fmt::format(
+        "{}: is a colour picture ({} bands, the first is {}; no {}). Name the raster "
+        "that it was made from.",
+        source.label, dataset.GetRasterCount(),
+        palette ? "an index into a palette" : GDALGetColorInterpretationName(meaning),
+        quantity == RasterQuantity::number ? "numbers of the bed" : "heights or thicknesses"));
   if (type == GDT_Byte && quantity == RasterQuantity::elevation && first.GetScale() == 1)
     source.warnings.push_back(source.label +
                               ": holds whole numbers from 0 to 255 only (8 bits), as pictures do; "
@@ -220,7 +221,8 @@ OpenRaster::OpenRaster(const RasterRequest& request, RasterQuantity quantity, bo
   if (dataset.GetRasterCount() > 1)
     source.notes.push_back(
         fmt::format("{}: band 1 of {} is used", source.label, dataset.GetRasterCount()));
-  unit_ = height_unit(settled, own, band.GetUnitType(), source.label);
+  if (quantity != RasterQuantity::number)
+    unit_ = height_unit(settled, own, band.GetUnitType(), source.label);
   unit_.down = unit_.down && quantity == RasterQuantity::elevation;  // a thickness has no direction
   if (!unit_.note.empty()) source.notes.push_back(unit_.note);
   if (!unit_.warning.empty()) source.warnings.push_back(unit_.warning);

@@ -44,7 +44,8 @@ struct RasterSource {
   double row_step() const;
 };
 
-enum class RasterQuantity { elevation, thickness };
+/// A `number` has no unit to be converted and no direction.
+enum class RasterQuantity { elevation, thickness, number };
 
 /// A raster that is open. What one cell becomes follows from its own number, so any window of the
 /// file has the same values.

@@ -5,6 +5,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
 #include "io/files/seal.hpp"
+#include "io/members/gauge_netcdf.hpp"
 #include "io/members/member_netcdf.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
 #include "io/netcdf/history_netcdf.hpp"
@@ -18,7 +19,7 @@
 namespace sturz {
 namespace {
 
-constexpr int format_version = 4;
+constexpr int format_version = 5;
 /// Few rows to a chunk: the statistics read members in bands of rows.
 constexpr int rows_per_chunk = 64, cols_per_chunk = 512;
 
@@ -152,6 +153,7 @@ void write_member(const std::filesystem::path& folder, const MemberResult& m,
   write_seconds(file, passes_attribute, seconds_attribute, m.pass_seconds);
   write_seconds(file, effects_attribute, effect_seconds_attribute, m.effect_seconds);
   write_history(file, m.history);
+  write_gauges(file, m.gauges);
   if (has_maps(m)) {
     write_maps(file, m);
   } else {
@@ -239,6 +241,7 @@ MemberResult read_member(const std::filesystem::path& path) {
   m.grid = read_grid_attributes(file);
   require_inside(file, m.window, m.grid);
   m.history = read_history(file);
+  m.gauges = read_gauges(file);
   m.pass_seconds = read_seconds(file, passes_attribute, seconds_attribute);
   m.effect_seconds = std::move(s.effect_seconds);
   if (m.window.n_cells() == 0) return m;

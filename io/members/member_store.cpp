@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/files/io_error.hpp"
 #include "io/files/seal.hpp"
+#include "io/members/gauge_netcdf.hpp"
 #include "io/members/member_file.hpp"
 #include "io/members/member_netcdf.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
@@ -91,6 +92,12 @@ const NetcdfReader& MemberStore::reader(std::size_t index) const {
     last_index_ = index;
   }
   return *last_reader_;
+}
+
+GaugeResult MemberStore::gauges(std::size_t index) const {
+  expect(index < members_.size(), "the member exists");
+  const std::lock_guard lock(netcdf_mutex());
+  return read_gauges(reader(index));
 }
 
 void MemberStore::read_part(std::size_t index, PeakLayer layer, const Window& part,

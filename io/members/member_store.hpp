@@ -45,6 +45,9 @@ class MemberStore final : public MemberParts {
   void read_part(std::size_t index, PeakLayer layer, const Window& part,
                  std::span<float> out) const override;
 
+  /// Of member members()[index]; empty where the scene has none. \throws IoError
+  GaugeResult gauges(std::size_t index) const;
+
   /// One sentence per file that was left out.
   const std::vector<std::string>& problems() const { return problems_; }
 

@@ -2,6 +2,7 @@
 #include "io/scenario/json_schema.hpp"
 
 #include "io/scenario/distribution_nodes.hpp"
+#include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
@@ -125,6 +126,28 @@ Json records(const KeyInfo& key) {
   return {{"type", "array"}, {"items", object(properties, required)}};
 }
 
+Json corners(int least) {
+  return {{"type", "array"}, {"items", numbers({{"type", "number"}}, 2)}, {"minItems", least}};
+}
+
+/// A hydrograph and one place.
+Json inflows() {
+  Json properties = {{"name", words()}, {"hydrograph", words()}, {"line_m", corners(2)},
+                     {"line", words()}, {"polygon", words()},    {"layer", words()},
+                     {"crs", words()}};
+  for (const auto& field : inflow_fields)
+    properties[field.name] = uncertain(number(field.min, field.max, field.above_min));
+  Json source = object(properties, {"hydrograph"});
+  source["oneOf"] = {
+      {{"required", {"line_m"}}}, {{"required", {"line"}}}, {{"required", {"polygon"}}}};
+  return {{"type", "array"}, {"items", source}, {"maxItems", most_inflows}};
+}
+
+Json gauges(const char* place, const Json& corner) {
+  return {{"type", "array"},
+          {"items", object({{"name", words()}, {place, corner}}, {"name", place})}};
+}
+
 Json value_of(const KeyInfo& key) {
   Json plain = number(key.min, key.max, key.above_min);
   switch (key.kind) {
@@ -158,6 +181,12 @@ Json value_of(const KeyInfo& key) {
       return zones();
     case ValueKind::record_list:
       return records(key);
+    case ValueKind::inflow_list:
+      return inflows();
+    case ValueKind::gauge_points:
+      return gauges("at_m", numbers({{"type", "number"}}, 2));
+    case ValueKind::gauge_lines:
+      return gauges("points_m", corners(2));
   }
   return {};
 }

@@ -2,6 +2,8 @@
 #include "io/scenario/scenario_values.hpp"
 
 #include "io/scenario/distribution_nodes.hpp"
+#include "io/scenario/flow_nodes.hpp"
+#include "io/scenario/node_texts.hpp"
 #include "scenarios/schema/suggest.hpp"
 #include "scenarios/schema/value_text.hpp"
 #include "scenarios/schema/zone_fields.hpp"
@@ -13,28 +15,6 @@ namespace sturz {
 namespace {
 
 using Kind = YamlNode::Kind;
-
-std::string unknown_text(const std::string& path, const std::string& key,
-                         const std::vector<std::string>& known) {
-  const std::string near = nearest_name(key, known);
-  return path + "." + key + " (unknown key). " +
-         (near.empty() ? "Known here: " + comma_separated(known) + "."
-                       : "Did you mean " + near + "?");
-}
-
-const char* const file_name = "a file name";
-
-/// \param expected "text" or file_name
-std::optional<std::string> read_text(const std::string& path, const char* expected,
-                                     const YamlNode& node, FileProblems& problems) {
-  if (node.kind == Kind::scalar && !node.text.empty()) return node.text;
-  if (node.kind == Kind::scalar)
-    problems.push_back(
-        {node.at, path + " = \"\" (must be " + expected + "). Give it one or remove the key."});
-  else
-    add_mismatch(path, node, expected, "", problems);
-  return std::nullopt;
-}
 
 KeyValue read_text_value(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
   const auto text =
@@ -64,17 +44,6 @@ KeyValue read_plain_number(const KeyInfo& key, const YamlNode& node, FileProblem
       key.path, node,
       "Only numbers of release, grains, basal, mixture and erosion can be uncertain.", problems);
   return number ? KeyValue{*number} : KeyValue{};
-}
-
-KeyValue read_uncertain(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
-  Uncertain value;
-  if (node.kind == Kind::map) {
-    value.distribution = read_distribution(key.path, node, problems);
-    return value.distribution ? KeyValue{value} : KeyValue{};
-  }
-  const auto number = read_number(key.path, node, "a number or a distribution", problems);
-  if (!number) return {};
-  return Uncertain(*number);
 }
 
 KeyValue read_texts(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
@@ -274,6 +243,17 @@ KeyValue read_items(const KeyInfo& key, const YamlNode& node, const char* expect
 
 }  // namespace
 
+KeyValue read_uncertain(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
+  Uncertain value;
+  if (node.kind == Kind::map) {
+    value.distribution = read_distribution(key.path, node, problems);
+    return value.distribution ? KeyValue{value} : KeyValue{};
+  }
+  const auto number = read_number(key.path, node, "a number or a distribution", problems);
+  if (!number) return {};
+  return Uncertain(*number);
+}
+
 KeyValue read_value(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
   switch (key.kind) {
     case ValueKind::number:
@@ -313,6 +293,16 @@ KeyValue read_value(const KeyInfo& key, const YamlNode& node, FileProblems& prob
           [&key](const std::string& path, const YamlNode& item, NumberRecord& record,
                  FileProblems& found) { return read_record(key, path, item, record, found); },
           problems);
+    case ValueKind::inflow_list:
+      return read_items<InflowSpec>(key, node, "a list of sources, [{hydrograph: .., line_m: ..}]",
+                                    read_inflow, problems);
+    case ValueKind::gauge_points:
+      return read_items<GaugeSpec>(key, node, "a list of points, [{name: .., at_m: [x, y]}]",
+                                   read_gauge_point, problems);
+    case ValueKind::gauge_lines:
+      return read_items<GaugeSpec>(key, node,
+                                   "a list of lines, [{name: .., points_m: [[x, y], ..]}]",
+                                   read_gauge_line, problems);
   }
   return {};
 }

@@ -13,4 +13,7 @@ namespace sturz {
 /// make the result monostate; ranges are not checked here.
 KeyValue read_value(const KeyInfo&, const YamlNode&, std::vector<FileProblem>&);
 
+/// A number or a distribution in its place; monostate where it is neither.
+KeyValue read_uncertain(const KeyInfo&, const YamlNode&, std::vector<FileProblem>&);
+
 }  // namespace sturz

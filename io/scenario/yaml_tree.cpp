@@ -153,9 +153,27 @@ class TreeBuilder : public YAML::EventHandler {
   std::vector<Pending> pending_;  ///< one for each of them
 };
 
+/// Whether a tab stands before the first word of a line, counted from 0.
+bool is_indented_by_tab(std::string_view text, int line) {
+  std::size_t start = 0;
+  for (int i = 0; i < line; ++i) {
+    const std::size_t end = text.find('\n', start);
+    if (end == std::string_view::npos) return false;
+    start = end + 1;
+  }
+  const std::size_t word = text.find_first_not_of(" \t", start);
+  return text.substr(start, word == std::string_view::npos ? word : word - start).find('\t') !=
+         std::string_view::npos;
+}
+
 /// The YAML reader's own words, and what is behind those that users meet most.
-std::string unreadable_text(const std::string& message) {
+/// \param line where it stopped, counted from 0
+std::string unreadable_text(const std::string& message, std::string_view whole, int line) {
   const std::string text = "not readable as YAML (" + one_line(message, 120) + "). ";
+  for (const int at : {line, line - 1})
+    if (at >= 0 && is_indented_by_tab(whole, at))
+      return text + "Line " + std::to_string(at + 1) +
+             " is indented by a tab; YAML knows blanks only. Replace tabs by blanks.";
   if (message.find("illegal map value") != std::string::npos)
     return text +
            "A text with a colon and a blank in it must stand in quotes: title: \"North: second "
@@ -245,7 +263,8 @@ std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& sou
   } catch (const Stop&) {
     return std::nullopt;  // its problem is noted
   } catch (const YAML::Exception& e) {
-    problems.push_back({{source, e.mark.line + 1, e.mark.column + 1}, unreadable_text(e.msg)});
+    problems.push_back(
+        {{source, e.mark.line + 1, e.mark.column + 1}, unreadable_text(e.msg, text, e.mark.line)});
     return std::nullopt;
   }
   return builder.take_root();

@@ -110,8 +110,8 @@ PolygonsPtr polygons_of(Reading& reading, const OGRGeometry& geometry, const std
 
 }  // namespace
 
-TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request,
-                              const Grid& terrain) {
+TransformPtr terrain_transform(PolygonLayer& layer, const PolygonRequest& request,
+                               const Grid& terrain) {
   OGREnvelope box;
   if (layer.layer->GetExtent(&box, true) != OGRERR_NONE) box = {};  // an empty layer has none
   const OGRSpatialReference* own = layer.layer->GetSpatialRef();
@@ -149,14 +149,15 @@ PolygonLayer open_polygon_layer(const PolygonRequest& request) {
   layer.identity.role = request.key;
   layer.identity.file = file.path;
   layer.layer = &choose_layer(layer, request);
-  if (!request.thickness_attribute.empty()) refuse_other_shapes(layer, request);
+  if (!request.thickness_attribute.empty() || !request.start_time_attribute.empty())
+    refuse_other_shapes(layer, request);
   return layer;
 }
 
 std::vector<PolygonFeature> read_features(
     PolygonLayer& layer, const PolygonRequest& request, const Grid& terrain,
     const std::function<void(OGRFeature&, PolygonFeature&)>& read_fields) {
-  Reading reading{layer, request, settle_transform(layer, request, terrain), {}};
+  Reading reading{layer, request, terrain_transform(layer, request, terrain), {}};
   std::vector<PolygonFeature> features;
   layer.layer->ResetReading();
   while (const auto read = OGRFeatureUniquePtr(layer.layer->GetNextFeature())) {
@@ -171,6 +172,9 @@ std::vector<PolygonFeature> read_features(
             fmt::format("{}: {} has no area. Draw it again.", layer.label, feature.name));
     if (read_fields) read_fields(*read, feature);
     reading.hash.add_values(std::span<const double>(&feature.thickness_m, 1));
+    // Only where it is asked for: what was hashed without it stays the same.
+    if (!request.start_time_attribute.empty())
+      reading.hash.add_values(std::span<const double>(&feature.start_s, 1));
     features.push_back(std::move(feature));
   }
   require(!features.empty(),

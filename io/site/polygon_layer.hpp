@@ -32,16 +32,12 @@ struct PolygonFeature {
   std::string name;  ///< "feature 3"
   PolygonsPtr polygons;
   double thickness_m = 1;
+  double start_s = 0;
 };
 
 /// "layer 'a' is used ..." goes to the notes. \throws SetupError naming key and file: missing file
 ///   or layer
 PolygonLayer open_polygon_layer(const PolygonRequest& request);
-
-/// From the layer's coordinates to the terrain's; nullptr where they stay as they are. What was
-/// settled goes to the notes and the identity. \throws SetupError: no coordinate system
-TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request,
-                              const Grid& terrain);
 
 /// All features, in file order. What was reprojected, mended or taken as it is goes to the notes.
 /// \param read_fields called for each feature to fill in what its fields say
@@ -50,6 +46,11 @@ TransformPtr settle_transform(PolygonLayer& layer, const PolygonRequest& request
 std::vector<PolygonFeature> read_features(
     PolygonLayer& layer, const PolygonRequest& request, const Grid& terrain,
     const std::function<void(OGRFeature&, PolygonFeature&)>& read_fields = {});
+
+/// What moves the layer's coordinates to the terrain's system; nullptr where they stay as they are.
+/// Completes the identity's shape with the system. \throws SetupError
+TransformPtr terrain_transform(PolygonLayer& layer, const PolygonRequest& request,
+                               const Grid& terrain);
 
 /// "polygon x 1 to 2, y 1 to 2; terrain x 0 to 5, y 0 to 5"
 std::string places_text(const OGREnvelope& polygon, const Grid& terrain);

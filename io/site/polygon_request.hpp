@@ -10,6 +10,7 @@ struct PolygonRequest {
   std::string path;                     ///< as written; relative paths start at `directory`
   std::string layer;                    ///< empty: the first
   std::string thickness_attribute;      ///< numeric field [m]; empty: shares only
+  std::string start_time_attribute;     ///< numeric field [s]; empty: none
   std::string key = "release.polygon";  ///< scenario key, for messages
   std::string directory;
   std::string crs;                      ///< replaces the layer's own system; empty: not given

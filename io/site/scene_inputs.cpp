@@ -8,7 +8,9 @@
 #include "io/gdal/gdal_vector.hpp"
 #include "io/gdal/raster_source.hpp"
 #include "io/site/bed/bed_inputs.hpp"
+#include "io/site/flow/flow_inputs.hpp"
 #include "io/site/hazard_grid.hpp"
+#include "io/site/loading/loading.hpp"
 #include "io/site/observed/event_reader.hpp"
 #include "io/site/observed/observed_outline.hpp"
 #include "io/site/release/release_requests.hpp"
@@ -18,69 +20,19 @@
 #include "io/site/terrain_request.hpp"
 #include "io/site/terrain_window.hpp"
 #include "io/site/thickness_raster.hpp"
-#include "io/site/zone_cells.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
-#include "scenarios/schema/zone_fields.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <numeric>
 
 namespace sturz {
 namespace {
-
-/// What the steps below fill in.
-struct Loading {
-  const Scenario& scenario;
-  SceneInputs inputs;
-  std::string release_label;  ///< for messages about the release
-  std::optional<Raster<double>> synthetic_source;
-  std::unique_ptr<ElevationRaster> raster;  ///< of terrain.raster
-  std::vector<std::string> problems;        ///< of files that cannot be used
-
-  template <class Read>
-  void take_words(Read& read) {
-    std::move(read.notes.begin(), read.notes.end(), std::back_inserter(inputs.notes));
-    std::move(read.warnings.begin(), read.warnings.end(), std::back_inserter(inputs.warnings));
-  }
-  void take_identity(InputIdentity& identity) {
-    std::error_code error;
-    const auto name = std::filesystem::proximate(identity.file, scenario.directory, error);
-    const bool inside_file = identity.file.starts_with("/vsi");
-    if (!scenario.directory.empty() && !error && !inside_file) identity.file = name.string();
-    inputs.identities.push_back(std::move(identity));
-  }
-  /// Notes, warnings and identity of a file that was read.
-  template <class Read>
-  void take(Read& read) {
-    take_words(read);
-    take_identity(read.identity);
-  }
-  /// Goes on after a problem, so that all files are looked at in one round.
-  template <class Call>
-  void attempt(Call call) {
-    try {
-      call();
-    } catch (const SetupError& problem) {
-      problems.emplace_back(problem.what());
-    }
-  }
-  void refuse_problems() const {
-    require(problems.empty(), fmt::format("{}", fmt::join(problems, "\n")));
-  }
-  void set_release(Raster<double> pattern, ReleasePattern kind) {
-    inputs.release = std::make_shared<const Raster<double>>(std::move(pattern));
-    inputs.pattern = kind;
-    if (kind == ReleasePattern::cover) inputs.release_cover = inputs.release;
-  }
-  const Grid& grid() const { return inputs.whole; }
-};
 
 /// What is said of the terrain comes before what is said of release and zones.
 void take_ground(Loading& loading, RasterRead& read) {
@@ -145,12 +97,27 @@ Raster<double> ground_of(Loading& loading, const Window& w) {
   return part;
 }
 
+/// The energy line of the least friction within its own reach: where rasters give the friction,
+/// how far it comes and what it meets there decide each other.
+FirstGround find_first_ground(Loading& loading) {
+  SceneInputs& in = loading.inputs;
+  const ReadGround read = [&](const Window& w) { return ground_of(loading, w); };
+  Window seen = window_of(in.release->grid, loading.grid());
+  measure_bed_layers(loading.bed_layers, seen, in);
+  for (;;) {
+    FirstGround first = first_ground(loading.scenario, in, read, loading.release_label);
+    const Window next = joined(seen, first.reach ? first.reach->window : first.window);
+    if (loading.bed_layers.empty() || next == seen ||
+        !measure_bed_layers(loading.bed_layers, next, in))
+      return first;
+    seen = next;
+  }
+}
+
 /// Reads the part of the terrain that members start with.
 void load_ground(Loading& loading) {
   SceneInputs& in = loading.inputs;
-  const FirstGround first = first_ground(
-      loading.scenario, in, [&](const Window& w) { return ground_of(loading, w); },
-      loading.release_label);
+  const FirstGround first = find_first_ground(loading);
   in.reach = first.reach;
   in.first_window = first.window;
   if (!loading.raster) return;
@@ -165,13 +132,19 @@ void load_ground(Loading& loading) {
   take_ground(loading, read);
 }
 
+/// By how much `a` is beyond `b` [%]; what rounding alone makes of equal sums is none.
+double percent_beyond(double a, double b) {
+  const double percent = 100 * (a / b - 1);
+  return std::abs(percent) < 1e-9 ? 0 : percent;
+}
+
 /// Two numbers that a reader can hold against each other: the source's and the raster's.
 void note_rasterised(Loading& loading, double exact_m2) {
   const ReleaseSpec& release = loading.scenario.release;
   const double laid = raster_sum(*loading.inputs.release);
   std::string text =
       fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
-                  loading.release_label, exact_m2, laid, 100 * (laid / exact_m2 - 1));
+                  loading.release_label, exact_m2, laid, percent_beyond(laid, exact_m2));
   const bool vertical = release.thickness == ThicknessDirection::vertical;
   if (vertical && release.thickness_m && release.thickness_m->is_fixed())
     text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
@@ -187,6 +160,7 @@ void load_polygon(Loading& loading) {
   loading.take(read);
   loading.inputs.source_area_m2 = read.area_m2;
   loading.inputs.source_volume_m3 = read.volume_m3;
+  loading.inputs.release_starts = std::move(read.starts);
   loading.set_release(std::move(read.pattern),
                       read.is_thickness ? ReleasePattern::thickness : ReleasePattern::cover);
   if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
@@ -233,10 +207,28 @@ void load_synthetic_source(Loading& loading) {
   loading.set_release(std::move(source), ReleasePattern::thickness);
 }
 
+/// Where mass enters and where the flow is followed; only checked while no ground is known.
+void load_flow(Loading& loading) {
+  FlowRead read = read_flow(loading.scenario, loading.grid());
+  SceneInputs& in = loading.inputs;
+  in.inflow = std::move(read.inflow);
+  in.gauge_points = std::move(read.points), in.gauge_lines = std::move(read.lines);
+  for (FlowFile& file : read.files) loading.take(file);
+  std::move(read.problems.begin(), read.problems.end(), std::back_inserter(loading.problems));
+}
+
 void load_release(Loading& loading) {
   const ReleaseSpec& spec = loading.scenario.release;
   const int named = !spec.polygon.empty() + !spec.thickness_raster.empty() + spec.box.has_value() +
                     spec.paraboloid.has_value() + spec.cylinder.has_value();
+  const bool none = named == 0 && !loading.synthetic_source;
+  if (none && !loading.scenario.inflow.empty()) {
+    loading.release_label = "inflow";
+    const auto& sources = loading.inputs.inflow;
+    if (!sources.empty())
+      loading.set_release(empty_release(sources, loading.grid()), ReleasePattern::thickness);
+    return;
+  }
   require(named <= 1,
           "release: names more than one source. Keep one of polygon, thickness_raster, "
           "box, paraboloid, cylinder.");
@@ -248,57 +240,17 @@ void load_release(Loading& loading) {
   load_synthetic_source(loading);
 }
 
-void load_zone(Loading& loading, std::size_t i, Raster<std::uint8_t>& numbers) {
-  const Grid& grid = loading.grid();
-  ZoneCells read = read_zone_cells(zone_request(loading.scenario, i), grid, loading.inputs.held());
-  loading.take(read);
-  for (const std::size_t cell : read.cells) numbers.values[cell] = static_cast<std::uint8_t>(i + 1);
-  loading.inputs.notes.push_back(fmt::format(
-      "basal.zones[{}] {}: {} cells, {:.9g} m2", i, loading.scenario.basal.zones[i].polygon,
-      read.n_on_terrain, static_cast<double>(read.n_on_terrain) * grid.cell_m * grid.cell_m));
-}
-
-void load_zones(Loading& loading) {
-  const auto& zones = loading.scenario.basal.zones;
-  if (zones.empty()) return;
-  expect(zones.size() <= most_basal_zones, "a scenario is validated before its files are read");
-  Raster<std::uint8_t> numbers(loading.inputs.elevation->grid, 0);
-  for (std::size_t i = 0; i < zones.size(); ++i)
-    loading.attempt([&] { load_zone(loading, i, numbers); });
-  loading.inputs.zones = std::make_shared<const Raster<std::uint8_t>>(std::move(numbers));
-}
-
-/// Where a bed can be taken along, or how deep; only checked while no ground is known.
-void load_bed_supply(Loading& loading) {
-  if (!has_bed_supply_file(loading.scenario)) return;
-  loading.attempt([&] {
-    if (!loading.inputs.elevation) return check_bed_supply(loading.scenario);
-    BedSupplyInput read = read_bed_supply(loading.scenario, loading.grid(), loading.inputs.held());
-    loading.inputs.bed_supply = std::make_shared<const Raster<double>>(std::move(read.pattern));
-    loading.take(read);
-  });
-}
-
 /// What holds whatever part of the terrain is read: release, observed outline, grids, reach.
 SceneInputs without_ground(SceneInputs inputs) {
   inputs.elevation = nullptr;
   inputs.ground = inputs.column_ground = nullptr;
   inputs.zones = nullptr;
   inputs.bed_supply = nullptr;
+  for (BedLayerInput& layer : inputs.bed_layers) layer.values = nullptr;
   inputs.notes.clear();
   inputs.warnings.clear();
   inputs.identities.clear();
   return inputs;
-}
-
-/// What can be said of zones when no ground is known.
-void check_zones(Loading& loading) {
-  for (std::size_t i = 0; i < loading.scenario.basal.zones.size(); ++i)
-    loading.attempt([&] {
-      PolygonRequest request = zone_request(loading.scenario, i);
-      request.without_terrain = true;
-      read_zone_cells(request, {});
-    });
 }
 
 /// An empty grid, where the terrain cannot be read: then it is only checked.
@@ -337,7 +289,9 @@ void check_without_terrain(Loading& loading) {
     });
   if (!scenario.release.thickness_raster.empty())
     loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
+  load_flow(loading);
   check_zones(loading);
+  open_bed_layers(loading);
   load_bed_supply(loading);
   load_observed(loading);
   load_event(loading);
@@ -346,27 +300,33 @@ void check_without_terrain(Loading& loading) {
 }  // namespace
 
 SceneInputs load_scene_inputs(const Scenario& scenario) {
-  Loading loading{scenario, {}, {}, {}, {}, {}};
+  Loading loading{scenario, {}, {}, {}, {}, {}, {}};
   loading.attempt([&] { load_terrain(loading); });
   SceneInputs& inputs = loading.inputs;
   if (inputs.whole.n_cols == 0) {
     check_without_terrain(loading);
     loading.refuse_problems();
   }
+  load_flow(loading);
   loading.attempt([&] { load_release(loading); });
-  if (inputs.release)
+  const bool complete = inputs.inflow.size() == scenario.inflow.size();
+  open_bed_layers(loading);
+  if (inputs.release && complete)
     loading.attempt([&] {
       load_ground(loading);
       shape_release(scenario, inputs);
     });
-  if (inputs.elevation)
+  if (inputs.elevation) {
     load_zones(loading);
-  else
+    load_bed_layers(loading);
+  } else {
     check_zones(loading);
+  }
   load_bed_supply(loading);
   load_observed(loading);
   load_event(loading);
   loading.refuse_problems();
+  expect(inputs.release && inputs.elevation, "a scene without problems has its release and ground");
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);
   if (!doubt.empty() && !scenario.terrain.synthetic) inputs.warnings.push_back(std::move(doubt));
   inputs.release_hash = hash_of_release(inputs);
@@ -376,7 +336,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
 }
 
 SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& first, int level) {
-  Loading loading{scenario, {}, {}, {}, {}, {}};
+  Loading loading{scenario, {}, {}, {}, {}, {}, {}};
   SceneInputs& inputs = loading.inputs;
   open_raster(loading);
   require(inputs.whole.same_place(first.whole),
@@ -389,7 +349,9 @@ SceneInputs load_larger_inputs(const Scenario& scenario, const SceneInputs& firs
   inputs.whole = whole;
   inputs.level = level;
   take_ground(loading, read);
+  open_bed_layers(loading);
   load_zones(loading);
+  load_bed_layers(loading);
   load_bed_supply(loading);
   loading.refuse_problems();
   inputs.release_hash = hash_of_release(inputs);

@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "io/site/polygon_cover.hpp"
 #include "io/site/polygon_layer.hpp"
+#include "scenarios/assembly/inflow/inflow_plan.hpp"
 
 #include <fmt/core.h>
 
@@ -83,7 +84,12 @@ FirstGround first_ground(const Scenario& scenario, const SceneInputs& inputs,
                          const ReadGround& read, const std::string& release_label) {
   const Grid& whole = inputs.terrain_grid();
   const Window at = window_of(inputs.release->grid, whole);
-  const double surface = surface_below(scenario, *inputs.release, read(at), at, release_label);
+  double surface = surface_below(scenario, *inputs.release, read(at), at, release_label);
+  for (const InflowSource& source : inputs.inflow)
+    for (const double z : read(cells_below(source, whole)).values)
+      if (std::isfinite(z)) surface = std::max(surface, z);
+  require(std::isfinite(surface) || inputs.inflow.empty(),
+          "inflow: lies on nodata cells of the terrain. Fill the terrain there or move it.");
   FirstGround first{{}, whole_of(whole)};
   if (!scenario.domain.periodic.empty()) return first;
   const EnergyLine line = energy_line(scenario, inputs, surface);

@@ -198,14 +198,15 @@ Window window_under(const RasterSource& s, OGRCoordinateTransformation* transfor
 }
 
 /// Volumes per terrain cell, and the totals in `result`.
+/// \param may_reach_beyond what lies outside the terrain is left out; else it is refused
 void carry_over(const RasterSource& s, OGRCoordinateTransformation* transform, const Grid& g,
-                ThicknessRead& result) {
+                bool may_reach_beyond, ThicknessRead& result) {
   const Window at = window_under(s, transform, g);
   result.thickness = Raster<double>(grid_of(at, g), 0.0);
   Raster<double>& volumes = result.thickness;
   const double own_area = own_cell_area(s);
   Lost lost;
-  double placed = 0;
+  double placed = 0, all = 0;
   for (int row = 0; row < s.n_rows; ++row)
     for (int col = 0; col < s.n_cols; ++col) {
       const double thickness = s.values[static_cast<std::size_t>(row) * s.n_cols + col];
@@ -213,14 +214,16 @@ void carry_over(const RasterSource& s, OGRCoordinateTransformation* transform, c
       const Patch patch = cell_on_grid(s, col, row, transform, g);
       const double area = own_area > 0 ? own_area : patch.area() * g.cell_m * g.cell_m;
       const double volume = thickness * area, inside = spread(patch, volume, g, at, volumes);
-      result.volume_m3 += volume;
-      result.area_m2 += area;
+      const double counts = may_reach_beyond ? inside : volume;
+      result.volume_m3 += counts;
+      result.area_m2 += area * counts / volume;
+      all += volume;
       placed += inside;
       if (volume - inside > volume_round_off * volume) lost.add(volume - inside, patch);
     }
-  require(result.volume_m3 > 0,
+  require(all > 0,
           s.label + ": holds no thickness above zero (an empty release). Check band and nodata.");
-  refuse_lost(lost, result.volume_m3, g, s.label);
+  if (!may_reach_beyond || !(placed > 0)) refuse_lost(lost, all, g, s.label);
   const double correction = result.volume_m3 / placed, cell_area = g.cell_m * g.cell_m;
   for (double& v : volumes.values) v *= correction / cell_area;
   result.notes.push_back(fmt::format(
@@ -258,7 +261,8 @@ Depths read_depths(const RasterRequest& request, bool terrain_is_local) {
     depths.source = factored(all);
     found.add(depths.source, all);
     refuse_negative(found, depths.whole);
-    refuse_mask(depths.source.values, request.factor, depths.whole.label);
+    if (!request.is_scaled_later)
+      refuse_mask(depths.source.values, request.factor, depths.whole.label);
     return depths;
   }
   std::map<std::string, std::string> parts;
@@ -275,7 +279,8 @@ Depths read_depths(const RasterRequest& request, bool terrain_is_local) {
     depths.at = {0, 0, 1, 1};
   depths.source = factored(depths.at);
   depths.source.identity.parts = std::move(parts);
-  refuse_mask(depths.source.values, request.factor, depths.whole.label);
+  if (!request.is_scaled_later)
+    refuse_mask(depths.source.values, request.factor, depths.whole.label);
   return depths;
 }
 
@@ -328,7 +333,7 @@ ThicknessRead read_thickness(const RasterRequest& request, const Grid& terrain) 
   if (is_same_grid(depths.whole, terrain, transform != nullptr))
     take_cells(depths, terrain, result);
   else
-    carry_over(source, transform.get(), terrain, result);
+    carry_over(source, transform.get(), terrain, request.may_reach_beyond, result);
   double largest = 0;
   for (const double v : source.values) largest = std::max(largest, std::isnan(v) ? 0 : v);
   std::string doubt =

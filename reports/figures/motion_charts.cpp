@@ -38,12 +38,6 @@ double round_up(double value, std::span<const double> steps) {
 /// Between ticks.
 double round_step(double least) { return round_up(least, std::array{1.0, 2.0, 2.5, 5.0}); }
 
-/// End of an axis that holds `most`; finer than the ticks, so that little room is wasted.
-double round_top(double most) {
-  return round_up(std::max(most, 1e-3),
-                  std::array{1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0});
-}
-
 MotionChart travel(const MemberHistory& h) {
   MotionChart chart{
       .name = "travel", .title = "How far the mass has come", .unit = "m", .lines = {}};
@@ -134,6 +128,12 @@ std::string path_of(const Axes& axes, const std::vector<double>& times,
 }
 
 }  // namespace
+
+/// End of an axis that holds `most`; finer than the ticks, so that little room is wasted.
+double round_top(double most) {
+  return round_up(std::max(most, 1e-3),
+                  std::array{1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0});
+}
 
 std::vector<double> motion_times(const MemberHistory& history) {
   return column(history, &HistoryRow::time_s);

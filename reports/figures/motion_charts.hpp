@@ -26,6 +26,8 @@ struct MotionChart {
 
 /// Travel, speed, and where the scene has them states. Empty for fewer than two rows.
 std::vector<MotionChart> motion_charts(const MemberHistory& history);
+/// End of an axis that holds `most`.
+double round_top(double most);
 /// [time] s
 std::vector<double> motion_times(const MemberHistory& history);
 

@@ -6,6 +6,7 @@
 #include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
+#include "ensemble/gauges/gauge_statistics.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/scores/score_table.hpp"
 #include "scenarios/layers/layer_stack.hpp"
@@ -55,6 +56,7 @@ struct ReportInput {
   const LayerStack* hazard = nullptr;         ///< maps of the ensemble; null for a single run
   const LayerStack* peaks = nullptr;          ///< maps of one member, used when `hazard` is null
   const MemberHistory* history = nullptr;     ///< of a single run; may be null or empty
+  const GaugeFindings* gauges = nullptr;      ///< may be null or empty
   std::vector<MemberSummary> members;
   ReportTable samples;  ///< sampled keys; one row per entry of `members`, or no rows
   std::vector<ConvergencePoint> convergence;  ///< may be empty

@@ -35,6 +35,8 @@ constexpr ScalarColumn scalar_columns[] = {
     {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
     {"eroded", "m3", &MemberScalars::eroded_volume_m3, false, true},
     {"growth V_f/V_0", "1", &MemberScalars::volume_growth, false, true},
+    {"runout of grains", "m", &MemberScalars::solid_runout_m, false, true},
+    {"runout of liquid", "m", &MemberScalars::liquid_runout_m, false, true},
     {"layers", "1", &MemberScalars::release_layers},
     {"dilated", "1", &MemberScalars::parted_fraction, true},
     {"in transition", "1", &MemberScalars::transition_fraction, true},
@@ -184,7 +186,8 @@ std::string key_label(const ReportTable& samples, std::size_t column) {
   std::string label = same > 1 ? samples.columns[column] : own;
   std::replace(label.begin(), label.end(), '.', ' ');
   // Keys end in their unit, which stands beside the label already.
-  for (const char* unit : {"_kg_m3", "_m3", "_pa", "_deg", "_m", "_s"})
+  for (const char* unit :
+       {"_kg_m3", "_m_s2", "_m_s", "_m3", "_m2", "_pa_s", "_pa", "_deg", "_per_m", "_m", "_s"})
     if (column < samples.units.size() && !display_unit(samples.units[column]).label.empty() &&
         label.ends_with(unit)) {
       label.erase(label.size() - std::string_view(unit).size());

@@ -33,6 +33,9 @@ std::string timing_table(const NamedSeconds& timings) {
 
 std::string times_html(const ReportInput& input) {
   std::string html = timing_table(input.timings);
+  html += fmt::format(
+      "<p class=\"note\">By the clock{}: more than the CPU time where the cores were shared.</p>",
+      input.hazard != nullptr ? ", summed over the simulations" : "");
   if (!input.pass_timings.empty())
     html += "<details><summary>By pass of a step</summary>" + timing_table(input.pass_timings) +
             "</details>";
@@ -113,6 +116,10 @@ std::string reading_html(const ReportInput& input) {
   lines.emplace_back(
       "Peaks are the largest value of each product at one instant, never the largest thickness "
       "times the largest speed.");
+  lines.emplace_back(
+      "Thickness, speed, energy and pressure are smoothed and fade out up to two spacings beyond "
+      "the edge of the mass. Reached area, arrival, runout and intensity end at the edge itself: "
+      "cells just outside may show a thickness although nothing reached them.");
   if (input.resolved_thickness_m > 0)
     lines.push_back("Thickness thresholds below " + with_unit(input.resolved_thickness_m, "m") +
                     " (half a particle spacing) are not resolved and are marked so.");

@@ -22,6 +22,8 @@ std::string map_html(const ReportInput& input, const MapScene* scene, const Laye
 /// Travel, speeds and states over time of a single run, and what it left out; empty text for an
 /// ensemble.
 std::string motion_html(const ReportInput& input);
+/// Arrivals, peaks and discharges at the scene's gauges; empty text where it has none.
+std::string gauges_html(const ReportInput& input);
 /// How much of the mass of an ensemble's members was too loose for a scene without states; empty
 /// text where that is not known or nothing was left out.
 std::string left_out_html(const std::vector<MemberSummary>& members);

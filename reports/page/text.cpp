@@ -114,10 +114,13 @@ DisplayUnit display_unit(std::string_view udunits) {
     const char* label;
     double factor;
   };
-  static constexpr std::array<Row, 14> table{{{"m", "m", 1},
+  static constexpr std::array<Row, 17> table{{{"m", "m", 1},
                                               {"m2", "m²", 1},
                                               {"m3", "m³", 1},
                                               {"m s-1", "m/s", 1},
+                                              {"m s-2", "m/s²", 1},
+                                              {"m-1", "1/m", 1},
+                                              {"Pa s", "Pa s", 1},
                                               {"J m-2", "kJ/m²", 1e-3},
                                               {"Pa", "kPa", 1e-3},
                                               {"kJ m-2", "kJ/m²", 1},

@@ -5,11 +5,14 @@
 #include "engine/core/error.hpp"
 #include "engine/core/sum.hpp"
 #include "engine/effects/arrivals.hpp"
+#include "engine/effects/inflow/effect.hpp"
 #include "engine/effects/motion/accounts.hpp"
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
+#include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/schema.hpp"
@@ -23,7 +26,8 @@ namespace {
 State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
   State state(plan.bed, plan.domain);
   state.threads = std::max(1, threads);
-  const Release& r = plan.release;
+  Release r = plan.release;
+  for (auto* column : {&r.x, &r.y, &r.z, &r.mass}) column->resize(plan.n_present);
   MovingSet& p = state.grains();
   p.spacing = s.numerics.spacing_m;
   p.bulk_density = plan.bulk_density_kg_m3;
@@ -41,6 +45,7 @@ State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
   Sum released;
   for (double m : p.mass) released.add(m);
   p.ledger.released_mass = released.value();
+  if (plan.phases) split_phases(state, *plan.phases, s.grains->solid_fraction.value);
   return state;
 }
 
@@ -49,8 +54,10 @@ Step make_step(const Scenario& s, const ScenePlan& plan, State& state) {
   Step step;
   SceneParts parts{s, plan, step, state};
   add_effects(parts);
-  refresh_motion(state, state.grains(), 0);
-  state.grains().ledger.kinetic_0 = state.grains().ledger.kinetic;
+  for (MovingSet& set : state.sets) {
+    refresh_motion(state, set, 0);
+    set.ledger.kinetic_0 = set.ledger.kinetic;
+  }
   return step;
 }
 
@@ -74,6 +81,7 @@ double typical_speed(const ScenePlan& plan) {
   if (!plan.formulation.depth_averaged) return plan.reference_speed_m_s;
   double mass = 0;
   for (double m : plan.release.mass) mass += m;
+  mass += plan.inflow.mass_kg;
   return 0.5 * std::sqrt(2 * plan.available_energy_j / mass);
 }
 
@@ -98,27 +106,40 @@ std::string joined(const std::vector<std::string>& parts) {
 }
 
 PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) {
-  return PeakMaps({grid, runout_limit(plan, s.numerics.spacing_m)});
+  PeakMapSettings settings{grid, runout_limit(plan, s.numerics.spacing_m)};
+  settings.by_set = plan.phases.has_value();
+  return PeakMaps(settings);
 }
 
 StopRule make_stop(const Scenario& s, const ScenePlan& plan) {
   return StopRule({plan.end.end_time_s, s.numerics.stop_at_rest, s.numerics.spacing_m,
-                   plan.release.max_thickness_m, plan.available_energy_j,
-                   s.numerics.stop_energy_fraction});
+                   std::max(plan.release.max_thickness_m, plan.inflow.most_thickness_m),
+                   plan.available_energy_j, s.numerics.stop_energy_fraction});
 }
 
 /// Masses spread and settle while a point is long at rest.
 constexpr double settling = 1.5;
 
 /// How long a member will probably move [s]; its own end time where it gives one.
-double expected_time(const Scenario& s, const ScenePlan& plan) {
+double expected_time(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
   if (s.numerics.end_time_s || !s.domain.periodic.empty()) return plan.end.end_time_s;
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  const double friction = typical_friction(s);
-  const double moving = time_to_rest(plan.bed, plan.release, friction, start, plan.end.end_time_s);
-  const double spreading = 5 * std::sqrt(plan.release.max_thickness_m / standard_gravity);
-  return std::min(plan.end.end_time_s, settling * (moving + spreading));
+  const double friction = typical_friction(with_typical_bed(s, inputs));
+  double moving = time_to_rest(plan.bed, plan.release, friction, start, plan.end.end_time_s);
+  double deepest = plan.release.max_thickness_m, last = 0;
+  if (!plan.later.empty()) last = plan.later.back().time_s;
+  if (!plan.inflow.empty()) {
+    Release entering;
+    for (const TimedArrival& c : plan.inflow.columns)
+      entering.x.push_back(c.arrival.position.x()), entering.y.push_back(c.arrival.position.y());
+    moving = std::max(moving, time_to_rest(plan.bed, entering, friction, plan.inflow.most_speed_m_s,
+                                           plan.end.end_time_s));
+    deepest = std::max(deepest, plan.inflow.most_thickness_m);
+    last = std::max(last, plan.inflow.last_s);
+  }
+  const double spreading = 5 * std::sqrt(deepest / standard_gravity);
+  return std::min(plan.end.end_time_s, last + settling * (moving + spreading));
 }
 
 double least_step(const Scenario& s, const ScenePlan& plan) {
@@ -129,9 +150,23 @@ double least_step(const Scenario& s, const ScenePlan& plan) {
          (1.1 * plan.stress.sound_speed);
 }
 
-ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
-  const Release& r = plan.release;
+/// Where mass only enters over time, the source of that counts as the release.
+ReleaseFacts inflow_facts(const InflowPlan& inflow, double spacing_m) {
   ReleaseFacts facts;
+  facts.layers = inflow.most_thickness_m / spacing_m;
+  facts.x_m = inflow.x_m, facts.y_m = inflow.y_m;
+  facts.crown_x_m = inflow.top_x_m, facts.crown_y_m = inflow.top_y_m;
+  facts.crown_z_m = facts.top_m = inflow.top_m;
+  return facts;
+}
+
+ReleaseFacts release_facts(const ScenePlan& plan, double spacing_m) {
+  const Release& r = plan.release;
+  if (r.x.empty()) return inflow_facts(plan.inflow, spacing_m);
+  ReleaseFacts facts;
+  Sum released;
+  for (const double m : r.mass) released.add(m);
+  const double released_mass = released.value();
   facts.layers = r.layers;
   facts.volume_m3 = r.volume_m3;
   for (std::size_t i = 0; i < r.x.size(); ++i) {
@@ -141,6 +176,7 @@ ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
   }
   facts.crown_x_m = r.crown_x_m, facts.crown_y_m = r.crown_y_m, facts.crown_z_m = r.crown_z_m;
   facts.top_m = *std::max_element(r.z.begin(), r.z.end());
+  if (!plan.inflow.empty()) facts.top_m = std::max(facts.top_m, plan.inflow.top_m);
   return facts;
 }
 
@@ -148,7 +184,8 @@ ReleaseFacts release_facts(const ScenePlan& plan, double released_mass) {
 double other_cost(const Scenario& s, const SceneInputs& inputs, const ScenePlan& plan) {
   if (!has_both_formulations(s)) return 0;
   const CostEstimate cost =
-      estimate_cost(s, release_thickness(s.release, inputs), plan.bed, expected_time(s, plan));
+      estimate_cost(with_typical_bed(s, inputs), release_thickness(s.release, inputs), plan.bed,
+                    expected_time(s, inputs, plan));
   return plan.formulation.depth_averaged ? cost.full_stress / cost.depth_averaged
                                          : cost.depth_averaged / cost.full_stress;
 }
@@ -177,6 +214,22 @@ std::vector<EffectNote> effect_notes(const Scenario& s, SceneParts& parts) {
 
 }  // namespace
 
+namespace {
+
+std::optional<GaugeSettings> make_gauges(const Scenario& s, const ScenePlan& plan,
+                                         const SceneInputs& in) {
+  if (!s.gauges) return std::nullopt;
+  GaugeSettings gauges;
+  gauges.interval_s = s.gauges->interval_s;
+  gauges.reached_m = runout_limit(plan, s.numerics.spacing_m);
+  for (const Gauge& point : in.gauge_points)
+    gauges.points.push_back({point.name, point.corners.front()});
+  for (const Gauge& line : in.gauge_lines) gauges.lines.push_back({line.name, line.corners});
+  return gauges;
+}
+
+}  // namespace
+
 Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member,
                     int threads, InstructionSet instruction_set) {
   require_numbers(numbers);
@@ -188,11 +241,12 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
                  .formulation = plan.formulation.name(),
                  .spacing_m = numbers.numerics.spacing_m,
                  .least_dt_s = least_step(numbers, plan),
-                 .release = release_facts(plan, state.grains().ledger.released_mass),
+                 .release = release_facts(plan, numbers.numerics.spacing_m),
+                 .has_inflow = !numbers.inflow.empty(),
                  .warnings = joined(plan_warnings(numbers, plan))};
   return Simulation(std::make_unique<SimulationParts>(SimulationParts{
       std::move(state), std::move(step), make_peaks(numbers, plan, inputs.hazard_grid),
-      make_stop(numbers, plan), std::move(facts)}));
+      make_stop(numbers, plan), std::move(facts), make_gauges(numbers, plan, inputs)}));
 }
 
 SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
@@ -203,21 +257,25 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   SceneParts parts{s, plan, step, state};
   SceneDescription d;
   d.effects = effect_notes(s, parts);
-  refresh_motion(state, state.grains(), 0);
+  for (MovingSet& set : state.sets) refresh_motion(state, set, 0);
   d.passes = step.pass_names();
   d.formulation = plan.formulation.name();
   d.formulation_reason = plan.formulation.reason;
-  d.n_particles = state.n_particles();
+  d.n_particles = state.n_particles() + plan.later.size() + plan.inflow.columns.size();
   std::size_t bytes = bare_bytes_per_particle;
   for (const EffectNote& note : d.effects) bytes += note.bytes_per_particle;
   d.memory_bytes = d.n_particles * bytes +
-                   static_cast<std::size_t>(touched_cells(inputs)) * bytes_per_hazard_cell;
+                   static_cast<std::size_t>(touched_cells(inputs)) * bytes_per_hazard_cell +
+                   (plan.later.size() + plan.inflow.columns.size()) * waiting_column_bytes();
   d.spacing_m = s.numerics.spacing_m;
   d.release_volume_m3 = plan.release.volume_m3;
+  d.inflow_volume_m3 = plan.inflow.volume_m3;
+  d.inflow_end_s = plan.inflow.last_s;
   d.release_area_m2 = inputs.source_area_m2 > 0 ? inputs.source_area_m2 : plan.release.area_m2;
   d.normal_over_vertical = inputs.normal_over_vertical;
   d.bulk_density_kg_m3 = plan.bulk_density_kg_m3;
-  d.layers = plan.release.layers;
+  d.layers = plan.release.x.empty() ? plan.inflow.most_thickness_m / s.numerics.spacing_m
+                                    : plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
   d.sound_speed_m_s = plan.formulation.depth_averaged ? 0 : plan.stress.sound_speed;
   state.grains().motion.max_speed = 0.5 * typical_speed(plan);
@@ -225,7 +283,7 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   const StepLimit limit = step.limit(state);
   d.dt_s = limit.dt;
   d.binding_limit = limit.name;
-  d.n_steps = std::ceil(expected_time(s, plan) / limit.dt);
+  d.n_steps = std::ceil(expected_time(s, inputs, plan) / limit.dt);
   d.end_time_s = plan.end.end_time_s;
   d.end_time_reason = plan.end.reason;
   d.ground = ground_line(s, inputs);

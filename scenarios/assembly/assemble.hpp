@@ -38,6 +38,7 @@ struct SceneDescription {
   std::size_t n_particles = 0;
   std::size_t memory_bytes = 0;  ///< of one member while it runs
   double spacing_m = 0, release_volume_m3 = 0, release_area_m2 = 0;  ///< area: of the outline
+  double inflow_volume_m3 = 0, inflow_end_s = 0;  ///< of what enters over time; 0: nothing does
   double normal_over_vertical = 1;  ///< volume, if thicknesses count normal to the slope
   double bulk_density_kg_m3 = 0;    ///< of the mass as it is set down
   double layers = 0;                ///< volume-weighted median vertical thickness / spacing

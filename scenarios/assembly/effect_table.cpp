@@ -1,20 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/effect_table.hpp"
 
+#include "engine/core/constants.hpp"
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/dense/effect.hpp"
 #include "engine/effects/erosion/effect.hpp"
+#include "engine/effects/inflow/effect.hpp"
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/effects/isolated/effect.hpp"
 #include "engine/effects/kinetic/effect.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
+#include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/raster_fields.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace sturz {
 namespace {
@@ -39,6 +45,10 @@ const GrainStatesSpec* states_of(const Scenario& s) {
 }
 
 Called bed_called(const Scenario& s, const ScenePlan&) {
+  if (has_two_phases(s.mixture))
+    return {true,
+            "always: friction_coefficient on what buoyancy leaves and cohesion_pa of `basal` for "
+            "the grains, fluid_viscosity_pa_s for the liquid"};
   if (s.mixture)
     return {true,
             "always: friction_coefficient on what pore pressure leaves, cohesion_pa of `basal`"};
@@ -68,6 +78,7 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
+  if (plan.phases) return {true, "`mixture.phases: two`: of each phase on both, K = 1"};
   if (s.mixture) return {true, "`mixture`: isotropic, K = 1, piles too"};
   const std::string key =
       "`grains.earth_pressure: " + std::string(to_string(s.grains->earth_pressure)) + "`";
@@ -80,22 +91,47 @@ Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
                     " times as thick as it is wide; internal friction takes up to " +
                     short_number(100 * most) + " % of the thrust that drives"};
 }
-Called mixture_called(const Scenario& s, const ScenePlan&) {
+Called phases_called(const Scenario& s, const ScenePlan& plan) {
+  if (!plan.phases) return by_key("mixture.phases: two", false);
+  return {true, drag_text(s, *plan.phases, plan.release.median_thickness_m)};
+}
+Called mixture_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.phases) return {false, "`mixture.phases: two` has buoyancy in its place"};
   if (!s.mixture) return by_key("mixture", false);
   const double m = s.grains->solid_fraction.value,
                critical = s.mixture->critical_solid_fraction.value;
   const std::string than =
       " than critical (" + short_number(m) + ", " + short_number(critical) + ")";
-  return {true, m < critical ? "`mixture`: looser" + than + ", shear makes pore pressure"
-                             : "`mixture`: not looser" + than + ", shear takes pore pressure away"};
+  const ProfileSettings& profile = plan.columns.mixture->profile;
+  const std::string inside =
+      profile.nodes == 0 ? ""
+                         : "; excess pressure at " + std::to_string(profile.nodes) + " nodes, " +
+                               (profile.drained_bed
+                                    ? "drained at surface and bed: the bed brakes as in still water"
+                                    : "drained at the surface");
+  return {true,
+          (m < critical ? "`mixture`: looser" + than + ", shear makes pore pressure"
+                        : "`mixture`: not looser" + than + ", shear takes pore pressure away") +
+              inside};
 }
 Called erosion_called(const Scenario& s, const ScenePlan&) {
   if (!s.erosion) return by_key("erosion", false);
   return {true, erosion_text(*s.erosion)};
 }
+Called inflow_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.inflow.empty()) return by_key("inflow", false);
+  return {true, inflow_text(s, plan.inflow)};
+}
+Called later_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.later.empty()) return by_key("release.start_time_s", false);
+  return {true, later_text(plan.later, s, plan.bulk_density_kg_m3)};
+}
 Called turbulence_called(const Scenario& s, const ScenePlan&) {
   if (const auto zone = zone_with_turbulence(s.basal); zone && !s.basal.turbulent_coefficient_m_s2)
     return {true, "`basal.zones[" + std::to_string(*zone) + "].turbulent_coefficient_m_s2`"};
+  if (!s.basal.turbulent_coefficient_m_s2 &&
+      !s.basal.rasters.turbulent_coefficient_m_s2.path.empty())
+    return {true, "`basal.rasters.turbulent_coefficient_m_s2`"};
   return by_key("basal.turbulent_coefficient_m_s2", s.basal.turbulent_coefficient_m_s2.has_value());
 }
 Called viscosity_called(const Scenario& s, const ScenePlan&) {
@@ -103,6 +139,14 @@ Called viscosity_called(const Scenario& s, const ScenePlan&) {
 }
 Called zones_called(const Scenario& s, const ScenePlan&) {
   return by_key("basal.zones", !s.basal.zones.empty());
+}
+Called rasters_called(const Scenario& s, const ScenePlan&) {
+  for (const RasterField& field : raster_fields)
+    if (names_raster(s.basal, field)) return by_key(raster_path(field).c_str(), true);
+  return by_key("basal.rasters", false);
+}
+Called samosat_called(const Scenario& s, const ScenePlan&) {
+  return by_key("basal.samosat", s.basal.samosat.has_value());
 }
 Called periods_called(const Scenario& s, const ScenePlan&) {
   return by_key("domain.periodic", !s.domain.periodic.empty());
@@ -139,8 +183,26 @@ void add_contacts(SceneParts& p) {
 }
 void add_pores(SceneParts& p) { add_mixture(p.state, grains, *p.plan.columns.mixture); }
 void add_columns(SceneParts& p) {
-  add_depth_averaged(p.step, p.state, grains, p.plan.columns, p.plan.release.thickness,
-                     p.plan.release.covered);
+  const Release& r = p.plan.release;
+  if (p.plan.phases) {
+    const double m = p.scenario.grains->solid_fraction.value;
+    add_two_phases(p.step, p.state, *p.plan.phases, thickness_of(r, m), thickness_of(r, 1 - m),
+                   r.covered, r.covered);
+    return;
+  }
+  add_depth_averaged(p.step, p.state, grains, p.plan.columns,
+                     std::span(r.thickness).first(p.plan.n_present),
+                     std::span(r.covered).first(p.plan.n_present));
+}
+/// Releases start as the run does: after short steps.
+double start_step(const SceneParts& p) {
+  return std::max(0.05 * std::sqrt(p.plan.bed.grid().cell_m / standard_gravity), 1e-5);
+}
+void add_sources(SceneParts& p) {
+  add_inflow(p.step, p.state, grains, {p.plan.inflow.columns, start_step(p)});
+}
+void add_later(SceneParts& p) {
+  add_inflow(p.step, p.state, grains, {p.plan.later, start_step(p)});
 }
 void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.plan.erosion); }
 
@@ -155,10 +217,15 @@ constexpr EffectRow table[] = {
     {EffectName::isolated_contacts, contacts_called, add_contacts},
     {EffectName::pore_pressure, mixture_called, add_pores},
     {EffectName::column_pressure, column_pressure_called, add_columns, column_bytes_per_particle},
+    {EffectName::phase_drag, phases_called},
     {EffectName::erosion, erosion_called, add_eroded_bed, erosion_bytes_per_particle},
+    {EffectName::inflow, inflow_called, add_sources},
+    {EffectName::later_release, later_called, add_later},
     {"turbulent bed", turbulence_called},
     {"viscous bed", viscosity_called},
+    {"samosat bed", samosat_called},
     {"zones of the bed", zones_called},
+    {"rasters of the bed", rasters_called},
     {"periodic images", periods_called},
     {EffectName::motion, always, add_drift},
     {"excavation", excavation_called},

@@ -29,9 +29,15 @@ std::string column_key(const Scenario& s) {
   if (s.basal.turbulent_coefficient_m_s2) return "basal.turbulent_coefficient_m_s2";
   if (s.basal.viscosity_pa_s) return "basal.viscosity_pa_s";
   if (zone_with_turbulence(s.basal)) return "basal.zones";
+  if (!s.basal.rasters.turbulent_coefficient_m_s2.path.empty())
+    return "basal.rasters.turbulent_coefficient_m_s2";
+  if (s.basal.samosat) return "basal.samosat";
   if (s.grains && asks_for_internal_friction(s.grains->earth_pressure))
     return "grains.earth_pressure";
   if (s.erosion) return "erosion";
+  if (!s.inflow.empty()) return "inflow";
+  if (s.release.start_time_s) return "release.start_time_s";
+  if (!s.release.start_time_attribute.empty()) return "release.start_time_attribute";
   return "";
 }
 
@@ -137,6 +143,10 @@ double typical_friction(const Scenario& s) {
   if (!s.mixture) return dry * (1 - s.basal.pore_pressure_ratio.value);
   const MixtureSpec& wet = *s.mixture;
   const double m = s.grains->solid_fraction.value, fluid = wet.fluid_density_kg_m3.value;
+  if (has_two_phases(s.mixture)) {
+    const double grains = m * (s.grains->density_kg_m3.value - fluid);
+    return dry * std::max(liquefied_share, grains / (grains + fluid));
+  }
   const bool loose = m < wet.critical_solid_fraction.value;
   if (loose || wet.initial_pressure == InitialPressure::liquefied) return dry * liquefied_share;
   if (wet.initial_pressure_ratio)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a reader of the results has to know about the scene that was computed.
+#include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/release_lip.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/assembly/start_checks.hpp"
 #include "scenarios/schema/number_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -51,7 +53,7 @@ void warn_of_coarse_spacing(const Scenario& s, const ScenePlan& plan, Warnings& 
 /// Ground in the way at the lower end of the release. Under a tenth of the drive it is no matter.
 void warn_of_lip(const Scenario& s, const SceneInputs& in, const ScenePlan& plan, Warnings& out) {
   const bool dug_out = s.release.surface == ReleaseSurface::pre_failure;
-  const double friction = typical_friction(s);
+  const double friction = typical_friction(with_typical_bed(s, in));
   const ReleaseLip lip =
       release_lip(*in.elevation, release_thickness(s.release, in), dug_out, friction);
   if (!s.domain.periodic.empty() || lip.share_of_drive < 0.1) return;
@@ -85,10 +87,50 @@ void warn_of_smooth_pile(const Scenario& s, const ScenePlan& plan, Warnings& out
                 short_number(plan.release.median_thickness_m / plan.release_narrow_side_m) +
                 " times as thick as it is wide, and only its bed holds it. On gentle ground it may "
                 "run several times too far. " +
-                (s.mixture   ? "A mixture knows no friction inside; without `mixture`, "
+                (s.mixture   ? "A mixture knows no friction inside. Without `mixture`, "
                                "grains.earth_pressure: auto and basal.pore_pressure_ratio do"
                  : isotropic ? "Use grains.earth_pressure: auto, or formulation: full_stress"
                              : "Give grains.friction_angle_deg"));
+}
+
+/// The parabola decays with 3 c_v/h^2 where pi^2/4 is right; what is thick has time to show it.
+void warn_of_parabola(const Scenario& s, const ScenePlan& plan, Warnings& out) {
+  constexpr double thick_m = 5;
+  if (!s.mixture || s.mixture->pressure_profile == PressureProfile::resolved) return;
+  const auto& thickness = plan.release.thickness;
+  const double most = thickness.empty() ? 0 : *std::max_element(thickness.begin(), thickness.end());
+  if (most <= thick_m) return;
+  out.push_back(
+      "a thick mixture drains too fast: the release is up to " + short_number(most) +
+      " m thick (over 5 m), and the parabola of mixture.pressure_profile loses excess pore "
+      "pressure 22 % too fast (factor 3 in place of pi^2/4). Use mixture.pressure_profile: "
+      "resolved");
+}
+
+/// Fewer columns side by side than this are a blot of their smoothing, whatever the line was.
+constexpr double least_columns_across = 4;
+
+/// What enters through too narrow a gate, or too late.
+void warn_of_inflow(const Scenario& s, const ScenePlan& plan, Warnings& out) {
+  const double dx = s.numerics.spacing_m, end = plan.end.end_time_s;
+  if (!plan.inflow.empty() && plan.inflow.narrowest_m < least_columns_across * dx)
+    out.push_back("unresolved inflow: " + short_number(plan.inflow.narrowest_m / dx) +
+                  " spacings of " + short_number(dx) + " m across its width of " +
+                  short_number(plan.inflow.narrowest_m) +
+                  " m, fewer than 4: it spreads wider and thinner than it entered. Use a "
+                  "numerics.spacing_m of " +
+                  rounded_down(plan.inflow.narrowest_m / least_columns_across) + " m or less");
+  double late = 0;
+  for (const auto* waiting : {&plan.later, &plan.inflow.columns})
+    for (const TimedArrival& c : *waiting)
+      if (c.time_s >= end) late += c.arrival.mass / plan.bulk_density_kg_m3;
+  if (late > 0)
+    out.push_back("cut inflow: " + short_number(late) + " m3 start or enter after the end at " +
+                  short_number(end) + " s. Use a larger numerics.end_time_s, or leave it out");
+  if (!plan.later.empty() && s.release.surface == ReleaseSurface::pre_failure)
+    out.emplace_back(
+        "later releases are dug out of the ground from the start (release.surface: pre_failure): "
+        "what comes over them before they start falls into their hole");
 }
 
 void warn_of_states(const Scenario& s, const ScenePlan& plan, Warnings& out) {
@@ -118,8 +160,10 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
                   short_number(plan.stress.smoothing_length) +
                   " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
                   " m: the grains act as a parameter only");
+  warn_of_inflow(s, plan, out);
   warn_of_states(s, plan, out);
   warn_of_smooth_pile(s, plan, out);
+  warn_of_parabola(s, plan, out);
   if (plan.release.dropped_fraction > 0.01)
     out.push_back(
         "thin edge: " + short_number(100 * plan.release.dropped_fraction) +

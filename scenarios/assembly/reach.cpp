@@ -2,7 +2,9 @@
 #include "scenarios/assembly/reach.hpp"
 
 #include "engine/core/constants.hpp"
+#include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/inflow/inflow_plan.hpp"
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
@@ -142,18 +144,11 @@ double greatest_thickness(const ReleaseSpec& spec, const SceneInputs& in) {
   return most;
 }
 
-double least_friction(const Scenario& s) {
-  const BasalSpec& basal = s.basal;
-  double friction = drawn_range(basal.friction_coefficient).first;
-  double pore_pressure = drawn_range(basal.pore_pressure_ratio).second;
+double least_friction(const Scenario& s, const SceneInputs& in) {
+  const double friction = drawn_bed_range(s, in, BedNumber::friction).first;
+  double pore_pressure = drawn_bed_range(s, in, BedNumber::pore_pressure).second;
   // A mixture may liquefy on its way; what runs farther than this asks for more ground.
   if (s.mixture) pore_pressure = 1 - liquefied_share;
-  for (const BasalZone& zone : basal.zones) {
-    if (zone.friction_coefficient)
-      friction = std::min(friction, drawn_range(*zone.friction_coefficient).first);
-    if (zone.pore_pressure_ratio)
-      pore_pressure = std::max(pore_pressure, drawn_range(*zone.pore_pressure_ratio).second);
-  }
   return std::max(0.0, friction) * std::clamp(1 - pore_pressure, 0.0, 1.0);
 }
 
@@ -179,13 +174,17 @@ EnergyLine energy_line(const Scenario& s, const SceneInputs& in, double surface_
   for (int r = 0; r < release.grid.n_rows; ++r)
     for (int c = 0; c < release.grid.n_cols; ++c)
       if (release.at(r, c) > 0) tight = joined(tight, {at.row0 + r, at.col0 + c, 1, 1});
+  for (const InflowSource& source : in.inflow)
+    tight = joined(tight, cells_below(source, in.terrain_grid()));
   line.release = tight;
   const auto& v = s.release.velocity_m_s;
   const double start2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   const bool on_top = s.release.surface == ReleaseSurface::bed;
   line.top_m = surface_m + (on_top ? greatest_thickness(s.release, in) : 0) +
                start2 / (2 * standard_gravity);
-  line.friction = least_friction(s);
+  for (std::size_t i = 0; i < in.inflow.size(); ++i)
+    line.top_m = std::max(line.top_m, surface_m + greatest_head(s.inflow[i], in.inflow[i]));
+  line.friction = least_friction(s, in);
   return line;
 }
 

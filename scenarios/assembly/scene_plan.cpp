@@ -5,8 +5,11 @@
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
+#include "scenarios/assembly/inflow/plan_masses.hpp"
+#include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/start_checks.hpp"
 #include "scenarios/schema/number_text.hpp"
@@ -121,6 +124,13 @@ std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
     all.turbulent_coefficient = spec.turbulent_coefficient_m_s2->value;
   if (spec.viscosity_pa_s) all.viscosity_pa_s = spec.viscosity_pa_s->value;
   if (spec.yield_stress_pa) all.yield_stress_pa = spec.yield_stress_pa->value;
+  if (spec.samosat) {
+    all.samosat = true;
+    all.fluidization_number = spec.samosat->fluidization_number.value;
+    all.von_karman = spec.samosat->von_karman.value;
+    all.roughness_m = spec.samosat->roughness_m.value;
+    all.profile_offset = spec.samosat->profile_offset.value;
+  }
   std::vector<BasalResistance> bed{all};
   for (const BasalZone& zone : spec.zones) {
     BasalResistance& b = bed.emplace_back(all);
@@ -145,6 +155,9 @@ MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) 
   wet.law.compressibility = spec.compressibility.value;
   wet.law.stress_offset = spec.stress_offset_pa.value;
   wet.solid_fraction = grains.solid_fraction.value;
+  constexpr int usual_nodes = 8;
+  if (spec.pressure_profile == PressureProfile::resolved)
+    wet.profile = {spec.pressure_nodes.value_or(usual_nodes), spec.drainage == Drainage::both};
   if (spec.initial_pressure == InitialPressure::liquefied) wet.pressure_ratio = 1;
   if (spec.initial_pressure_ratio) wet.pressure_ratio = spec.initial_pressure_ratio->value;
   return wet;
@@ -162,27 +175,27 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   c.density = plan.bulk_density_kg_m3;
   c.courant = s.numerics.courant;
   c.zones = plan.zones;
-  if (s.mixture) c.mixture = plan_mixture(*s.grains, *s.mixture);
+  c.rasters = plan.rasters;
+  if (s.mixture && !has_two_phases(s.mixture)) c.mixture = plan_mixture(*s.grains, *s.mixture);
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
   const bool known = s.grains->friction || s.grains->friction_angle_deg;
   c.internal_friction = known ? make_law(*s.grains).static_friction : 0;
-  // Only the grains' part of the stress is anisotropic (Iverson & Denlinger 2001).
-  const auto pressure = [&](const BasalResistance& b) {
-    return EarthPressure(c.internal_friction, b.effective_friction())
-        .with_pore_pressure(b.pore_pressure_ratio);
-  };
-  if (s.grains->earth_pressure == LateralPressure::active_passive)
-    for (std::size_t k = 0; k < bed.size(); ++k) c.earth_pressure[k] = pressure(bed[k]);
+  c.active_passive = s.grains->earth_pressure == LateralPressure::active_passive;
+  if (c.active_passive)
+    for (std::size_t k = 0; k < bed.size(); ++k)
+      c.earth_pressure[k] = c.earth_pressure_over(bed[k]);
   // Water carries part of a mixture's load: pressure is isotropic in it (Iverson & George 2014).
   const bool by_shape = s.grains->earth_pressure == LateralPressure::automatic && known;
   const double share = s.mixture                                             ? 0
                        : s.grains->earth_pressure == LateralPressure::active ? 1
                        : by_shape                                            ? pile_share(s, plan)
                                                                              : 0;
+  c.spent_share = share;
   if (share > 0)
     for (const BasalResistance& b : bed)
-      c.spent_inside.push_back(share * std::max(0.0, 1 - pressure(b).active));
+      c.spent_inside.push_back(share * std::max(0.0, 1 - c.earth_pressure_over(b).active));
+  if (has_two_phases(s.mixture)) plan.phases = plan_phases(s, c, bed);
   c.bed = std::move(bed);
 }
 
@@ -218,8 +231,11 @@ IsolatedContactSettings plan_isolated_contacts(const Scenario& s, double speed) 
 void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed, ScenePlan& plan) {
   const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
   double least_friction = bed[0].effective_friction();
-  for (const BasalResistance& b : bed)
-    least_friction = std::min(least_friction, b.effective_friction());
+  for (const BasalResistance& b : bed) {
+    const double mu = plan.rasters.range(b, BedNumber::friction).first;
+    const double pore_pressure = plan.rasters.range(b, BedNumber::pore_pressure).second;
+    least_friction = std::min(least_friction, mu * (1 - pore_pressure));
+  }
   const auto& v0 = s.release.velocity_m_s;
   const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
   const double deepest = plan.release.max_thickness_m;
@@ -266,6 +282,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
       std::max(10 * standard_gravity * std::max(deepest, dx) / (dx * dx), impact * impact);
   contact.restitution = s.basal.restitution.value;
   contact.zones = plan.zones;
+  contact.rasters = plan.rasters;
   contact.bed.clear();
   for (const BasalResistance& b : bed)
     contact.bed.push_back({b.friction_coefficient, b.pore_pressure_ratio, b.cohesion_pa});
@@ -287,10 +304,10 @@ void plan_eroded_bed(const Scenario& s, const SceneInputs& in,
                      const std::vector<BasalResistance>& bed, ScenePlan& plan) {
   if (!s.erosion) return;
   const bool periodic = plan.domain.x.active || plan.domain.y.active;
-  plan.erosion =
-      plan_erosion(s, in,
-                   {periodic ? in.terrain_grid() : plan.bed.grid(), plan.bulk_density_kg_m3, bed,
-                    plan.zones, plan.columns.mixture ? &*plan.columns.mixture : nullptr});
+  plan.erosion = plan_erosion(
+      s, in,
+      {periodic ? in.terrain_grid() : plan.bed.grid(), plan.bulk_density_kg_m3, bed, plan.zones,
+       plan.columns.mixture ? &*plan.columns.mixture : nullptr, plan.rasters});
 }
 
 }  // namespace
@@ -323,7 +340,8 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   bool needs_more_ground = false;
   if (s.formulation == Formulation::automatic && !formulation.depth_averaged) {
     const Terrain weighed = scene_ground(s, in, domain, false);
-    weigh_cost(s, thickness, weighed, time_to_weigh(s, in, thickness), formulation);
+    weigh_cost(with_typical_bed(s, in), thickness, weighed, time_to_weigh(s, in, thickness),
+               formulation);
     needs_more_ground = weighed.needs_more();
   }
   const Terrain ground = scene_ground(s, in, domain, formulation.depth_averaged);
@@ -345,14 +363,12 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
-  plan.release =
-      release_particles(plan.bed, thickness,
-                        {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
-                         s.ensemble.seed, member, plan.formulation.depth_averaged},
-                        in.release_cover.get());
-  plan.end = time_cap(s, in, plan.release.median_thickness_m, plan.bulk_density_kg_m3);
+  plan_masses(
+      s, in, thickness, member, [&](double m) { return bulk_density(s, m); }, plan);
+  plan_end(s, in, plan);
   const Window held = in.held();
   plan.zones = {in.zones, in.whole, held.row0, held.col0};
+  plan.rasters = plan_bed_rasters(s, in);
   plan.release_narrow_side_m = narrow_side(thickness, in.source_area_m2);
   require_before_walls(plan.release, domain, formulation.depth_averaged);
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
@@ -362,21 +378,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   } else
     plan_full_stress(s, bed, plan);
 
-  const auto& v0 = s.release.velocity_m_s;
-  const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  double mass = 0, height = 0, lowest = 1e300;
-  for (std::size_t i = 0; i < plan.release.x.size(); ++i) {
-    mass += plan.release.mass[i];
-    height += plan.release.mass[i] * plan.release.z[i];
-  }
-  if (in.reach) {  // whatever part of the raster is held
-    lowest = in.reach->lowest_m;
-  } else {
-    for (double z : in.elevation->values)
-      if (std::isfinite(z)) lowest = std::min(lowest, z);
-  }
-  plan.available_energy_j =
-      standard_gravity * (height - mass * lowest) + 0.5 * mass * start * start;
+  plan.available_energy_j = available_energy(s, in, plan);
   return plan;
 }
 

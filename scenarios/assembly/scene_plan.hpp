@@ -9,8 +9,11 @@
 #include "engine/effects/dense/effect.hpp"
 #include "engine/effects/erosion/settings.hpp"
 #include "engine/effects/isolated/contacts.hpp"
+#include "engine/effects/phases/settings.hpp"
 #include "engine/particles/release.hpp"
 #include "scenarios/assembly/formulation.hpp"
+#include "scenarios/assembly/inflow/inflow_plan.hpp"
+#include "scenarios/assembly/inflow/staggered_release.hpp"
 #include "scenarios/assembly/time_cap.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
@@ -24,16 +27,22 @@ struct ScenePlan {
   Terrain bed;  ///< of this member, excavation laid over the shared raster
   Domain domain;
   FormulationChoice formulation;
-  Release release;
+  Release release;  ///< all of it; the first n_present particles start at 0
   double release_narrow_side_m = 0;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
+  BedRasters rasters;                                        ///< over the zones
   GrainStressSettings stress;                                ///< full_stress
   ContactSettings contact;                                   ///< full_stress
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   double reference_fraction = 0.6;         ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;           ///< depth_averaged
+  std::optional<TwoPhaseSettings> phases;  ///< where grains and liquid are two sets of columns
   std::optional<ErosionSettings> erosion;  ///< where columns take their bed along
+  std::vector<double> release_start_s;     ///< of each particle; empty: all at 0
+  std::size_t n_present = 0;               ///< particles of the release that start at 0
+  std::vector<TimedArrival> later;         ///< those that start later
+  InflowPlan inflow;                       ///< what enters over time
   double reference_speed_m_s = 0;  ///< v_ref of the fastest expected mass point; full_stress
   TimeCap end;                     ///< when it is stopped at the latest
   double available_energy_j = 0;   ///< release mass falling to the lowest ground within runout

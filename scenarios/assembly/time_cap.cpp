@@ -2,6 +2,7 @@
 #include "scenarios/assembly/time_cap.hpp"
 
 #include "engine/core/constants.hpp"
+#include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -21,14 +22,11 @@ double rounded_up(double seconds) {
   return std::ceil(seconds / digit * (1 - 1e-12)) * digit;
 }
 
-double slowest_speed(const Scenario& s, double thickness, double density) {
+double slowest_speed(const Scenario& s, const SceneInputs& in, double thickness, double density) {
   double speed = std::sqrt(standard_gravity * thickness);
   const BasalSpec& bed = s.basal;
-  const auto braked = [&](const std::optional<Uncertain>& xi) {
-    if (xi) speed = std::min(speed, std::sqrt(xi->value * thickness * gentle_slope));
-  };
-  braked(bed.turbulent_coefficient_m_s2);
-  for (const BasalZone& zone : bed.zones) braked(zone.turbulent_coefficient_m_s2);
+  const double xi = drawn_bed_range(s, in, BedNumber::turbulence).first;
+  if (std::isfinite(xi)) speed = std::min(speed, std::sqrt(xi * thickness * gentle_slope));
   if (bed.viscosity_pa_s && bed.viscosity_pa_s->value > 0)
     speed = std::min(speed, density * standard_gravity * gentle_slope * thickness * thickness /
                                 (3 * bed.viscosity_pa_s->value));
@@ -50,7 +48,7 @@ TimeCap time_cap(const Scenario& s, const SceneInputs& in, double thickness, dou
     return {repeating_s,
             "the ground repeats itself and no way ends on it; numerics.end_time_s "
             "sets another"};
-  const double way = longest_way(in), speed = slowest_speed(s, thickness, density);
+  const double way = longest_way(in), speed = slowest_speed(s, in, thickness, density);
   const double seconds = speed > 0 ? std::clamp(margin * way / speed, least_s, most_s) : most_s;
   std::string reason = "four times the longest way of the energy line, " +
                        short_number(std::round(way)) + " m, at " + short_number(speed) +

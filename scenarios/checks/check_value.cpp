@@ -2,6 +2,7 @@
 // Checks of one value by itself.
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/checks/validate.hpp"
+#include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/suggest.hpp"
 #include "scenarios/schema/unit_hint.hpp"
@@ -80,6 +81,9 @@ struct Checker {
   void operator()(const std::vector<WallSpec>& v) const;
   void operator()(const std::vector<BasalZone>& v) const;
   void operator()(const std::vector<NumberRecord>& v) const;
+  void operator()(const std::vector<InflowSpec>& v) const;
+  void operator()(const std::vector<GaugeSpec>& v) const;
+  void corners(const std::string& path, const std::vector<std::array<double, 2>>& v) const;
 
   void check_support(const Distribution& d, const std::string& shown) const;
   void check_word(const std::string& word) const;
@@ -228,6 +232,66 @@ void Checker::operator()(const std::vector<BasalZone>& v) const {
       add(path + " (polygon is missing). Name the file that outlines the zone.");
     if (!gives_any)
       add(path + " (gives no value). Give it some of " + comma_separated(zone_field_names()) + ".");
+  }
+}
+
+/// Of a line in map coordinates.
+void Checker::corners(const std::string& path, const std::vector<std::array<double, 2>>& v) const {
+  KeyInfo limits = key;
+  limits.path = path;
+  limits.units = "m", limits.min = -1e8, limits.max = 1e8;
+  double length = 0;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    Checker{limits, problems}(v[i][0]);
+    Checker{limits, problems}(v[i][1]);
+    if (i > 0) length += std::hypot(v[i][0] - v[i - 1][0], v[i][1] - v[i - 1][1]);
+  }
+  if (v.size() > most_corners)
+    add(path + " = " + std::to_string(v.size()) + " corners (must be at most " +
+        std::to_string(most_corners) + "). Put it into a file.");
+  if (v.size() > 1 && !(length > 0))
+    add(path + " (has no length: its corners are one place). Give two different ones.");
+}
+
+void Checker::operator()(const std::vector<InflowSpec>& v) const {
+  if (v.size() > most_inflows)
+    add(key.path + " = " + std::to_string(v.size()) + " sources (must be at most " +
+        std::to_string(most_inflows) + "). Put lines with one hydrograph into one layer.");
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::string path = item_path(key, i);
+    for (const auto& field : inflow_fields)
+      if (const auto& number = v[i].*field.value) {
+        const KeyInfo limits = inflow_key(i, field);
+        Checker{limits, problems}(*number);
+      }
+    if (v[i].hydrograph.empty())
+      add(path + " (hydrograph is missing). Name a CSV with the columns time_s, discharge_m3_s.");
+    const int places = !v[i].line.empty() + !v[i].polygon.empty() + !v[i].line_m.empty();
+    if (places != 1)
+      add(path + (places == 0
+                      ? " (where does it enter?). Give one of line_m, line, polygon."
+                      : " (more than one place: line_m, line, polygon). Keep one of them."));
+    if (v[i].line_m.size() == 1)
+      add(path + ".line_m (one corner is no line). Give two or more, [[x, y], [x, y]].");
+    corners(path + ".line_m", v[i].line_m);
+    const bool file = !v[i].line.empty() || !v[i].polygon.empty();
+    if (!file && !v[i].layer.empty())
+      add(path + ".layer (there is no file with layers). Remove it or name line or polygon.");
+    if (!file && !v[i].crs.empty())
+      add(path + ".crs (there is no file that it is for). Remove it.");
+  }
+}
+
+void Checker::operator()(const std::vector<GaugeSpec>& v) const {
+  const bool lines = key.kind == ValueKind::gauge_lines;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const std::string path = item_path(key, i);
+    if (v[i].name.empty()) add(path + " (name is missing). It names the gauge in tables.");
+    if (lines && v[i].corners_m.size() < 2)
+      add(path + ".points_m (a line has two corners or more). Give [[x, y], [x, y]].");
+    if (!lines && v[i].corners_m.size() != 1)
+      add(path + " (at_m is missing). Give [x, y] in map coordinates.");
+    corners(path + (lines ? ".points_m" : ".at_m"), v[i].corners_m);
   }
 }
 

@@ -10,6 +10,8 @@ namespace sturz {
 
 void check_terrain_and_release(const Scenario&, std::vector<Problem>&);
 void check_material(const Scenario&, std::vector<Problem>&);
+void check_flow(const Scenario&, std::vector<Problem>&);
+void check_bed(const Scenario&, std::vector<Problem>&);
 void check_erosion(const Scenario&, std::vector<Problem>&);
 void check_ensemble(const Scenario&, std::vector<Problem>&);
 void check_hazard(const Scenario&, std::vector<Problem>&);

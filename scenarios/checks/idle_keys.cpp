@@ -15,10 +15,20 @@ std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged, bool
     if (s.grains && s.grains->friction_angle_deg && !s.grains->states) return {"grains.diameter_m"};
     return {};
   }
-  std::vector<std::string> paths{"grains.diameter_m",           "grains.cohesion_pa",
-                                 "grains.poisson_ratio",        "basal.restitution",
-                                 "numerics.sound_speed_factor", "numerics.adaptive_sound_speed",
-                                 "numerics.density_diffusion",  "numerics.artificial_viscosity"};
+  std::vector<std::string> paths{
+      "grains.cohesion_pa",           "grains.poisson_ratio",          "basal.restitution",
+      "numerics.sound_speed_factor",  "numerics.adaptive_sound_speed", "numerics.density_diffusion",
+      "numerics.artificial_viscosity"};
+  const bool two = has_two_phases(s.mixture);
+  const bool settles = two && s.mixture->drag_law == PhaseDragLaw::settling;
+  if (!settles) paths.emplace_back("grains.diameter_m");
+  if (two)
+    for (const char* path : {"mixture.critical_solid_fraction", "mixture.compressibility",
+                             "mixture.stress_offset_pa", "mixture.shear_grain_diameter_m"})
+      paths.emplace_back(path);
+  if (settles)
+    for (const char* path : {"mixture.permeability_m2", "mixture.permeability_fraction"})
+      paths.emplace_back(path);
   // Lateral pressure takes the slow internal friction only.
   paths.emplace_back("grains.friction.dynamic");
   paths.emplace_back("grains.friction.inertial_number_scale");
@@ -35,6 +45,7 @@ std::vector<std::string> idle_keys(const Scenario& s, bool depth_averaged, bool 
   const std::vector<std::string> paths = idle_paths(s, depth_averaged, friction_inside);
   Scenario bare;
   bare.grains.emplace().friction.emplace();
+  bare.mixture.emplace();
   std::vector<std::string> given;
   for (const KeyInfo& key : schema()) {
     if (std::find(paths.begin(), paths.end(), key.path) == paths.end()) continue;

@@ -3,6 +3,7 @@
 #include "scenarios/checks/combination_checks.hpp"
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/raster_fields.hpp"
 #include "scenarios/schema/value_text.hpp"
 
 #include <algorithm>
@@ -20,7 +21,8 @@ bool needs_internal_friction(const Scenario& s) {
 
 void check_grains(const Scenario& s, Problems& problems) {
   if (!s.grains) {
-    problems.push_back({"grains", "grains (missing: nothing would move). Add a grains block."});
+    problems.push_back(
+        {"grains", "grains (missing: nothing would move). Add a grains block or a material."});
     return;
   }
   const auto& g = *s.grains;
@@ -81,8 +83,14 @@ void check_formulation(const Scenario& s, Problems& problems) {
                                     "Remove it or set formulation: depth_averaged."});
   };
   const auto& b = s.basal;
+  if (!s.material.empty())
+    problems.push_back({"material", shown(s, "material") +
+                                        " (formulation is full_stress; its priors are those of "
+                                        "columns). Remove it or set formulation: "
+                                        "depth_averaged."});
   refuse(s.grains && asks_for_internal_friction(s.grains->earth_pressure), "grains.earth_pressure");
-  refuse(b.turbulent_coefficient_m_s2.has_value(), "basal.turbulent_coefficient_m_s2");
+  // That of a material goes with it: the file does not hold it by itself.
+  refuse(b.turbulent_coefficient_m_s2 && s.material.empty(), "basal.turbulent_coefficient_m_s2");
   refuse(b.viscosity_pa_s.has_value(), "basal.viscosity_pa_s");
   refuse(b.yield_stress_pa.has_value(), "basal.yield_stress_pa");
   if (const auto zone = zone_with_turbulence(b))
@@ -129,6 +137,12 @@ void check_mixture(const Scenario& s, Problems& problems) {
   refuse(wet.initial_pressure == InitialPressure::liquefied && wet.initial_pressure_ratio,
          "mixture.initial_pressure_ratio",
          " (mixture.initial_pressure is liquefied, which is a ratio of 1). Keep one of them.");
+  const bool parabola = wet.pressure_profile == PressureProfile::parabola;
+  const char* const unresolved =
+      " (mixture.pressure_profile is parabola, which has no nodes and drains at the surface). Set "
+      "mixture.pressure_profile: resolved or remove it.";
+  refuse(parabola && wet.pressure_nodes, "mixture.pressure_nodes", unresolved);
+  refuse(parabola && wet.drainage == Drainage::both, "mixture.drainage", unresolved);
   if (!s.grains) return;
   const double heaviest = support(wet.fluid_density_kg_m3).second;
   const double lightest = support(s.grains->density_kg_m3).first;
@@ -137,6 +151,45 @@ void check_mixture(const Scenario& s, Problems& problems) {
                         "mixture.fluid_density_kg_m3 = " + number_text(heaviest) +
                             " (must be below grains.density_kg_m3 = " + number_text(lightest) +
                             ": grains that float have no effective stress)."});
+}
+
+/// Two velocities have no pore pressure of their own, and columns that do not mix with a bed.
+void check_phases(const Scenario& s, Problems& problems) {
+  if (!s.mixture) return;
+  const MixtureSpec& wet = *s.mixture;
+  const auto refuse = [&](bool given, const char* path, const char* why) {
+    if (given) problems.push_back({path, shown(s, path) + why});
+  };
+  if (!has_two_phases(s.mixture)) {
+    const char* const why =
+        " (mixture.phases is one: grains and water move together). Remove it "
+        "or set mixture.phases: two.";
+    refuse(wet.drag_law != PhaseDragLaw::permeability, "mixture.drag_law", why);
+    refuse(wet.settling_speed_m_s.has_value(), "mixture.settling_speed_m_s", why);
+    return;
+  }
+  const char* const no_pressure =
+      " (mixture.phases is two: the liquid carries the grains' buoyancy and no excess pressure). "
+      "Remove it or set mixture.phases: one.";
+  refuse(wet.initial_pressure != InitialPressure::hydrostatic, "mixture.initial_pressure",
+         no_pressure);
+  refuse(wet.initial_pressure_ratio.has_value(), "mixture.initial_pressure_ratio", no_pressure);
+  refuse(wet.pressure_profile != PressureProfile::parabola, "mixture.pressure_profile",
+         no_pressure);
+  refuse(wet.settling_speed_m_s && wet.drag_law != PhaseDragLaw::settling,
+         "mixture.settling_speed_m_s",
+         " (mixture.drag_law is permeability). Remove it or set mixture.drag_law: settling.");
+  const auto not_yet = [&](bool given, const std::string& path) {
+    if (given)
+      problems.push_back({path, path + " (mixture.phases is two: what joins or brakes two sets of "
+                                       "columns this way is not computed). Remove it or set "
+                                       "mixture.phases: one."});
+  };
+  not_yet(s.erosion.has_value(), "erosion");
+  not_yet(!s.inflow.empty(), "inflow");
+  not_yet(s.release.start_time_s.has_value(), "release.start_time_s");
+  not_yet(!s.release.start_time_attribute.empty(), "release.start_time_attribute");
+  not_yet(names_any_raster(s.basal), "basal.rasters");
 }
 
 void check_drag(const Scenario& s, Problems& problems) {
@@ -154,6 +207,7 @@ void check_material(const Scenario& s, Problems& problems) {
   check_states(s, problems);
   check_formulation(s, problems);
   check_mixture(s, problems);
+  check_phases(s, problems);
   check_drag(s, problems);
 }
 

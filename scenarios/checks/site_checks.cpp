@@ -5,6 +5,7 @@
 #include "scenarios/shapes/synthetic_terrain.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -90,10 +91,21 @@ void check_source(const Scenario& s, Problems& problems) {
     return;
   }
   const bool own = given.empty() && has_own_source(s.terrain);
+  if (given.empty() && !own && !s.inflow.empty()) {
+    for (const auto& [path, there] :
+         {std::pair{"release.thickness_m", r.thickness_m.has_value()},
+          std::pair{"release.volume_m3", r.volume_m3.has_value()},
+          std::pair{"release.start_time_s", r.start_time_s.has_value()}})
+      if (there)
+        problems.push_back({path, std::string(path) +
+                                      " (there is no source that it is for, only inflow). Remove "
+                                      "it or name a source."});
+    return;
+  }
   if (given.empty() && !own) {
     problems.push_back({"release",
                         "release (no source given). Add one of polygon, "
-                        "thickness_raster, box, paraboloid, cylinder."});
+                        "thickness_raster, box, paraboloid, cylinder, or an inflow."});
     return;
   }
   if (!own && given[0] != "thickness_raster") return check_outline(r, given[0], problems);

@@ -19,7 +19,9 @@ std::vector<Problem> validate(const Scenario& scenario) {
   }
   check_terrain_and_release(scenario, problems);
   check_material(scenario, problems);
+  check_bed(scenario, problems);
   check_erosion(scenario, problems);
+  check_flow(scenario, problems);
   check_ensemble(scenario, problems);
   check_hazard(scenario, problems);
   check_observation(scenario, problems);

@@ -17,6 +17,8 @@ enum class Quantity {
   deposit,    ///< thickness left behind
   left,       ///< mass that crossed the edge of the known ground
   eroded,     ///< depth of bed that the flow took along
+  solid,      ///< volume of grains over area
+  liquid,     ///< volume of liquid over area
   intensity,  ///< a class of thickness and speed together
   members,    ///< of the ensemble
   other
@@ -41,10 +43,11 @@ enum class IntensityClass { none, medium, high };
 constexpr auto words_of(Quantity) {
   using enum Quantity;
   return std::array{
-      Word{reached, "reached"},     Word{thickness, "thickness"}, Word{speed, "speed"},
-      Word{energy, "energy"},       Word{pressure, "pressure"},   Word{arrival, "arrival"},
-      Word{deposit, "deposit"},     Word{left, "left"},           Word{eroded, "eroded"},
-      Word{intensity, "intensity"}, Word{members, "members"},     Word{other, "other"}};
+      Word{reached, "reached"}, Word{thickness, "thickness"}, Word{speed, "speed"},
+      Word{energy, "energy"},   Word{pressure, "pressure"},   Word{arrival, "arrival"},
+      Word{deposit, "deposit"}, Word{left, "left"},           Word{eroded, "eroded"},
+      Word{solid, "solid"},     Word{liquid, "liquid"},       Word{intensity, "intensity"},
+      Word{members, "members"}, Word{other, "other"}};
 }
 constexpr auto words_of(Statistic) {
   using enum Statistic;
@@ -94,6 +97,10 @@ constexpr Quantity quantity_of(PeakLayer layer) {
       return Quantity::left;
     case PeakLayer::eroded:
       return Quantity::eroded;
+    case PeakLayer::solid:
+      return Quantity::solid;
+    case PeakLayer::liquid:
+      return Quantity::liquid;
   }
   return Quantity::other;
 }

@@ -2,6 +2,7 @@
 #include "scenarios/schema/schema.hpp"
 
 #include "engine/core/error.hpp"
+#include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/schema_rows.hpp"
 #include "scenarios/schema/suggest.hpp"
@@ -16,9 +17,11 @@ namespace {
 std::vector<KeyInfo> all_keys() {
   std::vector<KeyInfo> keys;
   schema_rows::add_site_keys(keys);
+  schema_rows::add_inflow_keys(keys);
   schema_rows::add_material_keys(keys);
   schema_rows::add_erosion_keys(keys);
   schema_rows::add_run_keys(keys);
+  schema_rows::add_gauge_keys(keys);
   schema_rows::add_observation_keys(keys);
   return keys;
 }
@@ -27,7 +30,9 @@ std::vector<BlockInfo> all_optional_blocks() {
   std::vector<BlockInfo> blocks;
   schema_rows::add_site_blocks(blocks);
   schema_rows::add_material_blocks(blocks);
+  schema_rows::add_bed_field_blocks(blocks);
   schema_rows::add_erosion_blocks(blocks);
+  schema_rows::add_gauge_blocks(blocks);
   schema_rows::add_observation_blocks(blocks);
   return blocks;
 }
@@ -97,6 +102,10 @@ void for_each_path(const KeyInfo& key, KeyValue& value,
     visit(*text);
   if (auto* zones = std::get_if<std::vector<BasalZone>>(&value))
     for (auto& zone : *zones) visit(zone.polygon);
+  if (auto* sources = std::get_if<std::vector<InflowSpec>>(&value))
+    for (auto& source : *sources)
+      for (std::string* file : {&source.hydrograph, &source.line, &source.polygon})
+        if (!file->empty()) visit(*file);
 }
 
 std::string range_text(const KeyInfo& key) {
@@ -120,6 +129,25 @@ void add_uncertain_zones(const std::vector<BasalZone>& zones, std::vector<Uncert
     }
 }
 
+void add_uncertain_inflows(const std::vector<InflowSpec>& sources,
+                           std::vector<UncertainKey>& found) {
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    for (const InflowField& field : inflow_fields) {
+      const auto& number = sources[i].*field.value;
+      if (number && number->distribution)
+        found.push_back({inflow_path(i, field), field.units, *number->distribution});
+    }
+}
+
+/// Number and field of "inflow[2].discharge_factor"; nothing for other paths.
+std::optional<std::pair<std::size_t, const InflowField*>> inflow_of(const std::string& path) {
+  if (!path.starts_with("inflow[")) return std::nullopt;
+  for (std::size_t i = 0; i < most_inflows; ++i)
+    for (const InflowField& field : inflow_fields)
+      if (path == inflow_path(i, field)) return std::pair(i, &field);
+  return std::nullopt;
+}
+
 /// Number and field of "basal.zones[2].friction_coefficient"; nothing for other paths.
 std::optional<std::pair<std::size_t, const ZoneField*>> zone_of(const std::string& path) {
   if (!path.starts_with("basal.zones[")) return std::nullopt;
@@ -135,6 +163,7 @@ std::vector<UncertainKey> uncertain_keys(const Scenario& scenario) {
   std::vector<UncertainKey> found;
   for (const auto& key : schema()) {
     if (key.kind == ValueKind::zone_list) add_uncertain_zones(scenario.basal.zones, found);
+    if (key.kind == ValueKind::inflow_list) add_uncertain_inflows(scenario.inflow, found);
     if (key.kind != ValueKind::uncertain) continue;
     const KeyValue value = key.get(scenario);
     const auto* number = std::get_if<Uncertain>(&value);
@@ -146,6 +175,7 @@ std::vector<UncertainKey> uncertain_keys(const Scenario& scenario) {
 
 std::optional<KeyInfo> key_of_number(const std::string& path) {
   if (const KeyInfo* key = find_key(path)) return *key;
+  if (const auto source = inflow_of(path)) return inflow_key(source->first, *source->second);
   const auto zone = zone_of(path);
   return zone ? std::optional(zone_key(zone->first, *zone->second)) : std::nullopt;
 }
@@ -153,6 +183,10 @@ std::optional<KeyInfo> key_of_number(const std::string& path) {
 Scenario with_value(Scenario scenario, const std::string& path, double value) {
   if (const auto zone = zone_of(path); zone && zone->first < scenario.basal.zones.size()) {
     scenario.basal.zones[zone->first].*zone->second->value = Uncertain(value);
+    return scenario;
+  }
+  if (const auto source = inflow_of(path); source && source->first < scenario.inflow.size()) {
+    scenario.inflow[source->first].*source->second->value = Uncertain(value);
     return scenario;
   }
   const KeyInfo* key = find_key(path);

@@ -26,11 +26,14 @@ enum class ValueKind {
   uncertain,    ///< number, or a distribution in its place
   number_list,  ///< [a, b, ...]
   text_list,
-  number_map,   ///< {text: number, ...}
-  synthetic,    ///< {shape: {cell_size_m: .., own numbers ..}}
-  wall_list,    ///< [{point_m: .., normal: .., ...}, ...]
-  zone_list,    ///< [{polygon: .., friction_coefficient: .., ...}, ...]
-  record_list,  ///< [{name: number or [x, y], ...}, ...], names out of KeyInfo::fields
+  number_map,    ///< {text: number, ...}
+  synthetic,     ///< {shape: {cell_size_m: .., own numbers ..}}
+  wall_list,     ///< [{point_m: .., normal: .., ...}, ...]
+  zone_list,     ///< [{polygon: .., friction_coefficient: .., ...}, ...]
+  inflow_list,   ///< [{hydrograph: .., line_m: [[x, y], ..], ...}, ...]
+  gauge_points,  ///< [{name: .., at_m: [x, y]}, ...]
+  gauge_lines,   ///< [{name: .., points_m: [[x, y], ..]}, ...]
+  record_list,   ///< [{name: number or [x, y], ...}, ...], names out of KeyInfo::fields
 };
 
 /// Typed value of a key; which alternative is used follows from the kind.
@@ -38,7 +41,7 @@ using KeyValue =
     std::variant<std::monostate, double, std::int64_t, std::string, bool, Uncertain,
                  std::vector<double>, std::vector<std::string>, std::map<std::string, double>,
                  SyntheticTerrain, std::vector<WallSpec>, std::vector<BasalZone>,
-                 std::vector<NumberRecord>>;
+                 std::vector<InflowSpec>, std::vector<GaugeSpec>, std::vector<NumberRecord>>;
 
 /// One name that an entry of a record_list may hold.
 struct RecordField {
@@ -100,7 +103,7 @@ void for_each_path(const KeyInfo&, KeyValue&, const std::function<void(std::stri
 /// "in 0..60", "> 0", ">= 0", or empty when any number will do.
 std::string range_text(const KeyInfo&);
 
-/// The row of a path that a design may name: a key, or a number of a zone of the bed.
+/// The row of a path that a design may name: a key, or a number of a zone of the bed or an inflow.
 std::optional<KeyInfo> key_of_number(const std::string& path);
 
 /// One uncertain value of a scenario.

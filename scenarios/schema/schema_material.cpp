@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys that say what moves and on what: grains, basal, formulation.
+#include "engine/effects/fields.hpp"
 #include "scenarios/materials/materials.hpp"
 #include "scenarios/schema/schema_rows.hpp"
 
@@ -125,6 +126,27 @@ void add_mixture_keys(std::vector<KeyInfo>& keys) {
   add(&MixtureSpec::shear_grain_diameter_m,
       {"mixture.shear_grain_diameter_m", uncertain, "m", 0, 1,
        "Grain size at which collisions loosen the sheared mass."});
+  keys.push_back(choice_key(mixture, &MixtureSpec::pressure_profile, "mixture.pressure_profile",
+                            "Excess pore pressure over the depth: a parabola, which drains thick "
+                            "masses 22 % too fast, or "
+                            "resolved at nodes."));
+  add(&MixtureSpec::pressure_nodes,
+      {"mixture.pressure_nodes", integer, "1", fields::least_pressure_nodes,
+       fields::most_pressure_nodes, "Nodes of a resolved profile; 8 when absent."});
+  keys.push_back(choice_key(mixture, &MixtureSpec::drainage, "mixture.drainage",
+                            "Where excess pore pressure of a resolved profile drains to: the free "
+                            "surface, or both it and the bed."));
+  keys.push_back(choice_key(mixture, &MixtureSpec::phases, "mixture.phases",
+                            "one: grains and water move together and pore pressure evolves; two: "
+                            "each has a velocity and a thickness of its own, so that liquid may "
+                            "run ahead of the grains."));
+  keys.push_back(choice_key(mixture, &MixtureSpec::drag_law, "mixture.drag_law",
+                            "Drag between grains and liquid, with phases: two: Darcy's by "
+                            "permeability_m2, or by the settling speed of one grain."));
+  add_positive(&MixtureSpec::settling_speed_m_s,
+               {"mixture.settling_speed_m_s", uncertain, "m s-1", 0, 100,
+                "Settling speed of one grain in the liquid, with drag_law: settling; by default of "
+                "a natural grain of grains.diameter_m."});
 }
 
 void add_basal(std::vector<KeyInfo>& keys) {
@@ -152,6 +174,7 @@ void add_basal(std::vector<KeyInfo>& keys) {
   keys.push_back(key(basal, &BasalSpec::yield_stress_pa,
                      {"basal.yield_stress_pa", uncertain, "Pa", 0, no_limit,
                       "Yield stress of a Bingham fluid, with basal.viscosity_pa_s."}));
+  add_bed_field_keys(keys);
   keys.push_back(
       key(basal, &BasalSpec::zones,
           {"basal.zones", zone_list, "", -no_limit, no_limit,

@@ -163,13 +163,18 @@ BlockInfo optional_block(const char* path, const char* help, const Block<Owner>&
 // The table's parts, in file order; schema.cpp joins them.
 void add_site_keys(std::vector<KeyInfo>&);         ///< title, terrain, release
 void add_material_keys(std::vector<KeyInfo>&);     ///< grains, basal, formulation
+void add_bed_field_keys(std::vector<KeyInfo>&);    ///< basal.samosat, basal.rasters: within basal
 void add_erosion_keys(std::vector<KeyInfo>&);      ///< erosion
+void add_inflow_keys(std::vector<KeyInfo>&);       ///< inflow
 void add_run_keys(std::vector<KeyInfo>&);          ///< numerics, domain, ensemble, hazard
+void add_gauge_keys(std::vector<KeyInfo>&);        ///< gauges
 void add_observation_keys(std::vector<KeyInfo>&);  ///< observation
 // Their optional blocks.
 void add_site_blocks(std::vector<BlockInfo>&);
 void add_material_blocks(std::vector<BlockInfo>&);
+void add_bed_field_blocks(std::vector<BlockInfo>&);
 void add_erosion_blocks(std::vector<BlockInfo>&);
+void add_gauge_blocks(std::vector<BlockInfo>&);
 void add_observation_blocks(std::vector<BlockInfo>&);
 
 }  // namespace sturz::schema_rows

@@ -118,6 +118,14 @@ void add_release(std::vector<KeyInfo>& keys) {
                                 "Velocity of the source at the start: east, north, up. Columns "
                                 "take what points along the slope."}),
                            3));
+  keys.push_back(key(release, &ReleaseSpec::start_time_s,
+                     {"release.start_time_s", uncertain, "s", 0, 1e5,
+                      "When the release starts; 0 when absent. Until then it lies still; "
+                      "depth_averaged."}));
+  keys.push_back(text_key(release, &ReleaseSpec::start_time_attribute,
+                          "release.start_time_attribute", text,
+                          "Field of release.polygon that holds when each polygon starts, in "
+                          "seconds; release.start_time_s is added to it."));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/schema/value_text.hpp"
 
+#include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 
@@ -81,6 +82,35 @@ std::string record_text(const NumberRecord& record) {
   return map.text();
 }
 
+std::string corners_text(const std::vector<std::array<double, 2>>& corners) {
+  return list_text(corners, [](const auto& c) { return numbers_text(c); });
+}
+
+std::string inflow_text(const InflowSpec& source) {
+  MapText map;
+  const auto text = [&map](const char* name, const std::string& value) {
+    if (!value.empty()) map.add(name, quoted_text(value));
+  };
+  text("name", source.name), text("hydrograph", source.hydrograph);
+  text("line", source.line), text("polygon", source.polygon);
+  if (!source.line_m.empty()) map.add("line_m", corners_text(source.line_m));
+  text("layer", source.layer), text("crs", source.crs);
+  for (const auto& field : inflow_fields)
+    if (const auto& value = source.*field.value) map.add(field.name, uncertain_text(*value));
+  return map.text();
+}
+
+/// A point has one corner, a line more.
+std::string gauge_text(const GaugeSpec& gauge) {
+  MapText map;
+  map.add("name", quoted_text(gauge.name));
+  if (gauge.corners_m.size() == 1)
+    map.add("at_m", numbers_text(gauge.corners_m.front()));
+  else
+    map.add("points_m", corners_text(gauge.corners_m));
+  return map.text();
+}
+
 std::string synthetic_text(const SyntheticTerrain& terrain) {
   MapText own;
   own.add("cell_size_m", terrain.cell_size_m);
@@ -110,6 +140,10 @@ struct ToText {
   std::string operator()(const std::vector<NumberRecord>& v) const {
     return list_text(v, record_text);
   }
+  std::string operator()(const std::vector<InflowSpec>& v) const {
+    return list_text(v, inflow_text);
+  }
+  std::string operator()(const std::vector<GaugeSpec>& v) const { return list_text(v, gauge_text); }
 };
 
 /// Words that YAML readers take for something else than text.

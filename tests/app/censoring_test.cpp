@@ -5,6 +5,7 @@
 namespace sturz::test {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -60,6 +61,36 @@ TEST_F(CensoringWords, ARunMarksWhatIsALowerBound) {
   EXPECT_THAT(ended.out, HasSubstr(" so far"));
   EXPECT_THAT(ended.err, HasSubstr("This result is cut off."));
   EXPECT_THAT(read("run/report.html"), HasSubstr("<section class=\"banner\""));
+}
+
+TEST_F(CensoringWords, ARunMarksWhatItErodedAndItsPorePressureToo) {
+  const auto run = [&](const char* end_time) {
+    const Ended ended = sturz(
+        {"run", path("scene.yaml"), "-o", path("run"), "--replace", "--set",
+         "basal.pore_pressure_ratio=0", "--set", "mixture.permeability_m2=1e-9", "--set",
+         "erosion.growth_rate_per_m=0.01", "--set", "erosion.depth_m=0.1", "--set", end_time});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return ended.out;
+  };
+  const std::string cut = run("numerics.end_time_s=1");
+  EXPECT_THAT(cut, ContainsRegex("erosion  +>= [0-9.]+ m3 of the bed, up to >= 0[.][0-9]+ m deep; "
+                                 "by mass the flow grew >= 1[.][0-9]+ times"));
+  EXPECT_THAT(cut, ContainsRegex("pore pressure  +>= [0-9.]+ % of the weight at most, [0-9.]+ % so "
+                                 "far at the end"));
+  EXPECT_THAT(cut, ContainsRegex("solid fraction  +0[.][0-9]+ so far at the end"));
+  EXPECT_THAT(cut, ContainsRegex("largest speed  +>= [0-9.]+ m/s"));
+  EXPECT_THAT(cut, ContainsRegex("largest energy  +>= [0-9.]+ kJ/m2, pressure >= [0-9.]+ kPa"));
+}
+
+TEST_F(CensoringWords, WhatHasNoValueIsNotKnownAndColumnsAreNoParticles) {
+  const Ended ended = sturz({"run", path("scene.yaml"), "-o", path("run"), "--set",
+                             "basal.friction_coefficient=0.05", "--set", "numerics.end_time_s=60"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  ASSERT_THAT(ended.out, HasSubstr("left the terrain"));
+  EXPECT_THAT(ended.out, HasSubstr("H not known, H/L not known"));
+  EXPECT_THAT(ended.out, Not(HasSubstr("none")));
+  EXPECT_THAT(ended.out, HasSubstr("\n  columns               "));
+  EXPECT_THAT(ended.out, Not(HasSubstr("\n  particles ")));
 }
 
 }  // namespace

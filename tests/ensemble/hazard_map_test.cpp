@@ -255,6 +255,28 @@ TEST(HazardMap, LeavesOutLayersWithoutThresholdsOrQuantiles) {
   EXPECT_NE(map.find("speed_mean"), nullptr);
 }
 
+/// Columns' thickness is smoothed: beyond the last one it fades out where nothing arrived.
+TEST(HazardMap, NoIntensityWhereAMemberOnlyFadesOut) {
+  MemoryMembers source(small_grid(1, 2));
+  MemberResult member;
+  member.outcome = Outcome::settled;
+  member.grid = source.grid();
+  member.window = {0, 0, 1, 2};
+  for (int k = 0; k < n_peak_layers; ++k)
+    member.layers[k].assign(2, info(static_cast<PeakLayer>(k)).untouched);
+  const auto set = [&](PeakLayer layer, std::vector<float> values) {
+    member.layers[static_cast<int>(layer)] = std::move(values);
+  };
+  set(PeakLayer::thickness, {3, 2.76F});
+  set(PeakLayer::speed, {30, 28.8F});
+  set(PeakLayer::arrival, {12, nan_f});
+  source.add(member);
+  const LayerStack map = make_hazard_map(source, {}, {});
+  EXPECT_THAT(map.find("probability_of_reach")->values, testing::ElementsAre(1, 0));
+  EXPECT_THAT(map.find("probability_of_high_intensity")->values, testing::ElementsAre(1, 0));
+  EXPECT_THAT(map.find("probability_of_medium_intensity")->values, testing::ElementsAre(0, 0));
+}
+
 TEST(HazardMap, IsUndefinedWithoutValidMembers) {
   MemoryMembers source(small_grid(2, 2));
   MemberResult failed;

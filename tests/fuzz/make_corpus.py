@@ -74,6 +74,18 @@ def design_seeds(_root, _build, _scratch):
     yield from DESIGNS
 
 
+HYDROGRAPHS = [
+    "time_s,discharge_m3_s\n0,0\n600,12.5\n3600,0\n",
+    "# gauge\r\ndischarge_l_s,time_h,solid_fraction\r\n0,0,0.5\r\n2e3,1.5,0.6\r\n0,2,0.4\r\n",
+    "\ufeff\"time_min\",\"discharge_m3_s\"\n0,1e-300\n1e-9,1e7\n5,0\n", "time_s;discharge_m3_s\n0;1\n",
+    "time_s,discharge_m3_s\n0,0\n1,0\n2,3\n3,0\n4,0\n", "time_s,discharge_m3_s\n1,nan\n0,-1\n0,1,2\n",
+]
+
+
+def hydrograph_seeds(_root, _build, _scratch):
+    yield from HYDROGRAPHS
+
+
 MANIFEST = {
     "kind": "ensemble",
     "program": {"name": "sturz", "version": "0.1.0", "git_commit": "0123abc", "compiler": "GNU 12",
@@ -182,7 +194,8 @@ def netcdf_seeds(_root, build, _scratch):
         yield bytes(range(which, 200, 7))
 
 
-SEEDS = {"scenario": scenario_seeds, "design": design_seeds, "manifest": manifest_seeds,
+SEEDS = {"scenario": scenario_seeds, "design": design_seeds, "hydrograph": hydrograph_seeds,
+         "manifest": manifest_seeds,
          "rasters": raster_seeds, "polygons": polygon_seeds, "netcdf": netcdf_seeds}
 
 

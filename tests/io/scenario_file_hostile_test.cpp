@@ -11,6 +11,7 @@ namespace sturz {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Processor time, so that a busy machine does not count.
 double seconds_since(std::clock_t start) {
@@ -109,6 +110,13 @@ TEST(HostileScenario, BrokenYamlHasAPlace) {
   EXPECT_THAT(message("a:\n\t- 1\n"), HasSubstr("s.yaml:2:2: not readable as YAML"));
   EXPECT_THAT(message("\"a"), HasSubstr("not readable as YAML"));
   EXPECT_THAT(message("a: {b: 1"), HasSubstr("bracket"));
+}
+
+TEST(HostileScenario, ATabInFrontOfALineIsNamed) {
+  EXPECT_THAT(message("title: x\nterrain:\n\traster: dem.tif\n"),
+              HasSubstr("Line 3 is indented by a tab; YAML knows blanks only"));
+  EXPECT_THAT(message("a:\r\n  \t- 1\r\n"), HasSubstr("Line 2 is indented by a tab"));
+  EXPECT_THAT(message("a:\tx\n  b: 2\n"), Not(HasSubstr("tab"))) << "elsewhere a tab may stand";
 }
 
 TEST(HostileScenario, KeysAreNames) {

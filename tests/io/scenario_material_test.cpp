@@ -84,8 +84,11 @@ TEST(Materials, WrongOnesAreRefusedWithWhatIsKnown) {
 }
 
 TEST(Materials, AreForColumns) {
-  EXPECT_THAT(refusal("material: rock_avalanche\nformulation: full_stress\n"),
-              HasSubstr("material rock_avalanche: basal.turbulent_coefficient_m_s2"));
+  const std::string said = refusal("material: rock_avalanche\nformulation: full_stress\n");
+  EXPECT_THAT(said, HasSubstr("scene.yaml:4:11: material = rock_avalanche (formulation is "
+                              "full_stress; its priors are those of columns). Remove it or set"));
+  EXPECT_THAT(said, Not(HasSubstr("basal.turbulent_coefficient_m_s2")))
+      << "what the file does not say cannot be removed from it";
 }
 
 }  // namespace

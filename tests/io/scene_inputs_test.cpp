@@ -164,6 +164,7 @@ TEST_F(LoadSceneInputs, PolygonsSayAreaAndLaidOutVolume) {
   const SceneInputs in = load_scene_inputs(scene);
   EXPECT_NEAR(in.source_area_m2, 5000, 1e-6);
   EXPECT_THAT(in.notes, Contains(HasSubstr("x 4 m = 20000 m3, laid out 20000 m3")));
+  EXPECT_THAT(in.notes, Contains(HasSubstr("m2 (+0 %)"))) << "what rounding leaves is none";
 }
 
 TEST_F(LoadSceneInputs, SyntheticTerrainsBringTheirOwnSource) {

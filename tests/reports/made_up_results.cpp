@@ -225,7 +225,9 @@ class MadeUpSource : public MemberParts {
 LayerStack peaks_of(const MemberResult& m) {
   LayerStack stack{.grid = m.grid, .layers = {}, .attributes = {}};
   for (int k = 0; k < n_peak_layers; ++k) {
-    if (static_cast<PeakLayer>(k) == PeakLayer::eroded) continue;  // no bed is taken along
+    const auto peak = static_cast<PeakLayer>(k);  // no bed is taken along, no phases move apart
+    if (peak == PeakLayer::eroded || peak == PeakLayer::solid || peak == PeakLayer::liquid)
+      continue;
     const PeakLayerInfo& about = info(static_cast<PeakLayer>(k));
     Layer layer;
     layer.name = about.name;

@@ -55,6 +55,17 @@ KeyValue unusual_value(const KeyInfo& key) {
       return std::vector<WallSpec>{{{1, 2, 3}, {0, 1, 0}, 0.3, 4.0}};
     case ValueKind::zone_list:
       return std::vector<BasalZone>{{"unusual.gpkg", "plate", 0.3, {}, 50.0}};
+    case ValueKind::inflow_list: {
+      InflowSpec source;
+      source.hydrograph = "unusual.csv";
+      source.line_m = {{1, 2}, {3, 4}};
+      source.discharge_factor = 1.5;
+      return std::vector<InflowSpec>{source};
+    }
+    case ValueKind::gauge_points:
+      return std::vector<GaugeSpec>{{"bridge", {{{1, 2}}}}};
+    case ValueKind::gauge_lines:
+      return std::vector<GaugeSpec>{{"road", {{{1, 2}}, {{3, 4}}}}};
     case ValueKind::record_list: {
       NumberRecord record;
       for (const RecordField& field : key.fields)
@@ -138,9 +149,9 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_THAT(names_in_block("grains.friction"),
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
-              ElementsAre("title", "terrain", "release", "material", "grains", "mixture", "basal",
-                          "formulation", "erosion", "numerics", "domain", "ensemble", "hazard",
-                          "observation"));
+              ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture",
+                          "basal", "formulation", "erosion", "numerics", "domain", "ensemble",
+                          "hazard", "gauges", "observation"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

@@ -106,10 +106,10 @@ def silence(root):
 
 
 # The field uses each of these words for two things; GDAL's hillshade tool keeps its own name.
+# A phase is one of a mixture, grains or liquid; how densely grains lie is their state.
 FORBIDDEN_WORDS = {
     "DEM": "elevation model or discrete element method: say terrain, elevation raster, grain contact",
     "kernel": "SPH weight or hot loop: say SmoothingKernel or sweep",
-    "phase": "fluid or grain, or a grain's state: say ParticleSet or GrainState",
 }
 
 
@@ -137,7 +137,7 @@ PERSONS = re.compile(r"\b(?:nobody|whoever|everybody|everyone|somebody|someone|a
 def words(root):
     patterns = {w: re.compile(rf"(?<![A-Za-z]){w}s?(?![A-Za-z])" if w == "DEM"
                               else rf"(?i:(?<![A-Za-z]){w}s?(?![A-Za-z]))") for w in FORBIDDEN_WORDS}
-    allowed = re.compile(r"gdaldem|GDALDEM|/proc/sys/kernel|smoothing[ _-]kernel|two[- ]phase", re.IGNORECASE)
+    allowed = re.compile(r"gdaldem|GDALDEM|/proc/sys/kernel|smoothing[ _-]kernel", re.IGNORECASE)
     private = {re.compile(rf"\b(?:{w})\b"): known for w, known in PRIVATE_WORDS.items()}
     for path, name in sources(root, LIBRARIES, CODE + (".js", ".css")):
         for n, line in enumerate(lines_of(path), 1):

@@ -32,7 +32,8 @@ FAMILIES = {
     "dense": {"kinetic/settings.hpp"},
     "kinetic": {"dense"},
     "isolated": {"dense"},
-    "sweep": {"dense", "kinetic", "columns"},
+    "phases": {"columns"},
+    "sweep": {"dense", "kinetic", "columns", "phases"},
 }
 EVERYBODYS = {"sweep/fused_sweep.hpp", "motion/losses.hpp", "motion/accounts.hpp",
               "motion/wrapping.hpp"}

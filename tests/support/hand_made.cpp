@@ -31,13 +31,15 @@ void open_ledger(State& s) {
   s.grains().ledger.kinetic_0 = s.grains().ledger.kinetic;
 }
 
-void finish(HandMade& made, std::vector<GroundFriction> bed, ZoneMap zones) {
+void finish(HandMade& made, std::vector<GroundFriction> bed, ZoneMap zones,
+            BedRasters rasters = {}) {
   add_gravity(made.step, made.state, 0);
   ContactSettings contact;
   contact.reference_density = density;
   contact.stiffness = 4000;
   contact.bed = std::move(bed);
   contact.zones = std::move(zones);
+  contact.rasters = std::move(rasters);
   add_terrain_contact(made.step, 0, contact);
   if (!made.state.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
   add_motion(made.step, 0, {1, h});
@@ -95,6 +97,14 @@ HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& positions,
                             std::vector<GroundFriction> bed, ZoneMap zones) {
   HandMade made{state_of(std::move(ground), positions, velocity, domain), {}};
   finish(made, std::move(bed), std::move(zones));
+  return made;
+}
+
+HandMade particles_on_rasters(Terrain ground, const std::vector<Vec3>& positions,
+                              const Vec3& velocity, std::vector<GroundFriction> bed,
+                              BedRasters rasters) {
+  HandMade made{state_of(std::move(ground), positions, velocity, {}), {}};
+  finish(made, std::move(bed), {}, std::move(rasters));
   return made;
 }
 

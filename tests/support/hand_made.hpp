@@ -42,6 +42,11 @@ HandMade particles_on_zones(Terrain ground, const std::vector<Vec3>& positions,
                             const Vec3& velocity, const Domain& domain,
                             std::vector<GroundFriction> bed, ZoneMap zones);
 
+/// The same with numbers of rasters over the bed.
+HandMade particles_on_rasters(Terrain ground, const std::vector<Vec3>& positions,
+                              const Vec3& velocity, std::vector<GroundFriction> bed,
+                              BedRasters rasters);
+
 /// Depth-averaged columns of density 1560 kg/m^3 on a lattice of 1 m (z of the positions does not
 /// count), each with the vertical `thickness` [m].
 HandMade columns_on(Terrain ground, const std::vector<Vec3>& positions, double thickness,

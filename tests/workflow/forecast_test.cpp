@@ -9,6 +9,7 @@
 #include "tests/workflow/workflow_fixture.hpp"
 
 #include <cmath>
+#include <cstdlib>
 
 namespace sturz::test {
 namespace {
@@ -141,6 +142,76 @@ TEST_F(Forecasts, ASceneTooLongToTrySaysSo) {
   const auto lines = workflow::forecast_lines(untried);
   EXPECT_THAT(lines[0], AllOf(HasSubstr("27 h"), HasSubstr("no member could be tried")));
   EXPECT_THAT(lines[3], HasSubstr("not known"));
+}
+
+/// Members that end at once beside one that never does, tried for a tenth of what that takes.
+class CutOff : public Forecasts {
+ protected:
+  static constexpr const char* lasts = "numerics.end_time_s=2000";
+  CutOff() {
+    write("table.csv", "basal.friction_coefficient\n0.9\n0.9\n0.3\n0.9\n");
+    write("scene.yaml", R"(title: some stick, one goes round and round
+terrain: {synthetic: {plane: {cell_size_m: 2, slope_deg: 20, length_m: 40, width_m: 40}}}
+release: {box: {x_m: [-20, 20], y_m: [-20, 20]}, thickness_m: 1}
+grains: {density_kg_m3: 2600, solid_fraction: 0.6}
+basal: {friction_coefficient: {uniform: [0.2, 1]}, viscosity_pa_s: 2000}
+domain: {periodic: [x, y]}
+numerics: {spacing_m: 2, accept_unresolved: true}
+ensemble: {design: table, table: table.csv}
+formulation: depth_averaged
+)");
+  }
+};
+
+TEST_F(CutOff, AMemberThatIsNotAtItsEndCountsAsFarAsItCame) {
+  const workflow::Scene loaded = workflow::load_scene(scene({lasts}));
+  const DesignTable design = workflow::new_design(loaded.scenario);
+  workflow::TrialLimits limits{1, 1, {}};
+  limits.longest_s = 0.2;
+  const workflow::Trial trial = workflow::try_members(loaded, &design, limits);
+  ASSERT_TRUE(trial.median);
+  ASSERT_EQ(trial.members.size(), 4U) << "none is left out";
+  const workflow::TriedMember &stuck = trial.members[0], &runs = trial.members[2];
+  EXPECT_EQ(stuck.longer, 1);
+  EXPECT_GT(runs.longer, 1.5);
+  EXPECT_GE(runs.cpu_s, 0.2);
+}
+
+TEST_F(CutOff, TheForecastHoldsIt) {
+  const workflow::SceneRequest request = scene({lasts});
+  const workflow::Scene loaded = workflow::load_scene(request);
+  const DesignTable design = workflow::new_design(loaded.scenario);
+  workflow::ForecastRequest ask;
+  ask.design = &design, ask.members = design.n_members();
+  ask.speed_cache = request.speed_cache;
+  ask.longest_try_s = 0.2;
+  const Forecast f = workflow::forecast(loaded, ask);
+  EXPECT_EQ(f.cut_off_members, 1);
+  EXPECT_THAT(workflow::forecast_lines(f)[0], HasSubstr("1 of them cut off"));
+  // As in the ensemble: whatever it takes.
+  workflow::TrialLimits limits{1, 1, {}};
+  limits.longest_s = 1e9;
+  double took_s = 0;
+  for (const workflow::TriedMember& m : workflow::try_members(loaded, &design, limits).members)
+    took_s += m.cpu_s;
+  EXPECT_GT(took_s, f.members_s.low);
+  EXPECT_LT(took_s, f.members_s.high);
+}
+
+TEST_F(Forecasts, WithoutATemporaryFolderNothingIsTriedAndWhySaid) {
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  const workflow::Scene loaded = workflow::load_scene(scene());
+  ::setenv("TMPDIR", path("is/not/there").c_str(), 1);
+  const Forecast f = workflow::forecast(loaded, {});
+  if (before)
+    ::setenv("TMPDIR", kept.c_str(), 1);
+  else
+    ::unsetenv("TMPDIR");
+  EXPECT_FALSE(f.tried);
+  EXPECT_NEAR(f.median_s.high / f.median_s.likely, 4, 1e-9);
+  EXPECT_THAT(workflow::forecast_lines(f)[0],
+              HasSubstr("no member could be tried: there is no folder for temporary files"));
 }
 
 TEST_F(Forecasts, AnEnsembleIsLookedAtOnlyWhereItPays) {

@@ -67,6 +67,7 @@ class Growing : public Workflow {
                     fmt::arg("spacing", spacing), fmt::arg("formulation", formulation));
     if (!changes.empty())
       text = replaced(text, "  thickness_m: 5\n", "  thickness_m: 5\n" + changes);
+    if (!basal_.empty()) text = replaced(text, "basal:\n", "basal:\n" + basal_);
     write("scene.yaml", text);
     Recorder silent;
     return untouched(workflow::prepare_ensemble(request(fmt::format("out{}", ++n_jobs_)), silent));
@@ -126,6 +127,7 @@ class Growing : public Workflow {
   }
 
   int n_jobs_ = 0;
+  std::string basal_;  ///< lines of that block
 };
 
 TEST_F(Growing, ColumnsGetTheBitsOfTheWholeRaster) { expect_same_bits("", "depth_averaged", 10); }
@@ -133,6 +135,20 @@ TEST_F(Growing, ColumnsGetTheBitsOfTheWholeRaster) { expect_same_bits("", "depth
 TEST_F(Growing, ColumnsOnAveragedGroundToo) { expect_same_bits("", "depth_averaged", 13); }
 
 TEST_F(Growing, ParticlesToo) { expect_same_bits("", "full_stress", 10); }
+
+TEST_F(Growing, RastersOfTheBedGrowAlong) {
+  // Cells of 7 m in strips across the valley, with gaps: no multiple of anything.
+  Raster<double> mu(Grid{420, 190, west - 31, north + 17, 7, ""});
+  for (int r = 0; r < mu.grid.n_rows; ++r)
+    for (int c = 0; c < mu.grid.n_cols; ++c)
+      mu.at(r, c) = (r + c) % 11 == 0 ? nan_d : 0.2 + 0.1 * std::sin(c / 9.0) * std::cos(r / 5.0);
+  write_geotiff(path("mu.tif"), mu, {});
+  basal_ =
+      "  rasters: {friction_coefficient: mu.tif, crs: EPSG:32633, friction_coefficient_factor: "
+      "{uniform: [0.9, 1.1]}}\n";
+  expect_same_bits("", "depth_averaged", 10);
+  expect_same_bits("", "full_stress", 10);
+}
 
 TEST_F(Growing, ADugSourceAndASpeedThatBeatsTheLine) {
   expect_same_bits("  surface: pre_failure\n  velocity_m_s: [30, 5, 0]\n", "depth_averaged", 10);
@@ -190,6 +206,48 @@ TEST_F(Growing, ZonesGrowAlong) {
   workflow::EnsembleJob bare = job(everything);
   EXPECT_NE(a.state_hash, workflow::run_member(bare, 1, silent.cancel).state_hash)
       << "the zone must matter";
+}
+
+TEST_F(Growing, BedsThatAreTakenAlongGrowToo) {
+  write("channel.geojson",
+        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:32633"}},
+"features":[{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":
+[[[500500,4599900],[502000,4599900],[502000,4600100],[500500,4600100],[500500,4599900]]]}}]})");
+  Raster<double> depths(Grid{130, 60, west + 170, north - 500, 5, ""}, 0.4);
+  write_geotiff(path("depths.tif"), depths, {});
+  Recorder silent;
+  const auto with_bed = [&](const std::string& bed, const char* window, double spacing) {
+    job(window, "", "depth_averaged", spacing);
+    write("scene.yaml", replaced(read("scene.yaml"), "numerics:",
+                                 "erosion: {growth_rate_per_m: 2.0e-3, " + bed + "}\nnumerics:"));
+    return untouched(
+        workflow::prepare_ensemble(request(fmt::format("eroded{}", ++n_jobs_)), silent));
+  };
+  for (const double spacing : {10.0, 13.0})  // the second on averaged ground
+    for (const std::string bed : {"depth_m: 0.5, polygon: channel.geojson",
+                                  "depth_raster: depths.tif, crs: 'EPSG:32633'"}) {
+      workflow::EnsembleJob small = with_bed(bed, tiny, spacing),
+                            full = with_bed(bed, everything, spacing);
+      const MemberResult a = workflow::run_member(small, 1, silent.cancel);
+      expect_same(a, workflow::run_member(full, 1, silent.cancel));
+      EXPECT_GT(level(small), 0) << bed;
+      EXPECT_GT(a.scalars.eroded_volume_m3, 1000) << bed;
+    }
+}
+
+TEST_F(Growing, MixturesToo) {
+  Recorder silent;
+  const auto wet = [&](const char* window) {
+    job(window);
+    std::string text =
+        replaced(read("scene.yaml"), "numerics:", "mixture: {permeability_m2: 1.0e-9}\nnumerics:");
+    write("scene.yaml", replaced(text, "{uniform: [0.25, 0.35]}", "{uniform: [0.6, 0.8]}"));
+    return untouched(workflow::prepare_ensemble(request(fmt::format("wet{}", ++n_jobs_)), silent));
+  };
+  workflow::EnsembleJob small = wet(tiny), full = wet(everything);
+  expect_same(workflow::run_member(small, 1, silent.cancel),
+              workflow::run_member(full, 1, silent.cancel));
+  EXPECT_GT(level(small), 0);
 }
 
 TEST_F(Growing, MapsOfAnEnsembleDoNotDependOnTheWindow) {

@@ -28,6 +28,8 @@ TEST_F(MapCosts, KnowHowManyMapsASceneAsksFor) {
   // Reach and two thresholds with bounds; a mean and two quantiles of five quantities; two
   // quantiles of arrival; two intensities.
   EXPECT_EQ(workflow::map_planes(spec), 3 + 6 + 5 * 3 + 2 + 2);
+  spec.eroded_depth_m = {0.2};
+  EXPECT_EQ(workflow::map_planes(spec, true), 28 + 3 + 3) << "and those of the eroded depth";
 }
 
 TEST_F(MapCosts, AreMeasuredOnceAMachine) {

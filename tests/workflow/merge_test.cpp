@@ -45,7 +45,8 @@ TEST_F(MergeWorkflow, ShardsGiveTheBitsOfOneRun) {
 
 TEST_F(MergeWorkflow, NamesWhatIsMissingUnlessToldToGoOn) {
   run_shard(1, 2);
-  EXPECT_THAT(refusal("out"), HasSubstr("3 of 6 members are missing (1, 3, 5)"));
+  EXPECT_THAT(refusal("out"), HasSubstr("3 of 6 members are missing (1, 3, 5). Resume with the "
+                                        "command that computed them"));
   EXPECT_FALSE(exists("out/hazard.nc"));
   Recorder heard;
   const workflow::MapsMade made = workflow::merge_members({path("out"), true}, heard);

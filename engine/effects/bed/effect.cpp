@@ -223,10 +223,7 @@ class GroundContact final : public Pass {
       law.stiffness = c.stiffness;
       law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
       law.contact_distance = 0.5 * c.spacing;
-      law.friction = zone.friction_coefficient * (1 - zone.pore_pressure_ratio);
-      // A particle in the first layer stands on an area of V/dx.
-      law.cohesion_rate = zone.cohesion_pa / (c.reference_density * c.spacing);
-      law.cohesion_distance = zone.cohesion_pa > 0 ? c.spacing : -1;
+      lay(law, zone);
     }
   }
   std::string_view name() const override { return "terrain contact"; }
@@ -243,7 +240,7 @@ class GroundContact final : public Pass {
     const WallPressure pressure(p, settings_);
     const StartVelocity start(p);
     const double support_radius = 2 * settings_.smoothing_length;
-    const bool zoned = settings_.zones.any();
+    const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
     const ContactSums sums = ordered_reduce(
         p.size(), s.threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
@@ -251,7 +248,10 @@ class GroundContact final : public Pass {
             if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
             const double plane = plane_integral(b.distance[i], settings_.smoothing_length);
             const double support = pressure.acceleration(i, plane, b.nx[i], b.ny[i], b.nz[i]);
-            const ContactLaw& law = laws_[zoned ? zone_of(s.domain, p, i) : 0];
+            const std::size_t zone = zoned ? zone_of(s.domain, p, i) : 0;
+            ContactLaw own;
+            if (rastered) own = law_at(s.domain, p, i, zone);
+            const ContactLaw& law = rastered ? own : laws_[zone];
             out.add(apply_contact(law, b.distance[i], b.nx[i], b.ny[i], b.nz[i], support, dt,
                                   start(i).data(), p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);
@@ -267,6 +267,26 @@ class GroundContact final : public Pass {
     double x = p.x[i], y = p.y[i], z = 0;
     domain.wrap(x, y, z);
     return static_cast<std::size_t>(settings_.zones.at(x, y));
+  }
+  void lay(ContactLaw& law, const GroundFriction& ground) const {
+    law.friction = ground.friction_coefficient * (1 - ground.pore_pressure_ratio);
+    // A particle in the first layer stands on an area of V/dx.
+    law.cohesion_rate = ground.cohesion_pa / (settings_.reference_density * settings_.spacing);
+    law.cohesion_distance = ground.cohesion_pa > 0 ? settings_.spacing : -1;
+  }
+  ContactLaw law_at(const Domain& domain, const ParticleSet& p, std::size_t i,
+                    std::size_t zone) const {
+    const GroundFriction& ground = settings_.bed[zone];
+    BasalResistance bed;
+    bed.friction_coefficient = ground.friction_coefficient;
+    bed.pore_pressure_ratio = ground.pore_pressure_ratio;
+    bed.cohesion_pa = ground.cohesion_pa;
+    double x = p.x[i], y = p.y[i], z = 0;
+    domain.wrap(x, y, z);
+    bed = settings_.rasters.over(bed, static_cast<int>(zone), x, y);
+    ContactLaw law = laws_[zone];
+    lay(law, {bed.friction_coefficient, bed.pore_pressure_ratio, bed.cohesion_pa});
+    return law;
   }
 
   std::size_t set_;

@@ -2,6 +2,7 @@
 /// The ground and analytic walls: pressure support, contact, Coulomb friction with pore pressure.
 #pragma once
 
+#include "engine/effects/bed_rasters.hpp"
 #include "engine/effects/step.hpp"
 #include "engine/terrain/zone_map.hpp"
 
@@ -23,6 +24,7 @@ struct ContactSettings {
   double restitution = 0.2;            ///< e_b [-]
   std::vector<GroundFriction> bed{1};  ///< by zone, [0] where there is none
   ZoneMap zones;
+  BedRasters rasters;  ///< over the ground of the zones
 };
 
 /// Adds the look-up of ground and walls and the ground's contact. Reads the fields of grain stress

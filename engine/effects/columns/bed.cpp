@@ -4,12 +4,34 @@
 #include "engine/effects/columns/braking.hpp"
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
+#include "engine/effects/columns/wet_profile.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace sturz {
 namespace {
+
+struct OnBed {
+  double inside;  ///< what internal friction takes [m/s^2]
+  double normal_gravity, thickness, density, gravity;
+};
+
+/// By a bed whose pore pressure is a constant share of the weight.
+Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before, const Vec3& pull,
+            double kick) {
+  const auto plastic = [&](double v) {
+    return bed.plastic(c.normal_gravity, c.thickness, c.density, v) + c.inside;
+  };
+  if (!bed.has_rate()) return braked(before, pull, plastic(0), 0, kick);
+  // The bed at the mean speed of the step, found from the bed at its start: a steady flow keeps
+  // its exact speed at any length of step.
+  const auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
+  const double v0 = before.norm();
+  const double v1 = braked(before, pull, plastic(v0), rate(v0), kick).norm();
+  const double mean = 0.5 * (v0 + v1);
+  return braked(before, pull, plastic(mean), rate(mean), kick);
+}
 
 /// v_{n-1/2} -> v_{n+1/2} in the plane below each column; the bed acts last and can stop it.
 class BedPass final : public Pass {
@@ -50,7 +72,8 @@ class BedPass final : public Pass {
   Works push_dry(const State& s, MovingSet& p, const GroundColumns& ground,
                  const Kick& kick) const {
     const auto& g_n = p.scalar(fields::normal_gravity);
-    const auto& thickness = p.scalar(fields::thickness);
+    const auto& thickness =
+        flow_->bed_thickness.empty() ? p.scalar(fields::thickness) : flow_->bed_thickness;
     return summed(s, p, [&](std::size_t begin, std::size_t end, Works& out) {
       for (std::size_t i = begin; i < end; ++i) {
         if (s.leaves(p, i)) continue;  // the ledger takes it as it was at the start of the step
@@ -68,15 +91,21 @@ class BedPass final : public Pass {
     Vec3 pull(p.ax[i], p.ay[i], p.az[i] - s.gravity);
     pull -= pull.dot(n) * n;
     const DepthAveragedSettings& set = flow_->settings;
-    const int zone = flow_->zone_of(s.domain, p, i);
-    const BasalResistance& bed = set.bed[zone];
-    double plastic = bed.plastic(normal_gravity, thickness, set.density);
-    if (!set.spent_inside.empty())
-      plastic += flow_->share[i] * set.spent_inside[zone] *
-                 driving_thrust(p, i, n, pull, before, kick.time);
-    const Vec3 after =
-        slowed(bed, {plastic, thickness, set.density, s.gravity}, before, pull, kick.time);
+    BasalResistance own;
+    const BasalResistance& bed = flow_->bed_of(s.domain, p, i, own);
+    OnBed on{0, normal_gravity, thickness, set.density, s.gravity};
+    if (!set.spent_inside.empty() || set.spent_share > 0)
+      on.inside = flow_->share[i] * flow_->spent_over(s.domain, p, i, bed) *
+                  driving_thrust(p, i, n, pull, before, kick.time);
+    const Vec3 after = slowed(bed, on, before, pull, kick.time);
     return moved(s, p, i, before, before + kick.time * pull, after, kick);
+  }
+
+  /// Works count from the start of the step, also where another set pushed since.
+  Vec3 start_of_works(const MovingSet& p, std::size_t i, const Vec3& before) const {
+    if (!flow_->has_exchange) return before;
+    const auto& v = p.components(fields::velocity_before);
+    return {v[0][i], v[1][i], v[2][i]};
   }
 
   /// Gives column i its velocity behind bed and walls.
@@ -94,7 +123,7 @@ class BedPass final : public Pass {
       held += impulse.normal;
     }
     p.vx[i] = after.x(), p.vy[i] = after.y(), p.vz[i] = after.z();
-    const Vec3 mean = 0.5 * (before + after);
+    const Vec3 mean = 0.5 * (start_of_works(p, i, before) + after);
     return {taken.dot(mean), held.dot(mean)};
   }
 
@@ -103,7 +132,9 @@ class BedPass final : public Pass {
     const WetBed bed(p, *flow_->settings.mixture, flow_->strain_rate);
     return summed(s, p, [&](std::size_t begin, std::size_t end, Works& out) {
       WetBlock block;
+      WetProfile profile(flow_->settings.mixture->profile);
       block.time = kick.time;
+      if (profile.mesh.nodes > 0) block.profile = &profile;
       for (std::size_t first = begin; first < end; first += block.n) {
         block.n = std::min(WetBlock::capacity, end - first);
         bed.read(block, first);
@@ -143,28 +174,12 @@ class BedPass final : public Pass {
   }
 
   void lay_bed(const State& s, const MovingSet& p, std::size_t first, WetBlock& b) const {
-    const auto& beds = flow_->settings.bed;
+    BasalResistance own;
     for (std::size_t k = 0; k < b.n; ++k) {
-      const BasalResistance& bed =
-          beds.size() == 1 ? beds[0] : beds[flow_->zone_of(s.domain, p, first + k)];
+      const BasalResistance& bed = flow_->bed_of(s.domain, p, first + k, own);
       b.friction[k] = bed.friction_coefficient, b.cohesion[k] = bed.cohesion_pa;
       b.drag[k] = bed.turbulent_coefficient > 0 ? s.gravity / bed.turbulent_coefficient : 0;
     }
-  }
-
-  struct OnBed {
-    double plastic, thickness, density, gravity;
-  };
-  /// By a bed whose pore pressure is a constant share of the weight.
-  static Vec3 slowed(const BasalResistance& bed, const OnBed& c, const Vec3& before,
-                     const Vec3& pull, double kick) {
-    if (!bed.has_rate()) return braked(before, pull, c.plastic, 0, kick);
-    // The rate at the mean speed of the step, found from the rate at its start: a steady flow
-    // keeps its exact speed at any length of step.
-    auto rate = [&](double v) { return bed.rate(v, c.thickness, c.density, c.gravity); };
-    const double v0 = before.norm();
-    const double v1 = braked(before, pull, c.plastic, rate(v0), kick).norm();
-    return braked(before, pull, c.plastic, rate(0.5 * (v0 + v1)), kick);
   }
 
   /// What pressure adds to the motion that it drives, or would start [m/s^2]; what it takes to hold
@@ -183,6 +198,34 @@ class BedPass final : public Pass {
 };
 
 }  // namespace
+
+void forecast(const State& s, MovingSet& p, const ColumnFlow& flow, double dt,
+              ColumnForecast& out) {
+  const double kick = kick_interval(s, dt);
+  const GroundColumns ground(p);
+  const auto& g_n = p.scalar(fields::normal_gravity);
+  const auto& thickness =
+      flow.bed_thickness.empty() ? p.scalar(fields::thickness) : flow.bed_thickness;
+  for (auto* a : {&out.vx, &out.vy, &out.vz, &out.spare}) a->resize(p.size());
+  parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 before(p.vx[i], p.vy[i], p.vz[i]);
+      const Velocity a = Velocity{p.ax[i], p.ay[i], p.az[i] - s.gravity}.in_plane(
+          ground.component[0][i], ground.component[1][i]);
+      const Vec3 pull(a.x, a.y, a.z);
+      const BasalResistance& bed = flow.settings.bed[flow.zone_of(s.domain, p, i)];
+      const double density = flow.settings.density;
+      const double plastic = bed.plastic(g_n[i], thickness[i], density, before.norm());
+      // Drag at the speed of the start: what is forecast here is what slip is judged by.
+      const double rate =
+          bed.has_rate() ? bed.rate(before.norm(), thickness[i], density, s.gravity) : 0;
+      const Vec3 after = braked(before, pull, plastic, rate, kick);
+      const bool held = plastic > 0 && after.x() == 0 && after.y() == 0 && after.z() == 0;
+      out.vx[i] = after.x(), out.vy[i] = after.y(), out.vz[i] = after.z();
+      out.spare[i] = held ? std::max(0.0, plastic * kick - (before + kick * pull).norm()) : 0;
+    }
+  });
+}
 
 void add_column_bed(Step& step, const std::shared_ptr<ColumnFlow>& flow) {
   step.add(std::make_unique<BedPass>(flow));

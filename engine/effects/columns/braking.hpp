@@ -15,7 +15,8 @@ inline Vec3 braked(const Vec3& v, const Vec3& pull, double plastic, double rate,
   const double mean = x > 1e-8 ? (1 - decay) / x : 1;
   const Vec3 trial = decay * v + (mean * dt) * pull;
   const double speed = trial.norm(), stop = plastic * mean * dt;
-  return speed > stop ? Vec3((1 - stop / speed) * trial) : Vec3(0, 0, 0);
+  // What is no number is no rest.
+  return speed <= stop ? Vec3(0, 0, 0) : Vec3((1 - stop / speed) * trial);
 }
 
 }  // namespace sturz

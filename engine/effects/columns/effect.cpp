@@ -46,15 +46,16 @@ void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
   p.scalar(fields::thickness)[i] = thickness;
   p.scalar(fields::normal_gravity)[i] = g_n;
   if (set.mixture) start_pressure(p, *set.mixture, i);
-  const int zone = flow.zone_of(s.domain, p, i);
   if (Field* k = p.find(fields::earth_pressure)) {
-    const EarthPressure& e = set.earth_pressure[zone];
+    const EarthPressure e = flow.earth_pressure_of(s.domain, p, i);
     k->component[0][i] = std::clamp(1.0, e.active, e.passive);
   }
   // The ground takes what points into it at once; what points out of it lifts no column.
   const Velocity v = Velocity{p.vx[i], p.vy[i], p.vz[i]}.in_plane(ground[i].east, ground[i].north);
-  first.rate = std::max(
-      first.rate, set.bed[zone].rate(std::sqrt(v.norm2()), thickness, set.density, s.gravity));
+  BasalResistance own;
+  const BasalResistance& bed = flow.bed_of(s.domain, p, i, own);
+  first.rate =
+      std::max(first.rate, bed.rate(std::sqrt(v.norm2()), thickness, set.density, s.gravity));
   first.wave2 = std::max(
       first.wave2, s.gravity * known_z * known_thickness * 4 / (support_radius * support_radius));
   flow.release_thickness = std::max(flow.release_thickness, vertical_thickness);
@@ -64,14 +65,11 @@ void start_column(const State& s, MovingSet& p, ColumnFlow& flow, std::size_t i,
 }
 
 /// A column stands for the part of its lattice cell that the source covers.
-void mark_areas(MovingSet& p, const DepthAveragedSettings& set, std::span<const double> covered) {
-  const GroundColumns ground(p);
-  const auto &radius = p.scalar(fields::support_radius), &thickness = p.scalar(fields::thickness);
-  auto& share = p.scalar(fields::area_share);
-  for (std::size_t i = 0; i < covered.size(); ++i)
-    share[i] =
-        covered[i] * set.spacing * set.spacing /
-        column_area(radius[i], ground[i].normal().z(), p.mass[i] / set.density, thickness[i]);
+void mark_area(MovingSet& p, const DepthAveragedSettings& set, std::size_t i, double covered) {
+  p.scalar(fields::area_share)[i] =
+      covered * set.spacing * set.spacing /
+      column_area(p.scalar(fields::support_radius)[i], GroundColumns(p)[i].normal().z(),
+                  p.mass[i] / set.density, p.scalar(fields::thickness)[i]);
 }
 
 void start_columns(const State& s, MovingSet& p, ColumnFlow& flow,
@@ -112,42 +110,53 @@ bool look_up_ground(const State& s, ParticleSet& p, const GroundColumns& ground,
 
 void enter_columns(const State& s, ColumnFlow& flow, MovingSet& p, std::size_t first) {
   p.fate.resize(p.size());
-  if (flow.settings.mixture) enter_mixture(p, *flow.settings.mixture, first);
+  if (flow.settings.mixture) enter_mixture(p, *flow.settings.mixture, first, p.entering);
   FirstRates rates;
-  for (std::size_t i = first; i < p.size(); ++i) start_column(s, p, flow, i, 0, rates);
+  for (std::size_t i = first; i < p.size(); ++i) {
+    const Arrival& a = p.entering[i - first];
+    start_column(s, p, flow, i, a.thickness, rates);
+    if (!a.released) continue;
+    mark_area(p, flow.settings, i, a.covered);
+    if (s.n_steps >= flow.settle_until) flow.settle_from = p.id[i];
+    flow.settle_until = s.n_steps + ColumnFlow::settling_steps;
+  }
   flow.fastest_wave = std::max(flow.fastest_wave, std::sqrt(rates.wave2));
 }
 
 std::size_t column_bytes_per_particle() { return 48 + 2 * 40 + 7 * 4 + 16; }
 
-void add_depth_averaged(Step& step, State& state, std::size_t set,
-                        const DepthAveragedSettings& settings, std::span<const double> thickness,
-                        std::span<const double> covered) {
+std::shared_ptr<ColumnFlow> add_depth_averaged(Step& step, State& state, std::size_t set,
+                                               const DepthAveragedSettings& settings,
+                                               std::span<const double> thickness,
+                                               std::span<const double> covered) {
   MovingSet& p = state.sets[set];
   expect(thickness.size() == p.size(), "one thickness per column");
   expect(covered.empty() || covered.size() == p.size(), "one cover per column");
   expect(!settings.bed.empty() && settings.bed.size() == settings.earth_pressure.size(),
          "bed and earth pressure for every zone");
   const auto fluid = [](const BasalResistance& b) {
-    return b.pore_pressure_ratio > 0 || b.viscosity_pa_s > 0 || b.yield_stress_pa > 0;
+    return b.pore_pressure_ratio > 0 || b.viscosity_pa_s > 0 || b.yield_stress_pa > 0 || b.samosat;
   };
-  expect(!settings.mixture || std::none_of(settings.bed.begin(), settings.bed.end(), fluid),
-         "a mixture has its own pore pressure and viscosity");
+  const bool wet_bed = std::any_of(settings.bed.begin(), settings.bed.end(), fluid) ||
+                       settings.rasters.has(BedNumber::pore_pressure);
+  expect(!settings.mixture || !wet_bed, "a mixture has its own pore pressure and viscosity");
   for (const FieldKey* key :
        {&fields::thickness, &fields::support_radius, &fields::area_share, &fields::normal_gravity,
         &fields::centripetal_momentum, &fields::ground, &fields::velocity_before})
     p.add(*key);
   const auto varies = [](const EarthPressure& e) { return e.varies(); };
-  if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies))
+  if (std::any_of(settings.earth_pressure.begin(), settings.earth_pressure.end(), varies) ||
+      (settings.rasters.any() && settings.active_passive))
     p.add(fields::earth_pressure);
   for (auto* a : {&p.ax, &p.ay, &p.az}) a->assign(p.size(), 0.0f);
   mark_start(state.domain, p, 0);
   auto flow = std::make_shared<ColumnFlow>(set, settings);
   start_columns(state, p, *flow, thickness);
-  mark_areas(p, settings, covered);
+  for (std::size_t i = 0; i < covered.size(); ++i) mark_area(p, settings, i, covered[i]);
   add_column_pressure(step, flow);
   add_column_bed(step, flow);
   add_column_motion(step, flow);
+  return flow;
 }
 
 }  // namespace sturz

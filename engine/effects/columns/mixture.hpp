@@ -13,14 +13,17 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace sturz {
 
 /// Fields "solids_volume", "water_volume", "solid_fraction", "excess_pressure",
-/// "pore_pressure", "pore_gravity".
+/// "pore_pressure", "pore_gravity", and "excess_profile" where it is resolved.
 void add_mixture(State&, std::size_t set, const MixtureSettings&);
 /// Fills them for columns from `first` on, which are new, and the ledger with their volumes.
-void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first);
+/// \param entering of each of them, where it may bring a solid fraction of its own; or empty
+void enter_mixture(MovingSet&, const MixtureSettings&, std::size_t first,
+                   std::span<const Arrival> entering = {});
 
 /// Mass that joins a column from below, e.g. bed that a flow takes along.
 struct AddedMixture {
@@ -29,6 +32,7 @@ struct AddedMixture {
   /// What it adds to the excess pressure at the column's base: its own pore pressure less that of
   /// still water in it; zero where it is hydrostatic [Pa].
   double excess_pa = 0;
+  bool drained_bed = false;  ///< the bed lets go of its excess at once (ProfileSettings)
 };
 /// Mixes it into column i, its volumes into the ledger. Mass and momentum are the caller's;
 /// pressure comes within its bounds at the next kick.
@@ -55,7 +59,8 @@ class WetBed {
   /// \param strain_rate div v of each column [1/s]
   WetBed(ParticleSet&, const MixtureSettings&, std::span<const double> strain_rate);
 
-  /// Fills what the columns know of themselves, for columns begin ... begin + block.n.
+  /// Fills what the columns know of themselves, for columns begin ... begin + block.n; a block of
+  /// a resolved profile has room for it.
   void read(WetBlock&, std::size_t begin) const;
   void slide(WetBlock&) const;
   /// Column i takes over what became of column k of the block, but for its velocity.
@@ -65,6 +70,7 @@ class WetBed {
   const MixtureSettings& settings_;
   const double *mass_, *thickness_, *normal_gravity_, *solids_, *water_, *strain_rate_;
   double *fraction_, *excess_, *pressure_, *gravity_seen_;
+  std::vector<std::vector<double>>* inside_ = nullptr;  // of a resolved profile, by node
 };
 
 }  // namespace sturz

@@ -5,7 +5,10 @@
 #include "engine/neighbors/column_smoothing.hpp"
 
 #include <algorithm>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
+#include <string>
 #include <unordered_map>
 
 namespace sturz {
@@ -17,6 +20,14 @@ constexpr double overshoot = 0.1;  ///< of the release's thickness that smoothin
 constexpr double share_that_counts = 0.01;
 
 std::string whole(double value) { return std::to_string(std::lround(value)); }
+
+/// A height that never reads as 0: two digits, whole from 10 on.
+std::string height(double value) {
+  if (std::abs(value) >= 9.95) return whole(value);
+  std::ostringstream text;
+  text << std::setprecision(2) << value;
+  return text.str();
+}
 
 /// Columns by square of the map as wide as the longest support radius.
 class Squares {
@@ -61,7 +72,10 @@ double surface_slope(const ParticleSet& p, const Squares& squares, const ColumnF
 /// Steeper than the friction of grains and bed, by the margin [-].
 double steepest_rest(const DepthAveragedSettings& s) {
   double friction = s.internal_friction;
-  for (const BasalResistance& bed : s.bed) friction = std::max(friction, bed.friction_coefficient);
+  for (const BasalResistance& bed : s.bed) {
+    const double most = s.rasters.range(bed, BedNumber::friction).second;
+    friction = std::max(friction, bed.samosat ? 2 * most : most);  // at rest, slowness()
+  }
   return std::tan(std::min(89 * degree, std::atan(friction) + margin_deg * degree));
 }
 
@@ -94,14 +108,16 @@ SteepRest steep_rest(const State& s, const ColumnFlow& flow, double limit) {
 void warn_of_implausible(const State& s, const ColumnFlow& flow, std::vector<std::string>& out) {
   const double above = flow.highest_surface - flow.release_top;
   if (above > overshoot * flow.release_thickness)
-    out.push_back("columns: the mass rose " + whole(above) +
+    out.push_back("columns: the mass rose " + height(above) +
                   " m above its highest point at release, more than its energy allows (it was " +
-                  whole(flow.release_thickness) +
-                  " m thick). Use a finer spacing or formulation: full_stress");
+                  height(flow.release_thickness) +
+                  " m thick). Use a finer spacing, or formulation: full_stress where the scene's "
+                  "effects exist in it");
   const DepthAveragedSettings& set = flow.settings;
   const Domain& domain = s.domain;
   if (!(set.internal_friction > 0) || std::any_of(set.bed.begin(), set.bed.end(), is_sticky) ||
-      domain.x.active || domain.y.active || !domain.walls.empty())
+      set.rasters.has(BedNumber::cohesion) || domain.x.active || domain.y.active ||
+      !domain.walls.empty())
     return;
   const SteepRest steep = steep_rest(s, flow, steepest_rest(set));
   if (steep.share > share_that_counts)

@@ -23,7 +23,11 @@ class CellPass final : public Pass {
   void apply(State& s, double) override {
     MovingSet& p = s.sets[flow_->set];
     wrap_particles(s.domain, p);
-    flow_->cells.build(p, s.domain, p.scalar(fields::support_radius));
+    const auto& support_radius = p.scalar(fields::support_radius);
+    if (flow_->frame)
+      flow_->cells.build(p, s.domain, support_radius, *flow_->frame);
+    else
+      flow_->cells.build(p, s.domain, support_radius);
     for (auto& r : flow_->results) r.resize(flow_->cells.size());
     p.order_changed = false;
   }
@@ -198,6 +202,7 @@ class SweepPass final : public Pass {
   }
   void warnings(const State& s, std::vector<std::string>& out) const override {
     warn_of_implausible(s, *flow_, out);
+    warn_of_suction(s, *flow_, out);
   }
   std::size_t bytes() const override { return 7 * sizeof(float) * flow_->cells.size(); }
 
@@ -216,7 +221,7 @@ class SweepPass final : public Pass {
     const bool walls = !s.domain.walls.empty();
     if (set.mixture) flow_->strain_rate.resize(p.size());
     double* strain_rate = set.mixture ? flow_->strain_rate.data() : nullptr;
-    const bool settles = s.n_steps < settling_steps;
+    const bool settles = s.n_steps < flow_->settle_until;
     double* area_share = settles ? p.scalar(fields::area_share).data() : nullptr;
     const Fastest fastest = ordered_reduce(
         cells.size(), s.threads, Fastest{},
@@ -225,7 +230,8 @@ class SweepPass final : public Pass {
             if (cells.is_image(c)) continue;
             const std::size_t i = cells.source(c);
             p.ax[i] = out.ax[c], p.ay[i] = out.ay[c], p.az[i] = out.az[c];
-            const double released = settles ? area_of(p, ground, i) : 0;
+            const bool settling = settles && p.id[i] >= flow_->settle_from;
+            const double released = settling ? area_of(p, ground, i) : 0;
             const double whole =
                 walls ? flow_->walls.thickness_factor(s.domain, s.time, {p.x[i], p.y[i], p.z[i]},
                                                       support_radius[i])
@@ -242,7 +248,7 @@ class SweepPass final : public Pass {
             most.wave = std::max(most.wave, wave2);
             most.approach2 = std::max(most.approach2, out.approach[c] * per_h * per_h);
             support_radius[i] = adapted(support_radius[i], whole * out.density[c], first);
-            if (settles) area_share[i] *= released / area_of(p, ground, i);
+            if (settling) area_share[i] *= released / area_of(p, ground, i);
           }
         },
         [](Fastest& total, const Fastest& block) {
@@ -265,10 +271,6 @@ class SweepPass final : public Pass {
     });
   }
 
-  /// For so many steps support radii find what lies around them, and columns stand for the area
-  /// that they were released on.
-  static constexpr std::size_t settling_steps = 10;
-
   double area_of(ParticleSet& p, const GroundColumns& ground, std::size_t i) const {
     return column_area(p.scalar(fields::support_radius)[i], ground[i].normal().z(),
                        p.mass[i] / flow_->settings.density, p.scalar(fields::thickness)[i]);
@@ -286,7 +288,7 @@ class SweepPass final : public Pass {
                   double strain, double thickness) const {
     const double v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
     if (v2 < 1e-6 * standard_gravity * thickness) return k;  // at rest K stays as it came
-    const EarthPressure& e = flow_->settings.earth_pressure[flow_->zone_of(domain, p, i)];
+    const EarthPressure e = flow_->earth_pressure_of(domain, p, i);
     return e.strained(k, strain, flow_->settings.earth_pressure_stiffness);
   }
 

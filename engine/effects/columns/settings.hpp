@@ -2,6 +2,7 @@
 /// Numbers of a depth-averaged flow.
 #pragma once
 
+#include "engine/effects/bed_rasters.hpp"
 #include "engine/effects/columns/mixture_settings.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
 #include "engine/laws/basal_resistance.hpp"
@@ -30,10 +31,22 @@ struct DepthAveragedSettings {
   /// Share of the thrust that drives a column which internal friction takes, by zone: 1 - K_active
   /// (ADR 0026). Empty: none.
   std::vector<double> spent_inside;
+  /// With `rasters`, in the place of the two above: K follows from the bed below each column, and
+  /// so much of the thrust that internal friction would take is taken.
+  bool active_passive = false;
+  double spent_share = 0;
   double internal_friction = 0;  ///< tan phi of the grains, to judge deposits by; 0: unknown
   ZoneMap zones;
+  BedRasters rasters;                      ///< over the beds of the zones
   std::optional<MixtureSettings> mixture;  ///< absent: a dry mass, or one with a constant ratio
   InstructionSet instruction_set = InstructionSet::plain;
+
+  /// K of a bed below columns with this internal friction. Only the grains' part of the stress is
+  /// anisotropic (Iverson & Denlinger 2001).
+  EarthPressure earth_pressure_over(const BasalResistance& b) const {
+    return EarthPressure(internal_friction, b.effective_friction())
+        .with_pore_pressure(b.pore_pressure_ratio);
+  }
 };
 
 }  // namespace sturz

@@ -8,7 +8,9 @@
 #include "engine/effects/step.hpp"
 #include "engine/neighbors/column_cells.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,6 +28,17 @@ struct ColumnFlow {
       lateral_gravity;              ///< pressure over density and thickness where K = 1 [m/s^2]
   std::vector<double> strain_rate;  ///< div v of each column [1/s]; empty without a mixture
   bool steep = false;               ///< some share is under one
+  /// Of cells that a second set of columns shares; null: cells around this set alone.
+  const ColumnFrame* frame = nullptr;
+  /// Thickness that the drag of the bed acts over, of each column [m]; empty: its own.
+  std::vector<double> bed_thickness;
+  /// Impulses from another set come between the start of a step and the bed.
+  bool has_exchange = false;
+  /// Columns with ids from this one on stand for the area that they were released on until this
+  /// step: for so long support radii find what lies around them.
+  static constexpr std::size_t settling_steps = 10;
+  std::uint32_t settle_from = 0;
+  std::size_t settle_until = settling_steps;
   double start_dt = 1e-3;           ///< of the first step [s]
   double fastest_wave = 0;          ///< largest sqrt(K g_n h) / h_s [1/s]
   double fastest_approach = 0;      ///< largest relative speed of neighbours / h_s [1/s]
@@ -48,6 +61,36 @@ struct ColumnFlow {
     double x = p.x[i], y = p.y[i], z = 0;
     domain.wrap(x, y, z);
     return settings.zones.at(x, y);
+  }
+  /// What lies below column i, with the numbers of rasters where there are any. \param own is
+  /// written where the bed is no zone's
+  const BasalResistance& bed_of(const Domain& domain, const ParticleSet& p, std::size_t i,
+                                BasalResistance& own) const {
+    const int zone = zone_of(domain, p, i);
+    const BasalResistance& bed = settings.bed[static_cast<std::size_t>(zone)];
+    if (!settings.rasters.any()) return bed;
+    double x = p.x[i], y = p.y[i], z = 0;
+    domain.wrap(x, y, z);
+    own = settings.rasters.over(bed, zone, x, y);
+    return own;
+  }
+  /// K of column i.
+  EarthPressure earth_pressure_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {
+    if (!settings.rasters.any())
+      return settings.earth_pressure[static_cast<std::size_t>(zone_of(domain, p, i))];
+    BasalResistance own;
+    return settings.active_passive ? settings.earth_pressure_over(bed_of(domain, p, i, own))
+                                   : EarthPressure();
+  }
+  /// Share of the thrust that internal friction takes of column i over that bed.
+  double spent_over(const Domain& domain, const ParticleSet& p, std::size_t i,
+                    const BasalResistance& bed) const {
+    if (!settings.rasters.any())
+      return settings.spent_inside.empty()
+                 ? 0
+                 : settings.spent_inside[static_cast<std::size_t>(zone_of(domain, p, i))];
+    if (!(settings.spent_share > 0)) return 0;
+    return settings.spent_share * std::max(0.0, 1 - settings.earth_pressure_over(bed).active);
   }
 };
 
@@ -128,6 +171,14 @@ bool look_up_ground(const State&, ParticleSet&, const GroundColumns&, std::size_
 /// A kick at t_n leads from the middle of the last step to the middle of this one.
 inline double kick_interval(const State& s, double dt) { return 0.5 * (s.previous_dt + dt); }
 
+/// Where gravity, pressure and bed alone would lead the columns in this step; all [n].
+struct ColumnForecast {
+  std::vector<double> vx, vy, vz;  ///< [m/s]
+  /// Of columns that the bed holds: how much more it could hold [m/s]; else zero.
+  std::vector<double> spare;
+};
+void forecast(const State&, MovingSet&, const ColumnFlow&, double dt, ColumnForecast&);
+
 /// Puts columns from `first` on that entered during the run on the ground, without neighbours yet.
 void enter_columns(const State&, ColumnFlow&, MovingSet&, std::size_t first);
 
@@ -140,6 +191,8 @@ SteepRest steep_rest(const State&, const ColumnFlow&, double limit);
 /// Says what no mass of grains does: a surface above the energy head of the release, a rest steeper
 /// than friction allows.
 void warn_of_implausible(const State&, const ColumnFlow&, std::vector<std::string>&);
+/// Says that a mixture lies still only as long as its pores pull: it dilated, and water flows back.
+void warn_of_suction(const State&, const ColumnFlow&, std::vector<std::string>&);
 
 void add_column_pressure(Step&, const std::shared_ptr<ColumnFlow>&);  ///< cells, gather, sweep
 void add_column_bed(Step&, const std::shared_ptr<ColumnFlow>&);       ///< gravity and bed

@@ -18,7 +18,8 @@ void take_up(MovingSet& p, const MixtureLaw& law, const SaturatedBed& bed,
     if (!(mass[i] > 0)) continue;
     const double volume = share * mass[i] / density;
     const double deeper = volume / (solids[i] + water[i]) * thickness[i];
-    add_to_mixture(p, i, {m * volume, (1 - m) * volume, m, per_depth * g_n[i] * deeper});
+    add_to_mixture(p, i,
+                   {m * volume, (1 - m) * volume, m, per_depth * g_n[i] * deeper, bed.drained});
   }
 }
 

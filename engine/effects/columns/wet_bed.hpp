@@ -12,6 +12,7 @@ namespace sturz {
 struct SaturatedBed {
   double solid_fraction = 0.64;
   double pressure_ratio = -1;  ///< pore pressure over total normal stress; negative: hydrostatic
+  bool drained = false;        ///< it lets go of its excess at once (ProfileSettings)
 };
 
 /// Adds this share of so much mass of bed to each column of the mixture, by storage index [kg];

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/effects/columns/wet_block.hpp"
 
+#include "engine/effects/columns/wet_bounds.hpp"
+#include "engine/effects/columns/wet_profile.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,42 +17,6 @@ constexpr int most_parts = 16;
 constexpr double most_dilation = 0.02;
 /// Films without weight must not divide by it.
 constexpr double least_stress = 1e-12;
-
-// By value and with one comparison each, which is what puts them side by side; NaN stays.
-inline double lesser(double a, double b) { return a < b ? a : b; }
-inline double greater(double a, double b) { return a > b ? a : b; }
-inline double within(double value, double low, double high) {
-  const double raised = value < low ? low : value;
-  return raised > high ? high : raised;
-}
-
-/// ColumnWater as far as a kick asks for it.
-struct Pores {
-  double thickness, level;  // of grains and pores; of the water [m]
-  bool airy;
-
-  Pores(double share, double m, double whole)
-      : thickness(whole * share / m),
-        level(m < share ? whole * (1 - share) / (1 - m) : whole),
-        airy(m < share) {}
-};
-
-/// Not below zero, not above the weight, and not above what water in half-filled pores can hold.
-inline double bounded(double excess, double stress, double still, bool airy) {
-  const double room = stress - still;
-  const double most = airy && room > 0 ? 0 : room;
-  return within(excess, lesser(-still, most), most);
-}
-
-/// Elastic energy of what a bound cut off [J].
-inline double cut_work(const MixtureLaw& law, double m, double excess, double inside, double stress,
-                       double still, double volume) {
-  // Beyond twice the weight a rate has run away, not a pressure.
-  const double out = within(excess, -still - stress, 2 * stress - still) + still;
-  const double in = inside + still;
-  const double stiffness = law.stiffness(m, greater(0, stress - in));
-  return inside == excess ? 0 : 0.5 * std::abs(out * out - in * in) / stiffness * volume;
-}
 
 }  // namespace
 
@@ -90,6 +57,7 @@ void WetBlock::let_go() {
 }
 
 /// The speed in the middle of the next part, and what the pressure does at it.
+template <bool resolved>
 void WetBlock::look_ahead(const MixtureLaw& given) {
   const MixtureLaw law = given;
 #pragma omp simd
@@ -114,26 +82,36 @@ void WetBlock::look_ahead(const MixtureLaw& given) {
     const double ends = greater(0, std::sqrt(greater(0, trial2)) - plastic * reach);
     const double speed = 0.5 * (start + ends);
     const Dilatancy ahead = dilatancy(law, m, 2 * speed * per_h, borne);
-    const PoreRates rates = tangent_rates(law, c, permeability_[i], speed, ahead);
-    const PoreChange change = advance(rates, p, dt);
     grains_[i] = pores.thickness, still_[i] = still, speed_[i] = speed;
-    change_[i] = change.excess, mean_[i] = change.mean_excess;
-    compaction_[i] = rates.compaction, decay_[i] = rates.decay * dt;
     steady_[i] = ahead.steady_fraction;
+    if constexpr (!resolved) {
+      const PoreRates rates = tangent_rates(law, c, permeability_[i], speed, ahead);
+      const PoreChange change = advance(rates, p, dt);
+      change_[i] = change.excess, mean_[i] = change.mean_excess;
+      compaction_[i] = rates.compaction, decay_[i] = rates.decay * dt;
+    }
   }
+  if constexpr (resolved) profile->look_ahead(*this, given);
 }
 
 /// Goes through the part that was looked ahead over.
+template <bool resolved>
 void WetBlock::finish(const MixtureLaw& given) {
   const MixtureLaw law = given;
   const double loosest = law.loosest_fraction();
+  double base_share = 1;  // of the volume that the pressure at the base stands for
+  if constexpr (resolved) base_share = profile->base_share();
 #pragma omp simd
   for (std::size_t i = 0; i < n; ++i) {
     const double m = fraction[i], dt = time_[i], share = share_[i], stress = stress_[i];
     const double still = still_[i], speed = speed_[i], per_h = 1 / grains_[i];
     const bool airy = m < share;
     const double mean = bounded(mean_[i], stress, still, airy);
-    const double compacted = m * plain_exp(within(compaction_[i] * mean * dt, -1, 1));
+    double compacted;
+    if constexpr (resolved)
+      compacted = m / (1 - within(squeezed_[i], -1, 0.5));
+    else
+      compacted = m * plain_exp(within(compaction_[i] * mean * dt, -1, 1));
     const double capped =
         greater(within(compacted, m - most_dilation, m + most_dilation), lesser(m, loosest));
     // Thin fast films would swing about their steady fraction: they stop at it.
@@ -143,7 +121,8 @@ void WetBlock::finish(const MixtureLaw& given) {
     // Pores with air in them close as fast as shear closes them: the air leaves freely.
     const double target = lesser(steady, share);
     const double closed = target + (m - target) * plain_exp(-2 * speed * per_h * dt * m);
-    const double least = airy && change_[i] > 0 ? (target > m ? closed : m) : 0;
+    const double rises = resolved ? rising_[i] : change_[i];
+    const double least = airy && rises > 0 ? (target > m ? closed : m) : 0;
     const double next = within(greater(settled, least), 1e-3, 0.99);
 
     const double borne = greater(0, stress - still - mean);
@@ -157,17 +136,19 @@ void WetBlock::finish(const MixtureLaw& given) {
     const double x = d.left * vx[i] + reach * pull_x[i], y = d.left * vy[i] + reach * pull_y[i],
                  z = d.left * vz[i] + reach * pull_z[i];
     const double trial = std::sqrt(x * x + y * y + z * z), stop = plastic * reach;
-    const double kept = trial > stop ? 1 - stop / trial : 0;
+    const double kept = trial <= stop ? 0 : 1 - stop / trial;  // NaN is no rest
     vx[i] = kept * x, vy[i] = kept * y, vz[i] = kept * z;
 
     const Pores after(share, next, thickness[i]);
     const double level = law.fluid_density * normal_gravity[i] * after.level;
     const double wanted = change_[i], inside = bounded(wanted, stress, level, after.airy);
-    clipped_work[i] +=
-        cut_work(law, next, wanted, inside, stress, level, after.thickness * area_[i]);
+    double volume = after.thickness * area_[i];
+    if constexpr (resolved) volume *= base_share;
+    clipped_work[i] += cut_work(law, next, wanted, inside, stress, level, volume);
     fraction[i] = next, excess[i] = inside;
     pressure[i] = greater(0, inside + level);
   }
+  if constexpr (resolved) profile->settle(*this, given);
 }
 
 int WetBlock::parts_of(std::size_t i) const {
@@ -202,39 +183,57 @@ void WetBlock::copy(std::size_t to, const WetBlock& from, std::size_t i) {
 }
 
 /// Columns that were sorted by falling numbers of parts.
+template <bool resolved>
 void WetBlock::slide_in_parts(const MixtureLaw& law, const int* parts, const std::size_t* source) {
   const std::size_t all = n;
   for (std::size_t k = 0; k < all; ++k) time_[k] /= parts[source[k]];
   for (int part = 0; part < most_parts; ++part) {
     while (n > 0 && parts[source[n - 1]] <= part) --n;
     if (n == 0) break;
-    look_ahead(law);
-    finish(law);
+    look_ahead<resolved>(law);
+    finish<resolved>(law);
   }
   n = all;
 }
 
 void WetBlock::slide(const MixtureSettings& settings) {
   load(settings);
+  if (profile) {
+    profile->load(*this, settings);
+    WetProfile more(settings.profile);
+    slide_loaded<true>(settings, &more);
+  } else {
+    slide_loaded<false>(settings, nullptr);
+  }
+}
+
+/// \param inside_more room for the profiles of columns that are taken out
+template <bool resolved>
+void WetBlock::slide_loaded(const MixtureSettings& settings, WetProfile* inside_more) {
   let_go();
-  look_ahead(settings.law);
+  look_ahead<resolved>(settings.law);
   int parts[capacity];
   std::size_t source[capacity], n_more = 0;
   for (std::size_t i = 0; i < n; ++i)
     if ((parts[i] = parts_of(i)) > 1) source[n_more++] = i;
-  if (n_more == 0) return finish(settings.law);
+  if (n_more == 0) return finish<resolved>(settings.law);
   std::stable_sort(source, source + n_more,
                    [&](std::size_t a, std::size_t b) { return parts[a] > parts[b]; });
   WetBlock more;
   more.n = n_more;
   for (std::size_t k = 0; k < n_more; ++k) more.copy(k, *this, source[k]);
-  if (n_more < n) finish(settings.law);
-  more.slide_in_parts(settings.law, parts, source);
+  if constexpr (resolved) {
+    more.profile = inside_more;
+    for (std::size_t k = 0; k < n_more; ++k) inside_more->copy(k, *profile, source[k]);
+  }
+  if (n_more < n) finish<resolved>(settings.law);
+  more.slide_in_parts<resolved>(settings.law, parts, source);
   for (std::size_t k = 0; k < n_more; ++k) {
     const std::size_t i = source[k];
     vx[i] = more.vx[k], vy[i] = more.vy[k], vz[i] = more.vz[k];
     fraction[i] = more.fraction[k], excess[i] = more.excess[k], pressure[i] = more.pressure[k];
     clipped_work[i] = more.clipped_work[k];
+    if constexpr (resolved) profile->copy(i, *inside_more, k);
   }
 }
 

@@ -9,12 +9,15 @@
 
 namespace sturz {
 
+struct WetProfile;
+
 struct WetBlock {
   static constexpr std::size_t capacity = 128;
   using Row = double[capacity];
 
   std::size_t n = 0;
-  double time = 0;  ///< of the kick [s]
+  double time = 0;                ///< of the kick [s]
+  WetProfile* profile = nullptr;  ///< of their excess pressure; null: a parabola
 
   // What the step gives: volumes [m^3], thickness of all along the normal [m], div v [1/s].
   alignas(64) Row mass, solids, water, thickness, normal_gravity, strain_rate;
@@ -36,17 +39,27 @@ struct WetBlock {
   void slide(const MixtureSettings&);
 
  private:
+  friend struct WetProfile;
   // Of the column over the kick.
   Row share_, stress_, per_load_, area_, permeability_, touching_;
   // Of a part: its length, thickness of grains and pores, hydrostatic pressure, and what it brings.
   Row time_, grains_, still_, speed_, change_, mean_, compaction_, decay_, steady_;
 
+  // Of a part where a profile is resolved: thickness squeezed out over thickness, and whether the
+  // pressure inside would rise.
+  Row squeezed_, rising_;
+
   void load(const MixtureSettings&);
   void let_go();
+  template <bool resolved>
   void look_ahead(const MixtureLaw&);
+  template <bool resolved>
   void finish(const MixtureLaw&);
+  template <bool resolved>
+  void slide_loaded(const MixtureSettings&, WetProfile* inside_more);
   int parts_of(std::size_t i) const;
   void copy(std::size_t to, const WetBlock& from, std::size_t i);
+  template <bool resolved>
   void slide_in_parts(const MixtureLaw&, const int* parts, const std::size_t* source);
 };
 

@@ -2,6 +2,7 @@
 /// Numbers of a bed that the flow takes along.
 #pragma once
 
+#include "engine/effects/bed_rasters.hpp"
 #include "engine/effects/moving_set.hpp"
 #include "engine/laws/basal_resistance.hpp"
 #include "engine/laws/entrainment.hpp"
@@ -19,6 +20,7 @@ struct ErosionSettings {
   double bed_density = 1500;            ///< bulk [kg/m^3]
   std::vector<BasalResistance> bed{1};  ///< what the bed takes from the flow, by zone
   ZoneMap zones;
+  BedRasters rasters;  ///< over the beds of the zones
   Grid cells;  ///< of the ground that the columns feel; one period of it where it repeats itself
   BedSource source;
   /// Told, twice a step, that each column took up this share of so much mass [kg], by storage

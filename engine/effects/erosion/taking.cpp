@@ -142,7 +142,7 @@ class TakingPass final : public Pass {
   double growth(FlowOverBed& flow, const BasalResistance& bed, double gravity,
                 double interval) const {
     const ErosionSettings& set = erosion_->settings;
-    flow.brake = bed.plastic(flow.normal_gravity, flow.thickness, flow.density) +
+    flow.brake = bed.plastic(flow.normal_gravity, flow.thickness, flow.density, flow.speed) +
                  flow.speed * bed.rate(flow.speed, flow.thickness, flow.density, gravity);
     const double depth_rate = set.law.erosion_rate(flow, set.bed_density);
     return depth_rate > 0 ? set.bed_density / flow.density * depth_rate / flow.thickness * interval
@@ -156,7 +156,9 @@ class TakingPass final : public Pass {
     double z = 0;
     a.x = p.x[i], a.y = p.y[i];
     s.domain.wrap(a.x, a.y, z);
-    BasalResistance bed = set.bed[static_cast<std::size_t>(set.zones.at(a.x, a.y))];
+    const int zone = set.zones.at(a.x, a.y);
+    BasalResistance bed = set.bed[static_cast<std::size_t>(zone)];
+    if (set.rasters.any()) bed = set.rasters.over(bed, zone, a.x, a.y);
     const double stress = flow.density * flow.normal_gravity * flow.thickness;
     if (pore_pressure && stress > 0)
       bed.pore_pressure_ratio = std::clamp(*pore_pressure / stress, 0.0, 1.0);

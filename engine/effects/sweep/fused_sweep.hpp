@@ -37,6 +37,9 @@ struct Sweeps {
   /// One pass over groups [first, last) of depth-averaged columns (columns/sums.hpp).
   void (*columns)(const ColumnView&, const ColumnConstants&, const ColumnSweepOutput&,
                   std::size_t first_group, std::size_t last_group);
+  /// The same across two sets of columns (phases/sums.hpp).
+  void (*across)(const AcrossView&, bool steep, const AcrossOutput&, std::size_t first_group,
+                 std::size_t last_group);
 };
 const Sweeps& sweeps(InstructionSet);
 

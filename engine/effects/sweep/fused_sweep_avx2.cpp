@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #define STURZ_ISA isa_avx2
 #include "engine/effects/columns/sweep.hpp"
+#include "engine/effects/phases/sweep.hpp"
 #include "engine/effects/sweep/body.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
 
@@ -8,6 +9,6 @@ namespace sturz {
 
 extern const Sweeps sweeps_avx2;
 const Sweeps sweeps_avx2{&STURZ_ISA::dense_sweep, &STURZ_ISA::kinetic_sweep, &STURZ_ISA::tight_list,
-                         &STURZ_ISA::column_sweep};
+                         &STURZ_ISA::column_sweep, &STURZ_ISA::across_sweep};
 
 }  // namespace sturz

@@ -8,7 +8,7 @@ namespace sturz {
 void write_erosion(const BedSupply& bed, const Ledger& ledger, MemberScalars& m) {
   m.eroded_volume_m3 = bed.eroded_volume_m3();
   m.entrained_mass_kg = ledger.entrained_mass;
-  m.volume_growth = 1 + ledger.entrained_mass / ledger.released_mass;
+  m.volume_growth = 1 + ledger.entrained_mass / (ledger.released_mass + ledger.added_mass);
   m.max_eroded_depth_m = 0;
   bed.visit_eroded([&](int, int, double depth) {
     m.max_eroded_depth_m = std::max(m.max_eroded_depth_m, depth);

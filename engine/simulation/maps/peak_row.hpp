@@ -15,7 +15,9 @@ struct PeakRow {
   float enough_cover = 0;    ///< and they are reached where as much of them is covered
   float enough_under = 0;    ///< or as much of them lies under the particles themselves
   float per_area = 0;        ///< of a cell [1/m2]
-  bool is_odd = false;       ///< every other instant takes the place of the tile's `last`
+  /// Of the first and the second set, thickness of a cell per mass in it [m/kg]; 0: not told apart.
+  float per_first = 0, per_second = 0;
+  bool is_odd = false;  ///< every other instant takes the place of the tile's `last`
 
   /// \param cells, under  of the row  \param first  of the row's cells within the tile
   void keep(const CellSums* cells, const float* under, std::size_t first, PeakTile& peaks) const {
@@ -64,6 +66,13 @@ struct PeakRow {
     return ((now > 0.0F) & (middle > 0.0F) & (first > 0.0F)) ? larger(now, top) : now;
   }
 
+  /// Largest of the instants: between two of them a peak may be some percent higher.
+  void keep_sets(const Eight& mass, const Eight& of_first, std::size_t at, PeakTile& peaks) const {
+    float *first = peaks.first.data() + at, *second = peaks.second.data() + at;
+    put_eight(first, larger(eight_at(first), of_first * per_first));
+    put_eight(second, larger(eight_at(second), (mass - of_first) * per_second));
+  }
+
   void keep_eight(const float* cells, const float* under, std::size_t at, PeakTile& peaks) const {
     Eight sums[n_cell_sums];
     transpose_eight(cells, sums);
@@ -102,6 +111,7 @@ struct PeakRow {
     const Eight speed =
         raise_passing(&PeakTile::speed, &PeakTile::Instant::speed, speed_now, false);
     raise(peaks.pressure, density * speed * speed);
+    if (per_first > 0) keep_sets(mass, sum(CellSum::first_mass), at, peaks);
     const auto covered =
         (sum(CellSum::coverage) >= enough_cover) | (eight_at(under) >= enough_under);
     const auto reached = counts & covered;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <vector>
 
 namespace sturz {
 
@@ -24,7 +25,8 @@ struct PeakTile {
   PerCell<float> thickness{}, speed{}, energy{}, pressure{};
   PerCell<float> arrival{};  ///< first time, or `never`
   PerCell<float> deposit{};
-  PerCell<bool> covered{};  ///< by the deposit
+  std::vector<float> first, second;  ///< thickness of each set; empty where not told apart
+  PerCell<bool> covered{};           ///< by the deposit
   /// What a cell held at one of the last instants, zero where it was not touched.
   struct Instant {
     PerCell<float> thickness{}, speed{}, energy{};

@@ -19,6 +19,9 @@ inline std::uint64_t hash_of(const State& state) {
     hash.add(std::span<const std::uint32_t>(p.id));
     for (const FieldKey* key : {&fields::solid_fraction, &fields::excess_pressure})
       if (const Field* f = p.find(*key)) hash.add(std::span<const double>(f->component[0]));
+    for (const FieldKey& key : fields::excess_profile)
+      if (const Field* f = p.find(key))
+        for (const auto& node : f->component) hash.add(std::span<const double>(node));
   }
   if (state.bed_supply)
     state.bed_supply->visit_eroded(

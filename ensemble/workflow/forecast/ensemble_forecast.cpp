@@ -17,7 +17,8 @@ double rough_seconds(const EnsembleJob& job) {
   return static_cast<double>(job.to_do.size()) *
              (job.scene.description.predicted_seconds + least_member_s) / job.workers +
          static_cast<double>(job.design.n_members()) * opening_s +
-         map_planes(job.scene.scenario.hazard) * least_map_s;
+         map_planes(job.scene.scenario.hazard, job.scene.scenario.erosion.has_value()) *
+             least_map_s;
 }
 
 }  // namespace

@@ -106,7 +106,8 @@ void add_maps(const Scene& scene, const ForecastRequest& request, const Trial& t
   const Range cells = map_cells(trial.members, all, scene.inputs.hazard_grid);
   const MapSpeed speed = map_speed(request.speed_cache);
   const auto cost = [&](double of_cells) {
-    return predict_map_cost({all, touched.value, of_cells, map_planes(scene.scenario.hazard)},
+    return predict_map_cost({all, touched.value, of_cells,
+                             map_planes(scene.scenario.hazard, scene.scenario.erosion.has_value())},
                             speed);
   };
   const MapCost likely = cost(cells.likely), low = cost(cells.low), high = cost(cells.high);
@@ -120,9 +121,26 @@ void add_maps(const Scene& scene, const ForecastRequest& request, const Trial& t
   f.memory_bytes = Range::within(most, memory_factor);
 }
 
+/// The members with what those that were cut off may take: what they took (share 0) to what their
+/// time limit would (share 1).
+std::vector<TriedMember> ended(std::vector<TriedMember> members, double share) {
+  for (TriedMember& m : members) m.cpu_s *= std::pow(m.longer, share);
+  return members;
+}
+
+Range member_seconds(const Trial& trial, std::int64_t all) {
+  const auto seconds = [&](double share) {
+    return with_chance(mean_of(ended(trial.members, share), &TriedMember::cpu_s, all),
+                       member_factor(trial));
+  };
+  return {seconds(0.5).likely, seconds(0).low, seconds(1).high};
+}
+
 void add_members(const ForecastRequest& request, const Trial& trial, Forecast& f) {
   const std::int64_t all = request.design->n_members();
-  f.member_s = with_chance(mean_of(trial.members, &TriedMember::cpu_s, all), member_factor(trial));
+  f.member_s = member_seconds(trial, all);
+  f.cut_off_members = std::count_if(trial.members.begin(), trial.members.end(),
+                                    [](const TriedMember& m) { return m.longer > 1; });
   const auto to_do = static_cast<double>(request.members);
   f.members_s = f.member_s * to_do;
   f.members_disk_bytes = with_chance(mean_of(trial.members, &TriedMember::file_bytes, all),
@@ -148,8 +166,9 @@ void add_elapsed(Forecast& f) {
 Forecast forecast(const Scene& scene, const ForecastRequest& request) {
   const SceneDescription& d = scene.description;
   const bool ensemble = request.design != nullptr && request.design->n_members() > 0;
-  const Trial trial = try_members(scene, ensemble ? request.design : nullptr,
-                                  {request.workers, request.trial_s, request.cancel});
+  const Trial trial =
+      try_members(scene, ensemble ? request.design : nullptr,
+                  {request.workers, request.trial_s, request.cancel, request.longest_try_s});
   Forecast f;
   f.members = ensemble ? request.members : 0;
   f.workers = request.workers;
@@ -157,6 +176,7 @@ Forecast forecast(const Scene& scene, const ForecastRequest& request) {
   f.tried_members = static_cast<std::int64_t>(trial.members.size());
   f.spacing_m = d.spacing_m;
   f.tried_spacing_m = d.spacing_m * trial.coarser;
+  f.failure = trial.failure;
   f.trial_s = trial.cpu_s;
   f.slowdown = trial.slowdown;
   const double factor = f.tried ? member_factor(trial) : untried_factor;

@@ -20,6 +20,7 @@ struct ForecastRequest {
   SpeedCache speed_cache;               ///< of the machine
   double start_s = 0;                   ///< what starting and reading the scene took
   double trial_s = 1;                   ///< computing time that may be spent on trying members
+  double longest_try_s = 2;             ///< that one of them may take before it is cut off
   CancelFlag cancel = {};
 };
 
@@ -30,6 +31,8 @@ struct Forecast {
   int workers = 1;
   bool tried = false;  ///< false: no member could be tried, and the ranges are wide
   std::int64_t tried_members = 0;
+  std::int64_t cut_off_members = 0;  ///< of those: not at their end after two seconds
+  std::string failure;               ///< why nothing could be tried, where it is not the time
   double spacing_m = 0, tried_spacing_m = 0;  ///< the scene's, and that of the trial
   double trial_s = 0;                         ///< spent on it
   Range median_s, median_steps;               ///< one member, with the median of every distribution
@@ -46,7 +49,10 @@ struct Forecast {
 /// speed at making maps. Ranges are wide enough for what docs/studies/forecasts.md measured:
 ///   a member     two fifths for the machine, more by a power of 0.3 where the trial was coarser;
 ///                what the finer of two trials differed from the coarser one, where that is more
-///   all members  that, and twice the standard error of the mean of those tried
+///   all members  that, and twice the standard error of the mean of those tried; one that was cut
+///   off
+///                between what it took and as much more as its time limit would be, the geometric
+///                mean at the likeliest
 ///   maps         three fifths either way, between the ground that the tried members reach and what
 ///                the farthest of all will
 /// Without a trial: a factor of four. \throws Cancelled

@@ -20,12 +20,17 @@ std::string size_text(double bytes) {
 
 /// How it is known.
 std::string trial_text(const Forecast& f, double spacing_m) {
-  if (!f.tried) return "no member could be tried in a second or two";
+  if (!f.tried)
+    return f.failure.empty() ? "no member could be tried in a second or two"
+                             : "no member could be tried: " + f.failure;
   std::string text = f.members > 0 && f.tried_members > 0
                          ? fmt::format("the median and {} members tried", f.tried_members)
                          : "tried";
   if (f.tried_spacing_m > 1.001 * spacing_m)
     text += fmt::format(" at a spacing of {:.3g} m", f.tried_spacing_m);
+  if (f.cut_off_members > 0)
+    text +=
+        fmt::format(", {} of them cut off: how long they go on is not known", f.cut_off_members);
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/core/thread_time.hpp"
 #include "ensemble/members/executor.hpp"
 #include "ensemble/workflow/machine/temporary_folder.hpp"
+#include "io/files/io_error.hpp"
 #include "io/members/member_file.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "scenarios/assembly/ground.hpp"
@@ -13,13 +14,14 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace sturz::workflow {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double longest_try_s = 2;  ///< of computing time, whatever was thought before
 constexpr int most_members = 24, least_members = 3, wanted_members = 6;
 /// A twin this little coarser saves nothing: then it is the scene itself.
 constexpr double hardly_coarser = 1.15;
@@ -42,19 +44,24 @@ double coarsest(const SceneDescription& d) {
 /// The scene at `coarser` times the spacing and the maps' cell, to compute members of.
 class Twin {
  public:
-  Twin(const Scene& scene, double coarser)
-      : scene_(scene), coarser_(coarser), ground_(scene.scenario, inputs_of(scene, coarser)) {
+  Twin(const Scene& scene, double coarser, const TrialLimits& limits)
+      : scene_(scene),
+        coarser_(coarser),
+        limits_(limits),
+        ground_(scene.scenario, inputs_of(scene, coarser)) {
     if (coarser_ > 1) described_ = describe_on_ground(at_spacing(scene.medians));
   }
 
   /// \param numbers of a member of the scene \throws SetupError; Cancelled
-  std::optional<TriedMember> tried(const Scenario& numbers, std::int64_t member,
-                                   CancelFlag cancel) {
+  TriedMember tried(const Scenario& numbers, std::int64_t member) {
     const Scenario twin = at_spacing(numbers);
     const double begin = thread_cpu_seconds();
+    double came = 0, limit = 0;  // of the member's own time
     RunControl control;
-    control.on_progress = [&](const Progress&) {
-      return !cancel.raised() && thread_cpu_seconds() - begin < longest_try_s;
+    control.progress_every_s = std::min(control.progress_every_s, 0.1 * limits_.longest_s);
+    control.on_progress = [&](const Progress& p) {
+      came = p.time_s, limit = p.end_time_s;
+      return !limits_.cancel.raised() && thread_cpu_seconds() - begin < limits_.longest_s;
     };
     double cpu_s = 0;
     const MemberResult result = ground_.computed([&](const SceneInputs& inputs) {
@@ -63,9 +70,10 @@ class Twin {
       cpu_s = thread_cpu_seconds() - start;
       return r;
     });
-    cancel.check();
-    if (result.outcome == Outcome::cancelled) return std::nullopt;
-    return as_the_scene(result, cpu_s, numbers);
+    limits_.cancel.check();
+    TriedMember m = as_the_scene(result, cpu_s, numbers);
+    if (result.outcome == Outcome::cancelled) m.longer = std::max(1.0, limit / came);
+    return m;
   }
 
  private:
@@ -162,6 +170,7 @@ class Twin {
 
   const Scene& scene_;
   double coarser_;
+  TrialLimits limits_;
   GrowingGround ground_;  // of its own: the scene's manifest names only what members read
   SceneDescription described_;
 };
@@ -187,28 +196,32 @@ double seconds_since(Clock::time_point begin) {
 void try_some(const Scene& scene, const DesignTable& design, Twin& twin, std::int64_t n,
               const TrialLimits& limits, Trial& trial) {
   const std::vector<std::int64_t> members = chosen(design, n);
-  std::vector<std::optional<TriedMember>> tried(members.size());
+  std::vector<TriedMember> tried(members.size());
   std::vector<double> cpu_s(members.size()), wall_s(members.size());
   const std::atomic<bool> never{false};
   make_executor(limits.workers)->for_each(members.size(), never, [&](std::size_t i) {
     const auto start = Clock::now();
     const double begin = thread_cpu_seconds();
     try {
-      tried[i] = twin.tried(member_scenario(scene.scenario, design, members[i]), members[i],
-                            limits.cancel);
-    } catch (const SetupError&) {
-      tried[i] = TriedMember{};
+      tried[i] = twin.tried(member_scenario(scene.scenario, design, members[i]), members[i]);
+    } catch (const IoError&) {
+      throw;
+    } catch (const SetupError&) {  // fails at once
     }
     cpu_s[i] = thread_cpu_seconds() - begin;
     wall_s[i] = seconds_since(start);
   });
-  double cpu = 0, wall = 0;
-  for (std::size_t i = 0; i < tried.size(); ++i) {
-    if (tried[i]) trial.members.push_back(*tried[i]);
-    cpu += cpu_s[i], wall += wall_s[i];
-  }
+  const double cpu = std::accumulate(cpu_s.begin(), cpu_s.end(), 0.0);
+  const double wall = std::accumulate(wall_s.begin(), wall_s.end(), 0.0);
+  trial.members = std::move(tried);
   trial.cpu_s += cpu;
   if (cpu > 0) trial.slowdown = std::max(1.0, wall / cpu);
+}
+
+void not_tried(Trial& trial, std::string why) {
+  trial.median.reset();
+  trial.members.clear();
+  trial.failure = std::move(why);
 }
 
 }  // namespace
@@ -224,34 +237,42 @@ Trial try_members(const Scene& scene, const DesignTable* design, const TrialLimi
   const auto timed = [&](Twin& twin, const Scenario& numbers) {
     const auto start = Clock::now();
     const double begin = thread_cpu_seconds();
-    const auto tried = twin.tried(numbers, 0, limits.cancel);
+    const TriedMember tried = twin.tried(numbers, 0);
     const double cpu_s = thread_cpu_seconds() - begin;
     trial.cpu_s += cpu_s;
     trial.slowdown = std::max(1.0, seconds_since(start) / std::max(cpu_s, 1e-6));
-    if (tried) trial.median = tried;
-    return cpu_s;
+    const bool ended = tried.longer == 1;
+    if (ended) trial.median = tried;
+    return std::pair(ended, cpu_s);
   };
   try {
     trial.coarser = for_cost(1, d.predicted_seconds, 0.15 * limits.budget_s);
-    auto twin = std::make_unique<Twin>(scene, trial.coarser);
-    double took_s = timed(*twin, scene.medians);
-    if (!trial.median) return trial;
+    auto twin = std::make_unique<Twin>(scene, trial.coarser, limits);
+    auto [ended, took_s] = timed(*twin, scene.medians);
+    if (!ended) return trial;
     const double share_s = 0.75 * limits.budget_s / (design != nullptr ? wanted_members + 1 : 1);
     const double better = for_cost(trial.coarser, took_s, share_s);
     if (better < 0.85 * trial.coarser) {
       const double promised_s = trial.median->cpu_s;
-      trial.coarser = better;
-      twin = std::make_unique<Twin>(scene, better);
-      took_s = timed(*twin, scene.medians);
-      trial.surprise = std::exp(std::abs(std::log(promised_s / trial.median->cpu_s)));
+      auto finer = std::make_unique<Twin>(scene, better, limits);
+      const auto [ended_too, finer_took_s] = timed(*finer, scene.medians);
+      if (ended_too) {
+        trial.surprise = std::exp(std::abs(std::log(promised_s / trial.median->cpu_s)));
+        trial.coarser = better, twin = std::move(finer), took_s = finer_took_s;
+      }
     }
     if (design == nullptr || design->n_members() == 0) return trial;
     const auto n = static_cast<std::int64_t>(0.75 * limits.budget_s / std::max(took_s, 1e-4));
     try_some(scene, *design, *twin, std::clamp<std::int64_t>(n, least_members, most_members),
              limits, trial);
+  } catch (const IoError& problem) {
+    not_tried(trial, problem.what());  // no room for a member's file: no reason not to compute
+  } catch (const fs::filesystem_error& problem) {
+    not_tried(trial,
+              "there is no folder for temporary files (TMPDIR): " + problem.code().message());
   } catch (const SetupError&) {
-    trial.median
-        .reset();  // what is coarser may be no scene; the ensemble itself says what is wrong
+    // What is coarser may be no scene; the ensemble itself says what is wrong.
+    not_tried(trial, "");
   }
   return trial;
 }

@@ -12,6 +12,7 @@
 #include "ensemble/workflow/scene.hpp"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sturz::workflow {
@@ -23,6 +24,9 @@ struct TriedMember {
   double touched_cells = 0;  ///< cells of the scene's maps that it reaches
   Window window;             ///< around them, in the scene's hazard grid
   double file_bytes = 0;
+  /// It was cut off: all of the above is of a part, and of its time limit it may take up to so many
+  /// times that part; 1 where it came to its end.
+  double longer = 1;
 };
 
 struct Trial {
@@ -34,6 +38,7 @@ struct Trial {
   double surprise = 1;
   double cpu_s = 0;     ///< spent on all of it
   double slowdown = 1;  ///< elapsed time over computing time: what others take of the cores
+  std::string failure;  ///< why nothing could be tried, where it is not the time
 };
 
 /// How much may be tried.
@@ -41,10 +46,12 @@ struct TrialLimits {
   int workers = 1;      ///< members at a time, as the ensemble will have them
   double budget_s = 1;  ///< computing time, about
   CancelFlag cancel = {};
+  double longest_s = 2;  ///< of computing time that a member may take, whatever was thought before
 };
 
 /// Computes the medians and, with a design, up to two dozen of its members: `workers` at a time,
-/// because cores that share their units or memory are slower together.
+/// because cores that share their units or memory are slower together. A member that takes too long
+/// is cut off and counts as far as it came: left out it would make the others look like all.
 /// \param design null: the median only \throws Cancelled
 Trial try_members(const Scene&, const DesignTable* design, const TrialLimits&);
 

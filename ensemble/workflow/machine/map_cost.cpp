@@ -187,11 +187,12 @@ void write_cached(const fs::path& file, const MapSpeed& speed) {
 
 }  // namespace
 
-int map_planes(const HazardSpec& spec) {
+int map_planes(const HazardSpec& spec, bool erodes) {
   Grid cell;
   cell.n_cols = cell.n_rows = 1;
   int planes = 0;
-  for (const Layer& layer : hazard_layers(cell, spec, 0, 1).stack.layers)
+  for (const Layer& layer :
+       hazard_layers(cell, spec, 0, 1, 0, {.left = false, .eroded = erodes}).stack.layers)
     if (!layer.is_count()) planes += static_cast<int>(layer.n_planes());
   return planes;
 }

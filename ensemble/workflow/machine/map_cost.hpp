@@ -34,8 +34,8 @@ struct MapCost {
 /// What the program and its libraries take, maps and page of hardly any cells included.
 inline constexpr double program_bytes = 148e6;
 
-/// Maps that this scene asks for, bounds included.
-int map_planes(const HazardSpec&);
+/// Maps that this scene asks for, bounds included. \param erodes the flow takes its bed along
+int map_planes(const HazardSpec&, bool erodes = false);
 
 MapCost predict_map_cost(const MapWork&, const MapSpeed&);
 

@@ -9,6 +9,7 @@
 #include "ensemble/workflow/forecast/forecast.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/member_summary.hpp"
+#include "ensemble/workflow/results/gauge_files.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -37,7 +38,8 @@ std::string as_text(const NamedSeconds& times) {
 /// So that a run which is stopped does not leave the results of one scene under the name of
 /// another.
 void remove_results(const OutputFolder& folder) {
-  for (const auto& file : {folder.peaks_nc(), folder.report(), folder.members() / "000000.nc"})
+  for (const auto& file : {folder.peaks_nc(), folder.report(), folder.gauges_csv(),
+                           folder.gauge_series_csv(), folder.members() / "000000.nc"})
     std::filesystem::remove(file);
 }
 
@@ -148,6 +150,9 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   const MemberStore store(folder.members());
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
+  const GaugeFindings gauges = find_gauges(result);
+  write_gauge_files(folder, gauges);
+  page.gauges = &gauges;
   page.observed = scene.inputs.observed;
   const NearestMember nearest = nearest_member(store, stored.scores, scene.inputs.event);
   page.scores = stored.scores ? &*stored.scores : nullptr;

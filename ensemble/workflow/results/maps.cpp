@@ -8,6 +8,7 @@
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/results/gauge_files.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -120,6 +121,8 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   add_scores(made, store, inputs, cancel);
   write_text_atomic(folder.members_csv(),
                     members_csv(design, store.members(), made.scores ? &*made.scores : nullptr));
+  const GaugeFindings gauges = find_gauges(store, scenario, cancel);
+  write_gauge_files(folder, gauges);
   ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
   HazardContext context = context_of(manifest, scenario, design);
   context.ground = ground.get();
@@ -144,6 +147,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   page.where_mass_left = made.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
+  page.gauges = &gauges;
   page.observed = inputs.observed;
   const NearestMember nearest = nearest_member(store, made.scores, inputs.event);
   page.scores = made.scores ? &*made.scores : nullptr;

@@ -36,9 +36,11 @@ MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFl
   const MemberStore store = members_of(finished.folder, finished.manifest, design, {}, cancel);
   warn_of_problems(store, "It counts as missing.", observer);
   const std::string missing = what_is_missing(store, design.n_members());
-  require(missing.empty() || request.partial,
-          fmt::format("{}: {}. Run their shards, or make maps from the others with --partial.",
-                      where, missing));
+  require(
+      missing.empty() || request.partial,
+      fmt::format("{}: {}. Resume with the command that computed them (`sturz ensemble`, or their "
+                  "shards), or make maps from the others with --partial.",
+                  where, missing));
   require(!store.members().empty(),
           fmt::format("{} has no finished member (maps need at least one).", where));
   if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");

@@ -48,7 +48,8 @@ LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground,
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto peak = static_cast<PeakLayer>(i);
     // What not every scene has.
-    const bool optional = peak == PeakLayer::left || peak == PeakLayer::eroded;
+    const bool optional = peak == PeakLayer::left || peak == PeakLayer::eroded ||
+                          peak == PeakLayer::solid || peak == PeakLayer::liquid;
     if (optional && result.layer(peak).empty()) continue;
     Layer layer;
     layer.name = info(peak).name;

@@ -11,6 +11,7 @@
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "ensemble/workflow/results/gauge_files.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/seal.hpp"
 #include "io/files/text_files.hpp"
@@ -131,6 +132,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.elevation = content.elevation;
   input.hazard = content.hazard;
   input.peaks = content.peaks;
+  input.gauges = content.gauges;
   input.members.assign(content.members.begin(), content.members.end());
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);
@@ -223,6 +225,9 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));
     page.run = &run;
   }
+  const GaugeFindings gauges =
+      one_run ? find_gauges(run) : find_gauges(store, finished.scenario, cancel);
+  page.gauges = &gauges;
   write_page(finished.folder, finished.manifest, finished.scenario, page);
   return finished.folder.report();
 }

@@ -5,6 +5,7 @@
 #include "engine/core/cancel.hpp"
 #include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
+#include "ensemble/gauges/gauge_statistics.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/scores/score_table.hpp"
@@ -51,7 +52,8 @@ struct PageContent {
   const ScoreTable* scores = nullptr;             ///< rows in the order of `members`
   const PosteriorShown* posterior = nullptr;      ///< of a calibration; null: none
   const NearestMember* nearest = nullptr;
-  const MemberResult* run = nullptr;  ///< of a single run: its history and where its time went
+  const GaugeFindings* gauges = nullptr;  ///< see gauge_files.hpp
+  const MemberResult* run = nullptr;      ///< of a single run: its history and where its time went
 };
 
 /// Writes report.html. \throws IoError; Cancelled

@@ -16,6 +16,8 @@ namespace {
 /// A depth raster is read as a thickness of the release is; what is said of it names these keys.
 std::string in_words_of_erosion(std::string text) {
   static constexpr std::pair<const char*, const char*> words[] = {
+      {"If these are depths counted downwards, set `release.thickness_factor: -1`",
+       "Depths count downwards: give them as positive numbers"},
       {"release.thickness_factor", "erosion.depth_factor"},
       {"release.thickness_m", "erosion.depth_m"},
       {"release.polygon", "erosion.polygon"},
@@ -60,6 +62,8 @@ RasterRequest raster_request(const Scenario& scenario) {
   request.directory = scenario.directory;
   request.crs = spec.crs;
   request.crs_key = "erosion.crs";
+  request.is_scaled_later = spec.depth_factor.has_value();
+  request.may_reach_beyond = true;  // no mass comes there
   stand_in_with_terrain(request, scenario.terrain);
   return request;
 }

@@ -186,7 +186,8 @@ void read_corners(Reading& r) {
     });
 }
 
-Vec2 centre_of(const Raster<double>& release) {
+/// Nothing where mass only enters later.
+std::optional<Vec2> centre_of(const Raster<double>& release) {
   Vec2 sum = Vec2::Zero();
   double weight = 0;
   const Grid& g = release.grid;
@@ -196,7 +197,22 @@ Vec2 centre_of(const Raster<double>& release) {
       sum += v * Vec2(g.x_center(col) - g.west_m, g.y_center(row) - g.north_m);
       weight += v;
     }
-  return Vec2(g.west_m, g.north_m) + (weight > 0 ? Vec2(sum / weight) : Vec2(Vec2::Zero()));
+  if (!(weight > 0)) return std::nullopt;
+  return Vec2(Vec2(g.west_m, g.north_m) + sum / weight);
+}
+
+/// Straight distances count from the source's centre. \return it is known
+bool take_origin(Reading& r, const Raster<double>* release) {
+  if (release == nullptr) return false;
+  ObservedEvent& event = r.read.event;
+  const std::optional<Vec2> centre = centre_of(*release);
+  if (centre) event.origin = *centre;
+  const bool distances = event.farthest || !event.fronts.empty();
+  if (!centre && distances && event.thalweg.empty() && r.spec.thalweg.empty())
+    r.problems.emplace_back(
+        "observation: farthest_point and fronts are distances down the path, and the scene has no "
+        "release that they could count from. Add observation.thalweg.");
+  return centre.has_value();
 }
 
 /// A point of the scene that no member can reach was mostly written in another system.
@@ -267,14 +283,14 @@ EventRead read_observed_event(const Scenario& scenario, const Grid& maps,
   const GdalScope scope;
   Reading r{scenario, *scenario.observation, maps, {}, {}};
   take_numbers(scenario, r.read.event);
-  if (release != nullptr) r.read.event.origin = centre_of(*release);
   read_areas(r);
   r.attempt([&] { read_thickness(r, release); });
   read_corners(r);
+  const bool has_source = take_origin(r, release);
   if (r.has_maps()) require_on_maps(r);
   require(r.problems.empty(), fmt::format("{}", fmt::join(r.problems, "\n")));
   if (r.has_maps()) compare_areas(r.read);
-  if (release != nullptr) doubt_direction(r.read);
+  if (has_source) doubt_direction(r.read);
   note_threshold(r.read.event, r.read);
   return std::move(r.read);
 }

@@ -4,7 +4,7 @@
 
 #include "engine/core/vec.hpp"
 #include "scenarios/input_identity.hpp"
-#include "scenarios/observed_event.hpp"
+#include "scenarios/observation/observed_event.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <string>

@@ -36,7 +36,7 @@ std::vector<Vec2> corners_of(const OGRGeometry& geometry) {
 CornersRead read_one(const PolygonRequest& request, const Grid& maps, OGRwkbGeometryType wanted,
                      const char* noun) {
   PolygonLayer layer = open_polygon_layer(request);
-  const TransformPtr to_maps = settle_transform(layer, request, maps);
+  const TransformPtr to_maps = terrain_transform(layer, request, maps);
   layer.layer->ResetReading();
   const auto feature = OGRFeatureUniquePtr(layer.layer->GetNextFeature());
   const auto more = OGRFeatureUniquePtr(layer.layer->GetNextFeature());

@@ -7,7 +7,7 @@
 #include "io/site/polygon_request.hpp"
 #include "scenarios/choices.hpp"
 #include "scenarios/input_identity.hpp"
-#include "scenarios/observed_event.hpp"
+#include "scenarios/observation/observed_event.hpp"
 
 #include <string>
 #include <vector>

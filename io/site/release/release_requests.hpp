@@ -15,6 +15,7 @@ inline PolygonRequest release_polygon_request(const Scenario& scenario) {
   request.path = spec.polygon;
   request.layer = spec.layer;
   request.thickness_attribute = spec.thickness_attribute;
+  request.start_time_attribute = spec.start_time_attribute;
   request.directory = scenario.directory;
   request.crs = spec.crs;
   stand_in_with_terrain(request, scenario.terrain);

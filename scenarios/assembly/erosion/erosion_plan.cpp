@@ -92,6 +92,7 @@ ErosionSettings plan_erosion(const Scenario& s, const SceneInputs& in, const Ero
     SaturatedBed bed;
     bed.solid_fraction = or_else(spec.bed_solid_fraction, law.critical_fraction);
     bed.pressure_ratio = or_else(spec.bed_pore_pressure_ratio, -1);
+    bed.drained = place.mixture->profile.drained_bed;
     out.bed_density = law.density(bed.solid_fraction);
     out.received = [law, bed](MovingSet& p, std::span<const double> mass, double share) {
       take_up(p, law, bed, mass, share);
@@ -99,6 +100,7 @@ ErosionSettings plan_erosion(const Scenario& s, const SceneInputs& in, const Ero
   }
   out.bed = place.bed;
   out.zones = place.zones;
+  out.rasters = place.rasters;
   out.cells = place.ground;
   if (in.bed_supply) {
     out.source.pattern = on_ground(in.bed_supply, in.terrain_grid(), place.ground);

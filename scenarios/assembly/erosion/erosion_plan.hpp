@@ -18,6 +18,7 @@ struct ErosionPlace {
   std::vector<BasalResistance> bed;  ///< by zone
   ZoneMap zones;
   const MixtureSettings* mixture = nullptr;  ///< of the flow
+  BedRasters rasters = {};                   ///< over the zones
 };
 
 /// \pre the scene has `erosion`

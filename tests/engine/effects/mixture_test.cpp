@@ -4,9 +4,11 @@
 
 #include "engine/effects/arrivals.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/laws/consolidation.hpp"
 #include "tests/support/hand_made.hpp"
 #include "tests/support/wet_box.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,13 +24,16 @@ namespace {
 using test::even_ground;
 using test::flume_mixture;
 using test::HandMade;
+using testing::ContainsRegex;
+using testing::HasSubstr;
 
 MixtureSettings settings_of(double solid_fraction) { return {flume_mixture(), solid_fraction, -1}; }
 
 /// Columns of `thickness` on a lattice of 1 m.
 HandMade wet_columns(Terrain ground, const std::vector<Vec3>& positions,
                      const std::vector<double>& thickness, const MixtureSettings& wet,
-                     const Vec3& velocity = {0, 0, 0}, const Domain& domain = {}) {
+                     const Vec3& velocity = {0, 0, 0}, const Domain& domain = {},
+                     double cohesion_pa = 0) {
   HandMade made{State(std::move(ground), domain), {}};
   MovingSet& p = made.state.grains();
   const double density = wet.law.density(wet.solid_fraction);
@@ -43,6 +48,7 @@ HandMade wet_columns(Terrain ground, const std::vector<Vec3>& positions,
   columns.density = density;
   columns.mixture = wet;
   columns.bed[0].friction_coefficient = std::tan(40 * std::numbers::pi / 180);
+  columns.bed[0].cohesion_pa = cohesion_pa;
   columns.instruction_set = best_instruction_set();
   add_mixture(made.state, 0, wet);
   add_depth_averaged(made.step, made.state, 0, columns, thickness);
@@ -228,6 +234,94 @@ TEST(Mixture, BedThatJoinsAColumnBringsItsGrainsItsWaterAndItsPressure) {
   expect_within_bounds(p, wet.law);
 }
 
+/// What is said of columns 1 m thick that start at rest on such a slope, after 4 s.
+std::string said_of(double slope_deg, double solid_fraction, double cohesion_pa = 0) {
+  const MixtureSettings wet = settings_of(solid_fraction);
+  HandMade made = wet_columns(even_ground(60, std::tan(slope_deg * std::numbers::pi / 180)),
+                              test::block({8, 8, 1}, {-20, -4, 0}), std::vector<double>(64, 1), wet,
+                              {0, 0, 0}, {}, cohesion_pa);
+  while (made.state.time < 4) made.advance();
+  std::vector<std::string> said;
+  made.step.warnings(made.state, said);
+  std::string text;
+  for (const std::string& sentence : said) text += sentence + "\n";
+  return text;
+}
+
+TEST(Mixture, ThatOnlySuctionHoldsIsNotAtRestForGood) {
+  // Denser than critical it sticks at once, and half its weight is still water's: tan 40 degrees
+  // times that half holds 22 degrees.
+  for (const double slope_deg : {26.0, 31.0}) {
+    const std::string dense = said_of(slope_deg, 0.66);
+    EXPECT_THAT(dense, HasSubstr("only suction holds it")) << slope_deg;
+    // k = 2.2e-11 m2, 1/alpha = 2.4e5 Pa: the excess decays at 3e-3 per second.
+    EXPECT_THAT(dense, ContainsRegex("away in about [4-7] min")) << slope_deg;
+  }
+  EXPECT_EQ(said_of(15, 0.66), "") << "friction holds it";
+  EXPECT_EQ(said_of(31, 0.66, 4000), "") << "cohesion does";
+  EXPECT_EQ(said_of(31, 0.60), "") << "it runs";
+}
+
+TEST(Mixture, WithoutANumberForItsPressureItIsNotAtRest) {
+  for (const bool stiff : {true, false}) {
+    MixtureSettings wet = settings_of(0.6);
+    (stiff ? wet.law.compressibility : wet.law.fluid_viscosity) = 1e-310;
+    HandMade made = wet_columns(even_ground(60, 0.5), test::block({4, 4, 1}, {-20, -2, 0}),
+                                std::vector<double>(16, 1), wet);
+    for (int n = 0; n < 10 && made.state.grains().motion.finite; ++n) made.advance();
+    EXPECT_FALSE(made.state.grains().motion.finite) << "the run must end as diverged";
+  }
+}
+
+class ResolvedMixture : public testing::TestWithParam<ProfileSettings> {};
+INSTANTIATE_TEST_SUITE_P(Drains, ResolvedMixture,
+                         testing::Values(ProfileSettings{8, false}, ProfileSettings{5, true}),
+                         [](const auto& i) { return i.param.drained_bed ? "Both" : "Top"; });
+
+TEST_P(ResolvedMixture, KeepsBothVolumesWhereMassLeaves) {  // T10
+  for (const double m : {0.5, 0.6, 0.68}) {
+    MixtureSettings wet = settings_of(m);
+    wet.profile = GetParam();
+    wet.law.permeability = 1e-8;
+    HandMade made = wet_columns(even_ground(24, 0.6), test::block({8, 6, 1}, {-4, -3, 0}),
+                                std::vector<double>(48, 0.8), wet, {6, 0.5, -3.6});
+    const MovingSet& p = made.state.grains();
+    for (int n = 0; n < 400 && p.size() > 0; ++n) {
+      made.advance();
+      const Volumes now(p);
+      ASSERT_NEAR((now.solids + p.ledger.lost_solids) / p.ledger.released_solids, 1, 1e-13);
+      ASSERT_NEAR((now.water + p.ledger.lost_water) / p.ledger.released_water, 1, 1e-13);
+      expect_within_bounds(p, wet.law);
+    }
+    EXPECT_GT(p.ledger.lost_solids, 0);
+  }
+}
+
+TEST_P(ResolvedMixture, BedThatJoinsLiftsWhatItStandsUnder) {
+  MixtureSettings wet = settings_of(0.62);
+  wet.profile = GetParam();
+  HandMade made = wet_columns(even_ground(40), test::block({4, 4, 1}, {-2, -2, 0}),
+                              std::vector<double>(16, 1), wet);
+  made.advance();
+  MovingSet& p = made.state.grains();
+  auto& nodes = p.components(fields::excess_profile_of(wet.profile.nodes));
+  const ProfileMesh mesh{wet.profile.nodes, wet.profile.drained_bed};
+  for (int j = 0; j < mesh.nodes; ++j) nodes[j][5] = 1000 * (1 - mesh.height(j));
+  p.scalar(fields::excess_pressure)[5] = mesh.drained_bed ? 0 : 1000;
+  AddedMixture bed{0.155, 0.095, 0.62, 500};  // a quarter of what is there
+  bed.drained_bed = mesh.drained_bed;
+  add_to_mixture(p, 5, bed);
+  for (int j = 1; j < mesh.nodes - 1; ++j) {
+    const double old = (mesh.height(j) - 0.2) / 0.8;
+    if (old < 0.5 * mesh.spacing()) continue;
+    EXPECT_NEAR(nodes[j][5], 1000 * (1 - old), 1e-9) << j;
+  }
+  EXPECT_NEAR(p.scalar(fields::excess_pressure)[5], mesh.drained_bed ? 0 : 1500, 1e-9);
+  if (!mesh.drained_bed) {
+    EXPECT_NEAR(nodes[0][5], 1500, 1e-9);
+  }
+}
+
 TEST(Mixture, IsNotThereWhereNothingAsksForIt) {
   HandMade made = test::columns_on(even_ground(20), test::block({3, 3, 1}), 1, {0, 0, 0});
   made.advance();
@@ -236,6 +330,11 @@ TEST(Mixture, IsNotThereWhereNothingAsksForIt) {
        {&fields::solid_fraction, &fields::solids_volume, &fields::water_volume,
         &fields::excess_pressure, &fields::pore_pressure, &fields::pore_gravity})
     EXPECT_FALSE(p.has(*key)) << key->name;
+  HandMade wet = wet_columns(even_ground(20), test::block({3, 3, 1}), std::vector<double>(9, 1),
+                             settings_of(0.6));
+  wet.advance();
+  for (const FieldKey& key : fields::excess_profile)
+    EXPECT_FALSE(wet.state.grains().has(key)) << "a parabola has no nodes";
   EXPECT_EQ(p.ledger.released_solids, 0);
   EXPECT_EQ(p.ledger.clipped_work, 0);
 }

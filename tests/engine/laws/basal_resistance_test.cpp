@@ -28,11 +28,11 @@ BasalResistance bingham(double viscosity, double yield) {
 
 TEST(BasalResistance, CoulombFrictionIsReducedByPorePressure) {
   BasalResistance b = bare(0.4);
-  EXPECT_NEAR(b.plastic(8, 3, density), 0.4 * 8, 1e-15);
+  EXPECT_NEAR(b.plastic(8, 3, density, 0), 0.4 * 8, 1e-15);
   b.pore_pressure_ratio = 0.75;
   EXPECT_NEAR(b.effective_friction(), 0.1, 1e-16);
-  EXPECT_NEAR(b.plastic(8, 3, density), 0.1 * 8, 1e-15);
-  EXPECT_EQ(b.plastic(0, 3, density), 0) << "a column in the air is not braked";
+  EXPECT_NEAR(b.plastic(8, 3, density, 0), 0.1 * 8, 1e-15);
+  EXPECT_EQ(b.plastic(0, 3, density, 0), 0) << "a column in the air is not braked";
   EXPECT_FALSE(b.has_rate());
   EXPECT_EQ(b.rate(10, 3, density, g), 0);
 }
@@ -40,9 +40,9 @@ TEST(BasalResistance, CoulombFrictionIsReducedByPorePressure) {
 TEST(BasalResistance, CohesionBrakesAThinFlowMore) {
   BasalResistance b = bare(0.4);
   b.cohesion_pa = 600;
-  EXPECT_NEAR(b.plastic(8, 3, density), 3.2 + 600.0 / (2000 * 3), 1e-15);
-  EXPECT_NEAR(b.plastic(8, 0.3, density), 3.2 + 1, 1e-15);
-  EXPECT_NEAR(b.plastic(0, 3, density), 0.1, 1e-16) << "whatever presses";
+  EXPECT_NEAR(b.plastic(8, 3, density, 0), 3.2 + 600.0 / (2000 * 3), 1e-15);
+  EXPECT_NEAR(b.plastic(8, 0.3, density, 0), 3.2 + 1, 1e-15);
+  EXPECT_NEAR(b.plastic(0, 3, density, 0), 0.1, 1e-16) << "whatever presses";
 }
 
 TEST(BasalResistance, VoellmyGrowsWithTheSquareOfSpeed) {
@@ -75,7 +75,7 @@ TEST(BasalResistance, TermsAddUp) {
               turbulent.rate(7, 1.5, density, g) + viscous.rate(7, 1.5, density, g), 1e-15);
   BasalResistance sticky = bare(0.2);
   sticky.cohesion_pa = 100, sticky.yield_stress_pa = 50;
-  EXPECT_NEAR(sticky.plastic(5, 1.5, density), 1 + 150 / (density * 1.5), 1e-15);
+  EXPECT_NEAR(sticky.plastic(5, 1.5, density, 0), 1 + 150 / (density * 1.5), 1e-15);
 }
 
 /// What the cubic leaves, over the size of its terms.
@@ -132,7 +132,7 @@ TEST(BinghamStress, TendsToThreeHalvesOfYieldPlusLaminarDragWhenFast) {
 TEST(BinghamStress, RateAndPlasticPartMakeUpItsDeceleration) {
   const BasalResistance b = bingham(30, 800);
   for (const double v : {1e-8, 1e-3, 0.1, 5.0, 70.0}) {
-    const double all = b.plastic(9, 1.7, density) + v * b.rate(v, 1.7, density, g);
+    const double all = b.plastic(9, 1.7, density, 0) + v * b.rate(v, 1.7, density, g);
     EXPECT_NEAR(all, b.bingham_stress(v, 1.7) / (density * 1.7), 1e-14);
   }
   EXPECT_TRUE(std::isfinite(b.rate(0, 1.7, density, g)));

@@ -173,5 +173,17 @@ TEST(StopRule, KnowsRestWhetherItEndsTheRunOrNot) {
   EXPECT_EQ(rule.end_time_s(), 100);
 }
 
+/// Mass that is still to enter keeps everything from being at rest, and the window begins anew.
+TEST(StopRule, WaitsForWhatIsStillToEnter) {
+  const double alone = stop_time(field_scale(), slide);
+  const auto waiting = [](double t) {
+    MotionSummary now = slide(t);
+    now.waits = t < 30;
+    return now;
+  };
+  ASSERT_LT(alone, 30);
+  EXPECT_NEAR(stop_time(field_scale(), waiting), 30 + window(2), 0.05);
+}
+
 }  // namespace
 }  // namespace sturz

@@ -196,6 +196,20 @@ TEST_F(ObservedEvents, LinesAndPoints) {
               Contains(HasSubstr("observation.thalweg: its start lies farther")));
 }
 
+TEST_F(ObservedEvents, WithoutAReleaseDistancesNeedAThalweg) {
+  const Raster<double> nothing(plane(50, 40, 10, 500000, 4600400).grid, 0.0);
+  spec().farthest_point_m = {500300, 4600200};
+  spec().farthest_point_sd_m = 5;
+  EXPECT_THAT(message_of([&] { read_observed_event(scene, nothing.grid, &nothing); }),
+              HasSubstr("Add observation.thalweg."));
+  write("thalweg.geojson",
+        collection(feature("LineString", "[[500225,4600225],[500300,4600200]]")));
+  spec().thalweg = "thalweg.geojson";
+  const EventRead read = read_observed_event(scene, nothing.grid, &nothing);
+  EXPECT_EQ(read.event.thalweg.size(), 2U);
+  EXPECT_THAT(read.warnings, Not(Contains(HasSubstr("observation.thalweg"))));
+}
+
 TEST_F(ObservedEvents, NumbersAreTakenOver) {
   spec().runout_m = MeasuredSpec{200, 10};
   spec().farthest_point_m = {500300, 4600200};

@@ -176,5 +176,26 @@ TEST(WetColumns, GiveTheSameBitsAtAnyNumberOfThreads) {
   EXPECT_NE(run(build(other)).result.state_hash, one.result.state_hash);
 }
 
+TEST(WetColumns, GiveTheSameBitsWithAResolvedProfileToo) {
+  Scenario s = ramp_slide(90, 3);
+  s.formulation = Formulation::depth_averaged;
+  s.mixture.emplace().pressure_profile = PressureProfile::resolved;
+  s.grains->solid_fraction = 0.6;
+  s.basal.friction_coefficient = std::tan(35 * degree);
+  s.numerics.end_time_s = 6;
+  const Finished one = run(build(s, 1)), two = run(build(s, 2));
+  EXPECT_EQ(one.result.state_hash, two.result.state_hash);
+  expect_conserved(one);
+  EXPECT_LE(std::abs(one.result.scalars.solids_error), 1e-13);
+  EXPECT_LE(std::abs(one.result.scalars.water_error), 1e-13);
+  for (auto change : {+[](MixtureSpec& wet) { wet.pressure_profile = PressureProfile::parabola; },
+                      +[](MixtureSpec& wet) { wet.pressure_nodes = 6; },
+                      +[](MixtureSpec& wet) { wet.drainage = Drainage::both; }}) {
+    Scenario other = s;
+    change(*other.mixture);
+    EXPECT_NE(run(build(other)).result.state_hash, one.result.state_hash);
+  }
+}
+
 }  // namespace
 }  // namespace sturz::test
