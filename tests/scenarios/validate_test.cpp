@@ -233,28 +233,6 @@ TEST(Validate, DesignAndTableBelongTogether) {
   s.ensemble.table.clear();
 }
 
-TEST(Validate, DesignsOfSetsWantWholeSetsOfIndependentValues) {
-  Scenario s = pile();
-  s.basal.friction_coefficient = uniform(0.3, 0.6);
-  s.basal.pore_pressure_ratio = uniform(0, 0.5);
-  s.ensemble.members = 10;
-  s.ensemble.design = Design::morris;
-  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("takes sets of 3 members for 2 uncertain values). "
-                                                 "Use 12.")));
-  s.ensemble.design = Design::saltelli;
-  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("sets of 4 members for 2 uncertain values). Use "
-                                                 "12.")));
-  s.ensemble.members = 8;
-  EXPECT_THAT(messages(s), IsEmpty());
-  s.ensemble.correlation = {{"basal.friction_coefficient/basal.pore_pressure_ratio", -0.3}};
-  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("(design is saltelli, which moves one value at a "
-                                                 "time")));
-  s.basal.friction_coefficient = 0.4;  // a member of it
-  s.basal.pore_pressure_ratio = 0.1;
-  s.ensemble.members = 9;
-  EXPECT_THAT(messages(s), IsEmpty());
-}
-
 TEST(Validate, UnknownWordsAreNamedAndChangeNothing) {
   const auto refusal = [](const char* path, const char* word) {
     const KeyInfo& key = *find_key(path);
