@@ -116,7 +116,7 @@ struct MemberScalars {
   // Of grains and liquid at two velocities; NaN without.
   double solid_runout_m = nan_d;  ///< as runout_m, to the farthest cell with enough grains
   double liquid_runout_m = nan_d;
-  double solid_front_travel_m = nan_d;  ///< as front_travel_m, of each phase
+  double solid_front_travel_m = nan_d;  ///< as front_travel_m, of each of the two
   double liquid_front_travel_m = nan_d;
   double max_solid_thickness_m = nan_d;  ///< volume of grains over area, largest cell of its peak
   double max_liquid_thickness_m = nan_d;

@@ -132,10 +132,10 @@ void load_ground(Loading& loading) {
   take_ground(loading, read);
 }
 
-/// By how much `a` is beyond `b` [%]; what rounding alone makes of equal sums is none.
+/// By how much `a` is beyond `b` [%]; less than a millionth, rounding for instance, is none.
 double percent_beyond(double a, double b) {
   const double percent = 100 * (a / b - 1);
-  return std::abs(percent) < 1e-9 ? 0 : percent;
+  return std::abs(percent) < 1e-4 ? 0 : percent;
 }
 
 /// Two numbers that a reader can hold against each other: the source's and the raster's.

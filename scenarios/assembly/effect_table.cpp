@@ -78,7 +78,7 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
   if (!columns(plan)) return {false, "not in full_stress"};
-  if (plan.phases) return {true, "`mixture.phases: two`: of each phase on both, K = 1"};
+  if (plan.phases) return {true, "`mixture.phases: two`: of grains and liquid on both, K = 1"};
   if (s.mixture) return {true, "`mixture`: isotropic, K = 1, piles too"};
   const std::string key =
       "`grains.earth_pressure: " + std::string(to_string(s.grains->earth_pressure)) + "`";

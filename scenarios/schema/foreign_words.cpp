@@ -32,9 +32,9 @@ constexpr std::string_view obstacles =
     "Not supported. Put more friction there with basal.zones, or the obstacle into the terrain "
     "raster.";
 constexpr std::string_view secondary =
-    "Not supported: all mass starts at once. Make it part of the source, or a scene of its own.";
+    "Use release.start_time_attribute: a field of release.polygon with the time of each polygon.";
 constexpr std::string_view inflow =
-    "Not supported: all mass starts at once. Give release.volume_m3.";
+    "Use the list inflow: sources, each with a hydrograph (CSV) and a line or polygon.";
 constexpr std::string_view step =
     "The step is found anew each time; numerics.courant makes it shorter.";
 constexpr std::string_view end = "Use numerics.end_time_s.";

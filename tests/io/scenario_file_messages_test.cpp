@@ -130,8 +130,8 @@ TEST(ScenarioMessages, WrongType) {
               ElementsAre("scenario.yaml:7:21: ensemble.members = 3.5 (must be a whole number)."));
   EXPECT_THAT(problems(scene() + "hazard: {cell_size_m: {uniform: [1, 2]}}\n"),
               ElementsAre("scenario.yaml:7:23: hazard.cell_size_m = {uniform: [1, 2]} (must be a "
-                          "plain number). Only numbers of release, grains, basal, mixture and "
-                          "erosion can be uncertain."));
+                          "plain number). Only numbers of release, inflow, grains, basal, mixture "
+                          "and erosion can be uncertain."));
 }
 
 TEST(ScenarioMessages, NumbersAreStrict) {
@@ -201,7 +201,7 @@ TEST(ScenarioMessages, AllProblemsComeTogetherInFileOrder) {
   EXPECT_THAT(
       found,
       ElementsAre("scenario.yaml: release (no source given). Add one of polygon, "
-                  "thickness_raster, box, paraboloid, cylinder.",
+                  "thickness_raster, box, paraboloid, cylinder, or an inflow.",
                   "scenario.yaml:1:36: terrain.nodata = lava (must be one of outflow, wall).",
                   "scenario.yaml:2:1: relase (unknown key). Did you mean release?",
                   "scenario.yaml:3:30: grains.friction_angle_deg = 240 (must be in 0..60). Was it "

@@ -50,6 +50,15 @@ TEST(Materials, EachGivesItsValuesAndTellsTheirSource) {
   }
 }
 
+TEST(Materials, AMisspeltOneIsTheOnlyProblem) {
+  for (const char* name : {"rockavalanche", "Debris_flow"}) {
+    const std::string said = refusal(fmt::format("material: {}\n", name));
+    EXPECT_THAT(said, HasSubstr(fmt::format("material = {}", name)));
+    EXPECT_THAT(said, Not(HasSubstr("grains (missing")));
+  }
+  EXPECT_THAT(refusal(""), HasSubstr("Add a grains block or a material."));
+}
+
 TEST(Materials, AStoredSceneReadsBackAsItWas) {
   const Scenario scenario = read("material: snow_wet\n");
   EXPECT_EQ(read_scenario_text(write_scenario(scenario), "stored.yaml"), scenario);

@@ -50,11 +50,11 @@ MeanMotion mean_motion(const ParticleSet& p) {
 }
 
 void expect_conserved(const Finished& f) {
-  const Ledger& ledger = f.simulation.parts().state.grains().ledger;
-  const ParticleSet& p = f.simulation.parts().state.grains();
+  const State& s = f.simulation.parts().state;
+  const Ledger ledger = s.ledger();
   EXPECT_TRUE(is_valid(f.result.outcome)) << to_string(f.result.outcome) << f.result.reason;
   if (ledger.lost_mass == 0) {
-    EXPECT_EQ(p.size(), static_cast<std::size_t>(f.result.scalars.n_particles));
+    EXPECT_EQ(s.n_particles(), static_cast<std::size_t>(f.result.scalars.n_particles));
   }
   // What is left is the rounding of two sums over the same numbers.
   EXPECT_LE(std::abs(f.result.scalars.mass_error), 1e-13);

@@ -49,7 +49,7 @@ TEST(GroundWords, AMixtureMayLiquefy) {
   s.basal.friction_coefficient = 0.73;
   s.mixture.emplace();
   EXPECT_THAT(ground_warnings(s, meeting_the_end(0.073)),
-              ElementsAre(HasSubstr("least friction drawn, nearly liquefied (0.073) still")));
+              ElementsAre(HasSubstr("a nearly liquefied mixture (friction 0.073) still")));
 }
 
 TEST(GroundWords, GapsMayBeTheEndOfATurnedRaster) {

@@ -71,10 +71,13 @@ TEST(ForeignWords, SayWhatToWriteHere) {
   EXPECT_THAT(advice_on_foreign_word("basal.mu"), StartsWith("Use basal.friction_coefficient"));
   EXPECT_THAT(advice_on_foreign_word("basal.tau0_pa"), StartsWith("Use basal.yield_stress_pa"));
   EXPECT_THAT(advice_on_foreign_word("entrainment"), StartsWith("Use the block erosion"));
+  EXPECT_THAT(advice_on_foreign_word("release.hydrograph"), StartsWith("Use the list inflow"));
+  EXPECT_THAT(advice_on_foreign_word("release.secondary"),
+              StartsWith("Use release.start_time_attribute"));
 }
 
 TEST(ForeignWords, SayWhatThereIsNot) {
-  for (const char* word : {"resistance", "release.secondary", "release.hydrograph"})
+  for (const char* word : {"resistance", "basal.resistance"})
     EXPECT_THAT(advice_on_foreign_word(word), StartsWith("Not supported")) << word;
 }
 

@@ -2,6 +2,7 @@
 // Columns of an inflow: volumes, times, places, and what the keys refuse.
 #include "scenarios/assembly/inflow/inflow_plan.hpp"
 
+#include "engine/core/constants.hpp"
 #include "scenarios/catalogue.hpp"
 #include "scenarios/checks/validate.hpp"
 #include "scenarios/shapes/synthetic_terrain.hpp"
@@ -81,9 +82,9 @@ TEST(InflowPlan, ColumnsAddUpToTheHydrograph) {
   }
   EXPECT_NEAR(sum, 725, 1e-9);
   // q = 1.5 m2/s at the peak: h = (q^2/g)^(1/3) along the normal, on 2 m x 2 m of the map.
-  const double h = std::cbrt(1.5 * 1.5 / 9.80665);
+  const double h = std::cbrt(1.5 * 1.5 / standard_gravity);
   EXPECT_NEAR(p.most_thickness_m, h, 1e-4);
-  EXPECT_NEAR(p.most_speed_m_s, std::cbrt(9.80665 * 1.5), 1e-4);
+  EXPECT_NEAR(p.most_speed_m_s, std::cbrt(standard_gravity * 1.5), 1e-4);
   EXPECT_NEAR(largest, 4 * h / std::cos(20 * 0.017453292519943295), 0.02);
 }
 

@@ -170,7 +170,7 @@ TEST(MixtureChecks, EveryNumberMayBeUncertain) {
       if (key.kind == ValueKind::uncertain) key.set(s, Uncertain(0.5));
       EXPECT_EQ(s.mixture.has_value(), key.kind == ValueKind::uncertain) << key.path;
     }
-  EXPECT_EQ(n, 9);
+  EXPECT_EQ(n, 10);
 }
 
 TEST(MixtureChecks, ALooseMixtureIsTakenAsNearlyLiquefied) {

@@ -25,7 +25,7 @@ KeyValue unusual_value(const KeyInfo& key) {
     case ValueKind::number:
       return middle;
     case ValueKind::integer:
-      return std::int64_t{77};
+      return key.max < 77 ? static_cast<std::int64_t>(middle) : 77;
     case ValueKind::text:
     case ValueKind::path:
       return std::string("unusual");

@@ -15,6 +15,7 @@ class PhasesWorkflow : public Workflow {
   workflow::EnsembleRequest parting(const std::string& results) const {
     workflow::EnsembleRequest r = request(results);
     r.scene.overrides = {"formulation=depth_averaged", "mixture.phases=two",
+                         "basal.pore_pressure_ratio=0",
                          "mixture.permeability_m2={log_uniform: [1.0e-9, 1.0e-5]}",
                          "hazard.thickness_m=[0.05, 0.2]"};
     return r;

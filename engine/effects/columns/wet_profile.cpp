@@ -15,7 +15,8 @@ struct AtHeight {
   bool airy;
 
   /// \param above share of the thickness that lies above; \param room weight less still water at
-  /// the base; \param still,water of still water at the base, and of the pores' height of it
+  /// the base [Pa]; \param still_at_base of still water [Pa]; \param water of as much of it as the
+  /// pores are thick [Pa]
   AtHeight(double above, double room, double still_at_base, double water, bool has_air)
       : still(greater(0, still_at_base - (1 - above) * water)), airy(has_air) {
     stress = still + room * above;
@@ -78,7 +79,7 @@ void WetProfile::step(const MixtureLaw& given, const Lanes& c, double part, cons
   const int n = mesh.nodes, last = n - 1;
   const bool tight = !mesh.drained_bed;
   const double per_spacing = 1 / mesh.spacing();
-  Lane reach, gained, spread_slope, gained_slope, ratio[most_nodes], answer[most_nodes];
+  Lane spread, gained, spread_slope, gained_slope, ratio[most_nodes], answer[most_nodes];
 #pragma omp simd
   for (std::size_t l = 0; l < width; ++l) {
     const double borne = greater(0, c.room[l] - (tight ? from[0][l] : 0));
@@ -86,7 +87,7 @@ void WetProfile::step(const MixtureLaw& given, const Lanes& c, double part, cons
         profile_rates(law, c.m[l], c.permeability[l], borne, c.speed[l], c.per_thickness[l]);
     const double time = part * c.time[l], per_dz = per_spacing * c.per_thickness[l];
     const double per_area = time * per_dz * per_dz;
-    reach[l] = rates.diffusivity * per_area, gained[l] = rates.source * time;
+    spread[l] = rates.diffusivity * per_area, gained[l] = rates.source * time;
     spread_slope[l] = tight ? rates.diffusivity_slope * per_area : 0;
     gained_slope[l] = tight ? rates.source_slope * time : 0;
   }
@@ -97,7 +98,7 @@ void WetProfile::step(const MixtureLaw& given, const Lanes& c, double part, cons
     const double diagonal = drains ? 3 : 2, upper = mirrored ? 2 : 1;
 #pragma omp simd
     for (std::size_t l = 0; l < width; ++l) {
-      const double here = from[j][l], r = reach[l], lower = j > 0 ? r : 0;
+      const double here = from[j][l], r = spread[l], lower = j > 0 ? r : 0;
       const double below = j > 0 ? from[j - 1][l] : tight ? from[1][l] : -here;
       const double above = j < last ? from[j + 1][l] : -here;
       const double pivot = 1 / (1 + diagonal * r - lower * (j > 0 ? ratio[j - 1][l] : 0));

@@ -25,7 +25,9 @@ class InflowPass final : public Pass {
   void limits(const State& s, std::vector<StepLimit>& out) const override {
     if (none_waits() || !settings_.columns[next_].arrival.released) return;
     const double left = settings_.columns[next_].time_s - s.time, start = settings_.start_dt_s;
-    out.push_back({"start of a release", left <= start ? left : std::max(0.5 * left, 0.5 * start)});
+    const double to_it = left <= start ? left : std::max(0.5 * left, 0.5 * start);
+    // What is nearly there starts at the end of any short step.
+    out.push_back({"start of a release", left <= early_share * start ? start : to_it});
   }
 
   void apply(State& s, double dt) override {

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t grains = 0, liquid = 1;
 
 /// Distance of nodes over the spacing at release: where columns lie twice as far apart a node still
-/// has nine of each phase.
+/// has nine of each set.
 constexpr double node_distance = 2;
 
 class DragPass final : public Pass {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the thickness of one phase is to the other: pressure, buoyancy, depth of the liquid.
+// What the thickness of one set is to the other: pressure, buoyancy, depth of the liquid.
 #include "engine/core/parallel.hpp"
 #include "engine/effects/phases/shared.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
@@ -158,7 +158,7 @@ class AcrossPass final : public Pass {
   std::shared_ptr<TwoPhases> both_;
 };
 
-/// Adds the pressure of the other phase, its mirror images at walls too.
+/// Adds the pressure of the other set, its mirror images at walls too.
 class AddPass final : public Pass {
  public:
   explicit AddPass(std::shared_ptr<TwoPhases> both) : both_(std::move(both)) {}

@@ -21,7 +21,7 @@ TwoPhaseSettings plan_phases(const Scenario& numbers, const DepthAveragedSetting
 /// Makes a second set of the liquid in what set 0 holds as a whole, both where the mixture lies.
 void split_phases(State&, const TwoPhaseSettings&, double solid_fraction);
 
-/// Thickness of one phase in a column of the mixture [m]. \param share  of the volume
+/// Thickness of grains or of liquid in a column of the mixture [m]. \param share  of the volume
 std::vector<double> thickness_of(const Release&, double share);
 
 /// What is said of the drag: law, time in which a slip dies out, largest slip where it is computed.

@@ -80,7 +80,7 @@ TEST(SamosAtBed, AColumnFollowsItsEquation) {
   double coarse = 0;
   for (const double step : {0.04, 0.02, 0.01}) {
     const Slide s = slide(samosat(), 1, 6, step);
-    EXPECT_NEAR(s.speed, s.expected, 2e-3 * s.expected) << step;
+    EXPECT_NEAR(s.speed, s.expected, 0.1 * step * s.expected) << "of first order in " << step;
     EXPECT_GT(s.expected, 10);
     const double error = std::abs(s.speed - s.expected);
     if (coarse > 0) {
@@ -118,7 +118,7 @@ TEST(LeastShearStress, CohesionStandsBesideVoellmy) {
 
 TEST(LeastShearStress, HoldsAColumnThatFrictionWouldNot) {
   struct End {
-    double speed, thickness;
+    double gain, thickness, speed;
   };
   const auto after = [&](double tau_0) {
     DepthAveragedSettings s;
@@ -126,16 +126,18 @@ TEST(LeastShearStress, HoldsAColumnThatFrictionWouldNot) {
     s.bed[0].turbulent_coefficient = 2000;
     HandMade made =
         test::columns_on(test::even_ground(60, 0.5), {{-10, 0, 0}}, set_down, {0, 0, 0}, {}, s);
-    // The first kick still knows the thickness that it was set down with.
-    for (int i = 0; i < 10; ++i) made.step.apply(made.state, 0.01);
+    // Its first steps still know the thickness that it was set down with.
     const MovingSet& p = made.state.grains();
-    return End{p.vx[0], p.scalar(fields::thickness)[0]};
+    for (int i = 0; i < 20; ++i) made.step.apply(made.state, 0.01);
+    const double first = p.vx[0];
+    for (int i = 0; i < 9; ++i) made.step.apply(made.state, 0.01);
+    return End{p.vx[0] - first, p.scalar(fields::thickness)[0], p.vx[0]};
   };
   // What it takes: rho h g (sin - mu cos).
   const double h = after(1e9).thickness;
   const double least = density * h * g * (0.5 - 0.155) / std::sqrt(1.25);
   EXPECT_GT(after(0.98 * least).speed, 0);
-  EXPECT_LT(after(0.98 * least).speed, 0.1 * after(0).speed);
+  EXPECT_LT(after(0.98 * least).gain, 0.1 * after(0).gain);
   EXPECT_EQ(after(1.02 * least * set_down / h).speed, 0);
   EXPECT_GT(after(0).speed, 0.2);
 }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ostream>
 #include <string>
 
 namespace sturz::test {
@@ -25,6 +26,7 @@ struct Mixed {
     return friction * solids * (grain_density - liquid_density) / density();
   }
 };
+void PrintTo(const Mixed& m, std::ostream* out) { *out << m.name; }
 const Mixed mixtures[] = {{"Landslide", 0.5, 0.5, 2800, 1200}, {"Flume", 0.8, 0.417, 2600, 1570}};
 
 Scenario two_phases(const Mixed& of, double permeability, double spacing) {
