@@ -198,8 +198,8 @@ TEST_F(Ends, ASignalEndsEveryCommandInTimeWithThree) {
 /// `top`, `pgrep` and `pkill` go by this name; the program starts itself once more on its way.
 TEST_F(Ends, TheProcessHasTheNameOfTheProgram) {
   const Ended ended = shell(
-      "\"$S\" ensemble scene.yaml -o out -n 4000 --workers 1 --json > said & p=$!; "
-      "until [ -s said ]; do sleep 0.01; done; cat /proc/$p/comm; kill $p; wait $p");
+      "{ \"$S\" ensemble scene.yaml -o out -n 4000 --workers 1 --json > said & p=$!; "
+      "until [ -s said ]; do sleep 0.01; done; cat /proc/$p/comm; kill $p; wait $p; }");
   EXPECT_EQ(ended.out, "sturz\n");
 }
 
