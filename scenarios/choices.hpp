@@ -127,11 +127,15 @@ constexpr auto words_of(ErosionSupply) {
 }
 
 /// How the uncertain values of an ensemble are drawn; `table` brings its own.
-enum class Design { monte_carlo, latin_hypercube, sobol, table };
+enum class Design { monte_carlo, latin_hypercube, sobol, table, morris, saltelli };
 constexpr auto words_of(Design) {
   using enum Design;
-  return std::array{Word{monte_carlo, "monte_carlo"}, Word{latin_hypercube, "latin_hypercube"},
-                    Word{sobol, "sobol"}, Word{table, "table"}};
+  return std::array{Word{monte_carlo, "monte_carlo"},
+                    Word{latin_hypercube, "latin_hypercube"},
+                    Word{sobol, "sobol"},
+                    Word{table, "table"},
+                    Word{morris, "morris"},
+                    Word{saltelli, "saltelli"}};
 }
 
 }  // namespace sturz

@@ -10,6 +10,7 @@
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/app/verdict.hpp"
+#include "ensemble/workflow/calibration/posterior_files.hpp"
 #include "ensemble/workflow/forecast/ensemble_forecast.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
@@ -33,6 +34,7 @@ struct Options {
   int workers = 0;               ///< 0: all cores available to the process
   std::string shard;             ///< "k/n", 1 <= k <= n; empty: everything
   bool retry_failed = false;     ///< compute failed members again
+  std::string posterior;         ///< folder of a calibration; empty: the scene's own design
 };
 
 using workflow::EnsembleJob;
@@ -52,12 +54,16 @@ std::string command_text(const Options& o) {
   std::string text = "ensemble " + o.scenario;
   for (const std::string& set : o.set) text += " --set " + set;
   if (o.members > 0) text += fmt::format(" -n {}", o.members);
+  if (!o.posterior.empty()) text += " --posterior " + o.posterior;
   return text;
 }
 
 workflow::EnsembleRequest request_of(const Options& o) {
   workflow::EnsembleRequest request;
   request.scene = {o.scenario, o.set, speed_cache()};
+  if (!o.posterior.empty())
+    for (std::string& set : workflow::posterior_overrides(o.posterior))
+      request.scene.overrides.push_back(std::move(set));
   request.folder = o.out.empty() ? workflow::default_folder(o.scenario) : o.out;
   request.members = o.members;
   request.workers = o.workers;
@@ -119,6 +125,10 @@ int ensemble(const Options& options, Console& console) {
   const auto forecast =
       workflow::forecast_of(job, speed_cache(), process_seconds(), observer, interrupt_flag());
   announce(job, options, forecast, console);
+  if (!options.posterior.empty())
+    for (const std::string& warning :
+         workflow::posterior_warnings(options.posterior, workflow::found_at(job.scene)))
+      console.warn(warning);
   const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
   console.clear_progress();
   if (const int code = how_it_ended(run, console); code != ok) return code;
@@ -146,6 +156,10 @@ void add_ensemble(Grammar& grammar) {
       ->type_name("K/N");
   parser.add_flag("--retry-failed", options.retry_failed,
                   "Compute members again that failed, for instance at a wall-time limit");
+  parser
+      .add_option("--posterior", options.posterior,
+                  "Draw the members from what `sturz calibrate` found in this folder")
+      ->type_name("DIR");
   add_json(grammar, parser);
 }
 

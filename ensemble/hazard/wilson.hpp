@@ -15,5 +15,8 @@ struct ProbabilityBounds {
 /// It holds for independent members; Latin hypercube and Sobol' members scatter less, so there
 /// it errs on the wide side. NaN for no trials.
 ProbabilityBounds wilson_interval(std::int64_t hits, std::int64_t trials);
+/// The same for a share of members that do not count alike, as if it had come from `effective`
+/// members that do. NaN for none.
+ProbabilityBounds wilson_interval_of_share(double share, double effective);
 
 }  // namespace sturz

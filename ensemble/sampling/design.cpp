@@ -87,17 +87,25 @@ DesignTable draw_design(std::span<const UncertainKey> keys, const EnsembleSpec& 
                       "number of members.",
                       spec.members));
   DesignTable table = empty_design(keys, spec);
-  const std::vector<Marginal> marginals = marginals_of(keys);
-  const Copula copula(table.keys, spec.correlation);
   table.unit_cube =
       draw_unit_cube(spec.design, static_cast<std::size_t>(spec.members), keys.size(), spec.seed);
-  table.values.reserve(table.unit_cube.size());
-  for (const std::vector<double>& row : table.unit_cube) {
+  table.values = values_at(keys, spec, table.unit_cube);
+  return table;
+}
+
+std::vector<std::vector<double>> values_at(std::span<const UncertainKey> keys,
+                                           const EnsembleSpec& spec,
+                                           const std::vector<std::vector<double>>& cube) {
+  const std::vector<Marginal> marginals = marginals_of(keys);
+  const Copula copula(empty_design(keys, spec).keys, spec.correlation);
+  std::vector<std::vector<double>> all;
+  all.reserve(cube.size());
+  for (const std::vector<double>& row : cube) {
     std::vector<double> values = copula.apply(row);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = marginals[k].quantile(values[k]);
-    table.values.push_back(std::move(values));
+    all.push_back(std::move(values));
   }
-  return table;
+  return all;
 }
 
 DesignTable table_design(const Scenario& scenario, std::span<const std::string> columns,

@@ -40,11 +40,19 @@ struct DesignTable {
 ///                    a key that depends on an earlier one through `correlation` is not sliced)
 ///   sobol            Sobol' points with a random digital shift of their top 32 bits; a longer
 ///                    table starts with the shorter one
+///   morris           sets of one row per key and one more, see sampling/structured_cube.hpp
+///   saltelli         sets of one row per key and two more; both go on set by set
 /// The same seed gives the same bits.
 /// \throws SetupError naming the key when members, a distribution or the correlation is unusable
 DesignTable draw_design(const Scenario& scenario);
 /// The same from its parts.
 DesignTable draw_design(std::span<const UncertainKey> keys, const EnsembleSpec& spec);
+
+/// Values of points of the unit cube, copula and quantile functions applied. \param cube
+/// [n][n_keys] \return [n][n_keys] in the keys' units
+std::vector<std::vector<double>> values_at(std::span<const UncertainKey> keys,
+                                           const EnsembleSpec& spec,
+                                           const std::vector<std::vector<double>>& cube);
 
 /// The user's own table (`design: table`), already read: columns may come in any order and must
 /// be the scenario's uncertain keys, no more and no fewer; each value must lie in the key's range

@@ -2,56 +2,31 @@
 #include "ensemble/sampling/unit_cube.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/sampling/random_words.hpp"
+#include "ensemble/sampling/structured_cube.hpp"
 
-#include <Random123/philox.h>
 #include <fmt/format.h>
 #include <openturns/ComposedDistribution.hxx>
 #include <openturns/LHSExperiment.hxx>
-#include <openturns/Log.hxx>
 #include <openturns/RandomGenerator.hxx>
 #include <openturns/SobolSequence.hxx>
 #include <openturns/Uniform.hxx>
 
 #include <algorithm>
-#include <mutex>
 
 namespace sturz {
 namespace {
 
 using Cube = std::vector<std::vector<double>>;
 
-/// Keeps apart the streams that one seed feeds.
-enum class Stream : std::uint32_t { generator_seed = 0x64657369, digital_shift = 0x73686966 };
-
-/// 32 random bits as a pure function of (seed, stream, index).
-std::uint32_t philox_bits(std::uint64_t seed, Stream stream, std::uint32_t index) {
-  const r123::Philox4x32_R<10>::key_type key{
-      {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}};
-  const r123::Philox4x32_R<10>::ctr_type counter{{index, 0, 0, static_cast<std::uint32_t>(stream)}};
-  return r123::Philox4x32_R<10>{}(counter, key)[0];
-}
-
-/// OpenTURNS has one generator for the whole process: one design at a time, seeded each time.
-std::mutex& generator_lock() {
-  static std::mutex lock;
-  return lock;
-}
-
-/// Its seed has 32 bits; mixing lets all 64 of ours count.
-void seed_generator(std::uint64_t seed) {
-  OT::RandomGenerator::SetSeed(philox_bits(seed, Stream::generator_seed, 0));
-}
-
-Cube monte_carlo(std::size_t n, std::size_t n_dims, std::uint64_t seed) {
-  seed_generator(seed);
+Cube monte_carlo(std::size_t n, std::size_t n_dims) {
   Cube cube(n, std::vector<double>(n_dims));
   for (auto& row : cube)  // row by row: a longer table starts with the shorter one
     for (double& u : row) u = OT::RandomGenerator::Generate();
   return cube;
 }
 
-Cube latin_hypercube(std::size_t n, std::size_t n_dims, std::uint64_t seed) {
-  seed_generator(seed);
+Cube latin_hypercube(std::size_t n, std::size_t n_dims) {
   // Independent marginals only: LHSExperiment refuses a dependent copula.
   const OT::ComposedDistribution uniform(
       OT::ComposedDistribution::DistributionCollection(n_dims, OT::Uniform(0.0, 1.0)));
@@ -84,7 +59,7 @@ Cube sobol(std::size_t n, std::size_t n_dims, std::uint64_t seed) {
   }
   for (std::size_t d = 0; d < n_dims; ++d) {
     const std::uint32_t shift =
-        philox_bits(seed, Stream::digital_shift, static_cast<std::uint32_t>(d));
+        random_word(seed, Stream::digital_shift, static_cast<std::uint32_t>(d));
     for (auto& row : cube) row[d] = shifted(row[d], shift);
   }
   return cube;
@@ -98,11 +73,12 @@ std::vector<std::vector<double>> draw_unit_cube(Design design, std::size_t n, st
                                                 std::uint64_t seed) {
   expect(design != Design::table, "a user's own table is not drawn");
   if (n == 0 || n_dims == 0) return Cube(n);
-  const std::lock_guard guard(generator_lock());
-  OT::Log::Show(OT::Log::NONE);
+  if (design == Design::morris) return morris_cube(n, n_dims, seed);
+  if (design == Design::saltelli) return saltelli_cube(n, n_dims, seed);
+  const SeededGenerator generator(seed);
   Cube cube = design == Design::sobol         ? sobol(n, n_dims, seed)
-              : design == Design::monte_carlo ? monte_carlo(n, n_dims, seed)
-                                              : latin_hypercube(n, n_dims, seed);
+              : design == Design::monte_carlo ? monte_carlo(n, n_dims)
+                                              : latin_hypercube(n, n_dims);
   for (auto& row : cube)
     for (double& u : row) u = inside_unit(u);
   return cube;

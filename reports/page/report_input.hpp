@@ -26,6 +26,27 @@ struct ReportTable {
   std::vector<std::vector<double>> rows;  ///< [n][columns.size()]
 };
 
+/// What `sturz calibrate` found, as a page shows it.
+struct PosteriorShown {
+  struct Key {
+    double before[3] = {}, after[3] = {};  ///< 5 %, 50 %, 95 %
+    double variance_removed = 0;
+  };
+  struct Quantity {
+    std::string name, unit;
+    double observed = 0;
+    double check[3] = {};  ///< predicted: 5 %, 50 %, 95 %
+    bool has_held_out = false;
+    double held_out[3] = {};  ///< the same by what the others tell
+  };
+  std::string origin;     ///< method, members, what they are worth: one sentence
+  ReportTable rows;       ///< of equal weight
+  std::vector<Key> keys;  ///< one per column of `rows`
+  std::vector<Quantity> quantities;
+  std::vector<std::pair<double, double>> reliability;  ///< nominal, inside
+  std::vector<std::string> ridges, warnings;           ///< sentences
+};
+
 struct ReportInput {
   std::string title;
   std::string scenario_yaml;
@@ -55,6 +76,7 @@ struct ReportInput {
   const ScoreTable* scores = nullptr;  ///< one row per entry of `members`; null: none is scored
   const Raster<std::uint8_t>* nearest = nullptr;  ///< covered by the best member; may be null
   std::int64_t nearest_member = 0;                ///< its number
+  const PosteriorShown* posterior = nullptr;      ///< null: nothing was calibrated
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

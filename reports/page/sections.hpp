@@ -31,6 +31,8 @@ std::string left_out_html(const std::vector<MemberSummary>& members);
 std::string charts_html(const ReportInput& input, const Headline& h);
 /// What was observed beside what the nearest members give; empty text where nothing was observed.
 std::string observed_html(const ReportInput& input, const Headline& h);
+/// Uncertain values before and after, pairs, predictive check; empty text without a calibration.
+std::string posterior_html(const ReportInput& input);
 std::string members_html(const ReportInput& input, const Headline& h);
 /// Description, timings, notes.
 std::string computation_html(const ReportInput& input, const Headline& h);

@@ -84,6 +84,32 @@ void check_correlation(const Scenario& s, Problems& problems) {
         "Bring some of them nearer to 0.");
 }
 
+/// A design whose rows belong together in sets: how many make one set, 1 where each stands alone.
+int rows_of_a_set(const Scenario& s) {
+  const int keys = static_cast<int>(uncertain_keys(s).size());
+  if (keys == 0) return 1;  // a member of such a design
+  if (s.ensemble.design == Design::morris) return keys + 1;
+  return s.ensemble.design == Design::saltelli ? keys + 2 : 1;
+}
+
+void check_sets(const Scenario& s, Problems& problems) {
+  const int set = rows_of_a_set(s), members = s.ensemble.members;
+  if (set == 1) return;
+  const std::string design(to_string(s.ensemble.design));
+  if (!s.ensemble.correlation.empty())
+    problems.push_back({correlation_path, std::string(correlation_path) + " (design is " + design +
+                                              ", which moves one value at a time: shares of "
+                                              "values that depend on one another have no "
+                                              "meaning). Remove it or use another design."});
+  if (members > 0 && members % set != 0)
+    problems.push_back({"ensemble.members", "ensemble.members = " + std::to_string(members) +
+                                                " (design " + design + " takes sets of " +
+                                                std::to_string(set) + " members for " +
+                                                std::to_string(set - (design == "morris" ? 1 : 2)) +
+                                                " uncertain values). Use " +
+                                                std::to_string((members / set + 1) * set) + "."});
+}
+
 void check_rising(const std::vector<double>& levels, const char* path, Problems& problems) {
   if (std::adjacent_find(levels.begin(), levels.end(),
                          [](double a, double b) { return !(a < b); }) != levels.end())
@@ -110,6 +136,7 @@ void check_ensemble(const Scenario& s, Problems& problems) {
                                               "it."});
   else
     check_correlation(s, problems);
+  check_sets(s, problems);
 }
 
 void check_hazard(const Scenario& s, Problems& problems) {

@@ -70,8 +70,10 @@ void add_domain(std::vector<KeyInfo>& keys) {
 
 void add_ensemble(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
-  keys.push_back(choice_key(ensemble, &EnsembleSpec::design, "ensemble.design",
-                            "How the uncertain values are drawn.", {"morris", "full_grid"}));
+  keys.push_back(choice_key(
+      ensemble, &EnsembleSpec::design, "ensemble.design",
+      "How the uncertain values are drawn; morris and saltelli are for `sturz sensitivity`.",
+      {"full_grid"}));
   keys.push_back(text_key(ensemble, &EnsembleSpec::table, "ensemble.table", path,
                           "CSV with one row per member and one column per uncertain key, for "
                           "design: table."));

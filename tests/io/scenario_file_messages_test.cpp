@@ -102,9 +102,10 @@ TEST(ScenarioMessages, KeysOfLaterVersionsAreNotUnknown) {
               ElementsAre("scenario.yaml:7:1: fluid (not available in this version: a pore fluid "
                           "with particles of its own). Remove it."));
   EXPECT_THAT(problems(scene() + "prior: {}\ncoupling: 1\nobservation: {}\n").size(), 3u);
-  EXPECT_THAT(problems(scene() + "ensemble: {design: morris}\n"),
-              ElementsAre("scenario.yaml:7:20: ensemble.design = morris (not available in this "
-                          "version). Available: monte_carlo, latin_hypercube, sobol, table."));
+  EXPECT_THAT(problems(scene() + "ensemble: {design: full_grid}\n"),
+              ElementsAre("scenario.yaml:7:20: ensemble.design = full_grid (not available in this "
+                          "version). Available: monte_carlo, latin_hypercube, sobol, table, "
+                          "morris, saltelli."));
 }
 
 TEST(ScenarioMessages, DuplicateKey) {

@@ -244,10 +244,12 @@ TEST(Validate, UnknownWordsAreNamedAndChangeNothing) {
     EXPECT_EQ(s, before);
     return problems.size() == 1 ? problems[0].message : "not one problem";
   };
-  EXPECT_EQ(refusal("ensemble.design", "sobl"),
-            "ensemble.design = sobl (must be one of monte_carlo, latin_hypercube, sobol, table). "
-            "Did you mean sobol?");
-  EXPECT_THAT(refusal("ensemble.design", "morris"), HasSubstr("(not available in this version)"));
+  EXPECT_EQ(
+      refusal("ensemble.design", "sobl"),
+      "ensemble.design = sobl (must be one of monte_carlo, latin_hypercube, sobol, table, morris, "
+      "saltelli). Did you mean sobol?");
+  EXPECT_THAT(refusal("ensemble.design", "full_grid"),
+              HasSubstr("(not available in this version)"));
   EXPECT_EQ(
       refusal("grains.states.stress_mode", "seed"),
       "grains.states.stress_mode = seed (has a new name in this version). Write paper_switch.");

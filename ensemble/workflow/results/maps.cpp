@@ -6,6 +6,7 @@
 #include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
+#include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
@@ -153,6 +154,8 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   page.nearest = &nearest;
   manifest.hazard_hash = hash;
   manifest.maps_of = members_hash(store, design.n_members());
+  const auto posterior = shown_posterior(folder, manifest.maps_of);
+  if (posterior) page.posterior = &*posterior;
   write_page(folder, manifest, scenario, page);
   manifest.write(folder.manifest());
   made.hazard_hash = hash;

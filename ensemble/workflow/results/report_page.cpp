@@ -5,6 +5,7 @@
 #include "ensemble/censoring/edge_crossing.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
+#include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
@@ -143,6 +144,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.observed = content.observed;
   input.observed_note = scenario.hazard.observed_note;
   input.scores = content.scores;
+  input.posterior = content.posterior;
   if (content.nearest != nullptr && content.nearest->member) {
     input.nearest = &content.nearest->cells;
     input.nearest_member = *content.nearest->member;
@@ -216,6 +218,8 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   }
   if (finished.inputs)
     page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
+  const auto posterior = shown_posterior(finished.folder, finished.manifest.maps_of);
+  if (!one_run && posterior) page.posterior = &*posterior;
   page.members = store.members();
   if (one_run && !page.members.empty()) {
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));

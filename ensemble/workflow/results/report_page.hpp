@@ -12,6 +12,7 @@
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
+#include "reports/page/report_input.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 
 #include <cstdint>
@@ -49,6 +50,7 @@ struct PageContent {
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
   std::span<const std::vector<Vec2>> observed;    ///< rings of the observed outline [m]
   const ScoreTable* scores = nullptr;             ///< rows in the order of `members`
+  const PosteriorShown* posterior = nullptr;      ///< of a calibration; null: none
   const NearestMember* nearest = nullptr;
   const GaugeFindings* gauges = nullptr;  ///< see gauge_files.hpp
   const MemberResult* run = nullptr;      ///< of a single run: its history and where its time went

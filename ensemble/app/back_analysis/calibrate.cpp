@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// sturz calibrate: an ensemble, what was observed, and what is then known of the uncertain values.
+#include "ensemble/workflow/calibration/calibrate.hpp"
+
+#include "engine/core/cancel.hpp"
+#include "engine/core/error.hpp"
+#include "ensemble/app/back_analysis/calibration_text.hpp"
+#include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/console/interrupt.hpp"
+#include "ensemble/app/console/json_text.hpp"
+#include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
+#include "ensemble/app/speed_cache.hpp"
+#include "ensemble/workflow/calibration/posterior_files.hpp"
+#include "ensemble/workflow/members/run_ensemble.hpp"
+#include "ensemble/workflow/results/maps.hpp"
+#include "ensemble/workflow/results/report_page.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+namespace sturz::app {
+namespace {
+
+struct Options {
+  std::string scenario;
+  std::string out;
+  std::vector<std::string> set;
+  int members = 0;
+  int workers = 0;
+  std::string method;  ///< empty: by the number of members
+  double discrepancy = default_discrepancy;
+  int active = 0;
+  int active_members = 0;
+  bool no_check = false;
+};
+
+std::string command_text(const Options& o) {
+  std::string text = "calibrate " + o.scenario;
+  for (const std::string& set : o.set) text += " --set " + set;
+  if (o.members > 0) text += fmt::format(" -n {}", o.members);
+  if (!o.method.empty()) text += " --method " + o.method;
+  if (o.discrepancy != default_discrepancy) text += fmt::format(" --discrepancy {}", o.discrepancy);
+  if (o.active > 0) text += fmt::format(" --active {}", o.active);
+  return text;
+}
+
+workflow::CalibrateRequest request_of(const Options& o) {
+  workflow::CalibrateRequest request;
+  request.ensemble.scene = {o.scenario, o.set, speed_cache()};
+  if (o.members > 0)
+    request.ensemble.scene.overrides.push_back(fmt::format("ensemble.members={}", o.members));
+  request.ensemble.folder = o.out.empty() ? workflow::default_folder(o.scenario) : o.out;
+  request.ensemble.workers = o.workers;
+  request.ensemble.command = command_text(o);
+  if (o.method == "weights") request.method = PosteriorMethod::weights;
+  if (o.method == "emulator") request.method = PosteriorMethod::emulator;
+  request.discrepancy = o.discrepancy;
+  request.active_rounds = o.active;
+  request.active_members = o.active_members;
+  request.check_best = !o.no_check;
+  return request;
+}
+
+void tell(const workflow::Calibrated& c, const std::string& folder, Console& console) {
+  for (const std::string& line : calibration_lines(c)) console.say(line);
+  console.say("In " + folder + ":");
+  console.say("  report.html     with what the observations tell");
+  console.say("  posterior.csv   equal rows, for `sturz ensemble --posterior`");
+  console.say("  posterior.json  every number");
+  for (const std::string& warning : c.found.warnings) console.warn(warning);
+  auto event = nlohmann::ordered_json::parse(workflow::posterior_json(c));
+  nlohmann::ordered_json done{{"event", "done"}, {"folder", folder}};
+  done.update(event);
+  console.event(json_text(done));  // the last line, so that a reader may stop there
+}
+
+struct Computed {
+  workflow::Calibrated found;
+  bool too_many_failed = false;
+};
+
+/// Members, maps, posterior and its files.
+Computed compute(const Options& options, const workflow::CalibrateRequest& request,
+                 ConsoleObserver& observer, Console& console) {
+  workflow::EnsembleJob job = workflow::prepare_calibration(request, observer);
+  for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
+  console.note(command_text(options));
+  console.say(
+      fmt::format("{} members, {} finished before", job.design.n_members(), job.finished_before));
+  const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
+  console.clear_progress();
+  require(run.stop_error.empty(), run.stop_error);
+  if (run.interrupted) throw Cancelled();
+  const workflow::MapsMade maps = workflow::make_maps(job, observer, interrupt_flag());
+  if (maps.failed() > 0)
+    console.warn(
+        fmt::format("{} of {} members failed and say nothing of the uncertain values; "
+                    "their reasons are in members.csv.",
+                    maps.failed(), maps.finished));
+  Computed c{workflow::calibrate_ensemble(request, job, maps, observer, interrupt_flag()),
+             maps.too_many_failed()};
+  workflow::write_posterior(job.folder, c.found);
+  console.clear_progress();
+  return c;
+}
+
+int calibrate(const Options& options, Console& console) {
+  ConsoleObserver observer(console);
+  const workflow::CalibrateRequest request = request_of(options);
+  // The job and its lock are gone when the page takes the folder's.
+  const Computed c = compute(options, request, observer, console);
+  workflow::rewrite_page(request.ensemble.folder, observer, interrupt_flag());
+  tell(c.found, request.ensemble.folder.string(), console);
+  return c.too_many_failed ? too_many_failed : ok;
+}
+
+}  // namespace
+
+void add_calibrate(Grammar& grammar) {
+  auto [parser, options] = add_command(
+      grammar, "calibrate",
+      "Compute an ensemble and what the observations say of its uncertain values", calibrate);
+  add_scenario(parser, options.scenario, options.set);
+  parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
+      ->type_name("DIR");
+  parser
+      .add_option("-n,--members", options.members, "Number of members, instead of the scenario's")
+      ->check(CLI::Range(1, 100000000));
+  parser.add_option("--workers", options.workers, "Members at a time (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  parser
+      .add_option("--method", options.method,
+                  "weights of the members, or chains on an emulator (default: emulator from ten "
+                  "members per uncertain value on)")
+      ->check(CLI::IsMember({"weights", "emulator"}));
+  parser
+      .add_option("--discrepancy", options.discrepancy,
+                  "What the model cannot do, as a share of the observed value: scale of its prior; "
+                  "0 for a perfect model")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  parser
+      .add_option("--active", options.active,
+                  "Rounds of more members where the emulator knows the posterior least")
+      ->check(CLI::Range(1, 1000));
+  parser
+      .add_option("--active-members", options.active_members,
+                  "Members of a round (default: two per uncertain value, four at least)")
+      ->check(CLI::Range(1, 1000));
+  parser.add_flag("--no-check", options.no_check, "Do not compute the member at the best fit");
+  add_json(grammar, parser);
+}
+
+}  // namespace sturz::app

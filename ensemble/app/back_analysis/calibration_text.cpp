@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/app/back_analysis/calibration_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz::app {
+namespace {
+
+using Lines = std::vector<std::string>;
+using workflow::Calibrated;
+using workflow::KeySummary;
+
+std::string number(double value) { return fmt::format("{:.4g}", value); }
+std::string range(const double (&v)[3]) {
+  return fmt::format("{} [{} .. {}]", number(v[1]), number(v[0]), number(v[2]));
+}
+std::string unit_text(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
+
+std::string method_line(const Calibrated& c) {
+  const Posterior& p = c.found.posterior;
+  std::string text =
+      fmt::format("method {} ({}); {} members{}", to_string(p.method), c.found.reason, c.n_drawn,
+                  c.n_chosen > 0 ? fmt::format(" and {} chosen ones", c.n_chosen) : "");
+  text += fmt::format("; worth {:.0f} independent ones", p.effective_size);
+  if (p.chains) {
+    const auto& r = p.chains->r_hat;
+    const auto [least, most] =
+        std::minmax_element(p.chains->acceptance.begin(), p.chains->acceptance.end());
+    text += fmt::format("; {} chains, R-hat {:.3f}, acceptance {:.2f} .. {:.2f}",
+                        p.chains->acceptance.size(), *std::max_element(r.begin(), r.end()), *least,
+                        *most);
+  }
+  return text;
+}
+
+void add_keys(const Calibrated& c, Lines& lines) {
+  std::size_t width = 16;
+  for (const KeySummary& k : c.keys)
+    width = std::max(width, k.key.size() + unit_text(k.unit).size());
+  lines.push_back(fmt::format("{:<{}}  {:<30}{:<30}{:>7}{}", "value", width, "prior [5 % .. 95 %]",
+                              "posterior", "told", c.found.best ? "   best fit" : ""));
+  for (const KeySummary& k : c.keys)
+    lines.push_back(fmt::format("{:<{}}  {:<30}{:<30}{:>5.0f} %{}", k.key + unit_text(k.unit),
+                                width, range(k.prior), range(k.posterior), 100 * k.variance_removed,
+                                k.best ? "   " + number(*k.best) : ""));
+  for (const Ridge& r : c.found.identifiability.ridges)
+    lines.push_back(
+        fmt::format("ridge: {} and {} (correlation {:+.2f}): a combination of them is "
+                    "known, not each",
+                    c.keys[r.a].key, c.keys[r.b].key, r.correlation));
+}
+
+void add_emulators(const Calibrated& c, Lines& lines) {
+  if (c.found.emulators.empty()) return;
+  std::string text;
+  for (const EmulatorReport& e : c.found.emulators)
+    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", e.quantity, e.q2);
+  lines.push_back("emulators, Q2 by leaving one out: " + text);
+}
+
+void add_quantities(const Calibrated& c, Lines& lines) {
+  const auto& held = c.found.held_out.quantities;
+  lines.push_back(fmt::format("{:<26}{:>12}{:>32}{:>32}{}", "quantity", "observed",
+                              "posterior gives (90 %)", held.empty() ? "" : "without it (90 %)",
+                              c.best_member ? "    best member" : ""));
+  for (std::size_t q = 0; q < c.found.check.size(); ++q) {
+    const PredictedQuantity& p = c.found.check[q];
+    const auto interval = [](const PredictedQuantity& x) {
+      return fmt::format("{} [{} .. {}]", number(x.median), number(x.lower), number(x.upper));
+    };
+    std::string line = fmt::format("{:<26}{:>12}{:>32}{:>32}", p.name, number(p.observed),
+                                   interval(p), held.empty() ? "" : interval(held[q].predicted));
+    if (c.best_member) {
+      const Observation& o = (*c.best_member)[q];
+      line +=
+          o.known == Known::not_at_all
+              ? "      not known"
+              : fmt::format("{:>15}", (o.known == Known::at_least ? ">= " : "") + number(o.value));
+    }
+    lines.push_back(std::move(line));
+  }
+  if (!held.empty())
+    lines.push_back(fmt::format(
+        "held out one by one: {:.0f} % inside 50 %, {:.0f} % inside 90 %; log score {:.2f} against "
+        "{:.2f} of the prior",
+        100 * c.found.held_out.coverage50, 100 * c.found.held_out.coverage90,
+        c.found.held_out.mean_log_score, c.found.held_out.prior_mean_log_score));
+}
+
+void add_discrepancy(const Calibrated& c, Lines& lines) {
+  if (c.discrepancy == 0) {
+    lines.emplace_back("no model discrepancy: as sure as if the model were perfect");
+    return;
+  }
+  std::string text;
+  for (const DiscrepancyFound& d : c.found.discrepancies)
+    text += fmt::format("{}{} {:.0f} % [{:.0f} .. {:.0f}]", text.empty() ? "" : ", ", d.kind,
+                        100 * d.mean, 100 * d.lower, 100 * d.upper);
+  lines.push_back("model discrepancy: " + text);
+}
+
+}  // namespace
+
+std::vector<std::string> calibration_lines(const Calibrated& c) {
+  Lines lines{method_line(c)};
+  add_keys(c, lines);
+  add_emulators(c, lines);
+  add_quantities(c, lines);
+  add_discrepancy(c, lines);
+  return lines;
+}
+
+}  // namespace sturz::app

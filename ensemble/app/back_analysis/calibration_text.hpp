@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A posterior as a short table for people.
+#pragma once
+
+#include "ensemble/workflow/calibration/calibrate.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz::app {
+
+/// Method, values before and after, ridges, discrepancy, held-out score and predictive check.
+std::vector<std::string> calibration_lines(const workflow::Calibrated&);
+
+}  // namespace sturz::app

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// From members and what was observed to what is then known of the uncertain values.
+#pragma once
+
+#include "ensemble/calibration/identifiability.hpp"
+#include "ensemble/calibration/posterior.hpp"
+#include "ensemble/calibration/prediction_check.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+struct CalibrationData {
+  std::vector<std::string> keys;          ///< [n_dims], for words
+  std::vector<std::vector<double>> cube;  ///< [n members][n_dims], independent coordinates
+  Comparison comparison;                  ///< of these members
+  /// So many first members were drawn from the prior; those after them were chosen, and have no
+  /// weight of their own.
+  std::size_t n_drawn = 0;
+};
+
+struct CalibrationSettings {
+  std::optional<PosteriorMethod> method;  ///< absent: see chosen_method()
+  double discrepancy = default_discrepancy;
+  ChainLengths lengths;
+  ChainLengths held_out_lengths{2, 300, 700};
+  std::uint64_t seed = 1;
+};
+
+/// The emulator from about ten members per uncertain value on (Loeppky, Sacks and Welch 2009),
+/// weights below: few members make no emulator, and many with weights are too few where several
+/// quantities agree.
+inline constexpr std::size_t members_per_key = 10;
+PosteriorMethod chosen_method(std::size_t n_members, std::size_t n_dims);
+
+/// Discrepancy of one kind of quantity, as a share of the scale (likelihood.hpp).
+struct DiscrepancyFound {
+  std::string kind;
+  double mean = 0, lower = 0, upper = 0;  ///< 5 % and 95 %
+};
+
+struct Calibration {
+  Posterior posterior;
+  std::string reason;                      ///< why this method
+  std::vector<ObservedQuantity> observed;  ///< those that count
+  std::vector<DiscrepancyFound> discrepancies;
+  Identifiability identifiability;
+  std::vector<PredictedQuantity> check;
+  HeldOut held_out;
+  std::optional<BestFit> best;            ///< by emulator
+  std::vector<EmulatorReport> emulators;  ///< by emulator
+  std::vector<std::vector<double>> next;  ///< points worth computing next; by emulator
+  std::vector<std::string> warnings;      ///< whole sentences
+};
+
+/// \param n_next how many points to compute next are wanted
+/// \throws SetupError: no member, nothing observed, all members censored, one and the same value
+///   everywhere, all likelihoods 0, weights of chosen members
+Calibration calibrate(const CalibrationData&, const CalibrationSettings&, std::size_t n_next = 0);
+
+}  // namespace sturz

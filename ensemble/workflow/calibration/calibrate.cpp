@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/calibration/calibrate.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/sampling/marginal.hpp"
+#include "ensemble/workflow/calibration/chosen_members.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz::workflow {
+namespace {
+
+CalibrationData data_of(const EnsembleJob& job, const MapsMade& maps) {
+  CalibrationData data;
+  data.keys = job.design.keys;
+  data.comparison = maps.scores->comparison;
+  for (const std::int64_t m : data.comparison.simulated.members)
+    data.cube.push_back(job.design.unit_cube.at(static_cast<std::size_t>(m)));
+  data.n_drawn = data.cube.size();
+  return data;
+}
+
+void append(CalibrationData& data, const ChosenMembers& more) {
+  data.cube.insert(data.cube.end(), more.cube.begin(), more.cube.end());
+  auto& [members, values] = data.comparison.simulated;
+  for (std::size_t i = 0; i < more.cube.size(); ++i) members.push_back(-1);  // not of the ensemble
+  values.insert(values.end(), more.comparison.simulated.values.begin(),
+                more.comparison.simulated.values.end());
+}
+
+CalibrationSettings settings_of(const CalibrateRequest& request, const EnsembleJob& job) {
+  CalibrationSettings settings;
+  settings.method = request.method;
+  settings.discrepancy = request.discrepancy;
+  settings.seed = job.scene.scenario.ensemble.seed;
+  if (request.active_rounds > 0) settings.method = PosteriorMethod::emulator;
+  return settings;
+}
+
+std::size_t round_size(const CalibrateRequest& request, std::size_t n_keys) {
+  return request.active_members > 0 ? static_cast<std::size_t>(request.active_members)
+                                    : std::max<std::size_t>(4, 2 * n_keys);
+}
+
+/// Chosen members join the data round by round, until the emulators know the posterior.
+void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, CalibrationData& data,
+                Observer& observer, const std::atomic<bool>& cancel) {
+  const CalibrationSettings settings = settings_of(request, job);
+  for (int round = 1; round <= request.active_rounds; ++round) {
+    const auto table = job.folder.root / "active" / fmt::format("{}.csv", round);
+    std::vector<std::vector<double>> points;
+    if (!std::filesystem::exists(table)) {
+      points = calibrate(data, settings, round_size(request, data.keys.size())).next;
+      if (points.empty()) {
+        observer.warning(fmt::format(
+            "round {} of {} has nothing to add: the emulators know the posterior well enough.",
+            round, request.active_rounds));
+        return;
+      }
+    }
+    append(data, compute_chosen(request.ensemble, job, table, points, observer, cancel));
+  }
+}
+
+std::vector<KeySummary> summaries(const EnsembleJob& job, const Calibrated& c) {
+  const auto keys = uncertain_keys(job.scene.scenario);
+  std::vector<std::vector<double>> best;
+  if (c.found.best) best = values_at(keys, job.scene.scenario.ensemble, {c.found.best->cube});
+  std::vector<KeySummary> all;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    KeySummary s;
+    s.key = keys[k].path;
+    s.unit = keys[k].units;
+    const Marginal marginal(keys[k].distribution, keys[k].path);
+    std::vector<double> column;
+    for (const auto& row : c.values) column.push_back(row[k]);
+    constexpr double levels[] = {0.05, 0.5, 0.95};
+    for (int i = 0; i < 3; ++i) {
+      s.prior[i] = marginal.quantile(levels[i]);
+      s.posterior[i] = weighted_quantile(column, c.found.posterior.weights, levels[i]);
+    }
+    s.variance_removed = c.found.identifiability.variance_removed[k];
+    if (!best.empty()) s.best = best.front()[k];
+    all.push_back(s);
+  }
+  return all;
+}
+
+/// The member at the best fit, beside what the emulators expected of it.
+void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibrated& c,
+                Observer& observer, const std::atomic<bool>& cancel) {
+  if (!c.found.best || !request.check_best) return;
+  // Its name tells the point: another posterior has another best fit, and both may lie there.
+  std::uint64_t name = 1469598103934665603ULL;
+  for (const double x : c.found.best->cube)
+    name = (name ^ static_cast<std::uint64_t>(std::llround(x * 1e9))) * 1099511628211ULL;
+  const auto table = job.folder.root / "best" / fmt::format("{:016x}.csv", name);
+  const ChosenMembers member =
+      compute_chosen(request.ensemble, job, table, {c.found.best->cube}, observer, cancel);
+  if (member.comparison.simulated.values.empty()) {
+    c.found.warnings.emplace_back("the member at the best fit failed: nothing confirms it.");
+    return;
+  }
+  std::vector<Observation> row;
+  for (std::size_t q = 0; q < c.found.observed.size(); ++q) {
+    const ObservedQuantity& o = c.found.observed[q];
+    const auto& all = member.comparison.observed;
+    const auto place = std::find_if(all.begin(), all.end(),
+                                    [&](const auto& other) { return other.name == o.name; });
+    row.push_back(
+        member.comparison.simulated.values.front()[static_cast<std::size_t>(place - all.begin())]);
+    const SimulatedValue& expected = c.found.best->simulated[q];
+    const double off = row.back().value - expected.value;
+    if (row.back().known == Known::exactly && off * off > 9 * expected.variance)
+      c.found.warnings.push_back(fmt::format(
+          "{}: the member at the best fit gives {:.4g} {}, the emulator {:.4g} +- {:.2g}: the "
+          "emulator is not to be trusted there. Add --active rounds.",
+          o.name, row.back().value, o.unit, expected.value, std::sqrt(expected.variance)));
+  }
+  c.best_member = std::move(row);
+}
+
+}  // namespace
+
+FoundAt found_at(const Scene& scene) {
+  return {scene.description.formulation, scene.scenario.numerics.spacing_m,
+          scene.description.release_volume_m3};
+}
+
+EnsembleJob prepare_calibration(const CalibrateRequest& request, Observer& observer) {
+  const Scene scene = load_scene(request.ensemble.scene);
+  const Scenario& s = scene.scenario;
+  require(scene.inputs.event != nullptr,
+          "the scene has no `observation` block (a calibration needs something that was seen or "
+          "measured). Add one, see the user guide.");
+  require(!uncertain_keys(s).empty(),
+          "no value of the scene is uncertain (there is nothing to calibrate). Give a key a "
+          "distribution, such as basal.friction_coefficient: {uniform: [0.1, 0.5]}.");
+  const Design design = s.ensemble.design;
+  require(
+      design == Design::latin_hypercube || design == Design::sobol || design == Design::monte_carlo,
+      fmt::format("ensemble.design = {} (its members are not drawn from the distributions of "
+                  "the scene). Use sobol, latin_hypercube or monte_carlo.",
+                  to_string(design)));
+  require(request.active_rounds == 0 || request.method != PosteriorMethod::weights,
+          "--active with --method weights (chosen members have no weight, only an emulator can "
+          "learn from them). Use --method emulator.");
+  return prepare_ensemble(request.ensemble, observer);
+}
+
+Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob& job,
+                              const MapsMade& maps, Observer& observer,
+                              const std::atomic<bool>& cancel) {
+  expect(maps.scores.has_value(), "an ensemble with an observation is scored");
+  CalibrationData data = data_of(job, maps);
+  run_rounds(request, job, data, observer, cancel);
+  Calibrated c;
+  c.found = calibrate(data, settings_of(request, job));
+  const auto keys = uncertain_keys(job.scene.scenario);
+  c.values = values_at(keys, job.scene.scenario.ensemble, c.found.posterior.cube);
+  if (c.found.posterior.method == PosteriorMethod::weights)
+    c.members = data.comparison.simulated.members;
+  c.n_drawn = static_cast<std::int64_t>(data.n_drawn);
+  c.n_chosen = static_cast<std::int64_t>(data.cube.size() - data.n_drawn);
+  c.discrepancy = request.discrepancy;
+  c.seed = job.scene.scenario.ensemble.seed;
+  c.at = found_at(job.scene);
+  c.members_hash = job.manifest.maps_of;
+  check_best(request, job, c, observer, cancel);
+  c.keys = summaries(job, c);
+  return c;
+}
+
+}  // namespace sturz::workflow

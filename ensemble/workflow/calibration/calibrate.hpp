@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// An ensemble, what was observed, and what is then known of the uncertain values.
+///
+///   DIR/                the ensemble of the scene, as `sturz ensemble` leaves it
+///   DIR/active/K.csv    points that round K chose; DIR/active/K/ their members
+///   DIR/best/           the member at the best fit
+///   DIR/posterior.csv   rows of equal weight; a table for `ensemble.table`
+///   DIR/posterior.json  all numbers
+///   DIR/weights.csv     weight of each member, by --method weights
+#pragma once
+
+#include "ensemble/calibration/calibration.hpp"
+#include "ensemble/workflow/members/ensemble_job.hpp"
+#include "ensemble/workflow/observer.hpp"
+#include "ensemble/workflow/results/maps.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+struct CalibrateRequest {
+  EnsembleRequest ensemble;
+  std::optional<PosteriorMethod> method;
+  double discrepancy = default_discrepancy;
+  int active_rounds = 0;
+  int active_members = 0;  ///< of each round; 0: two per uncertain value, four at least
+  bool check_best = true;  ///< compute the member at the best fit
+};
+
+/// One uncertain value before and after: 5 %, 50 %, 95 %, in its unit.
+struct KeySummary {
+  std::string key, unit;
+  double prior[3] = {}, posterior[3] = {};
+  double variance_removed = 0;  ///< in the unit cube of the prior
+  std::optional<double> best;   ///< at the best fit
+};
+
+/// Where a posterior was found: elsewhere its values may mean something else.
+struct FoundAt {
+  std::string formulation;
+  double spacing_m = 0, release_volume_m3 = 0;
+};
+
+struct Calibrated {
+  Calibration found;
+  std::vector<KeySummary> keys;
+  std::vector<std::vector<double>> values;              ///< [points of the posterior][keys]
+  std::vector<std::int64_t> members;                    ///< of the points, by weights
+  std::int64_t n_drawn = 0, n_chosen = 0;               ///< valid members that were used
+  std::optional<std::vector<Observation>> best_member;  ///< [observed], really computed
+  double discrepancy = 0;
+  std::uint64_t seed = 0;
+  FoundAt at;
+  std::string members_hash;  ///< of the ensemble, as its maps know it
+};
+
+/// \throws SetupError before anything is computed: the scene has no `observation`, no uncertain
+///   value, or a design that is not drawn from the prior
+EnsembleJob prepare_calibration(const CalibrateRequest&, Observer&);
+
+/// After the members of the job were computed and its maps made: rounds of chosen members, the
+/// posterior, its check on a real member. \param maps of the job
+/// \throws SetupError; Cancelled
+Calibrated calibrate_ensemble(const CalibrateRequest&, const EnsembleJob&, const MapsMade& maps,
+                              Observer&, const std::atomic<bool>& cancel);
+
+/// Where the scene of a job would find its posterior.
+FoundAt found_at(const Scene&);
+
+}  // namespace sturz::workflow

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// A posterior as files, and a posterior's files as a design for another ensemble.
+#pragma once
+
+#include "ensemble/workflow/calibration/calibrate.hpp"
+#include "ensemble/workflow/folder/output_folder.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+/// Rows of posterior.csv at most.
+inline constexpr std::size_t posterior_rows = 2000;
+
+/// posterior.csv, posterior.json and, by weights, weights.csv. \throws IoError
+void write_posterior(const OutputFolder&, const Calibrated&);
+
+/// The text of posterior.json: one object; numbers that are not finite are null.
+std::string posterior_json(const Calibrated&);
+
+/// Overrides that make a scene draw its members from the posterior in `folder`.
+/// \throws SetupError when it holds none
+std::vector<std::string> posterior_overrides(const std::filesystem::path& folder);
+
+/// What differs between this scene and the one that the posterior was found with, as sentences.
+/// \throws SetupError when posterior.json is damaged
+std::vector<std::string> posterior_warnings(const std::filesystem::path& folder,
+                                            const FoundAt& now);
+
+}  // namespace sturz::workflow

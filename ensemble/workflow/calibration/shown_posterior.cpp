@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/calibration/shown_posterior.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/sampling/design.hpp"
+#include "io/files/text_files.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace sturz::workflow {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::json;
+
+double number(const Json& value) {
+  return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+void read_three(const Json& from, double (&to)[3]) {
+  to[0] = number(from.at("p5"));
+  to[1] = number(from.at("median"));
+  to[2] = number(from.at("p95"));
+}
+
+std::string origin_of(const Json& all) {
+  const Json& sample = all.at("sample");
+  const Json& at = all.at("found_at");
+  const auto chosen = sample.at("members_chosen").get<std::int64_t>();
+  return fmt::format(
+      "By {} ({}), from {} members{}; worth {:.0f} independent ones. Found in {} at a spacing of "
+      "{:.4g} m: the values belong to these.",
+      sample.at("method").get<std::string>(), sample.at("reason").get<std::string>(),
+      sample.at("members_drawn").get<std::int64_t>(),
+      chosen > 0 ? fmt::format(" and {} chosen ones", chosen) : "",
+      number(sample.at("effective_size")), at.at("formulation").get<std::string>(),
+      number(at.at("spacing_m")));
+}
+
+void read_quantities(const Json& all, PosteriorShown& shown) {
+  for (const Json& q : all.at("predictive_check")) {
+    PosteriorShown::Quantity one{q.at("name"), q.at("unit"), number(q.at("observed")),
+                                 {},           false,        {}};
+    read_three(q, one.check);
+    shown.quantities.push_back(std::move(one));
+  }
+  const Json& held = all.at("held_out");
+  if (!held.is_object()) return;
+  std::size_t place = 0;
+  for (const Json& q : held.at("quantities")) {
+    if (place >= shown.quantities.size()) break;
+    shown.quantities[place].has_held_out = true;
+    read_three(q, shown.quantities[place++].held_out);
+  }
+  for (const Json& r : held.at("reliability"))
+    shown.reliability.emplace_back(number(r.at("nominal")), number(r.at("inside")));
+}
+
+PosteriorShown read(const Json& all) {
+  PosteriorShown shown;
+  shown.origin = origin_of(all);
+  for (const Json& k : all.at("keys")) {
+    PosteriorShown::Key key;
+    read_three(k.at("prior"), key.before);
+    read_three(k.at("posterior"), key.after);
+    key.variance_removed = number(k.at("variance_removed"));
+    shown.keys.push_back(key);
+  }
+  read_quantities(all, shown);
+  for (const Json& r : all.at("identifiability").at("ridges"))
+    shown.ridges.push_back(fmt::format(
+        "Ridge: {} and {} (correlation {:.2f}). The observations know a combination of them, not "
+        "each.",
+        r.at("keys").at(0).get<std::string>(), r.at("keys").at(1).get<std::string>(),
+        number(r.at("correlation"))));
+  for (const Json& w : all.at("warnings")) shown.warnings.push_back(w.get<std::string>());
+  return shown;
+}
+
+}  // namespace
+
+std::optional<PosteriorShown> shown_posterior(const OutputFolder& folder,
+                                              const std::string& maps_of) {
+  const fs::path json = folder.root / "posterior.json", csv = folder.root / "posterior.csv";
+  if (!fs::exists(json) || !fs::exists(csv)) return {};
+  try {
+    const Json all = Json::parse(read_text(json));
+    if (all.at("members_hash").get<std::string>() != maps_of) return {};
+    PosteriorShown shown = read(all);
+    const DesignTable rows = from_csv(read_text(csv));
+    require(rows.keys.size() == shown.keys.size(),
+            csv.string() + " and posterior.json are not of one calibration. Calibrate again.");
+    shown.rows = {rows.keys, rows.units, rows.values};
+    return shown;
+  } catch (const Json::exception&) {
+    throw SetupError(json.string() +
+                     " is damaged (it is no posterior). Remove it, or calibrate "
+                     "again.");
+  }
+}
+
+}  // namespace sturz::workflow

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the observations tell of the uncertain values.
+#include "reports/figures/posterior_figures.hpp"
+#include "reports/page/sections.hpp"
+#include "reports/page/text.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace sturz {
+namespace {
+
+using Column = std::vector<double>;
+
+Column column_of(const ReportTable& table, std::size_t k) {
+  Column column;
+  for (const auto& row : table.rows) column.push_back(row[k]);
+  return column;
+}
+
+std::string label_of(const ReportTable& table, std::size_t k) {
+  const std::string unit = k < table.units.size() ? display_unit(table.units[k]).label : "";
+  return key_label(table, k) + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+std::string figure(const std::string& title, const std::string& svg) {
+  if (svg.empty()) return {};
+  return fmt::format("<figure class=\"chart\"><figcaption>{}</figcaption>{}</figure>",
+                     html_escape(title), svg);
+}
+
+/// Before: what the members drew. Their columns are those of the posterior, in the same order.
+std::string figures(const ReportTable& before, const ReportTable& after) {
+  std::vector<Column> was, is;
+  for (std::size_t k = 0; k < after.columns.size(); ++k) {
+    was.push_back(before.rows.empty() ? Column{} : column_of(before, k));
+    is.push_back(column_of(after, k));
+  }
+  std::string html = "<div class=\"charts posterior\">";
+  for (std::size_t k = 0; k < is.size(); ++k)
+    html += figure(key_label(after, k), marginal_svg(was[k], is[k], label_of(after, k)));
+  for (std::size_t b = 1; b < is.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a)
+      html +=
+          figure(key_label(after, b) + " against " + key_label(after, a),
+                 pair_svg(was[a], was[b], is[a], is[b], label_of(after, a), label_of(after, b)));
+  return html + "</div>";
+}
+
+std::string interval(double least, double middle, double most) {
+  return fmt::format("{} ({} \u2013 {})", shown_number(middle), shown_number(least),
+                     shown_number(most));
+}
+
+std::string keys_table(const PosteriorShown& p) {
+  std::string html =
+      "<div class=\"table-box short\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">value</th>"
+      "<th scope=\"col\">before (5 \u2013 95 %)</th><th scope=\"col\">after</th>"
+      "<th scope=\"col\" title=\"Share of the prior's variance that the observations took\">told"
+      "</th></tr></thead><tbody>";
+  for (std::size_t k = 0; k < p.keys.size(); ++k) {
+    const PosteriorShown::Key& key = p.keys[k];
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">{}</td></tr>",
+        html_escape(label_of(p.rows, k)), interval(key.before[0], key.before[1], key.before[2]),
+        interval(key.after[0], key.after[1], key.after[2]),
+        html_escape(percent_text(key.variance_removed)));
+  }
+  return html + "</tbody></table></div>";
+}
+
+std::string check_table(const PosteriorShown& p) {
+  std::string html =
+      "<h3>Does it give what was observed?</h3><div class=\"table-box short\" "
+      "tabindex=\"0\"><table>"
+      "<thead><tr><th scope=\"col\">quantity</th><th scope=\"col\">observed</th>"
+      "<th scope=\"col\">predicted (5 \u2013 95 %)</th><th scope=\"col\" title=\"By what the other "
+      "quantities tell\">predicted without it</th></tr></thead><tbody>";
+  for (const PosteriorShown::Quantity& q : p.quantities) {
+    const std::string unit = display_unit(q.unit).label;
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">{}</td></tr>",
+        html_escape(words(q.name)), unit.empty() ? "" : " [" + html_escape(unit) + "]",
+        shown_number(q.observed), interval(q.check[0], q.check[1], q.check[2]),
+        q.has_held_out ? interval(q.held_out[0], q.held_out[1], q.held_out[2]) : "\u2013");
+  }
+  html += "</tbody></table></div>";
+  if (p.reliability.empty()) return html;
+  html += "<p class=\"note\">Held out one by one: ";
+  std::string pieces;
+  for (const auto& [nominal, inside] : p.reliability)
+    pieces += fmt::format("{}{} of {} intervals", pieces.empty() ? "" : ", ",
+                          html_escape(percent_text(inside)), html_escape(percent_text(nominal)));
+  return html + "share of quantities inside the central interval: " + pieces + ".</p>";
+}
+
+}  // namespace
+
+std::string posterior_html(const ReportInput& input) {
+  if (input.posterior == nullptr) return {};
+  const PosteriorShown& p = *input.posterior;
+  std::string html = "<section id=\"posterior\"><h2>What the observations tell</h2><p>" +
+                     html_escape(p.origin) + "</p>";
+  for (const std::string& warning : p.warnings)
+    html += "<p class=\"note\">" + html_escape(warning) + "</p>";
+  html += keys_table(p);
+  for (const std::string& ridge : p.ridges) html += "<p>" + html_escape(ridge) + "</p>";
+  const bool same = input.samples.columns == p.rows.columns;
+  html += figures(same ? input.samples : ReportTable{}, p.rows) +
+          "<p class=\"note\">Line: what the members drew; area and dots: what is left of it after "
+          "the observations.</p>" +
+          check_table(p);
+  return html + "</section>";
+}
+
+}  // namespace sturz

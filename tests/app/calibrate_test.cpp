@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// calibrate, ensemble --posterior, sensitivity.
+#include "tests/app/app_fixture.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace sturz::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Columns down a slope onto level ground, where every member comes to rest; hundredths of a
+/// second.
+const std::string slide = R"(title: small slide onto level ground
+terrain:
+  synthetic: {ramp: {cell_size_m: 2, slope_deg: 30, slope_length_m: 80, transition_m: 20, level_length_m: 300, width_m: 160}}
+release:
+  box: {x_m: [-60, -48], y_m: [-6, 6]}
+  thickness_m: 2
+grains: {density_kg_m3: 2600, solid_fraction: 0.6, friction_angle_deg: 30}
+basal:
+  friction_coefficient: {uniform: [0.25, 0.5]}
+  pore_pressure_ratio: {uniform: [0.0, 0.3]}
+numerics: {spacing_m: 1, end_time_s: 60}
+ensemble: {design: sobol, members: 6, seed: 1}
+hazard: {cell_size_m: 2, thickness_m: [0.5], speed_m_s: [1], energy_kj_m2: [1], pressure_kpa: [1]}
+formulation: depth_averaged
+)";
+
+class Calibrate : public App {
+ protected:
+  Calibrate() {
+    write("plain.yaml", slide);
+    write("scene.yaml", slide +
+                            "observation:\n"
+                            "  runout_m: {value: 100, sd: 2}\n"
+                            "  speeds: [{point_m: [-12, 0], speed_m_s: 14, sd_m_s: 1}]\n");
+  }
+
+  Ended calibrate(std::vector<std::string> more) const {
+    std::vector<std::string> arguments{"calibrate", path("scene.yaml"), "-o", path("out")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sturz(arguments);
+  }
+};
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+TEST_F(Calibrate, FewMembersAreWeighed) {
+  const Ended ended = calibrate({});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("method weights (6 members for 2 uncertain values, fewer"),
+                               HasSubstr("basal.friction_coefficient")));
+  EXPECT_THAT(ended.err, HasSubstr("independent members, fewer than 30"));
+  EXPECT_EQ(lines_of(read("out/weights.csv")), 7U);
+  EXPECT_EQ(lines_of(read("out/posterior.csv")), 2003U);
+  EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"posterior\">"));
+}
+
+TEST_F(Calibrate, AnEmulatorWalksChecksItsBestAndComesOutTheSameTwice) {
+  const Ended ended = calibrate({"-n", "24", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto done = event(ended, "done");
+  EXPECT_EQ(done.at("sample").at("method"), "emulator");
+  EXPECT_EQ(done.at("sample").at("chains").at("acceptance").size(), 4U);
+  EXPECT_EQ(done.at("found_at").at("formulation"), "depth_averaged");
+  const auto& friction = done.at("keys").at(0);
+  EXPECT_EQ(friction.at("key"), "basal.friction_coefficient");
+  EXPECT_LT(
+      friction.at("posterior").at("p95").get<double>() -
+          friction.at("posterior").at("p5").get<double>(),
+      friction.at("prior").at("p95").get<double>() - friction.at("prior").at("p5").get<double>());
+  EXPECT_EQ(done.at("held_out").at("quantities").size(), done.at("observed").size());
+  EXPECT_TRUE(done.at("best_fit").at(0).contains("computed"));
+  const std::string first = read("out/posterior.csv"), numbers = read("out/posterior.json");
+  const Ended again = calibrate({"-n", "24", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read("out/posterior.csv"), first);
+  EXPECT_EQ(read("out/posterior.json"), numbers);
+  EXPECT_EQ(sturz({"report", path("out")}).exit_code, 0);
+  EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"posterior\">"));
+}
+
+TEST_F(Calibrate, RoundsAddMembersThatAreKept) {
+  const Ended ended = calibrate({"-n", "16", "--active", "1", "--active-members", "3", "--no-check",
+                                 "--discrepancy", "0.02", "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(event(ended, "done").at("sample").at("members_chosen"), 3);
+  EXPECT_EQ(n_members("out/active/1"), 3U);
+  EXPECT_FALSE(exists("out/best"));
+  const std::string first = read("out/posterior.json");
+  ASSERT_EQ(calibrate({"-n", "16", "--active", "1", "--active-members", "3", "--no-check",
+                       "--discrepancy", "0.02"})
+                .exit_code,
+            0);
+  EXPECT_EQ(read("out/posterior.json"), first);
+}
+
+TEST_F(Calibrate, AnEnsembleOfThePosteriorHasItsValuesAndWarnsOfAnotherSpacing) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  const Ended same = sturz(
+      {"ensemble", path("plain.yaml"), "--posterior", path("out"), "-o", path("a"), "-n", "4"});
+  ASSERT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_THAT(same.err, Not(HasSubstr("the posterior was found")));
+  std::istringstream lines(read("a/design.csv"));
+  const std::string posterior = read("out/posterior.csv");
+  std::string line;
+  int rows = 0;
+  while (std::getline(lines, line)) {
+    if (line.empty() || line[0] < '0' || line[0] > '9') continue;
+    EXPECT_THAT(posterior, HasSubstr(line.substr(line.find(',') + 1)));
+    ++rows;
+  }
+  EXPECT_EQ(rows, 4);
+  const Ended other = sturz({"ensemble", path("plain.yaml"), "--posterior", path("out"), "-o",
+                             path("b"), "-n", "2", "--set", "numerics.spacing_m=1.2"});
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_THAT(other.err,
+              HasSubstr("the posterior was found at a spacing of 1 m, this scene has 1.2"));
+}
+
+TEST_F(Calibrate, SaysWhatIsMissing) {
+  const Ended nothing = sturz({"calibrate", path("plain.yaml"), "-o", path("out")});
+  EXPECT_EQ(nothing.exit_code, 1);
+  EXPECT_THAT(nothing.err, HasSubstr("no `observation` block"));
+  EXPECT_FALSE(exists("out"));
+  const Ended table = calibrate({"--set", "ensemble.design=morris"});
+  EXPECT_THAT(table.err, HasSubstr("ensemble.design = morris"));
+  const Ended both = calibrate({"--method", "weights", "--active", "1"});
+  EXPECT_THAT(both.err, HasSubstr("--active with --method weights"));
+  const Ended posterior = sturz({"ensemble", path("plain.yaml"), "--posterior", path(".")});
+  EXPECT_THAT(posterior.err, HasSubstr("holds no posterior"));
+}
+
+class Sensitivity : public App {
+ protected:
+  Sensitivity() { write("scene.yaml", slide); }
+  nlohmann::json of(const std::string& design, const std::string& members) const {
+    EXPECT_EQ(sturz({"ensemble", path("scene.yaml"), "-o", path(design), "-n", members, "--set",
+                     "ensemble.design=" + design})
+                  .exit_code,
+              0);
+    const Ended ended =
+        sturz({"sensitivity", path(design), "--result", "front_travel_m", "--json"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_TRUE(exists(design + "/sensitivity.csv"));
+    return event(ended, "done").at("results").at(0);
+  }
+};
+
+/// Friction brakes, and over a range of 0.4 it does so more than 0.3 of pore pressure pushes.
+TEST_F(Sensitivity, EveryDesignFindsThatFrictionBrakes) {
+  const auto morris = of("morris", "12");
+  EXPECT_LT(morris.at("keys").at(0).at("morris").at("mu").get<double>(), 0);
+  EXPECT_GT(morris.at("keys").at(0).at("morris").at("mu_star").get<double>(),
+            morris.at("keys").at(1).at("morris").at("mu_star").get<double>());
+  const auto saltelli = of("saltelli", "40");
+  EXPECT_EQ(saltelli.at("sobol_method"), "direct");
+  EXPECT_EQ(saltelli.at("sobol_sets"), 10);
+  EXPECT_GT(saltelli.at("keys").at(0).at("sobol_total").at("value").get<double>(),
+            saltelli.at("keys").at(1).at("sobol_total").at("value").get<double>());
+  const auto sobol = of("sobol", "24");
+  EXPECT_EQ(sobol.at("sobol_method"), "emulator");
+  EXPECT_GT(sobol.at("emulator_q2").get<double>(), 0.5);
+  EXPECT_LT(sobol.at("keys").at(0).at("kendall_tau").get<double>(), 0);
+}
+
+TEST_F(Sensitivity, RefusesSetsThatAreNotWholeAndUnknownResults) {
+  const Ended sets = sturz({"describe", path("scene.yaml"), "--set", "ensemble.design=morris",
+                            "--set", "ensemble.members=10"});
+  EXPECT_EQ(sets.exit_code, 1);
+  EXPECT_THAT(sets.err, HasSubstr("takes sets of 3 members for 2 uncertain values). Use 12."));
+  ASSERT_EQ(sturz({"ensemble", path("scene.yaml"), "-o", path("six")}).exit_code, 0);
+  const Ended unknown = sturz({"sensitivity", path("six"), "--result", "front_travel"});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("front_travel_m"));
+}
+
+}  // namespace
+}  // namespace sturz::test

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/emulator/gaussian_process.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/emulator/bounded_minimum.hpp"
+#include "ensemble/emulator/openturns_function.hpp"
+#include "ensemble/emulator/quantity_emulator.hpp"
+#include "ensemble/sampling/unit_cube.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <openturns/Basis.hxx>
+#include <openturns/KrigingAlgorithm.hxx>
+#include <openturns/LinearBasisFactory.hxx>
+#include <openturns/Log.hxx>
+#include <openturns/MaternModel.hxx>
+#include <openturns/ResourceMap.hxx>
+
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+using Points = std::vector<std::vector<double>>;
+
+double wavy(std::span<const double> u) {
+  return std::sin(5 * u[0]) + u[1] * u[1] + 0.3 * u[0] * u[1];
+}
+
+std::vector<double> values_at(const Points& points) {
+  std::vector<double> values;
+  for (const auto& p : points) values.push_back(wavy(p));
+  return values;
+}
+
+TEST(BoundedMinimum, FindsTheBottomOfAValleyAndAnEdge) {
+  const auto valley = [](std::span<const double> x) {
+    return std::pow(x[0] - 0.3, 2) + 10 * std::pow(x[1] - x[0], 2);
+  };
+  const Minimum inside = bounded_minimum(valley, {0.9, 0.1}, 300);
+  EXPECT_NEAR(inside.at[0], 0.3, 0.01);
+  EXPECT_NEAR(inside.at[1], 0.3, 0.01);
+  const Minimum edge =
+      bounded_minimum([](std::span<const double> x) { return x[0] - x[1]; }, {0.5, 0.5}, 200);
+  EXPECT_NEAR(edge.at[0], 0, 1e-3);
+  EXPECT_NEAR(edge.at[1], 1, 1e-3);
+}
+
+TEST(GaussianProcess, AgreesWithOpenTurnsAtTheSameLengths) {
+  const Points points = draw_unit_cube(Design::sobol, 32, 2, 1);
+  const std::vector<double> values = values_at(points);
+  const std::vector<double> length{0.5, 0.9};
+  const GaussianProcess ours(points, values, {length, 1e-8});
+  OT::Log::Show(OT::Log::NONE);
+  OT::Sample in(32, 2), out(32, 1);
+  for (std::size_t i = 0; i < 32; ++i) {
+    in(i, 0) = points[i][0];
+    in(i, 1) = points[i][1];
+    out(i, 0) = values[i];
+  }
+  OT::MaternModel matern(openturns_point(length), OT::Point{1.0}, 2.5);
+  matern.setNuggetFactor(1e-8);
+  OT::KrigingAlgorithm kriging(in, out, matern, OT::LinearBasisFactory(2).build());
+  kriging.setOptimizeParameters(false);
+  kriging.run();
+  const OT::KrigingResult theirs = kriging.getResult();
+  for (const auto& at : draw_unit_cube(Design::monte_carlo, 20, 2, 5)) {
+    EXPECT_NEAR(ours.at(at).mean, theirs.getConditionalMean(openturns_point(at))[0], 2e-5);
+    EXPECT_NEAR(ours.mean_at(at), ours.at(at).mean, 1e-12);
+  }
+}
+
+TEST(GaussianProcess, LeftOutErrorsAreThoseOfAProcessWithoutThePoint) {
+  const Points points = draw_unit_cube(Design::sobol, 24, 2, 3);
+  const std::vector<double> values = values_at(points);
+  const GaussianProcess::Scales scales{{0.4, 0.8}, 1e-3};
+  double errors = 0, mean = 0, squares = 0;
+  for (const double v : values) mean += v / 24;
+  for (std::size_t i = 0; i < 24; ++i) {
+    Points others = points;
+    std::vector<double> their_values = values;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    their_values.erase(their_values.begin() + static_cast<std::ptrdiff_t>(i));
+    errors +=
+        std::pow(GaussianProcess(others, their_values, scales).mean_at(points[i]) - values[i], 2);
+    squares += std::pow(values[i] - mean, 2);
+  }
+  const GaussianProcess whole(points, values, scales);
+  EXPECT_NEAR(whole.leave_one_out().q2, 1 - errors / squares, 1e-9);
+}
+
+TEST(GaussianProcess, FindsLengthsNoiseAndHonestIntervals) {
+  const Points points = draw_unit_cube(Design::latin_hypercube, 60, 2, 8);
+  std::vector<double> values = values_at(points);
+  const Points noise = draw_unit_cube(Design::monte_carlo, 60, 1, 77);
+  for (std::size_t i = 0; i < 60; ++i) values[i] += 0.2 * (noise[i][0] - 0.5) * std::sqrt(12.0);
+  const GaussianProcess process = GaussianProcess::fitted(points, values);
+  EXPECT_NEAR(std::sqrt(process.at(points[0]).noise), 0.2, 0.06);
+  EXPECT_GT(process.leave_one_out().q2, 0.85);
+  const Points checks = draw_unit_cube(Design::sobol, 256, 2, 4);
+  int inside = 0;
+  for (const auto& u : checks) {
+    const GaussianPrediction p = process.at(u);
+    inside += std::abs(p.mean - wavy(u)) <= 1.96 * std::sqrt(p.variance);
+  }
+  EXPECT_GE(inside, 218);  // 85 %
+}
+
+TEST(GaussianProcess, OneMorePointTakesTheVarianceThereAndNothingElse) {
+  const Points points = draw_unit_cube(Design::sobol, 16, 2, 3);
+  const GaussianProcess process = GaussianProcess::fitted(points, values_at(points));
+  const std::vector<double> here{0.93, 0.07}, far{0.1, 0.9};
+  const GaussianProcess more = process.with_point(here);
+  EXPECT_NEAR(more.mean_at(here), process.mean_at(here), 1e-6);
+  EXPECT_LT(more.at(here).variance, 0.05 * process.at(here).variance);
+  EXPECT_LE(more.at(far).variance, process.at(far).variance * (1 + 1e-9));
+}
+
+Points cube_of(std::size_t n) { return draw_unit_cube(Design::sobol, n, 2, 3); }
+
+std::vector<Observation> exactly(const Points& points) {
+  std::vector<Observation> all;
+  for (const auto& p : points) all.push_back({wavy(p), Known::exactly});
+  return all;
+}
+
+TEST(QuantityEmulator, CountsWhatIsCensoredAndUsesBoundsThatContradict) {
+  const Points cube = cube_of(40);
+  std::vector<Observation> simulated = exactly(cube);
+  simulated[3] = {simulated[3].value - 5, Known::at_least};  // says nothing new
+  simulated[4] = {simulated[4].value + 5, Known::at_least};
+  simulated[5].known = Known::not_at_all;
+  const EmulatorReport r = emulate("runout_m", cube, simulated).report;
+  EXPECT_EQ(r.n_exact, 37);
+  EXPECT_EQ(r.n_at_least, 2);
+  EXPECT_EQ(r.n_bounds_used, 1);
+  EXPECT_EQ(r.n_not_known, 1);
+}
+
+std::string error_of(const Points& cube, const std::vector<Observation>& simulated) {
+  try {
+    emulate("runout_m", cube, simulated);
+  } catch (const SetupError& problem) {
+    return problem.what();
+  }
+  return "no error";
+}
+
+TEST(QuantityEmulator, RefusesWhatTellsNothing) {
+  using testing::HasSubstr;
+  std::vector<Observation> censored = exactly(cube_of(30)), same = censored;
+  for (auto& o : censored) o.known = Known::at_least;
+  for (auto& o : same) o.value = 7;
+  EXPECT_THAT(error_of(cube_of(30), censored),
+              HasSubstr("runout_m: 0 members say its value, of 30"));
+  EXPECT_THAT(error_of(cube_of(30), same), HasSubstr("runout_m: 7 in every member"));
+  EXPECT_THAT(error_of(cube_of(1), exactly(cube_of(1))), HasSubstr("needs 7 at least"));
+  EXPECT_THAT(error_of({}, {}), HasSubstr("no member"));
+}
+
+}  // namespace
+}  // namespace sturz

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reports/figures/posterior_figures.hpp"
+#include "reports/page/report.hpp"
+#include "reports/page/sections.hpp"
+#include "tests/reports/made_up_results.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace sturz {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+PosteriorShown found() {
+  PosteriorShown p;
+  p.origin = "By emulator, from 40 members";
+  p.rows = {{"basal.friction_coefficient", "basal.pore_pressure_ratio"}, {"1", "1"}, {}};
+  for (int i = 0; i < 50; ++i) p.rows.rows.push_back({0.3 + 0.001 * i, 0.2 + 0.002 * i});
+  p.keys = {{{0.2, 0.3, 0.4}, {0.3, 0.325, 0.35}, 0.8},
+            {{0.02, 0.15, 0.28}, {0.2, 0.25, 0.3}, 0.4}};
+  p.quantities = {{"runout_m", "m", 770, {700, 760, 820}, true, {600, 750, 900}},
+                  {"<b>", "1", 2, {1, 2, 3}, false, {}}};
+  p.reliability = {{0.5, 1.0}, {0.9, 1.0}};
+  p.ridges = {"Ridge: friction & pore pressure"};
+  p.warnings = {"rough <bounds>"};
+  return p;
+}
+
+TEST(PosteriorSection, HoldsBeforeAfterPairsAndWhatWasHeldOut) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  EXPECT_EQ(posterior_html(input), "");
+  const PosteriorShown p = found();
+  input.posterior = &p;
+  const std::string html = posterior_html(input);
+  EXPECT_THAT(html, AllOf(HasSubstr("By emulator, from 40 members"), HasSubstr("80\u00A0%"),
+                          HasSubstr("760 (700 \u2013 820)"), HasSubstr("750 (600 \u2013 900)"),
+                          HasSubstr("pore pressure ratio against friction coefficient")));
+  EXPECT_THAT(html, AllOf(HasSubstr("friction &amp; pore"), HasSubstr("&lt;bounds&gt;"),
+                          HasSubstr("&lt;b&gt;"), Not(HasSubstr("style="))));
+  EXPECT_THAT(make_report(input), HasSubstr("<a href=\"#posterior\">Calibration</a>"));
+}
+
+TEST(PosteriorFigures, DrawWhatThereIsAndNothingOfNothing) {
+  const std::vector<double> none, one{3, 3, 3}, some{1, 2, NAN, 4}, more{1.5, 2.5};
+  EXPECT_EQ(marginal_svg(none, none, "x"), "");
+  EXPECT_EQ(marginal_svg(one, one, "x"), "");  // no axis to draw on
+  EXPECT_THAT(marginal_svg(some, more, "x"), AllOf(HasSubstr("<svg"), Not(HasSubstr("nan"))));
+  EXPECT_EQ(pair_svg(some, one, more, one, "x", "y"), "");
+  const std::string dots = pair_svg(some, some, more, more, "x", "y");
+  EXPECT_THAT(dots, AllOf(HasSubstr("<circle"), Not(HasSubstr("nan"))));
+}
+
+}  // namespace
+}  // namespace sturz
