@@ -5,7 +5,7 @@
 #include "scenarios/schema/dam_fields.hpp"
 #include "scenarios/schema/inflow_fields.hpp"
 #include "scenarios/schema/number_text.hpp"
-#include "scenarios/schema/schema_rows.hpp"
+#include "scenarios/schema/rows/rows.hpp"
 #include "scenarios/schema/suggest.hpp"
 #include "scenarios/schema/zone_fields.hpp"
 

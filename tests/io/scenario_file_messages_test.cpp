@@ -130,8 +130,8 @@ TEST(ScenarioMessages, WrongType) {
               ElementsAre("scenario.yaml:7:21: ensemble.members = 3.5 (must be a whole number)."));
   EXPECT_THAT(problems(scene() + "hazard: {cell_size_m: {uniform: [1, 2]}}\n"),
               ElementsAre("scenario.yaml:7:23: hazard.cell_size_m = {uniform: [1, 2]} (must be a "
-                          "plain number). Only numbers of release, inflow, grains, basal, mixture "
-                          "and erosion can be uncertain."));
+                          "plain number). Only numbers of release, inflow, grains, basal, "
+                          "mixture, erosion and dams can be uncertain."));
 }
 
 TEST(ScenarioMessages, NumbersAreStrict) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys of what enters and what is followed over time: inflow, gauges.
-#include "scenarios/schema/schema_rows.hpp"
+#include "scenarios/schema/rows/rows.hpp"
 
 namespace sturz::schema_rows {
 namespace {

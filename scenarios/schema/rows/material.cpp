@@ -2,7 +2,7 @@
 // Keys that say what moves and on what: grains, basal, formulation.
 #include "engine/effects/fields.hpp"
 #include "scenarios/materials/materials.hpp"
-#include "scenarios/schema/schema_rows.hpp"
+#include "scenarios/schema/rows/rows.hpp"
 
 namespace sturz::schema_rows {
 namespace {

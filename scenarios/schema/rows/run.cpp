@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Keys that say how it is computed and what is asked: numerics, domain, ensemble, hazard.
-#include "scenarios/schema/schema_rows.hpp"
+#include "scenarios/schema/rows/rows.hpp"
 
 namespace sturz::schema_rows {
 namespace {
