@@ -106,9 +106,13 @@ std::vector<std::string> description_lines(const Scene& scene) {
   const SceneDescription& d = scene.description;
   std::vector<std::string> lines;
   lines.push_back(fmt::format("formulation: {} ({})", d.formulation, d.formulation_reason));
+  std::string off;
   for (const EffectNote& effect : d.effects)
-    lines.push_back(fmt::format("effect {}: {} ({})", effect.name, effect.active ? "on" : "off",
-                                effect.reason));
+    if (effect.active)
+      lines.push_back(fmt::format("effect {}: on ({})", effect.name, effect.reason));
+    else
+      off += fmt::format("{}{} ({})", off.empty() ? "" : ", ", effect.name, effect.reason);
+  if (!off.empty()) lines.push_back("effects off: " + off);
   std::string passes;
   for (const std::string& pass : d.passes) passes += (passes.empty() ? "" : " > ") + pass;
   lines.push_back("step: " + passes);
@@ -135,6 +139,8 @@ std::vector<std::string> description_lines(const Scene& scene) {
               "(pore_pressure_ratio stands for it; `mixture` computes it)");
   if (const auto idle = idle_keys(scene.scenario, columns, d.friction_inside); !idle.empty())
     lines.push_back(fmt::format("without effect in {}: {}", d.formulation, comma_separated(idle)));
+  if (const auto idle = idle_layer_keys(scene.scenario); !idle.empty())
+    lines.push_back(fmt::format("without effect here: {} (no `erosion`)", comma_separated(idle)));
   lines.push_back(
       fmt::format("memory: {:.1f} MB a member", static_cast<double>(d.memory_bytes) / 1e6));
   if (d.sound_speed_m_s > 0)

@@ -39,10 +39,8 @@ std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged, bool
   return paths;
 }
 
-}  // namespace
-
-std::vector<std::string> idle_keys(const Scenario& s, bool depth_averaged, bool friction_inside) {
-  const std::vector<std::string> paths = idle_paths(s, depth_averaged, friction_inside);
+/// Those of the paths that the scene sets to something else than their default.
+std::vector<std::string> given_of(const Scenario& s, const std::vector<std::string>& paths) {
   Scenario bare;
   bare.grains.emplace().friction.emplace();
   bare.mixture.emplace();
@@ -54,6 +52,17 @@ std::vector<std::string> idle_keys(const Scenario& s, bool depth_averaged, bool 
       given.push_back(key.path);
   }
   return given;
+}
+
+}  // namespace
+
+std::vector<std::string> idle_keys(const Scenario& s, bool depth_averaged, bool friction_inside) {
+  return given_of(s, idle_paths(s, depth_averaged, friction_inside));
+}
+
+std::vector<std::string> idle_layer_keys(const Scenario& s) {
+  if (s.erosion) return {};
+  return given_of(s, {"hazard.eroded_depth_m"});
 }
 
 }  // namespace sturz

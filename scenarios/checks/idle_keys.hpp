@@ -16,4 +16,7 @@ namespace sturz {
 std::vector<std::string> idle_keys(const Scenario&, bool depth_averaged,
                                    bool friction_inside = false);
 
+/// Likewise thresholds of layers that no member of the scene has, whatever its formulation.
+std::vector<std::string> idle_layer_keys(const Scenario&);
+
 }  // namespace sturz

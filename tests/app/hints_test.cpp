@@ -75,6 +75,10 @@ TEST_F(Hints, DescribeTellsBulkDensityAndWhatDoesNothing) {
                                    "0.6; grains lighter than ice: if 200 is the bulk density, "
                                    "write 333.33)"));
   EXPECT_THAT(ended.out, HasSubstr("without effect in depth_averaged: grains.friction_angle_deg"));
+  // Effects that are on have a line each, the others one line together.
+  EXPECT_THAT(ended.out, HasSubstr("\neffect gravity: on (always)\n"));
+  EXPECT_THAT(ended.out, HasSubstr("\neffects off: "));
+  EXPECT_THAT(ended.out, Not(HasSubstr(": off (")));
   EXPECT_THAT(sturz({"describe", path("scene.yaml")}).out,
               HasSubstr("bulk density: 1560 kg/m3 (grains of 2600 kg/m3, solid fraction 0.6)"));
 }

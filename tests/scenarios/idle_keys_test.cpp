@@ -86,5 +86,15 @@ TEST(ForeignWords, LeaveOthersToTheKeyTable) {
   EXPECT_EQ(advice_on_foreign_word(""), "");
 }
 
+TEST(IdleKeys, ThresholdsOfErodedDepthNeedErosion) {
+  Scenario s = with_grains();
+  EXPECT_THAT(idle_layer_keys(s), IsEmpty());
+  s.hazard.eroded_depth_m = {0.3};
+  EXPECT_THAT(idle_layer_keys(s), ElementsAre("hazard.eroded_depth_m"));
+  s.erosion.emplace();
+  EXPECT_THAT(idle_layer_keys(s), IsEmpty());
+}
+
 }  // namespace
+
 }  // namespace sturz

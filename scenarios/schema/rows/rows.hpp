@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Tools to write rows of the key table: a block (blocks.hpp), a member, the limits, one sentence.
-/// For the schema_*.cpp files only.
+/// For the files of this folder and schema.cpp.
 #pragma once
 
 #include "engine/core/error.hpp"
