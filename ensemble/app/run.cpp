@@ -171,7 +171,7 @@ void warn_of_run(const workflow::RunStored& stored, Console& console) {
   for (const std::string& sentence : censoring_sentences(stored.censoring))
     cut += (cut.empty() ? "" : " ") + sentence;
   if (!cut.empty()) console.warn(cut);
-  for (const MemberWarning& w : stored.warnings) console.warn(w.example);
+  for (const MemberWarning& w : stored.warnings) console.warn(w.text);
 }
 
 void print_inflow(const MemberResult& r, Console& console) {
@@ -262,8 +262,12 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   print_gauges(r, console);
   line(r.formulation == "depth_averaged" ? "columns" : "particles",
        fmt::format("{:.0f}, {:.1f} layers at release", s.n_particles, s.release_layers));
-  line("conservation", fmt::format("mass {:.1e}, energy {:.2e} of what was released", s.mass_error,
-                                   s.energy_residual));
+  // On level ground nothing is released that the residual could be a share of.
+  line("conservation",
+       fmt::format("mass {:.1e}, energy {}", s.mass_error,
+                   s.energy_residual != 0
+                       ? fmt::format("{:.2e} of what was released", s.energy_residual)
+                       : "not measured (none was released by falling)"));
   line("computing", fmt::format("{} steps in {}, {} of CPU ({:.2g} M particle updates/s)",
                                 grouped(s.n_steps), duration_text(s.wall_s), duration_text(s.cpu_s),
                                 s.n_steps * s.n_particles / (1e6 * std::max(s.wall_s, 1e-9))));

@@ -60,7 +60,7 @@ void warn_of_members(const CensoringReport& censoring, const std::vector<MemberW
   if (!cut.empty() && censoring.too_many()) console.warn(cut);
   if (!cut.empty() && !censoring.too_many()) console.note(cut);
   for (const MemberWarning& w : warnings)
-    console.warn(fmt::format("{} of {} members: {}", w.count, members, w.example));
+    console.warn(fmt::format("{} of {} members: {}", w.count, members, w.text));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -25,6 +26,37 @@ std::string shape_of(std::string text) {
   std::erase_if(text, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
   return text;
 }
+
+/// A sentence around its first number.
+struct AroundNumber {
+  std::string before, number, after;
+};
+AroundNumber around_number(const std::string& text) {
+  const auto digit = [](unsigned char c) { return std::isdigit(c) != 0; };
+  auto begin = std::find_if(text.begin(), text.end(), digit);
+  const auto end =
+      std::find_if(begin, text.end(), [&](unsigned char c) { return !digit(c) && c != '.'; });
+  if (begin != text.begin() && begin != end && *(begin - 1) == '-') --begin;
+  return {{text.begin(), begin}, {begin, end}, {end, text.end()}};
+}
+
+/// The smaller and the larger first number of sentences of one shape, as they were written.
+struct NumberRange {
+  AroundNumber least, most;
+
+  void add(const AroundNumber& one) {
+    if (value(one) < value(least)) least = one;
+    if (value(one) > value(most)) most = one;
+  }
+  /// One sentence for all: "for 2.3 to 7.5 % of mass and time".
+  std::string text() const {
+    return least.before + least.number + (least.number == most.number ? "" : " to " + most.number) +
+           most.after;
+  }
+
+ private:
+  static double value(const AroundNumber& a) { return std::strtod(a.number.c_str(), nullptr); }
+};
 
 }  // namespace
 
@@ -99,6 +131,7 @@ std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> member
   for (const std::string& text : known) left_out.insert(shape_of(text));
   std::map<std::string, std::size_t> place;
   std::vector<MemberWarning> found;
+  std::vector<NumberRange> ranges;
   for (const MemberSummary& m : members) {
     std::size_t start = 0;
     while (start < m.warnings.size()) {
@@ -107,10 +140,13 @@ std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> member
       start = end + 2;
       if (left_out.contains(shape)) continue;
       const auto [it, is_new] = place.try_emplace(shape, found.size());
-      if (is_new) found.push_back({text, 0});
+      const AroundNumber around = around_number(text);
+      if (is_new) found.emplace_back(), ranges.push_back({around, around});
       ++found[it->second].count;
+      ranges[it->second].add(around);
     }
   }
+  for (std::size_t i = 0; i < found.size(); ++i) found[i].text = ranges[i].text();
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.count > b.count; });
   return found;

@@ -44,10 +44,11 @@ std::string one_line(const CensoringReport&);
 /// first one a headline. Empty when no member is censored.
 std::vector<std::string> censoring_sentences(const CensoringReport&);
 
-/// Sentences of the members' warnings with how many members say each (numbers in them differ), the
-/// most frequent first. Sentences like those in `known` are left out.
+/// Sentences of the members' warnings with how many members say each, the most frequent first.
+/// Numbers in them differ: the first one is given from its least to its greatest. Sentences like
+/// those in `known` are left out.
 struct MemberWarning {
-  std::string example;
+  std::string text;
   std::int64_t count = 0;
 };
 std::vector<MemberWarning> member_warnings(std::span<const MemberSummary> members,

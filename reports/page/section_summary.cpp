@@ -119,10 +119,10 @@ std::string warnings_html(const ReportInput& input, const Headline& h) {
   }
   lines.insert(lines.end(), input.warnings.begin(), input.warnings.end());
   for (const auto& w : member_warnings(input.members)) {
-    if (std::find(lines.begin(), lines.end(), w.example) != lines.end()) continue;
+    if (std::find(lines.begin(), lines.end(), w.text) != lines.end()) continue;
     lines.push_back(h.n_members == 1
-                        ? sentence(w.example)
-                        : fmt::format("{} of {} simulations: {}", w.count, h.n_members, w.example));
+                        ? sentence(w.text)
+                        : fmt::format("{} of {} simulations: {}", w.count, h.n_members, w.text));
   }
   if (lines.empty()) return {};
   std::string html =

@@ -76,10 +76,22 @@ TEST(MemberWarnings, CountSentencesThatDifferInNumbersOnly) {
   const auto found = member_warnings(all);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].count, 2);
-  EXPECT_EQ(found[0].example, "5 % of the mass took off");
+  EXPECT_EQ(found[0].text, "5 to 7.5 % of the mass took off");
   EXPECT_EQ(found[1].count, 1);
   const std::vector<std::string> known{"3 % of the mass took off"};
   EXPECT_EQ(member_warnings(all, known).size(), 1U) << "said before, with another number";
+}
+
+TEST(MemberWarnings, ShowTheWorstMemberAndNotTheFirst) {
+  std::vector<MemberSummary> all(4);
+  all[0].warnings = "energy: 2.3 % (more than 5 % either way)";
+  all[1].warnings = "energy: -12 % (more than 5 % either way)";
+  all[2].warnings = "energy: 7.5 % (more than 5 % either way)";
+  all[3].warnings = "thin flow";
+  const auto found = member_warnings(all);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].text, "energy: -12 to 7.5 % (more than 5 % either way)");
+  EXPECT_EQ(found[1].text, "thin flow");
 }
 
 }  // namespace

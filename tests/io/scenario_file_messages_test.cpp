@@ -75,7 +75,7 @@ TEST(ScenarioMessages, WordsOfOtherProgramsGetAnAnswer) {
                           "basal.yield_stress_pa with basal.viscosity_pa_s: a Bingham fluid."));
   EXPECT_THAT(problems(scene() + "entrainment: {polygon: a.shp}\nresistance: {polygon: b.shp}\n"),
               ElementsAre(HasSubstr("entrainment (unknown key). Use the block erosion:"),
-                          HasSubstr("resistance (unknown key). Not supported.")));
+                          HasSubstr("resistance (unknown key). Forest is friction: basal.zones")));
 }
 
 TEST(ScenarioMessages, StatesOfGrains) {

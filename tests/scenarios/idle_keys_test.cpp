@@ -76,9 +76,9 @@ TEST(ForeignWords, SayWhatToWriteHere) {
               StartsWith("Use release.start_time_attribute"));
 }
 
-TEST(ForeignWords, SayWhatThereIsNot) {
+TEST(ForeignWords, ObstaclesAndForestHaveTheirBlocks) {
   for (const char* word : {"resistance", "basal.resistance"})
-    EXPECT_THAT(advice_on_foreign_word(word), StartsWith("Not supported")) << word;
+    EXPECT_THAT(advice_on_foreign_word(word), HasSubstr("buildings terrain.buildings")) << word;
 }
 
 TEST(ForeignWords, LeaveOthersToTheKeyTable) {

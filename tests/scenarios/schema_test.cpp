@@ -53,6 +53,13 @@ KeyValue unusual_value(const KeyInfo& key) {
       return SyntheticTerrain{"ramp", 2, {{"slope_deg", 20}}};
     case ValueKind::wall_list:
       return std::vector<WallSpec>{{{1, 2, 3}, {0, 1, 0}, 0.3, 4.0}};
+    case ValueKind::dam_list: {
+      DamSpec dam;
+      dam.line = "unusual.gpkg";
+      dam.height_m = Uncertain(7);
+      dam.crest_width_m = 5;
+      return std::vector<DamSpec>{dam};
+    }
     case ValueKind::zone_list:
       return std::vector<BasalZone>{{"unusual.gpkg", "plate", 0.3, {}, 50.0}};
     case ValueKind::inflow_list: {

@@ -47,7 +47,7 @@ void remove_results(const OutputFolder& folder) {
 std::string warnings_text(const RunStored& stored, const std::vector<std::string>& before) {
   std::vector<std::string> lines = censoring_sentences(stored.censoring);
   lines.insert(lines.end(), before.begin(), before.end());
-  for (const MemberWarning& w : stored.warnings) lines.push_back(w.example);
+  for (const MemberWarning& w : stored.warnings) lines.push_back(w.text);
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 

@@ -11,7 +11,8 @@
 namespace sturz {
 namespace {
 
-/// The dam over the cells of a raster.
+/// The dam over the cells of a raster. A cell belongs to the place of the line that is nearest: a
+/// crest that rises along the line is as high across as there, and not as high as farther up.
 class Body {
  public:
   Body(const DamLine& line, const DamSpec& spec, double width, const Raster<double>& ground)
@@ -20,16 +21,31 @@ class Body {
         half_(0.5 * width),
         ground_(ground),
         crest_(crest_of(line, spec)),
-        top_(ground.grid, -INFINITY) {}
+        window_(window_around(line.points, farthest_side(line, spec, width) + ground.grid.cell_m,
+                              ground.grid)),
+        nearest_(window_.n_cells()) {}
 
   void lay() {
     for (std::size_t i = 0; i + 1 < line_.points.size(); ++i) lay_piece(i);
   }
-  /// Some side does not meet the ground.
-  bool open() const { return open_; }
-  const Raster<double>& top() const { return top_; }
+  /// visit(index of a cell of the ground, top of the dam there, whether its side ends there).
+  template <class Visit>
+  void each(Visit visit) const {
+    std::size_t k = 0;
+    for (int r = window_.row0; r < window_.end_row(); ++r)
+      for (int c = window_.col0; c < window_.end_col(); ++c, ++k)
+        if (nearest_[k].distance <= nearest_[k].limit)
+          visit(ground_.grid.index(r, c), nearest_[k].top, nearest_[k].last);
+  }
 
  private:
+  struct Nearest {
+    double distance = INFINITY;
+    double limit = -1;  ///< how far the side may go there
+    double top = 0;     ///< elevation
+    bool last = false;  ///< beside the end of the side
+  };
+
   /// How far the sides may go from point i.
   double foot(std::size_t i) const {
     return half_ +
@@ -40,23 +56,30 @@ class Body {
     const Grid& g = ground_.grid;
     const Vec2 &a = line_.points[i], &b = line_.points[i + 1];
     const double reach = std::max(foot(i), foot(i + 1));
-    const Window near = window_between(
-        g.row_of(std::max(a.y(), b.y()) + reach), g.row_of(std::min(a.y(), b.y()) - reach) + 1,
-        g.col_of(std::min(a.x(), b.x()) - reach), g.col_of(std::max(a.x(), b.x()) + reach) + 1, g);
+    const Window near = window_around({a, b}, reach + g.cell_m, g);
     const Vec2 along = b - a;
     const double length2 = along.squaredNorm();
     for (int r = near.row0; r < near.end_row(); ++r)
       for (int c = near.col0; c < near.end_col(); ++c) {
+        if (!window_.contains(r, c)) continue;
         const Vec2 p(g.x_center(c), g.y_center(r));
         const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-        const double d = (p - a - t * along).norm();
-        const double limit = foot(i) + t * (foot(i + 1) - foot(i));
-        if (d > limit) continue;
+        Nearest one;
+        one.distance = (p - a - t * along).norm();
+        one.limit = foot(i) + t * (foot(i + 1) - foot(i));
         const double crest = crest_[i] + t * (crest_[i + 1] - crest_[i]);
-        const double z = d > half_ ? crest - (d - half_) / spec_.side_slope : crest;
-        top_.at(r, c) = std::max(top_.at(r, c), z);
-        if (d > limit - 1.5 * g.cell_m && d > half_ && z > ground_.at(r, c)) open_ = true;
+        const double beyond = one.distance - half_;
+        one.top = beyond > 0 ? crest - beyond / spec_.side_slope : crest;
+        one.last = beyond > 0 && one.distance > one.limit - 1.5 * g.cell_m;
+        take(one, nearest_[static_cast<std::size_t>(r - window_.row0) * window_.n_cols +
+                           static_cast<std::size_t>(c - window_.col0)]);
       }
+  }
+
+  /// At the same distance from two places the higher one holds.
+  static void take(const Nearest& one, Nearest& known) {
+    if (one.distance < known.distance || (one.distance == known.distance && one.top > known.top))
+      known = one;
   }
 
   const DamLine& line_;
@@ -64,8 +87,8 @@ class Body {
   double half_;
   const Raster<double>& ground_;
   std::vector<double> crest_;
-  Raster<double> top_;
-  bool open_ = false;
+  Window window_;
+  std::vector<Nearest> nearest_;  ///< [cells of window_]
 };
 
 }  // namespace
@@ -124,20 +147,20 @@ DamFacts raise_dam(const DamLine& line, const DamSpec& spec, double crest_width_
   Body body(line, spec, crest_width_m, ground);
   body.lay();
   DamFacts facts;
-  facts.cut = body.open();
   const std::vector<double> crest = crest_of(line, spec);
   facts.crest_width_m = crest_width_m;
   facts.lowest_crest_m = *std::min_element(crest.begin(), crest.end());
   facts.highest_crest_m = *std::max_element(crest.begin(), crest.end());
   const double cell_area = ground.grid.cell_m * ground.grid.cell_m;
-  for (std::size_t i = 0; i < ground.values.size(); ++i) {
-    const double raise = body.top().values[i] - ground.values[i];
-    if (!(raise > 0)) continue;  // nodata stays
-    ground.values[i] = body.top().values[i];
+  body.each([&](std::size_t cell, double top, bool last) {
+    const double raise = top - ground.values[cell];
+    if (!(raise > 0)) return;  // nodata stays
+    ground.values[cell] = top;
+    facts.cut = facts.cut || last;
     ++facts.cells;
     facts.fill_m3 += raise * cell_area;
     facts.highest_m = std::max(facts.highest_m, raise);
-  }
+  });
   return facts;
 }
 
