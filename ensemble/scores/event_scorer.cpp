@@ -15,6 +15,8 @@ using M = MemberScalars;
 
 /// Bands across the path, in cells: one would show the grid's own steps on a path that runs askew.
 constexpr double band_cells = 2;
+/// Standard deviations that a member counts as late where its front never came.
+constexpr double never_sd = 10;
 
 double cell_area(const Grid& g) { return g.cell_m * g.cell_m; }
 
@@ -162,7 +164,12 @@ void EventScorer::score_area(const Area& area, const std::string& name, const st
              "share of both boundaries that lies within two standard deviations of the other",
              Better::larger},
             d.within, either);
-  sheet.compare({name + "_distance_m", 0, area.sd_m, "m"}, d.mean_m, either);
+  // Whoever covers nothing has no boundary: it is farther off than any that has one.
+  const bool nothing = t.hit_m2 + t.false_m2 == 0;
+  const Window& domain = area.cells.domain();
+  sheet.compare({name + "_distance_m", 0, area.sd_m, "m"},
+                nothing ? std::hypot(domain.n_rows, domain.n_cols) * maps_.cell_m : d.mean_m,
+                nothing ? weaker(Known::at_least, Known::not_at_all, member.censoring) : either);
   score_profile(area, name, cells, either, sheet);
 }
 
@@ -303,17 +310,21 @@ void EventScorer::score_front(const ObservedFront& front, const std::string& nam
             weaker(Known::at_least, moving, member.censoring), false, sheet);
     return;
   }
-  // Who never came there would have come after its end at the earliest.
+  // Who never came there would have come after its end at the earliest. Who lies at rest will never
+  // come: held against the observation it is as good as excluded, whenever it stopped.
   Known known = Known::exactly;
+  double compared = arrival;
   if (std::isnan(arrival)) {
-    arrival = member.scalars.end_time_s;
+    compared = arrival = member.scalars.end_time_s;
     known = has_left(member.censoring) ? Known::not_at_all : Known::at_least;
+    if (member.censoring == Censoring::none)
+      compared = std::max(arrival, front.time_s + never_sd * *front.sd_s);
   }
   const std::string seconds = name + "_s";
   sheet.add({name + "_error_s", "s", "time of the front at that place, simulated less observed",
              Better::nearer_zero},
             arrival - front.time_s, known);
-  sheet.compare({seconds, front.time_s, *front.sd_s, "s"}, arrival, known);
+  sheet.compare({seconds, front.time_s, *front.sd_s, "s"}, compared, known);
 }
 
 void EventScorer::score_fronts(const MemberView& member, ScoreSheet& sheet) const {

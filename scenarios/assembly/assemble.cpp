@@ -90,6 +90,12 @@ const std::size_t bare_bytes_per_particle = ParticleSet().bytes_per_particle() +
 /// Of the peak maps, where the whole grid is touched.
 constexpr std::size_t bytes_per_hazard_cell = 60;
 
+/// A member with a dam of its own height has its own ground, and what columns feel of it.
+std::size_t own_ground_bytes(const SceneInputs& in) {
+  if (!in.structures.any_by_member() || in.elevation == nullptr) return 0;
+  return 2 * in.elevation->values.size() * sizeof(double);
+}
+
 /// Cells of the maps that one member may touch: a quarter of what lies within the energy line's
 /// bounds, because hardly a flow goes every way at once.
 double touched_cells(const SceneInputs& in) {
@@ -266,7 +272,8 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   for (const EffectNote& note : d.effects) bytes += note.bytes_per_particle;
   d.memory_bytes = d.n_particles * bytes +
                    static_cast<std::size_t>(touched_cells(inputs)) * bytes_per_hazard_cell +
-                   (plan.later.size() + plan.inflow.columns.size()) * waiting_column_bytes();
+                   (plan.later.size() + plan.inflow.columns.size()) * waiting_column_bytes() +
+                   own_ground_bytes(inputs);
   d.spacing_m = s.numerics.spacing_m;
   d.release_volume_m3 = plan.release.volume_m3;
   d.inflow_volume_m3 = plan.inflow.volume_m3;

@@ -15,6 +15,8 @@
 namespace sturz {
 namespace {
 
+constexpr int most_places = 16;  ///< across a cell of the maps
+
 /// Finds the source's cell at a place of the maps.
 class SourceCells {
  public:
@@ -82,6 +84,22 @@ void refuse_negative(const RasterSource& source) {
       source.label, *below));
 }
 
+/// Places across a cell of the maps, at least as dense as the cells of the source: two for each.
+int places_across(const RasterSource& source, OGRCoordinateTransformation* from_maps,
+                  const Grid& cells) {
+  double x = cells.x_center(cells.n_cols / 2), y = cells.y_center(cells.n_rows / 2);
+  double across = cells.cell_m, down = cells.cell_m;
+  if (from_maps != nullptr) {
+    double east = x + cells.cell_m, east_y = y, south = x, south_y = y - cells.cell_m;
+    if (from_maps->Transform(1, &x, &y) == 0 || from_maps->Transform(1, &east, &east_y) == 0 ||
+        from_maps->Transform(1, &south, &south_y) == 0)
+      return most_places;
+    across = std::hypot(east - x, east_y - y), down = std::hypot(south - x, south_y - y);
+  }
+  const double finer = 2 * std::max(across, down) / std::min(source.col_step(), source.row_step());
+  return static_cast<int>(std::clamp(std::ceil(finer), 2.0, static_cast<double>(most_places)));
+}
+
 }  // namespace
 
 ThicknessValuesRead read_observed_thickness(const RasterRequest& request, ThicknessSign sign,
@@ -103,10 +121,7 @@ ThicknessValuesRead read_observed_thickness(const RasterRequest& request, Thickn
                                          crs_name(source.crs), crs_name(to)));
     const Window window = window_under(source, to_maps.get(), maps);
     read.value = Raster<double>(grid_of(window, maps), nan_d);
-    // Places at least as dense as the source's cells, where its system is metric.
-    const double finer =
-        to_maps ? 16 : 2 * maps.cell_m / std::min(source.col_step(), source.row_step());
-    const int n = static_cast<int>(std::clamp(std::ceil(finer), 2.0, 16.0));
+    const int n = places_across(source, from_maps.get(), read.value.grid);
     const SourceCells cells(source, from_maps.get());
     std::size_t measured = 0;
     for (int r = 0; r < window.n_rows; ++r)

@@ -70,6 +70,14 @@ std::shared_ptr<ObservedEvent> event() {
   return e;
 }
 
+Observation simulated(const ScoreTable& t, const std::string& quantity, std::size_t row = 0) {
+  const auto& all = t.comparison.observed;
+  for (std::size_t q = 0; q < all.size(); ++q)
+    if (all[q].name == quantity) return t.comparison.simulated.values.at(row).at(q);
+  ADD_FAILURE() << "nothing observed: " << quantity;
+  return {};
+}
+
 Observation score(const ScoreTable& t, const std::string& name, std::size_t row = 0) {
   const auto k = t.column(name);
   if (!k) {
@@ -200,6 +208,25 @@ TEST(EventScorer, LengthsFrontsAndSpeeds) {
   EXPECT_EQ(score(t, "front_2_error_s").known, Known::exactly);
   EXPECT_DOUBLE_EQ(score(t, "front_3_error_s").value, 60 - 50);
   EXPECT_EQ(score(t, "front_3_error_s").known, Known::at_least);
+  // It lies at rest and will never come: that counts as ten standard deviations late.
+  const Observation never = simulated(t, "front_3_s");
+  EXPECT_DOUBLE_EQ(never.value, 50 + 10 * 4.0);
+  EXPECT_EQ(never.known, Known::at_least);
+  const Observation moving =
+      simulated(score_result(slide(0, 22, Censoring::still_moving), e), "front_3_s");
+  EXPECT_DOUBLE_EQ(moving.value, 60) << "it may come any time";
+  EXPECT_EQ(moving.known, Known::at_least);
+}
+
+TEST(EventScorer, WhoLeavesNothingAboveTheThresholdIsFartherThanAnybody) {
+  auto e = event();
+  e->deposit = area(8, 12, 15, 20, 5);
+  e->threshold_m = 3;  // the deposit is 2 m thick
+  const Observation none = simulated(score_result(slide(0, 22), e), "deposit_distance_m");
+  EXPECT_EQ(none.known, Known::at_least);
+  EXPECT_GT(none.value, 100);
+  e->threshold_m = 1;
+  EXPECT_LT(simulated(score_result(slide(0, 22), e), "deposit_distance_m").value, 30);
 }
 
 TEST(EventScorer, ThalwegGivesDistancesAndProfiles) {
