@@ -169,7 +169,7 @@ void EventScorer::score_area(const Area& area, const std::string& name, const st
   const Window& domain = area.cells.domain();
   sheet.compare({name + "_distance_m", 0, area.sd_m, "m"},
                 nothing ? std::hypot(domain.n_rows, domain.n_cols) * maps_.cell_m : d.mean_m,
-                nothing ? weaker(Known::at_least, Known::not_at_all, member.censoring) : either);
+                nothing && member.censoring == Censoring::none ? Known::at_least : either);
   score_profile(area, name, cells, either, sheet);
 }
 
