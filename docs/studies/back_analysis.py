@@ -81,7 +81,7 @@ def twins(program, data, out):
     (out / "prior.yaml").write_text(TWIN.format(data=data, members=200, seed=3))
     for name in ("truths", "prior"):
         sturz(program, "ensemble", out / f"{name}.yaml", "-o", out / name)
-    truths = [m for m in members(out / "truths") if m["censored"] in ("", "no", "0")][:10]
+    truths = [m for m in members(out / "truths") if m["censored"] == "none"][:10]
     keys = ("basal.friction_coefficient", "basal.pore_pressure_ratio")
     draw, inside = random.Random(4), {}
     print("| truth: friction, pore pressure | runout m | discrepancy | friction 5 to 95 % | pore pressure 5 to 95 % | inside | smallest Q2 | correlation |")
