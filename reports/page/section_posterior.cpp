@@ -13,9 +13,14 @@ namespace {
 
 using Column = std::vector<double>;
 
+/// From the stored unit to the one that the label names.
+double factor_of(const ReportTable& table, std::size_t k) {
+  return k < table.units.size() ? display_unit(table.units[k]).factor : 1;
+}
+
 Column column_of(const ReportTable& table, std::size_t k) {
   Column column;
-  for (const auto& row : table.rows) column.push_back(row[k]);
+  for (const auto& row : table.rows) column.push_back(factor_of(table, k) * row[k]);
   return column;
 }
 
@@ -48,9 +53,10 @@ std::string figures(const ReportTable& before, const ReportTable& after) {
   return html + "</div>";
 }
 
-std::string interval(double least, double middle, double most) {
-  return fmt::format("{} ({} \u2013 {})", shown_number(middle), shown_number(least),
-                     shown_number(most));
+/// \param v 5 %, 50 %, 95 %, in the stored unit
+std::string interval(const double (&v)[3], double factor) {
+  return fmt::format("{} ({} \u2013 {})", shown_number(factor * v[1]), shown_number(factor * v[0]),
+                     shown_number(factor * v[2]));
 }
 
 std::string keys_table(const PosteriorShown& p) {
@@ -61,11 +67,11 @@ std::string keys_table(const PosteriorShown& p) {
       "</th></tr></thead><tbody>";
   for (std::size_t k = 0; k < p.keys.size(); ++k) {
     const PosteriorShown::Key& key = p.keys[k];
+    const double factor = factor_of(p.rows, k);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td class=\"n\">{}</td></tr>",
-        html_escape(label_of(p.rows, k)), interval(key.before[0], key.before[1], key.before[2]),
-        interval(key.after[0], key.after[1], key.after[2]),
+        html_escape(label_of(p.rows, k)), interval(key.before, factor), interval(key.after, factor),
         html_escape(percent_text(key.variance_removed)));
   }
   return html + "</tbody></table></div>";
@@ -79,13 +85,14 @@ std::string check_table(const PosteriorShown& p) {
       "<th scope=\"col\">predicted (5 \u2013 95 %)</th><th scope=\"col\" title=\"By what the other "
       "quantities tell\">predicted without it</th></tr></thead><tbody>";
   for (const PosteriorShown::Quantity& q : p.quantities) {
-    const std::string unit = display_unit(q.unit).label;
+    const auto [label, factor] = display_unit(q.unit);
+    const std::string unit = label;
     html += fmt::format(
         "<tr><th scope=\"row\">{}{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td class=\"n\">{}</td></tr>",
         html_escape(words(q.name)), unit.empty() ? "" : " [" + html_escape(unit) + "]",
-        shown_number(q.observed), interval(q.check[0], q.check[1], q.check[2]),
-        q.has_held_out ? interval(q.held_out[0], q.held_out[1], q.held_out[2]) : "\u2013");
+        shown_number(factor * q.observed), interval(q.check, factor),
+        q.has_held_out ? interval(q.held_out, factor) : "\u2013");
   }
   html += "</tbody></table></div>";
   if (p.reliability.empty()) return html;

@@ -46,6 +46,25 @@ TEST(PosteriorSection, HoldsBeforeAfterPairsAndWhatWasHeldOut) {
   EXPECT_THAT(make_report(input), HasSubstr("<a href=\"#posterior\">Calibration</a>"));
 }
 
+/// Pascals are stored, kilopascals are what the label says.
+TEST(PosteriorSection, ShowsNumbersAndAxesInTheUnitOfTheirLabel) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  PosteriorShown p = found();
+  p.rows = {{"basal.cohesion_pa", "basal.turbulence_m_s2"}, {"Pa", "m s-2"}, {}};
+  for (int i = 0; i < 50; ++i) p.rows.rows.push_back({2000 + 40.0 * i, 400 + 8.0 * i});
+  p.keys = {{{1000, 3000, 5000}, {2000, 2500, 3960}, 0.5}, {{200, 500, 800}, {400, 600, 792}, 0.2}};
+  p.quantities = {{"pressure_pa", "Pa", 30000, {20000, 31000, 41000}, true, {10000, 32000, 52000}}};
+  input.samples = {p.rows.columns, p.rows.units, {{1000, 200}, {5000, 800}}};
+  input.posterior = &p;
+  const std::string html = posterior_html(input);
+  EXPECT_THAT(html, AllOf(HasSubstr("[kPa]"), HasSubstr("3 (1 \u2013 5)"),
+                          HasSubstr("2.5 (2 \u2013 3.96)"), HasSubstr(">30<"),
+                          HasSubstr("31 (20 \u2013 41)"), HasSubstr("32 (10 \u2013 52)")));
+  EXPECT_THAT(html, AllOf(HasSubstr(">5</text>"), HasSubstr(">800</text>"), Not(HasSubstr("5000")),
+                          Not(HasSubstr("5\u202F000")), Not(HasSubstr("5\u00A0000"))));
+}
+
 TEST(PosteriorFigures, DrawWhatThereIsAndNothingOfNothing) {
   const std::vector<double> none, one{3, 3, 3}, some{1, 2, NAN, 4}, more{1.5, 2.5};
   EXPECT_EQ(marginal_svg(none, none, "x"), "");
