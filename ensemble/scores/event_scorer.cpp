@@ -164,7 +164,7 @@ void EventScorer::score_area(const Area& area, const std::string& name, const st
              "share of both boundaries that lies within two standard deviations of the other",
              Better::larger},
             d.within, either);
-  // Whoever covers nothing has no boundary: it is farther off than any that has one.
+  // A member that covers nothing has no boundary: it is farther off than any that has one.
   const bool nothing = t.hit_m2 + t.false_m2 == 0;
   const Window& domain = area.cells.domain();
   sheet.compare({name + "_distance_m", 0, area.sd_m, "m"},
