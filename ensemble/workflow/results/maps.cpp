@@ -54,6 +54,7 @@ HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
                         {"censored_members", manifest.censored},
                         {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
                                                design.n_members(), design.seed)}};
+  if (manifest.stop) context.attributes.emplace_back("stop_rule", stop_text(*manifest.stop));
   return context;
 }
 
@@ -106,6 +107,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   made.folder = folder;
   made.max_failed_fraction = scenario.ensemble.max_failed_fraction;
   made.planned = design.n_members();
+  made.stop = manifest.stop;
   made.finished = static_cast<std::int64_t>(store.members().size());
   add_members(made, store, manifest, scenario);
   manifest.censored = one_line(made.censoring);
@@ -144,6 +146,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
                                      : std::vector<ConvergencePoint>{};
   page.convergence = points;
   page.cancel = cancel;
+  page.stop = manifest.stop ? &*manifest.stop : nullptr;
   page.where_mass_left = made.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;

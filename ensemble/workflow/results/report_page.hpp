@@ -45,6 +45,7 @@ struct PageContent {
   const Raster<double>* elevation = nullptr;
   std::span<const MemberSummary> members;
   std::span<const ConvergencePoint> convergence;
+  const StopRecord* stop = nullptr;  ///< null: no stop rule
   CancelFlag cancel;
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
