@@ -168,6 +168,14 @@ void by_emulator(Calibration& c, const CalibrationData& data, const Usable& u,
   if (n_next > 0) c.next = next_members(likelihood, emulators, c.posterior, n_next);
 }
 
+std::vector<double> weights_of_drawn(const CalibrationData& data, const Usable& u,
+                                     const Likelihood& likelihood) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < data.n_drawn; ++i)
+    logs.push_back(likelihood.log_of(exact_row(u.members[i])));
+  return normalised_weights(logs);
+}
+
 }  // namespace
 
 PosteriorMethod chosen_method(std::size_t n_members, std::size_t n_dims) {
@@ -197,6 +205,7 @@ Calibration calibrate(const CalibrationData& data, const CalibrationSettings& se
     by_weights(c, data, u, likelihood);
   else
     by_emulator(c, data, u, likelihood, settings, n_next);
+  c.member_weights = weights_of_drawn(data, u, likelihood);
   c.discrepancies = discrepancies_of(likelihood, c.posterior);
   c.identifiability = identifiability_of(c.posterior);
   c.check = predictive_check(likelihood, c.posterior);

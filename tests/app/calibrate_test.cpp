@@ -181,5 +181,35 @@ TEST_F(Sensitivity, RefusesSetsThatAreNotWholeAndUnknownResults) {
   EXPECT_THAT(unknown.err, HasSubstr("front_travel_m"));
 }
 
+TEST_F(Calibrate, MapsTheEnsembleUnderItsPosterior) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  const std::string hash = hazard_hash("out");
+  const Ended merged = sturz({"merge", path("out"), "--posterior", path("out")});
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_THAT(merged.out,
+              HasSubstr("6 valid members, weighted by posterior, effective members = "));
+  EXPECT_THAT(merged.err, HasSubstr("fewer than 20"));
+  EXPECT_TRUE(exists("out/weighted/hazard.nc"));
+  EXPECT_TRUE(exists("out/weighted/hazard/index.csv"));
+  EXPECT_THAT(read("out/weighted/report.html"), HasSubstr("weighted by posterior"));
+  EXPECT_EQ(hazard_hash("out"), hash);
+  const Ended json = sturz({"merge", path("out"), "--posterior", path("out"), "--json"});
+  const auto done = event(json, "done");
+  EXPECT_GE(done.value("effective_members", 0.0), 1);
+  EXPECT_NE(done.value("hazard_hash", ""), hash);
+}
+
+TEST_F(Calibrate, RefusesWeightsOfOtherMembers) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  const Ended none = sturz({"merge", path("out"), "--posterior", path("nowhere")});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("holds no weights of members"));
+  ASSERT_EQ(sturz({"ensemble", path("plain.yaml"), "-n", "4", "-o", path("other")}).exit_code, 0);
+  const Ended other = sturz({"merge", path("other"), "--posterior", path("out")});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.err, HasSubstr("weighs other members"));
+  EXPECT_FALSE(exists("other/weighted"));
+}
+
 }  // namespace
 }  // namespace sturz::test

@@ -162,8 +162,8 @@ Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob
   c.found = calibrate(data, settings_of(request, job));
   const auto keys = uncertain_keys(job.scene.scenario);
   c.values = values_at(keys, job.scene.scenario.ensemble, c.found.posterior.cube);
-  if (c.found.posterior.method == PosteriorMethod::weights)
-    c.members = data.comparison.simulated.members;
+  c.members = data.comparison.simulated.members;
+  c.members.resize(c.found.member_weights.size());  // the chosen ones stand behind
   c.n_drawn = static_cast<std::int64_t>(data.n_drawn);
   c.n_chosen = static_cast<std::int64_t>(data.cube.size() - data.n_drawn);
   c.discrepancy = request.discrepancy;

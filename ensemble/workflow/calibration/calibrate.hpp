@@ -6,7 +6,7 @@
 ///   DIR/best/           the member at the best fit
 ///   DIR/posterior.csv   rows of equal weight; a table for `ensemble.table`
 ///   DIR/posterior.json  all numbers
-///   DIR/weights.csv     weight of each member, by --method weights
+///   DIR/weights.csv     weight of each member that was drawn, for `sturz merge --posterior`
 #pragma once
 
 #include "ensemble/calibration/calibration.hpp"
@@ -50,7 +50,7 @@ struct Calibrated {
   Calibration found;
   std::vector<KeySummary> keys;
   std::vector<std::vector<double>> values;              ///< [points of the posterior][keys]
-  std::vector<std::int64_t> members;                    ///< of the points, by weights
+  std::vector<std::int64_t> members;                    ///< of found.member_weights
   std::int64_t n_drawn = 0, n_chosen = 0;               ///< valid members that were used
   std::optional<std::vector<Observation>> best_member;  ///< [observed], really computed
   double discrepancy = 0;

@@ -58,7 +58,7 @@ std::string table_text(const Calibrated& c) {
 std::string weights_text(const Calibrated& c) {
   std::string text = "member,weight\n";
   for (std::size_t i = 0; i < c.members.size(); ++i)
-    text += fmt::format("{},{}\n", c.members[i], c.found.posterior.weights[i]);
+    text += fmt::format("{},{}\n", c.members[i], c.found.member_weights[i]);
   return text;
 }
 
@@ -219,7 +219,7 @@ void write_posterior(const OutputFolder& folder, const Calibrated& c) {
   write_text_atomic(csv_file(folder.root), table_text(c));
   std::error_code ignored;
   if (c.members.empty())
-    fs::remove(folder.root / "weights.csv", ignored);  // of an earlier method
+    fs::remove(folder.root / "weights.csv", ignored);  // of an earlier calibration
   else
     write_text_atomic(folder.root / "weights.csv", weights_text(c));
   write_text_atomic(json_file(folder.root), posterior_json(c));

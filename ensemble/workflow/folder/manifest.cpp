@@ -182,6 +182,7 @@ std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
   }
   if (kind == "ensemble") {
     out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
+    if (!weighting.empty()) out.emplace_back("weighting", weighting);
     if (stop) out.emplace_back("stop rule", stop_text(*stop));
     if (!censored.empty()) out.emplace_back("cut off", censored);
     out.emplace_back("hash of the maps", hazard_hash);

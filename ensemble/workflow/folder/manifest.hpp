@@ -43,7 +43,8 @@ struct Manifest {
   std::string design_hash;         ///< as design_hash(); empty for a single run
   std::vector<Build> builds;       ///< all that computed members here, the first first
   std::optional<StopRecord> stop;  ///< what decided the number of members; nothing: the user did
-  std::string censored;            ///< which of the maps' members are cut off; empty: no maps yet
+  std::string weighting;  ///< of weighted maps, in words; for their page, not kept in the file
+  std::string censored;   ///< which of the maps' members are cut off; empty: no maps yet
   // Of the program that wrote it; filled in by write().
   std::string version, git_commit, compiler, build_type;
 

@@ -127,7 +127,8 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
                 const PageContent& content) {
   ReportInput input;
   input.title = scenario.title.empty() ? as_utf8(folder.root.filename().string()) : scenario.title;
-  input.scenario_yaml = read_text(folder.scenario());
+  input.scenario_yaml =
+      read_text(content.scenario_file.empty() ? folder.scenario() : content.scenario_file);
   input.manifest = manifest.lines();
   input.elevation = content.elevation;
   input.hazard = content.hazard;
