@@ -46,6 +46,13 @@ struct FoundAt {
   double spacing_m = 0, release_volume_m3 = 0;
 };
 
+/// One of the events that a posterior was found with, see shared_events.hpp.
+struct EventUsed {
+  std::string name, folder, members_hash;
+  double release_volume_m3 = 0;
+  std::int64_t n_valid = 0;
+};
+
 struct Calibrated {
   Calibration found;
   std::vector<KeySummary> keys;
@@ -56,7 +63,8 @@ struct Calibrated {
   double discrepancy = 0;
   std::uint64_t seed = 0;
   FoundAt at;
-  std::string members_hash;  ///< of the ensemble, as its maps know it
+  std::string members_hash;       ///< of the ensemble, as its maps know it; empty: of several
+  std::vector<EventUsed> events;  ///< of finished ensembles
 };
 
 /// \throws SetupError before anything is computed: the scene has no `observation`, no uncertain
@@ -68,6 +76,10 @@ EnsembleJob prepare_calibration(const CalibrateRequest&, Observer&);
 /// \throws SetupError; Cancelled
 Calibrated calibrate_ensemble(const CalibrateRequest&, const EnsembleJob&, const MapsMade& maps,
                               Observer&, const std::atomic<bool>& cancel);
+
+/// Each uncertain value before and after. \pre values, posterior, best fit and identifiability are
+/// there
+std::vector<KeySummary> key_summaries(const Scenario&, const Calibrated&);
 
 /// Where the scene of a job would find its posterior.
 FoundAt found_at(const Scene&);

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace sturz::workflow {
@@ -20,10 +22,14 @@ namespace {
   throw SetupError(fmt::format("{} is damaged ({}). Calibrate again.", file.string(), why));
 }
 
-/// Hash of the members that were weighed.
-std::string weighed_members(const fs::path& file) {
+/// Hashes of the ensembles whose members were weighed: one, or one for each event.
+std::set<std::string> weighed_members(const fs::path& file) {
   try {
-    return nlohmann::json::parse(read_text(file)).at("members_hash").get<std::string>();
+    const auto all = nlohmann::json::parse(read_text(file));
+    std::set<std::string> hashes{all.at("members_hash").get<std::string>()};
+    for (const auto& event : all.value("events", nlohmann::json::array()))
+      hashes.insert(event.at("members_hash").get<std::string>());
+    return hashes;
   } catch (const nlohmann::json::exception&) {
     damaged(file, "it does not say of which members it is");
   }
@@ -48,18 +54,16 @@ std::map<std::int64_t, double> read_weights(const fs::path& file) {
 
 }  // namespace
 
-std::vector<double> posterior_weights(const fs::path& calibration, const Manifest& of,
+std::vector<double> posterior_weights(const fs::path& calibration, const std::string& of,
                                       std::span<const MemberSummary> members) {
   const fs::path file = calibration / "weights.csv", about = calibration / "posterior.json";
   require(fs::exists(file) && fs::exists(about),
           fmt::format("{} holds no weights of members (weights.csv or posterior.json is missing). "
                       "Name the folder that `sturz calibrate` wrote.",
                       calibration.string()));
-  require(weighed_members(about) == of.maps_of,
-          fmt::format("{} weighs other members than those of this ensemble's maps ({} and {}). "
-                      "Calibrate again.",
-                      calibration.string(), weighed_members(about),
-                      of.maps_of.empty() ? "none" : of.maps_of));
+  require(weighed_members(about).contains(of),
+          fmt::format("{} weighs other members than those of this ensemble. Calibrate again.",
+                      calibration.string()));
   const std::map<std::int64_t, double> all = read_weights(file);
   std::vector<double> weights;
   double sum = 0;

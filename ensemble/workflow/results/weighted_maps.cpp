@@ -6,6 +6,7 @@
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
 #include "ensemble/workflow/calibration/posterior_weights.hpp"
+#include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -48,7 +49,8 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
                                     const std::filesystem::path& posterior, Observer& observer,
                                     CancelFlag cancel) {
   const MergeInput of = open_for_maps(request, observer, cancel);
-  const auto weights = posterior_weights(posterior, of.finished.manifest, of.store.members());
+  const auto weights = posterior_weights(posterior, members_hash(of.store, of.design.n_members()),
+                                         of.store.members());
   WeightedMapsMade made;
   made.folder.root = of.finished.folder.root / "weighted";
   made.valid = static_cast<std::int64_t>(weights.size());
