@@ -287,5 +287,18 @@ TEST_F(TwoEvents, OneFinishedFolderIsCalibratedWhereItLies) {
   EXPECT_EQ(read("north/weights.csv"), read("out/weights.csv"));
 }
 
+TEST_F(Calibrate, SensitivityMapsNeedSets) {
+  ASSERT_EQ(sturz({"ensemble", path("plain.yaml"), "-o", path("sets"), "-n", "40", "--set",
+                   "ensemble.design=saltelli"})
+                .exit_code,
+            0);
+  const Ended maps = sturz({"sensitivity", path("sets"), "--maps"});
+  ASSERT_EQ(maps.exit_code, 0) << maps.err;
+  EXPECT_TRUE(exists("sets/sensitivity.nc"));
+  EXPECT_THAT(maps.out, HasSubstr("Maps of the shares in"));
+  ASSERT_EQ(sturz({"ensemble", path("plain.yaml"), "-o", path("plain")}).exit_code, 0);
+  EXPECT_THAT(sturz({"sensitivity", path("plain"), "--maps"}).err, HasSubstr("saltelli"));
+}
+
 }  // namespace
 }  // namespace sturz::test
