@@ -14,6 +14,7 @@
 #include "ensemble/workflow/forecast/ensemble_forecast.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
+#include "ensemble/workflow/members/until_converged.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "scenarios/schema/number_text.hpp"
 
@@ -34,6 +35,8 @@ struct Options {
   int workers = 0;               ///< 0: all cores available to the process
   std::string shard;             ///< "k/n", 1 <= k <= n; empty: everything
   bool retry_failed = false;     ///< compute failed members again
+  double until_converged = 0;    ///< half width of P(reached); 0: no stop rule
+  int at_most = 0;               ///< members under that rule; 0: as the scenario says
   std::string posterior;         ///< folder of a calibration; empty: the scene's own design
 };
 
@@ -54,6 +57,8 @@ std::string command_text(const Options& o) {
   std::string text = "ensemble " + o.scenario;
   for (const std::string& set : o.set) text += " --set " + set;
   if (o.members > 0) text += fmt::format(" -n {}", o.members);
+  if (o.until_converged > 0) text += fmt::format(" --until-converged {}", o.until_converged);
+  if (o.at_most > 0) text += fmt::format(" --at-most {}", o.at_most);
   if (!o.posterior.empty()) text += " --posterior " + o.posterior;
   return text;
 }
@@ -65,12 +70,25 @@ workflow::EnsembleRequest request_of(const Options& o) {
     for (std::string& set : workflow::posterior_overrides(o.posterior))
       request.scene.overrides.push_back(std::move(set));
   request.folder = o.out.empty() ? workflow::default_folder(o.scenario) : o.out;
-  request.members = o.members;
+  request.members = o.at_most > 0 ? o.at_most : o.members;
+  if (o.until_converged > 0) request.until_half_width = o.until_converged;
   request.workers = o.workers;
   request.shard = shard_of(o.shard);
   request.retry_failed = o.retry_failed;
   request.command = command_text(o);
   return request;
+}
+
+std::string rule_text(const workflow::Growth& rule) {
+  const std::int64_t at_most = rule.whole.n_members();
+  const std::int64_t certain = certain_count(rule.wanted_half_width);
+  std::string text =
+      fmt::format("Until the largest half width of P(reached) is {} or less, at most {} members",
+                  rule.wanted_half_width, at_most);
+  if (certain > at_most)
+    text +=
+        fmt::format("; it is certain to be so from {} valid members on only (--at-most)", certain);
+  return text;
 }
 
 /// What is to be done, and what it will take where that was looked at.
@@ -85,11 +103,17 @@ void announce(const EnsembleJob& job, const Options& options,
                                {"threads_per_member", job.threads},
                                {"forecast", nullptr}};
   if (forecast) start["forecast"] = forecast_json(*forecast);
+  if (job.growth) {
+    start["at_most"] = job.growth->whole.n_members();
+    start["wanted_half_width"] = job.growth->wanted_half_width;
+  }
   console.event(json_text(start));
   for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
   for (const std::string& note : job.scene.inputs.notes) console.note(note);
   console.note(command_text(options));
-  std::string text = fmt::format("{} members", job.design.n_members());
+  if (job.growth) console.say(rule_text(*job.growth));
+  std::string text =
+      fmt::format("{} members{}", job.design.n_members(), job.growth ? " up to the next look" : "");
   if (!options.shard.empty()) text += fmt::format(", shard {}", options.shard);
   if (job.finished_before > 0) text += fmt::format(", {} finished before", job.finished_before);
   if (!job.to_do.empty())
@@ -129,7 +153,9 @@ int ensemble(const Options& options, Console& console) {
     for (const std::string& warning :
          workflow::posterior_warnings(options.posterior, workflow::found_at(job.scene)))
       console.warn(warning);
-  const workflow::MembersRun run = workflow::run_ensemble(job, observer, interrupt_flag());
+  const workflow::MembersRun run =
+      job.growth ? workflow::run_until_converged(job, observer, interrupt_flag())
+                 : workflow::run_ensemble(job, observer, interrupt_flag());
   console.clear_progress();
   if (const int code = how_it_ended(run, console); code != ok) return code;
   if (!options.shard.empty()) return shard_verdict(job, run, options.shard, console);
@@ -150,6 +176,18 @@ void add_ensemble(Grammar& grammar) {
       ->check(CLI::Range(1, 100000000));
   parser.add_option("--workers", options.workers, "Members at a time (default: all cores)")
       ->check(CLI::Range(1, 4096));
+  CLI::Option* const until =
+      parser
+          .add_option("--until-converged", options.until_converged,
+                      "Stop when the 95 % interval of P(reached) is at most so far to either side "
+                      "in every cell with 0.05 < P < 0.95; such as 0.05")
+          ->type_name("HALF_WIDTH")
+          ->check(CLI::Range(0.0005, 0.4));
+  parser
+      .add_option("--at-most", options.at_most,
+                  "Members that --until-converged may compute, instead of the scenario's number")
+      ->needs(until)
+      ->check(CLI::Range(1, 100000000));
   parser
       .add_option("--shard", options.shard,
                   "Compute only part K of N of the members and no maps; `merge` makes them")

@@ -37,6 +37,31 @@ nlohmann::json nearest_json(const workflow::MapsMade& made) {
   return members;
 }
 
+nlohmann::json stop_json(const StopRecord& stop) {
+  return {{"wanted_half_width", stop.wanted_half_width},
+          {"half_width", stop.last.found.half_width},
+          {"reached", stop.reached()},
+          {"looked_at", to_string(stop.last.found.at)},
+          {"cells", stop.last.found.n_cells},
+          {"members", stop.last.n_members},
+          {"valid", stop.last.found.n_valid},
+          {"looks", stop.n_looks},
+          {"at_most", stop.at_most}};
+}
+
+void tell_stop(const StopRecord& stop, Console& console) {
+  const std::string text = stop_text(stop);
+  if (stop.reached())
+    return console.say(fmt::format("Sure enough after {} members: {}.", stop.last.n_members, text));
+  console.warn(fmt::format(
+      "not as sure as was asked for: {}. {}", text,
+      stop.last.found.n_valid > 0
+          ? fmt::format("The same command with a larger --at-most goes on; {} is certain from {} "
+                        "valid members on.",
+                        stop.wanted_half_width, certain_count(stop.wanted_half_width))
+          : "No member is valid."));
+}
+
 std::string done_event(const workflow::MapsMade& made) {
   nlohmann::json event{{"event", "done"},
                        {"planned", made.planned},
@@ -48,6 +73,7 @@ std::string done_event(const workflow::MapsMade& made) {
                        {"hazard_hash", made.hazard_hash},
                        {"folder", made.folder.root.string()}};
   if (made.scores) event["nearest"] = nearest_json(made);
+  if (made.stop) event["stop_rule"] = stop_json(*made.stop);
   return json_text(event);
 }
 
@@ -79,6 +105,7 @@ int verdict(const workflow::MapsMade& made, Console& console) {
   if (made.scores)
     if (const std::string near = nearest_text(*made.scores, made.numbers); !near.empty())
       console.say("  " + near);
+  if (made.stop) tell_stop(*made.stop, console);
   warn_of_members(made.censoring, made.warnings, made.finished, console);
   const bool too_many = made.too_many_failed();
   if (made.failed() > 0 && made.valid > 0 && !too_many)

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace sturz {
@@ -129,6 +130,15 @@ void warn_of_posterior(Calibration& c) {
                       p.name, p.observed, p.unit, p.lower, p.upper));
 }
 
+/// One quantity after the other, and one event after the other.
+void hold_out(Calibration& c, const Likelihood& likelihood,
+              const std::function<Posterior(std::span<const std::size_t>)>& without,
+              const std::vector<SimulatedRow>& prior) {
+  c.held_out = held_out(
+      likelihood, [&](std::size_t q) { return without(std::span(&q, 1)); }, prior);
+  c.held_out.events = held_out_events(likelihood, without, prior);
+}
+
 void by_weights(Calibration& c, const CalibrationData& data, const Usable& u,
                 const Likelihood& likelihood) {
   require(data.n_drawn == data.cube.size(),
@@ -136,17 +146,20 @@ void by_weights(Calibration& c, const CalibrationData& data, const Usable& u,
                       "members that were drawn). Use --method emulator.",
                       data.cube.size() - data.n_drawn, data.cube.size()));
   c.posterior = weighted_members(likelihood, data.cube, u.members);
-  const auto without = [&](std::size_t q) {
+  const auto without = [&](std::span<const std::size_t> left_out) {
     Posterior p = c.posterior;
     std::vector<double> logs;
-    for (const SimulatedRow& row : p.simulated) logs.push_back(likelihood.log_without(row, q));
+    for (const SimulatedRow& row : p.simulated)
+      logs.push_back(likelihood.log_without(row, left_out));
     p.weights = normalised_weights(logs);
     require(!p.weights.empty(), "no member explains the observations without " +
-                                    likelihood.observed()[q].name + ". Check them.");
+                                    likelihood.observed()[left_out.front()].name +
+                                    (left_out.size() > 1 ? " and the others of its event" : "") +
+                                    ". Check them.");
     p.effective_size = effective_size(p.weights);
     return p;
   };
-  c.held_out = held_out(likelihood, without, c.posterior.simulated);
+  hold_out(c, likelihood, without, c.posterior.simulated);
 }
 
 void by_emulator(Calibration& c, const CalibrationData& data, const Usable& u,
@@ -156,16 +169,24 @@ void by_emulator(Calibration& c, const CalibrationData& data, const Usable& u,
   const EmulatorSet emulators(u.observed, data.cube, u.members);
   for (const QuantityEmulator& e : emulators.quantities()) c.emulators.push_back(e.report);
   c.posterior = emulated_posterior(likelihood, emulators, n_dims, settings.lengths, settings.seed);
-  const auto without = [&](std::size_t q) {
+  const auto without = [&](std::span<const std::size_t> left_out) {
     return emulated_posterior(likelihood, emulators, n_dims, settings.held_out_lengths,
-                              settings.seed, q);
+                              settings.seed, left_out);
   };
   std::vector<SimulatedRow> prior;
   for (const auto& point : draw_unit_cube(Design::sobol, 512, n_dims, settings.seed))
     prior.push_back(emulators.at(point));
-  c.held_out = held_out(likelihood, without, prior);
+  hold_out(c, likelihood, without, prior);
   c.best = best_fit(likelihood, emulators, n_dims, settings.seed);
   if (n_next > 0) c.next = next_members(likelihood, emulators, c.posterior, n_next);
+}
+
+std::vector<double> weights_of_drawn(const CalibrationData& data, const Usable& u,
+                                     const Likelihood& likelihood) {
+  std::vector<double> logs;
+  for (std::size_t i = 0; i < data.n_drawn; ++i)
+    logs.push_back(likelihood.log_of(exact_row(u.members[i])));
+  return normalised_weights(logs);
 }
 
 }  // namespace
@@ -197,6 +218,7 @@ Calibration calibrate(const CalibrationData& data, const CalibrationSettings& se
     by_weights(c, data, u, likelihood);
   else
     by_emulator(c, data, u, likelihood, settings, n_next);
+  c.member_weights = weights_of_drawn(data, u, likelihood);
   c.discrepancies = discrepancies_of(likelihood, c.posterior);
   c.identifiability = identifiability_of(c.posterior);
   c.check = predictive_check(likelihood, c.posterior);

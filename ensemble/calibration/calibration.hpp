@@ -44,6 +44,9 @@ struct DiscrepancyFound {
 
 struct Calibration {
   Posterior posterior;
+  /// Of the members that were drawn, by their likelihood, adding up to 1; empty when none explains
+  /// anything. By weights the same as the posterior's.
+  std::vector<double> member_weights;
   std::string reason;                      ///< why this method
   std::vector<ObservedQuantity> observed;  ///< those that count
   std::vector<DiscrepancyFound> discrepancies;

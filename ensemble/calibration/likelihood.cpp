@@ -23,6 +23,10 @@ double log_normal_density(double x, double variance) {
 
 double normal_below(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
+bool is_among(std::span<const std::size_t> some, std::size_t q) {
+  return std::find(some.begin(), some.end(), q) != some.end();
+}
+
 /// Without underflow far below: the first term of the tail's expansion.
 double log_normal_below(double z) {
   if (z > -30) return std::log(normal_below(z));
@@ -76,6 +80,11 @@ std::string kind_of_quantity(const std::string& name) {
     kind += c;
   }
   return kind;
+}
+
+std::string event_of_quantity(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  return slash == std::string::npos ? "" : name.substr(0, slash);
 }
 
 SimulatedRow exact_row(std::span<const Observation> member) {
@@ -166,9 +175,14 @@ double Likelihood::log_of(std::span<const SimulatedValue> simulated) const {
 
 double Likelihood::log_without(std::span<const SimulatedValue> simulated,
                                std::size_t left_out) const {
+  return log_without(simulated, std::span(&left_out, 1));
+}
+
+double Likelihood::log_without(std::span<const SimulatedValue> simulated,
+                               std::span<const std::size_t> left_out) const {
   double sum = 0;
   for (const Kind& kind : kinds_)
-    sum += log_sum(simulated, kind, [&](std::size_t q) { return q != left_out; });
+    sum += log_sum(simulated, kind, [&](std::size_t q) { return !is_among(left_out, q); });
   return sum;
 }
 
@@ -187,8 +201,14 @@ std::vector<double> Likelihood::node_probabilities(
 
 double Likelihood::below(std::span<const SimulatedValue> simulated, std::size_t q, double level,
                          bool with_itself) const {
+  const std::span<const std::size_t> itself(&q, 1);
+  return below(simulated, q, level, itself.first(with_itself ? 0 : 1));
+}
+
+double Likelihood::below(std::span<const SimulatedValue> simulated, std::size_t q, double level,
+                         std::span<const std::size_t> left_out) const {
   const std::vector<double> logs = log_nodes(
-      simulated, kind_of(q), [&](std::size_t other) { return with_itself || other != q; });
+      simulated, kind_of(q), [&](std::size_t other) { return !is_among(left_out, other); });
   const double sum = log_sum_of(logs);
   SimulatedValue s = simulated[q];
   if (s.known == Known::not_at_all) s.value = observed_[q].value - range_[q] / 2;  // anywhere

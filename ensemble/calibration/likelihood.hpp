@@ -53,8 +53,10 @@ class Likelihood {
 
   /// Logarithm of the density of all observations. \param simulated [n_quantities]
   double log_of(std::span<const SimulatedValue> simulated) const;
-  /// Of all but one.
+  /// Of all but one, and of all but some.
   double log_without(std::span<const SimulatedValue> simulated, std::size_t left_out) const;
+  double log_without(std::span<const SimulatedValue> simulated,
+                     std::span<const std::size_t> left_out) const;
   /// Of one alone.
   double log_of_one(std::span<const SimulatedValue> simulated, std::size_t which) const;
 
@@ -63,6 +65,9 @@ class Likelihood {
   /// \param with_itself its own observation has a say too
   double below(std::span<const SimulatedValue> simulated, std::size_t q, double level,
                bool with_itself) const;
+  /// The same when some observations have no say.
+  double below(std::span<const SimulatedValue> simulated, std::size_t q, double level,
+               std::span<const std::size_t> left_out) const;
 
   /// The kinds of quantities and their discrepancies.
   struct Kind {
@@ -98,6 +103,9 @@ class Likelihood {
 
 /// "event 1/speed_3_m_s" -> "speed_m_s": quantities that differ by event or number are of one kind.
 std::string kind_of_quantity(const std::string& name);
+
+/// "event 1/speed_3_m_s" -> "event 1"; empty where a name tells no event.
+std::string event_of_quantity(const std::string& name);
 
 /// A member's values.
 SimulatedRow exact_row(std::span<const Observation> member);

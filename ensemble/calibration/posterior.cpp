@@ -39,7 +39,7 @@ struct FirstLook {
 };
 
 FirstLook first_look(const Likelihood& likelihood, const EmulatorSet& emulators, std::size_t n_dims,
-                     int n_points, std::uint64_t seed, std::size_t left_out) {
+                     int n_points, std::uint64_t seed, std::span<const std::size_t> left_out) {
   FirstLook look;
   look.points = draw_unit_cube(Design::sobol, static_cast<std::size_t>(n_points), n_dims, seed);
   for (const auto& u : look.points)
@@ -138,7 +138,7 @@ EmulatorSet EmulatorSet::with_point(std::span<const double> point) const {
 
 Posterior emulated_posterior(const Likelihood& likelihood, const EmulatorSet& emulators,
                              std::size_t n_dims, const ChainLengths& lengths, std::uint64_t seed,
-                             std::size_t left_out) {
+                             std::span<const std::size_t> left_out) {
   const FirstLook look =
       first_look(likelihood, emulators, n_dims, lengths.first_look, seed, left_out);
   const std::vector<double> weights = flattened_weights(look.logs);
@@ -164,8 +164,8 @@ Posterior emulated_posterior(const Likelihood& likelihood, const EmulatorSet& em
 
 BestFit best_fit(const Likelihood& likelihood, const EmulatorSet& emulators, std::size_t n_dims,
                  std::uint64_t seed) {
-  const FirstLook look = first_look(likelihood, emulators, n_dims, ChainLengths{}.first_look, seed,
-                                    likelihood.n_quantities());
+  const FirstLook look =
+      first_look(likelihood, emulators, n_dims, ChainLengths{}.first_look, seed, {});
   std::vector<std::size_t> order(look.points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),

@@ -55,11 +55,11 @@ class EmulatorSet {
 
 /// Draws by chains on the emulators. They start where a Sobol' sample of the prior is likely, and
 /// step as wide as it spreads there.
-/// \param left_out a quantity that has no say; n_quantities: none
+/// \param left_out quantities that have no say
 /// \throws SetupError when no point of the prior explains anything
 Posterior emulated_posterior(const Likelihood&, const EmulatorSet&, std::size_t n_dims,
                              const ChainLengths&, std::uint64_t seed,
-                             std::size_t left_out = static_cast<std::size_t>(-1));
+                             std::span<const std::size_t> left_out = {});
 
 /// The point of the largest likelihood (a bounded search from the three best of a Sobol' sample).
 struct BestFit {

@@ -35,11 +35,11 @@ double quantile_of(const std::function<double(double)>& below, double fraction, 
 }
 
 PredictedQuantity predicted(const Likelihood& likelihood, const Posterior& posterior, std::size_t q,
-                            bool with_itself) {
+                            std::span<const std::size_t> left_out) {
   const std::vector<const SimulatedRow*> rows = rows_of(posterior);
   const auto below = [&](double level) {
     double sum = 0;
-    for (const SimulatedRow* row : rows) sum += likelihood.below(*row, q, level, with_itself);
+    for (const SimulatedRow* row : rows) sum += likelihood.below(*row, q, level, left_out);
     return sum / static_cast<double>(rows.size());
   };
   const ObservedQuantity& o = likelihood.observed()[q];
@@ -63,19 +63,36 @@ double log_mean(const std::vector<double>& logs, const std::vector<double>& weig
   return most + std::log(sum);
 }
 
-/// p(observed_q | the others) = mean over their posterior of p(all | point) / p(others | point).
-double log_score(const Likelihood& likelihood, const Posterior& others, std::size_t q) {
+/// p(observed of these | the others) = mean over their posterior of p(all | point) / p(others |
+/// point).
+double log_score(const Likelihood& likelihood, const Posterior& others,
+                 std::span<const std::size_t> left_out) {
   std::vector<double> logs;
   for (const SimulatedRow& row : others.simulated)
-    logs.push_back(likelihood.log_of(row) - likelihood.log_without(row, q));
+    logs.push_back(likelihood.log_of(row) - likelihood.log_without(row, left_out));
   return log_mean(logs, others.weights);
+}
+
+double even_log_mean(const std::vector<double>& logs) {
+  return log_mean(logs, std::vector<double>(logs.size(), 1.0 / static_cast<double>(logs.size())));
 }
 
 double prior_log_score(const Likelihood& likelihood, const std::vector<SimulatedRow>& prior,
                        std::size_t q) {
   std::vector<double> logs;
   for (const SimulatedRow& row : prior) logs.push_back(likelihood.log_of_one(row, q));
-  return log_mean(logs, std::vector<double>(logs.size(), 1.0 / static_cast<double>(logs.size())));
+  return even_log_mean(logs);
+}
+
+/// Of some quantities together.
+double prior_log_score(const Likelihood& likelihood, const std::vector<SimulatedRow>& prior,
+                       const std::vector<std::size_t>& of) {
+  std::vector<std::size_t> others;
+  for (std::size_t q = 0; q < likelihood.n_quantities(); ++q)
+    if (std::find(of.begin(), of.end(), q) == of.end()) others.push_back(q);
+  std::vector<double> logs;
+  for (const SimulatedRow& row : prior) logs.push_back(likelihood.log_without(row, others));
+  return even_log_mean(logs);
 }
 
 void sum_up(HeldOut& held) {
@@ -104,7 +121,7 @@ std::vector<PredictedQuantity> predictive_check(const Likelihood& likelihood,
                                                 const Posterior& posterior) {
   std::vector<PredictedQuantity> all;
   for (std::size_t q = 0; q < likelihood.n_quantities(); ++q)
-    all.push_back(predicted(likelihood, posterior, q, true));
+    all.push_back(predicted(likelihood, posterior, q, {}));
   return all;
 }
 
@@ -115,11 +132,46 @@ HeldOut held_out(const Likelihood& likelihood,
   if (likelihood.n_quantities() < 2) return held;
   for (std::size_t q = 0; q < likelihood.n_quantities(); ++q) {
     const Posterior others = without(q);
-    held.quantities.push_back({predicted(likelihood, others, q, false),
-                               log_score(likelihood, others, q),
+    held.quantities.push_back({predicted(likelihood, others, q, std::span(&q, 1)),
+                               log_score(likelihood, others, std::span(&q, 1)),
                                prior_log_score(likelihood, prior, q), others.effective_size});
   }
   sum_up(held);
+  return held;
+}
+
+std::vector<EventQuantities> events_of(const Likelihood& likelihood) {
+  std::vector<EventQuantities> events;
+  for (std::size_t q = 0; q < likelihood.n_quantities(); ++q) {
+    const std::string event = event_of_quantity(likelihood.observed()[q].name);
+    auto found = std::find_if(events.begin(), events.end(),
+                              [&](const EventQuantities& e) { return e.event == event; });
+    if (found == events.end()) found = events.insert(events.end(), {event, {}});
+    found->quantities.push_back(q);
+  }
+  if (events.size() < 2) events.clear();
+  return events;
+}
+
+std::vector<HeldOutEvent> held_out_events(
+    const Likelihood& likelihood,
+    const std::function<Posterior(std::span<const std::size_t>)>& without,
+    const std::vector<SimulatedRow>& prior) {
+  std::vector<HeldOutEvent> held;
+  for (const auto& [event, quantities] : events_of(likelihood)) {
+    const Posterior others = without(quantities);
+    HeldOutEvent one;
+    one.event = event;
+    one.log_score = log_score(likelihood, others, quantities);
+    one.prior_log_score = prior_log_score(likelihood, prior, quantities);
+    one.effective_size = others.effective_size;
+    for (const std::size_t q : quantities) {
+      one.quantities.push_back(predicted(likelihood, others, q, quantities));
+      const double below = one.quantities.back().below;
+      one.n_inside90 += below >= 0.05 && below <= 0.95;
+    }
+    held.push_back(std::move(one));
+  }
   return held;
 }
 

@@ -5,6 +5,7 @@
 #include "ensemble/calibration/posterior.hpp"
 
 #include <functional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,8 +31,19 @@ struct HeldOutQuantity {
   double effective_size = 0;   ///< of that posterior
 };
 
+/// All quantities of one event under the posterior of the other events.
+struct HeldOutEvent {
+  std::string event;
+  std::vector<PredictedQuantity> quantities;
+  double log_score = 0;        ///< of all its quantities together
+  double prior_log_score = 0;  ///< the same under the prior
+  double effective_size = 0;   ///< of the others' posterior
+  std::size_t n_inside90 = 0;  ///< of its quantities, inside their central 90 %
+};
+
 struct HeldOut {
   std::vector<HeldOutQuantity> quantities;
+  std::vector<HeldOutEvent> events;  ///< where there are several
   double mean_log_score = 0, prior_mean_log_score = 0;
   double coverage50 = 0, coverage90 = 0;  ///< share of quantities inside the central intervals
   /// Reliability: nominal probability of a central interval and the share of held-out quantities
@@ -45,5 +57,20 @@ struct HeldOut {
 /// \param prior the likelihood's own sample of the prior, [n][n_quantities]
 HeldOut held_out(const Likelihood&, const std::function<Posterior(std::size_t q)>& without,
                  const std::vector<SimulatedRow>& prior);
+
+/// The quantities of each event, by the first part of their names; empty unless there are several
+/// events.
+struct EventQuantities {
+  std::string event;
+  std::vector<std::size_t> quantities;
+};
+std::vector<EventQuantities> events_of(const Likelihood&);
+
+/// Leaves out one event after the other. Discrepancies are shared by kind: what the others say of
+/// them widens or narrows what is predicted.
+/// \param without the posterior without those quantities \param prior as for held_out()
+std::vector<HeldOutEvent> held_out_events(
+    const Likelihood&, const std::function<Posterior(std::span<const std::size_t>)>& without,
+    const std::vector<SimulatedRow>& prior);
 
 }  // namespace sturz

@@ -15,55 +15,28 @@ CellStatistics::CellStatistics(const HazardLayers& layers, std::size_t n_members
                                const Window& extent, KnownGround ground, LayerSink& to)
     : layers_(layers),
       n_(static_cast<std::int64_t>(n_members)),
-      extent_(extent),
-      ground_(std::move(ground)),
-      to_(to),
-      values_(layers.stack.layers.size()) {
+      block_(layers, extent, std::move(ground), to) {
   for (std::int64_t hits = 0; hits <= n_; ++hits) bounds_.push_back(wilson_interval(hits, n_));
 }
 
 void CellStatistics::add(const CellRows& rows) {
-  if (rows.window.row0 == rows.block.row0) begin_block(rows.block);
+  if (rows.window.row0 == rows.block.row0) block_.begin(rows.block);
   const auto skipped = static_cast<std::size_t>(rows.window.row0 - rows.block.row0) *
                        static_cast<std::size_t>(rows.block.n_cols);
   for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
     if (rows.members_of(i).empty()) continue;
     const std::size_t cell = skipped + i;
-    touched_[cell] = true;
+    block_.touch(cell);
     reached(rows, i, cell);
     for (const QuantityLayers& q : layers_.quantities) quantity(q, rows, i, cell);
     intensity(rows, i, cell);
     if (layers_.mass_left) {
       const std::span<const float> left = rows.of(PeakLayer::left, i);
-      put(*layers_.mass_left, 0, cell,
-          share(std::count_if(left.begin(), left.end(), [](float v) { return v > 0; })));
+      block_.put(*layers_.mass_left, 0, cell,
+                 share(std::count_if(left.begin(), left.end(), [](float v) { return v > 0; })));
     }
   }
-  if (rows.completes_block()) finish_block(rows.block);
-}
-
-void CellStatistics::begin_block(const Window& block) {
-  n_cells_ = block.n_cells();
-  touched_.assign(n_cells_, false);
-  for (std::size_t l = 0; l < values_.size(); ++l)
-    values_[l].assign(layers_.stack.layers[l].n_planes() * n_cells_, layers_.untouched[l]);
-}
-
-void CellStatistics::finish_block(const Window& block) {
-  for (std::size_t cell = 0; cell < n_cells_; ++cell) {
-    const auto n_cols = static_cast<std::size_t>(block.n_cols);
-    const int row = block.row0 + static_cast<int>(cell / n_cols);
-    const int col = block.col0 + static_cast<int>(cell % n_cols);
-    if (touched_[cell] || ground_.at(row, col)) continue;
-    for (std::size_t l = 0; l < values_.size(); ++l)
-      for (std::size_t i = cell; i < values_[l].size(); i += n_cells_)
-        if (!layers_.stack.layers[l].is_count()) values_[l][i] = nan_f;
-  }
-  const Window window{block.row0 - extent_.row0, block.col0 - extent_.col0, block.n_rows,
-                      block.n_cols};
-  for (std::size_t l = 0; l < values_.size(); ++l)
-    for (std::size_t plane = 0; plane < layers_.stack.layers[l].n_planes(); ++plane)
-      to_.put(l, plane, window, std::span(values_[l]).subspan(plane * n_cells_, n_cells_));
+  if (rows.completes_block()) block_.finish(rows.block);
 }
 
 void CellStatistics::reached(const CellRows& rows, std::size_t i, std::size_t cell) {
@@ -87,7 +60,7 @@ void CellStatistics::quantity(const QuantityLayers& to, const CellRows& rows, st
   if (to.mean) {
     double sum = 0;
     for (const float v : members) sum += v;  // in member order
-    put(*to.mean, 0, cell, sum / static_cast<double>(n_) * to.units_per_si);
+    block_.put(*to.mean, 0, cell, sum / static_cast<double>(n_) * to.units_per_si);
   }
   if (to.quantile)
     put_quantiles(*to.quantile, cell, static_cast<std::size_t>(n_) - sorted_.size(),
@@ -105,30 +78,26 @@ void CellStatistics::intensity(const CellRows& rows, std::size_t i, std::size_t 
     high += is_high;
     medium += !is_high;
   }
-  put(layers_.high_intensity, 0, cell, share(high));
-  put(layers_.medium_intensity, 0, cell, share(medium));
+  block_.put(layers_.high_intensity, 0, cell, share(high));
+  block_.put(layers_.medium_intensity, 0, cell, share(medium));
 }
 
 double CellStatistics::share(std::int64_t hits) const {
   return static_cast<double>(hits) / static_cast<double>(n_);
 }
 
-void CellStatistics::put(std::size_t layer, std::size_t plane, std::size_t cell, double value) {
-  values_[layer][plane * n_cells_ + cell] = static_cast<float>(value);
-}
-
 void CellStatistics::put_probability(const ProbabilityLayers& to, std::size_t plane,
                                      std::size_t cell, std::int64_t hits) {
-  put(to.probability, plane, cell, share(hits));
-  put(to.lower, plane, cell, bounds_[static_cast<std::size_t>(hits)].lower);
-  put(to.upper, plane, cell, bounds_[static_cast<std::size_t>(hits)].upper);
+  block_.put(to.probability, plane, cell, share(hits));
+  block_.put(to.lower, plane, cell, bounds_[static_cast<std::size_t>(hits)].lower);
+  block_.put(to.upper, plane, cell, bounds_[static_cast<std::size_t>(hits)].upper);
 }
 
 void CellStatistics::put_quantiles(std::size_t layer, std::size_t cell, std::size_t n_zeros,
                                    double units_per_si) {
   const std::vector<double>& fractions = layers_.stack.layers[layer].axis.values;
   for (std::size_t q = 0; q < fractions.size(); ++q)
-    put(layer, q, cell, sample_quantile(sorted_, n_zeros, fractions[q]) * units_per_si);
+    block_.put(layer, q, cell, sample_quantile(sorted_, n_zeros, fractions[q]) * units_per_si);
 }
 
 template <class Keep>

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "ensemble/hazard/hazard_layers.hpp"
-#include "ensemble/hazard/known_ground.hpp"
+#include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/member_cells.hpp"
 #include "ensemble/hazard/wilson.hpp"
-#include "scenarios/layers/layer_stream.hpp"
 
 #include <span>
 #include <vector>
@@ -24,14 +23,11 @@ class CellStatistics {
   void add(const CellRows& rows);
 
  private:
-  void begin_block(const Window& block);
-  void finish_block(const Window& block);
   void reached(const CellRows& rows, std::size_t i, std::size_t cell);
   void quantity(const QuantityLayers& to, const CellRows& rows, std::size_t i, std::size_t cell);
   void intensity(const CellRows& rows, std::size_t i, std::size_t cell);
 
   double share(std::int64_t hits) const;
-  void put(std::size_t layer, std::size_t plane, std::size_t cell, double value);
   void put_probability(const ProbabilityLayers& to, std::size_t plane, std::size_t cell,
                        std::int64_t hits);
   void put_quantiles(std::size_t layer, std::size_t cell, std::size_t n_zeros, double units_per_si);
@@ -40,14 +36,9 @@ class CellStatistics {
 
   const HazardLayers& layers_;
   std::int64_t n_;
-  Window extent_;
-  KnownGround ground_;
-  LayerSink& to_;
-  std::vector<ProbabilityBounds> bounds_;   // of each possible number of hits
-  std::size_t n_cells_ = 0;                 // of the block
-  std::vector<std::vector<float>> values_;  // [layer][plane][cell of the block]
-  std::vector<bool> touched_;               // [cell of the block]
-  std::vector<float> sorted_;               // scratch
+  LayerBlock block_;
+  std::vector<ProbabilityBounds> bounds_;  // of each possible number of hits
+  std::vector<float> sorted_;              // scratch
 };
 
 }  // namespace sturz

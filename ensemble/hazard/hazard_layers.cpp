@@ -12,10 +12,25 @@
 namespace sturz {
 namespace {
 
-constexpr const char* quantile_rule =
-    "over all valid members, 0 where a member did not come; linear between order statistics "
-    "(Hyndman and Fan 1996, definition 7)";
-constexpr const char* bound_rule = "95 % Wilson interval of the share of valid members";
+/// How values are made of members, in words.
+struct Rules {
+  std::string share = "members / valid members";
+  std::string bounds = "95 % Wilson interval of the share of valid members";
+  std::string order = "linear between order statistics (Hyndman and Fan 1996, definition 7)";
+
+  std::string quantiles() const {
+    return "over all valid members, 0 where a member did not come; " + order;
+  }
+};
+
+/// Of members that do not count alike.
+Rules weighted_rules(double effective) {
+  const std::string weighted = weighting_text(effective);
+  return {
+      "weight of the members / weight of the valid members, " + weighted,
+      "95 % Wilson interval of the weighted share, " + weighted,
+      "weighted inverse distribution, mean over one effective member (Akinshin 2023), " + weighted};
+}
 
 /// A member quantity as the maps speak of it, in the units in which the scenario asks for it.
 struct PeakMaps {
@@ -70,9 +85,14 @@ const char* meaning_of_cut(const LayerMeaning& meaning) {
 class Builder {
  public:
   Builder(const Grid& grid, const HazardSpec& spec, double spacing_m, std::int64_t n_members,
-          std::int64_t n_censored)
-      : spec_(spec), spacing_m_(spacing_m), n_members_(n_members), n_censored_(n_censored) {
+          std::int64_t n_censored, std::optional<double> effective)
+      : spec_(spec),
+        spacing_m_(spacing_m),
+        n_members_(n_members),
+        n_censored_(n_censored),
+        none_(effective ? wilson_interval_of_share(0, *effective) : wilson_interval(0, n_members)) {
     out_.stack.grid = grid;
+    if (effective) rules_ = weighted_rules(*effective);
   }
 
   HazardLayers build(const HazardExtras& extras) {
@@ -87,13 +107,12 @@ class Builder {
       out_.mass_left =
           add(made("probability_of_mass_left", {Quantity::left, Statistic::probability},
                    "share of members whose mass crossed the edge of the known ground here", "1",
-                   "members / valid members; what lies beyond is not known"),
+                   rules_.share + "; what lies beyond is not known"),
               0);
     for (const PeakMaps& q : peaks) out_.quantities.push_back(add_peak(q));
     out_.arrival_quantile = add_quantiles(
         "arrival", Quantity::arrival, "time until the flow arrives", "s", "",
-        "over the members that reach the cell only; undefined where none does; linear between "
-        "order statistics (Hyndman and Fan 1996, definition 7)",
+        "over the members that reach the cell only; undefined where none does; " + rules_.order,
         nan_f);
     out_.quantities.push_back(add_deposit());
     if (extras.eroded)
@@ -126,7 +145,6 @@ class Builder {
   ProbabilityLayers add_probability(const std::string& name, Quantity quantity,
                                     const std::string& meaning, const std::string& comment,
                                     LayerAxis axis, std::vector<float> thresholds) {
-    const ProbabilityBounds none = wilson_interval(0, n_members_);
     const auto layer = [&](const std::string& suffix, Statistic statistic,
                            const std::string& long_name, const std::string& rule, double fill) {
       Layer one = made(name + suffix, {quantity, statistic}, long_name, "1", joined(rule, comment));
@@ -134,11 +152,11 @@ class Builder {
       return add(std::move(one), static_cast<float>(fill));
     };
     ProbabilityLayers places;
-    places.probability = layer("", Statistic::probability, meaning, "members / valid members", 0);
-    places.lower =
-        layer("_lower", Statistic::lower_bound, meaning + ", lower bound", bound_rule, none.lower);
-    places.upper =
-        layer("_upper", Statistic::upper_bound, meaning + ", upper bound", bound_rule, none.upper);
+    places.probability = layer("", Statistic::probability, meaning, rules_.share, 0);
+    places.lower = layer("_lower", Statistic::lower_bound, meaning + ", lower bound", rules_.bounds,
+                         none_.lower);
+    places.upper = layer("_upper", Statistic::upper_bound, meaning + ", upper bound", rules_.bounds,
+                         none_.upper);
     places.thresholds = std::move(thresholds);
     return places;
   }
@@ -187,7 +205,7 @@ class Builder {
     const std::string over_time = is_total ? "" : "time: maximum";
     layers.mean = add_mean(name, quantity, meaning, unit.name, is_total ? "" : over_time + " ");
     layers.quantile =
-        add_quantiles(name, quantity, meaning, unit.name, over_time, quantile_rule, 0);
+        add_quantiles(name, quantity, meaning, unit.name, over_time, rules_.quantiles(), 0);
     return layers;
   }
 
@@ -196,8 +214,8 @@ class Builder {
     QuantityLayers layers;
     layers.source = PeakLayer::deposit;
     layers.mean = add_mean("deposit", Quantity::deposit, of.long_name, of.units, "");
-    layers.quantile =
-        add_quantiles("deposit", Quantity::deposit, of.long_name, of.units, "", quantile_rule, 0);
+    layers.quantile = add_quantiles("deposit", Quantity::deposit, of.long_name, of.units, "",
+                                    rules_.quantiles(), 0);
     return layers;
   }
 
@@ -224,15 +242,22 @@ class Builder {
   const HazardSpec& spec_;
   double spacing_m_;
   std::int64_t n_members_, n_censored_;
+  ProbabilityBounds none_;  // of a cell that no member reached
+  Rules rules_;
   HazardLayers out_;
 };
 
 }  // namespace
 
+std::string weighting_text(double effective_members) {
+  return fmt::format("weighted by posterior, effective members = {:.1f}", effective_members);
+}
+
 HazardLayers hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
                            std::int64_t n_members, std::int64_t n_censored,
                            const HazardExtras& extras) {
-  return Builder(grid, spec, spacing_m, n_members, n_censored).build(extras);
+  return Builder(grid, spec, spacing_m, n_members, n_censored, extras.effective_members)
+      .build(extras);
 }
 
 }  // namespace sturz

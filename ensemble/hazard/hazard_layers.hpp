@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace sturz {
@@ -42,6 +43,8 @@ struct HazardExtras {
   bool left = false;    ///< mass of some member crossed the edge of the known ground
   bool eroded = false;  ///< the flow takes its bed along
   bool phases = false;  ///< grains and liquid move apart
+  /// Members do not count alike, and are worth so many that do; nothing: they do.
+  std::optional<double> effective_members;
 };
 
 /// All layers, and what a cell holds that no member touched: probability 0 (upper bound that of 0
@@ -50,5 +53,8 @@ struct HazardExtras {
 HazardLayers hazard_layers(const Grid& grid, const HazardSpec& spec, double spacing_m,
                            std::int64_t n_members, std::int64_t n_censored = 0,
                            const HazardExtras& extras = {});
+
+/// "weighted by posterior, effective members = 23.4": what every weighted map says of itself.
+std::string weighting_text(double effective_members);
 
 }  // namespace sturz

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/hazard/hazard_map.hpp"
 
+#include "engine/core/error.hpp"
+#include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/hazard/cell_statistics.hpp"
 #include "ensemble/hazard/hazard_layers.hpp"
+#include "ensemble/weighting/weighted_statistics.hpp"
 
 #include <fmt/format.h>
 
@@ -138,21 +141,31 @@ void make_hazard_map(const MemberParts& members, const HazardSpec& spec,
   const auto n_censored = std::count_if(all.begin(), all.end(), [](const MemberSummary& m) {
     return is_valid(m.outcome) && is_censored(m.censoring);
   });
-  const HazardExtras extras = extras_of(all);
+  HazardExtras extras = extras_of(all);
+  const bool weighted = !context.weights.empty();
+  expect(!weighted || context.weights.size() == cells.n_members(), "a weight for each member");
+  if (weighted) extras.effective_members = effective_size(context.weights);
   HazardLayers layers =
       hazard_layers(grid_of(extent, members.grid()), spec, unresolved_spacing(all, context),
                     static_cast<std::int64_t>(cells.n_members()), n_censored, extras);
   layers.stack.attributes.emplace_back("number_of_censored_members", std::to_string(n_censored));
   add_attributes(layers.stack, members.members(), context);
+  if (weighted)
+    layers.stack.attributes.emplace_back("weighting", weighting_text(*extras.effective_members));
   add_extent(layers.stack, extent, members.grid(), cells.touched().n_cells() > 0);
   to.begin(layers.stack);
-  CellStatistics statistics(layers, cells.n_members(), extent,
-                            KnownGround(context.ground, context.whole_ground, members.grid()), to);
-  cells.visit(extent, read_layers_of(extras), context.memory_bytes, context.cancel,
-              [&](const CellRows& rows) {
-                statistics.add(rows);
-                if (context.convergence != nullptr) context.convergence->add(rows);
-              });
+  const KnownGround ground(context.ground, context.whole_ground, members.grid());
+  const auto pass_by = [&](auto statistics) {
+    cells.visit(extent, read_layers_of(extras), context.memory_bytes, context.cancel,
+                [&](const CellRows& rows) {
+                  statistics.add(rows);
+                  if (context.convergence != nullptr) context.convergence->add(rows);
+                });
+  };
+  if (weighted)
+    pass_by(WeightedStatistics(layers, context.weights, extent, ground, to));
+  else
+    pass_by(CellStatistics(layers, cells.n_members(), extent, ground, to));
 }
 
 LayerStack make_hazard_map(const MemberParts& members, const HazardSpec& spec,

@@ -13,6 +13,9 @@
 ///   intensity    Swiss classes of debris flow, from each member's own peaks: high = peak
 ///                thickness > 1 m and peak speed > 1 m/s, medium = reached but not high. The two
 ///                peaks need not coincide in time, so high errs on the safe side.
+///   weighted     with HazardContext::weights: shares of weight in place of shares of members,
+///   bounds
+///                as of the effective number of members (Kish 1965), quantiles of weighted_quantile
 /// Every number is a function of the set of members: order, shards and memory leave no trace.
 #pragma once
 
@@ -23,6 +26,7 @@
 #include "scenarios/scenario.hpp"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +43,8 @@ struct HazardContext {
   Grid whole_ground;                       ///< of which `ground` is a window; empty: it is all
   std::vector<std::pair<std::string, std::string>> attributes;  ///< more global attributes
   ConvergenceCount* convergence = nullptr;                      ///< counts on the way, where wanted
+  /// Of the valid members by ascending number, adding up to 1; empty: all count alike.
+  std::span<const double> weights;
   CancelFlag cancel;
 };
 

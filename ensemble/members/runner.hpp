@@ -43,6 +43,10 @@ struct RunnerProgress {
   double elapsed_s = 0;
   double members_per_hour = 0;  ///< 0 until the first is done
   double eta_s = 0;             ///< seconds to go at this pace; NaN until the first is done
+  /// Under a stop rule: the largest half width of P(reached) of the members so far, and the wanted
+  /// one; n_total and eta_s are then those of the look at which it will probably stop. NaN: no
+  /// rule.
+  double half_width = nan_d, wanted_half_width = nan_d;
 };
 
 struct RunCallbacks {

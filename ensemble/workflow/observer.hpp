@@ -4,6 +4,7 @@
 
 #include "engine/simulation/simulation.hpp"
 #include "ensemble/members/runner.hpp"
+#include "ensemble/stopping/stop_rule.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 
 #include <string_view>
@@ -29,6 +30,9 @@ class Observer {
   virtual void ensemble_progress(const RunnerProgress&, std::int64_t /*finished_before*/) {}
   /// The member, valid or not, is safely in its file.
   virtual void member_stored(const MemberResult&) {}
+  /// A stop rule looked at the map, and whether it goes on. A run that goes on looks again at what
+  /// was looked at before.
+  virtual void looked(const StopRecord&) {}
   /// Reading members and making maps, or a page, begins; it may take a while and heeds its cancel
   /// flag.
   virtual void maps_begin() {}

@@ -60,6 +60,7 @@ struct ReportInput {
   std::vector<MemberSummary> members;
   ReportTable samples;  ///< sampled keys; one row per entry of `members`, or no rows
   std::vector<ConvergencePoint> convergence;  ///< may be empty
+  std::string stop_rule;                      ///< what decided the number of members; may be empty
   std::vector<std::string> warnings;          ///< to be read before the maps
   std::vector<std::string> notes;             ///< what was resampled, corrected, left out
   std::vector<std::string> description;       ///< lines of `describe`: effects and why

@@ -138,6 +138,13 @@ std::string charts_html(const ReportInput& input, const Headline& h) {
         "<select id=\"pick-convergence\" aria-label=\"Number to follow\"></select></figcaption>"
         "<div id=\"chart-convergence\"></div></figure>";
   html += "</div>";
+  if (!input.stop_rule.empty())
+    html += fmt::format(
+        "<p class=\"note\">The number of simulations followed from a stop rule: {}. Each cell's "
+        "interval was made for one look; of a rule that looks often, a few more than 5 % lie "
+        "beyond."
+        "</p>",
+        html_escape(input.stop_rule));
   if (!input.samples.rows.empty())
     html +=
         "<h3>What drives the runout</h3><p class=\"note\">One dot per simulation. \u03C4 is the "

@@ -181,5 +181,124 @@ TEST_F(Sensitivity, RefusesSetsThatAreNotWholeAndUnknownResults) {
   EXPECT_THAT(unknown.err, HasSubstr("front_travel_m"));
 }
 
+TEST_F(Calibrate, MapsTheEnsembleUnderItsPosterior) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  const std::string hash = hazard_hash("out");
+  const Ended merged = sturz({"merge", path("out"), "--posterior", path("out")});
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_THAT(merged.out,
+              HasSubstr("6 valid members, weighted by posterior, effective members = "));
+  EXPECT_THAT(merged.err, HasSubstr("fewer than 20"));
+  EXPECT_TRUE(exists("out/weighted/hazard.nc"));
+  EXPECT_TRUE(exists("out/weighted/hazard/index.csv"));
+  EXPECT_THAT(read("out/weighted/report.html"), HasSubstr("weighted by posterior"));
+  EXPECT_EQ(hazard_hash("out"), hash);
+  const Ended json = sturz({"merge", path("out"), "--posterior", path("out"), "--json"});
+  const auto done = event(json, "done");
+  EXPECT_GE(done.value("effective_members", 0.0), 1);
+  EXPECT_NE(done.value("hazard_hash", ""), hash);
+}
+
+TEST_F(Calibrate, RefusesWeightsOfOtherMembers) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  const Ended none = sturz({"merge", path("out"), "--posterior", path("nowhere")});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("holds no weights of members"));
+  ASSERT_EQ(sturz({"ensemble", path("plain.yaml"), "-n", "4", "-o", path("other")}).exit_code, 0);
+  const Ended other = sturz({"merge", path("other"), "--posterior", path("out")});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.err, HasSubstr("weighs other members"));
+  EXPECT_FALSE(exists("other/weighted"));
+}
+
+/// Two releases on the same ground, each with what was measured of it.
+class TwoEvents : public Calibrate {
+ protected:
+  TwoEvents() {
+    write("north.yaml", read("scene.yaml"));
+    write("south.yaml", replaced(replaced(slide, "thickness_m: 2", "thickness_m: 3"),
+                                 "title: small", "title: thick") +
+                            "observation:\n  runout_m: {value: 110, sd: 2}\n");
+  }
+  Ended ensemble(const std::string& scene, const std::string& out,
+                 std::vector<std::string> more = {}) const {
+    std::vector<std::string> all{"ensemble", path(scene), "-o", path(out)};
+    all.insert(all.end(), more.begin(), more.end());
+    return sturz(all);
+  }
+};
+
+TEST_F(TwoEvents, TellTogetherAndPredictEachOther) {
+  ASSERT_EQ(ensemble("north.yaml", "north").exit_code, 0);
+  ASSERT_EQ(ensemble("south.yaml", "south").exit_code, 0);
+  const Ended ended = sturz({"calibrate", path("north"), path("south"), "-o", path("both")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, AllOf(HasSubstr("event, by the others"), HasSubstr("north/runout_m"),
+                               HasSubstr("south/runout_m"), Not(HasSubstr("report.html"))));
+  const auto found = nlohmann::json::parse(read("both/posterior.json"));
+  EXPECT_EQ(found.at("events").size(), 2u);
+  EXPECT_EQ(found.at("held_out_events").size(), 2u);
+  EXPECT_EQ(lines_of(read("both/weights.csv")), 7U);
+  // The joint weights belong to the members of each event.
+  for (const char* event : {"north", "south"}) {
+    const Ended map = sturz({"merge", path(event), "--posterior", path("both")});
+    EXPECT_EQ(map.exit_code, 0) << map.err;
+    EXPECT_TRUE(exists(std::string(event) + "/weighted/hazard.nc"));
+  }
+  // Its rows are a design for a third scene.
+  EXPECT_EQ(ensemble("plain.yaml", "third", {"--posterior", path("both"), "-n", "2"}).exit_code, 0);
+}
+
+TEST_F(TwoEvents, AreRefusedWhereTheirValuesDiffer) {
+  ASSERT_EQ(ensemble("north.yaml", "north").exit_code, 0);
+  ASSERT_EQ(ensemble("south.yaml", "south", {"--set", "ensemble.seed=9"}).exit_code, 0);
+  const Ended seed = sturz({"calibrate", path("north"), path("south"), "-o", path("both")});
+  EXPECT_EQ(seed.exit_code, 1);
+  EXPECT_THAT(seed.err, AllOf(HasSubstr("do not share their uncertain values"),
+                              HasSubstr("ensemble.seed: 1 -> 9")));
+  ASSERT_EQ(
+      ensemble("south.yaml", "wide", {"--set", "basal.pore_pressure_ratio={uniform: [0, 0.5]}"})
+          .exit_code,
+      0);
+  EXPECT_THAT(sturz({"calibrate", path("north"), path("wide"), "-o", path("both")}).err,
+              HasSubstr("basal.pore_pressure_ratio: "));
+  EXPECT_FALSE(exists("both"));
+}
+
+TEST_F(TwoEvents, NeedAFolderAndAnObservationAndNoOptionsOfMembers) {
+  ASSERT_EQ(ensemble("north.yaml", "north").exit_code, 0);
+  ASSERT_EQ(ensemble("plain.yaml", "plain").exit_code, 0);
+  EXPECT_THAT(sturz({"calibrate", path("north"), path("plain"), "-o", path("both")}).err,
+              HasSubstr("no `observation` block"));
+  EXPECT_THAT(sturz({"calibrate", path("north"), path("plain")}).err, HasSubstr("--out"));
+  EXPECT_THAT(sturz({"calibrate", path("north"), path("north"), "-o", path("both")}).err,
+              HasSubstr("given twice"));
+  EXPECT_THAT(sturz({"calibrate", path("north"), path("north.yaml"), "-o", path("both")}).err,
+              HasSubstr("north.yaml is no folder"));
+  EXPECT_THAT(sturz({"calibrate", path("north"), "-n", "9"}).err, HasSubstr("computes no members"));
+}
+
+TEST_F(TwoEvents, OneFinishedFolderIsCalibratedWhereItLies) {
+  ASSERT_EQ(ensemble("north.yaml", "north").exit_code, 0);
+  const Ended ended = sturz({"calibrate", path("north")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(read("north/report.html"), HasSubstr("id=\"posterior\""));
+  ASSERT_EQ(calibrate({}).exit_code, 0);  // the same from the scenario
+  EXPECT_EQ(read("north/weights.csv"), read("out/weights.csv"));
+}
+
+TEST_F(Calibrate, SensitivityMapsNeedSets) {
+  ASSERT_EQ(sturz({"ensemble", path("plain.yaml"), "-o", path("sets"), "-n", "40", "--set",
+                   "ensemble.design=saltelli"})
+                .exit_code,
+            0);
+  const Ended maps = sturz({"sensitivity", path("sets"), "--maps"});
+  ASSERT_EQ(maps.exit_code, 0) << maps.err;
+  EXPECT_TRUE(exists("sets/sensitivity.nc"));
+  EXPECT_THAT(maps.out, HasSubstr("Maps of the shares in"));
+  ASSERT_EQ(sturz({"ensemble", path("plain.yaml"), "-o", path("plain")}).exit_code, 0);
+  EXPECT_THAT(sturz({"sensitivity", path("plain"), "--maps"}).err, HasSubstr("saltelli"));
+}
+
 }  // namespace
 }  // namespace sturz::test

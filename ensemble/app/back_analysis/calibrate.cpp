@@ -13,6 +13,7 @@
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"
+#include "ensemble/workflow/calibration/shared_events.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -20,11 +21,15 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
 namespace sturz::app {
 namespace {
 
 struct Options {
-  std::string scenario;
+  std::vector<std::string> inputs;  ///< a scenario, or folders of finished ensembles
   std::string out;
   std::vector<std::string> set;
   int members = 0;
@@ -37,7 +42,7 @@ struct Options {
 };
 
 std::string command_text(const Options& o) {
-  std::string text = "calibrate " + o.scenario;
+  std::string text = "calibrate " + o.inputs.front();
   for (const std::string& set : o.set) text += " --set " + set;
   if (o.members > 0) text += fmt::format(" -n {}", o.members);
   if (!o.method.empty()) text += " --method " + o.method;
@@ -46,16 +51,20 @@ std::string command_text(const Options& o) {
   return text;
 }
 
+std::optional<PosteriorMethod> method_of(const Options& o) {
+  if (o.method.empty()) return std::nullopt;
+  return o.method == "weights" ? PosteriorMethod::weights : PosteriorMethod::emulator;
+}
+
 workflow::CalibrateRequest request_of(const Options& o) {
   workflow::CalibrateRequest request;
-  request.ensemble.scene = {o.scenario, o.set, speed_cache()};
+  request.ensemble.scene = {o.inputs.front(), o.set, speed_cache()};
   if (o.members > 0)
     request.ensemble.scene.overrides.push_back(fmt::format("ensemble.members={}", o.members));
-  request.ensemble.folder = o.out.empty() ? workflow::default_folder(o.scenario) : o.out;
+  request.ensemble.folder = o.out.empty() ? workflow::default_folder(o.inputs.front()) : o.out;
   request.ensemble.workers = o.workers;
   request.ensemble.command = command_text(o);
-  if (o.method == "weights") request.method = PosteriorMethod::weights;
-  if (o.method == "emulator") request.method = PosteriorMethod::emulator;
+  request.method = method_of(o);
   request.discrepancy = o.discrepancy;
   request.active_rounds = o.active;
   request.active_members = o.active_members;
@@ -63,10 +72,11 @@ workflow::CalibrateRequest request_of(const Options& o) {
   return request;
 }
 
-void tell(const workflow::Calibrated& c, const std::string& folder, Console& console) {
+void tell(const workflow::Calibrated& c, const std::string& folder, bool has_page,
+          Console& console) {
   for (const std::string& line : calibration_lines(c)) console.say(line);
   console.say("In " + folder + ":");
-  console.say("  report.html     with what the observations tell");
+  if (has_page) console.say("  report.html     with what the observations tell");
   console.say("  posterior.csv   equal rows, for `sturz ensemble --posterior`");
   console.say("  posterior.json  every number");
   for (const std::string& warning : c.found.warnings) console.warn(warning);
@@ -106,13 +116,45 @@ Computed compute(const Options& options, const workflow::CalibrateRequest& reque
   return c;
 }
 
+std::string first_file(const std::vector<std::string>& inputs) {
+  const auto found = std::find_if(inputs.begin(), inputs.end(), [](const std::string& input) {
+    return !std::filesystem::is_directory(input);
+  });
+  return found == inputs.end() ? "" : *found;
+}
+
+bool all_folders(const std::vector<std::string>& inputs) { return first_file(inputs).empty(); }
+
+/// What finished ensembles tell, together where there are several.
+int calibrate_finished(const Options& o, Console& console) {
+  require(
+      o.set.empty() && o.members == 0 && o.active == 0 && o.active_members == 0 && o.workers == 0,
+      "calibrate with folders computes no members (--set, --members, --workers and --active "
+      "belong to a scenario). Leave them out, or name the scenario.");
+  ConsoleObserver observer(console);
+  const workflow::EventsRequest request{
+      {o.inputs.begin(), o.inputs.end()}, o.out, method_of(o), o.discrepancy};
+  const workflow::Calibrated found =
+      workflow::calibrate_events(request, observer, interrupt_flag());
+  const std::string folder = o.out.empty() ? o.inputs.front() : o.out;
+  if (o.out.empty()) workflow::rewrite_page(folder, observer, interrupt_flag());
+  console.clear_progress();
+  tell(found, folder, o.out.empty(), console);
+  return ok;
+}
+
 int calibrate(const Options& options, Console& console) {
+  if (all_folders(options.inputs)) return calibrate_finished(options, console);
+  require(options.inputs.size() == 1,
+          fmt::format("calibrate takes one scenario, or folders of finished ensembles ({} is no "
+                      "folder). Compute each event with `sturz ensemble` first.",
+                      first_file(options.inputs)));
   ConsoleObserver observer(console);
   const workflow::CalibrateRequest request = request_of(options);
   // The job and its lock are gone when the page takes the folder's.
   const Computed c = compute(options, request, observer, console);
   workflow::rewrite_page(request.ensemble.folder, observer, interrupt_flag());
-  tell(c.found, request.ensemble.folder.string(), console);
+  tell(c.found, request.ensemble.folder.string(), true, console);
   return c.too_many_failed ? too_many_failed : ok;
 }
 
@@ -122,7 +164,15 @@ void add_calibrate(Grammar& grammar) {
   auto [parser, options] = add_command(
       grammar, "calibrate",
       "Compute an ensemble and what the observations say of its uncertain values", calibrate);
-  add_scenario(parser, options.scenario, options.set);
+  parser
+      .add_option(
+          "scenario", options.inputs,
+          "Scenario file (YAML), or folders of finished ensembles that share their uncertain "
+          "values")
+      ->type_name("SCENARIO")
+      ->required();
+  add_remote(parser);
+  add_set(parser, options.set, "key=value: replaces one value of the scenario; may be repeated");
   parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
       ->type_name("DIR");
   parser

@@ -90,6 +90,16 @@ void add_quantities(const Calibrated& c, Lines& lines) {
         c.found.held_out.mean_log_score, c.found.held_out.prior_mean_log_score));
 }
 
+void add_events(const Calibrated& c, Lines& lines) {
+  if (c.found.held_out.events.empty()) return;
+  lines.push_back(fmt::format("{:<26}{:>12}{:>14}{:>12}{:>16}", "event, by the others", "log score",
+                              "of the prior", "worth", "inside 90 %"));
+  for (const HeldOutEvent& e : c.found.held_out.events)
+    lines.push_back(fmt::format("{:<26}{:>12.2f}{:>14.2f}{:>12.0f}{:>16}", e.event, e.log_score,
+                                e.prior_log_score, e.effective_size,
+                                fmt::format("{} of {}", e.n_inside90, e.quantities.size())));
+}
+
 void add_discrepancy(const Calibrated& c, Lines& lines) {
   if (c.discrepancy == 0) {
     lines.emplace_back("no model discrepancy: as sure as if the model were perfect");
@@ -109,6 +119,7 @@ std::vector<std::string> calibration_lines(const Calibrated& c) {
   add_keys(c, lines);
   add_emulators(c, lines);
   add_quantities(c, lines);
+  add_events(c, lines);
   add_discrepancy(c, lines);
   return lines;
 }

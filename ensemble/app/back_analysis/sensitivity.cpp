@@ -22,6 +22,7 @@ struct Options {
   std::string folder;
   std::vector<std::string> results;
   bool ranks_only = false;
+  bool maps = false;
 };
 
 using workflow::ResultSensitivity;
@@ -108,16 +109,20 @@ void say(const Sensitivity& all, const ResultSensitivity& r, Console& console) {
 
 int sensitivity(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  const Sensitivity all = workflow::sensitivity_of(
-      {options.folder, options.results, !options.ranks_only}, observer, interrupt_flag());
+  const Sensitivity all =
+      workflow::sensitivity_of({options.folder, options.results, !options.ranks_only, options.maps},
+                               observer, interrupt_flag());
   Json results = Json::array();
   for (const ResultSensitivity& r : all.results) {
     say(all, r, console);
     results.push_back(result_json(all, r));
   }
   console.say("In " + all.file.string());
-  console.event(json_text(
-      Json{{"event", "done"}, {"file", all.file.string()}, {"results", std::move(results)}}));
+  if (!all.maps.empty()) console.say("Maps of the shares in " + all.maps.string());
+  console.event(json_text(Json{{"event", "done"},
+                               {"file", all.file.string()},
+                               {"maps", all.maps.empty() ? Json(nullptr) : Json(all.maps.string())},
+                               {"results", std::move(results)}}));
   return ok;
 }
 
@@ -134,6 +139,8 @@ void add_sensitivity(Grammar& grammar) {
       .add_option("--result", options.results,
                   "Column of members.csv; may be given more than once (default: the usual ones)")
       ->type_name("NAME");
+  parser.add_flag("--maps", options.maps,
+                  "Sobol' indices of each cell too (design saltelli), in sensitivity.nc");
   parser.add_flag("--ranks-only", options.ranks_only, "No emulators: rank correlations alone");
   add_remote(parser);
   add_json(grammar, parser);

@@ -38,6 +38,20 @@ void ConsoleObserver::member_stored(const MemberResult& result) {
                                           {"front_travel_m", s.front_travel_m}}));
 }
 
+void ConsoleObserver::looked(const StopRecord& stop) {
+  console_.note(stop_text(stop));
+  console_.event(json_text(nlohmann::json{{"event", "look"},
+                                          {"look", stop.n_looks},
+                                          {"members", stop.last.n_members},
+                                          {"valid", stop.last.found.n_valid},
+                                          {"half_width", stop.last.found.half_width},
+                                          {"wanted_half_width", stop.wanted_half_width},
+                                          {"looked_at", to_string(stop.last.found.at)},
+                                          {"cells", stop.last.found.n_cells},
+                                          {"at_most", stop.at_most},
+                                          {"reached", stop.reached()}}));
+}
+
 void ConsoleObserver::maps_begin() { console_.progress("making maps ..."); }
 
 }  // namespace sturz::app

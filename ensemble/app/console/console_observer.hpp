@@ -16,6 +16,7 @@ class ConsoleObserver final : public workflow::Observer {
   void run_progress(const Progress&) override;
   void ensemble_progress(const RunnerProgress&, std::int64_t finished_before) override;
   void member_stored(const MemberResult&) override;
+  void looked(const StopRecord&) override;
   void maps_begin() override;
 
  private:

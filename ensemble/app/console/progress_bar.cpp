@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sturz::app {
 namespace {
@@ -26,12 +27,15 @@ std::string with_bar(double fraction, const std::string& text, int columns) {
 
 std::string ensemble_bar(const RunnerProgress& p, std::int64_t finished_before, int columns) {
   const std::int64_t finished = finished_before + p.n_done, total = finished_before + p.n_total;
-  std::string text = fmt::format("{}/{} members", finished, total);
+  const bool has_rule = !std::isnan(p.wanted_half_width);
+  std::string text = fmt::format("{}/{}{} members", finished, has_rule ? "~" : "", total);
   if (p.n_failed > 0) text += fmt::format(", {} failed", p.n_failed);
   if (p.n_done > 0)
     text += fmt::format(" | {}/h | {} left", grouped(p.members_per_hour), duration_text(p.eta_s));
   else
     text += fmt::format(" | {} running for {}", p.n_running, duration_text(p.elapsed_s));
+  if (has_rule && !std::isnan(p.half_width))
+    text += fmt::format(" | half width {:.3f}, wanted {}", p.half_width, p.wanted_half_width);
   return with_bar(total > 0 ? static_cast<double>(finished) / static_cast<double>(total) : 1, text,
                   columns);
 }

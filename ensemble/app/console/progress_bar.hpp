@@ -10,7 +10,9 @@
 
 namespace sturz::app {
 
-/// "[####....] 12/64 members, 1 failed | 340/h | 9 min 10 s left", cut to `columns`.
+/// "[####....] 12/64 members, 1 failed | 340/h | 9 min 10 s left", cut to `columns`; under a stop
+/// rule "... 70/~96 members | 340/h | 5 min left | half width 0.112, wanted 0.1": so many members
+/// and that time it will probably take.
 /// \param finished_before members of an earlier call; they count in the bar, not in the pace
 std::string ensemble_bar(const RunnerProgress&, std::int64_t finished_before, int columns);
 

@@ -66,30 +66,6 @@ void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, Calibra
   }
 }
 
-std::vector<KeySummary> summaries(const EnsembleJob& job, const Calibrated& c) {
-  const auto keys = uncertain_keys(job.scene.scenario);
-  std::vector<std::vector<double>> best;
-  if (c.found.best) best = values_at(keys, job.scene.scenario.ensemble, {c.found.best->cube});
-  std::vector<KeySummary> all;
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    KeySummary s;
-    s.key = keys[k].path;
-    s.unit = keys[k].units;
-    const Marginal marginal(keys[k].distribution, keys[k].path);
-    std::vector<double> column;
-    for (const auto& row : c.values) column.push_back(row[k]);
-    constexpr double levels[] = {0.05, 0.5, 0.95};
-    for (int i = 0; i < 3; ++i) {
-      s.prior[i] = marginal.quantile(levels[i]);
-      s.posterior[i] = weighted_quantile(column, c.found.posterior.weights, levels[i]);
-    }
-    s.variance_removed = c.found.identifiability.variance_removed[k];
-    if (!best.empty()) s.best = best.front()[k];
-    all.push_back(s);
-  }
-  return all;
-}
-
 /// The member at the best fit, beside what the emulators expected of it.
 void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibrated& c,
                 Observer& observer, const std::atomic<bool>& cancel) {
@@ -125,6 +101,30 @@ void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibra
 }
 
 }  // namespace
+
+std::vector<KeySummary> key_summaries(const Scenario& scenario, const Calibrated& c) {
+  const auto keys = uncertain_keys(scenario);
+  std::vector<std::vector<double>> best;
+  if (c.found.best) best = values_at(keys, scenario.ensemble, {c.found.best->cube});
+  std::vector<KeySummary> all;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    KeySummary s;
+    s.key = keys[k].path;
+    s.unit = keys[k].units;
+    const Marginal marginal(keys[k].distribution, keys[k].path);
+    std::vector<double> column;
+    for (const auto& row : c.values) column.push_back(row[k]);
+    constexpr double levels[] = {0.05, 0.5, 0.95};
+    for (int i = 0; i < 3; ++i) {
+      s.prior[i] = marginal.quantile(levels[i]);
+      s.posterior[i] = weighted_quantile(column, c.found.posterior.weights, levels[i]);
+    }
+    s.variance_removed = c.found.identifiability.variance_removed[k];
+    if (!best.empty()) s.best = best.front()[k];
+    all.push_back(s);
+  }
+  return all;
+}
 
 FoundAt found_at(const Scene& scene) {
   return {scene.description.formulation, scene.scenario.numerics.spacing_m,
@@ -162,8 +162,8 @@ Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob
   c.found = calibrate(data, settings_of(request, job));
   const auto keys = uncertain_keys(job.scene.scenario);
   c.values = values_at(keys, job.scene.scenario.ensemble, c.found.posterior.cube);
-  if (c.found.posterior.method == PosteriorMethod::weights)
-    c.members = data.comparison.simulated.members;
+  c.members = data.comparison.simulated.members;
+  c.members.resize(c.found.member_weights.size());  // the chosen ones stand behind
   c.n_drawn = static_cast<std::int64_t>(data.n_drawn);
   c.n_chosen = static_cast<std::int64_t>(data.cube.size() - data.n_drawn);
   c.discrepancy = request.discrepancy;
@@ -171,7 +171,7 @@ Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob
   c.at = found_at(job.scene);
   c.members_hash = job.manifest.maps_of;
   check_best(request, job, c, observer, cancel);
-  c.keys = summaries(job, c);
+  c.keys = key_summaries(job.scene.scenario, c);
   return c;
 }
 

@@ -6,7 +6,7 @@
 ///   DIR/best/           the member at the best fit
 ///   DIR/posterior.csv   rows of equal weight; a table for `ensemble.table`
 ///   DIR/posterior.json  all numbers
-///   DIR/weights.csv     weight of each member, by --method weights
+///   DIR/weights.csv     weight of each member that was drawn, for `sturz merge --posterior`
 #pragma once
 
 #include "ensemble/calibration/calibration.hpp"
@@ -46,17 +46,25 @@ struct FoundAt {
   double spacing_m = 0, release_volume_m3 = 0;
 };
 
+/// One of the events that a posterior was found with, see shared_events.hpp.
+struct EventUsed {
+  std::string name, folder, members_hash;
+  double release_volume_m3 = 0;
+  std::int64_t n_valid = 0;
+};
+
 struct Calibrated {
   Calibration found;
   std::vector<KeySummary> keys;
   std::vector<std::vector<double>> values;              ///< [points of the posterior][keys]
-  std::vector<std::int64_t> members;                    ///< of the points, by weights
+  std::vector<std::int64_t> members;                    ///< of found.member_weights
   std::int64_t n_drawn = 0, n_chosen = 0;               ///< valid members that were used
   std::optional<std::vector<Observation>> best_member;  ///< [observed], really computed
   double discrepancy = 0;
   std::uint64_t seed = 0;
   FoundAt at;
-  std::string members_hash;  ///< of the ensemble, as its maps know it
+  std::string members_hash;       ///< of the ensemble, as its maps know it; empty: of several
+  std::vector<EventUsed> events;  ///< of finished ensembles
 };
 
 /// \throws SetupError before anything is computed: the scene has no `observation`, no uncertain
@@ -68,6 +76,10 @@ EnsembleJob prepare_calibration(const CalibrateRequest&, Observer&);
 /// \throws SetupError; Cancelled
 Calibrated calibrate_ensemble(const CalibrateRequest&, const EnsembleJob&, const MapsMade& maps,
                               Observer&, const std::atomic<bool>& cancel);
+
+/// Each uncertain value before and after. \pre values, posterior, best fit and identifiability are
+/// there
+std::vector<KeySummary> key_summaries(const Scenario&, const Calibrated&);
 
 /// Where the scene of a job would find its posterior.
 FoundAt found_at(const Scene&);

@@ -58,7 +58,7 @@ std::string table_text(const Calibrated& c) {
 std::string weights_text(const Calibrated& c) {
   std::string text = "member,weight\n";
   for (std::size_t i = 0; i < c.members.size(); ++i)
-    text += fmt::format("{},{}\n", c.members[i], c.found.posterior.weights[i]);
+    text += fmt::format("{},{}\n", c.members[i], c.found.member_weights[i]);
   return text;
 }
 
@@ -88,6 +88,32 @@ Json predicted_json(const PredictedQuantity& p) {
           {"median", number(p.median)},
           {"p95", number(p.upper)},
           {"below", number(p.below)}};
+}
+
+Json held_out_events_json(const std::vector<HeldOutEvent>& events) {
+  Json all = Json::array();
+  for (const HeldOutEvent& e : events) {
+    Json quantities = Json::array();
+    for (const PredictedQuantity& p : e.quantities) quantities.push_back(predicted_json(p));
+    all.push_back({{"event", e.event},
+                   {"log_score", number(e.log_score)},
+                   {"prior_log_score", number(e.prior_log_score)},
+                   {"effective_size", number(e.effective_size)},
+                   {"inside90", e.n_inside90},
+                   {"quantities", std::move(quantities)}});
+  }
+  return all;
+}
+
+Json events_json(const std::vector<EventUsed>& events) {
+  Json all = Json::array();
+  for (const EventUsed& e : events)
+    all.push_back({{"name", e.name},
+                   {"folder", e.folder},
+                   {"members_hash", e.members_hash},
+                   {"release_volume_m3", number(e.release_volume_m3)},
+                   {"members", e.n_valid}});
+  return all;
 }
 
 Json held_out_json(const HeldOut& h) {
@@ -189,23 +215,27 @@ Json document(const Calibrated& c) {
                              {"p95", number(d.upper)}});
   for (const PredictedQuantity& p : c.found.check) check.push_back(predicted_json(p));
   const Build build = this_build();
-  return {{"sturz", build.version},
-          {"found_at",
-           {{"formulation", c.at.formulation},
-            {"spacing_m", c.at.spacing_m},
-            {"release_volume_m3", c.at.release_volume_m3}}},
-          {"members_hash", c.members_hash},
-          {"seed", c.seed},
-          {"sample", sample_json(c)},
-          {"keys", keys_json(c)},
-          {"observed", std::move(observed)},
-          {"discrepancy", {{"prior_scale", c.discrepancy}, {"found", std::move(discrepancies)}}},
-          {"predictive_check", std::move(check)},
-          {"held_out", held_out_json(c.found.held_out)},
-          {"identifiability", identifiability_json(c)},
-          {"best_fit", best_json(c)},
-          {"emulators", emulators_json(c.found)},
-          {"warnings", c.found.warnings}};
+  Json all{{"sturz", build.version},
+           {"found_at",
+            {{"formulation", c.at.formulation},
+             {"spacing_m", c.at.spacing_m},
+             {"release_volume_m3", c.at.release_volume_m3}}},
+           {"members_hash", c.members_hash},
+           {"seed", c.seed},
+           {"sample", sample_json(c)},
+           {"keys", keys_json(c)},
+           {"observed", std::move(observed)},
+           {"discrepancy", {{"prior_scale", c.discrepancy}, {"found", std::move(discrepancies)}}},
+           {"predictive_check", std::move(check)},
+           {"held_out", held_out_json(c.found.held_out)},
+           {"identifiability", identifiability_json(c)},
+           {"best_fit", best_json(c)},
+           {"emulators", emulators_json(c.found)},
+           {"warnings", c.found.warnings}};
+  if (!c.events.empty()) all["events"] = events_json(c.events);
+  if (!c.found.held_out.events.empty())
+    all["held_out_events"] = held_out_events_json(c.found.held_out.events);
+  return all;
 }
 
 fs::path json_file(const fs::path& folder) { return folder / "posterior.json"; }
@@ -219,7 +249,7 @@ void write_posterior(const OutputFolder& folder, const Calibrated& c) {
   write_text_atomic(csv_file(folder.root), table_text(c));
   std::error_code ignored;
   if (c.members.empty())
-    fs::remove(folder.root / "weights.csv", ignored);  // of an earlier method
+    fs::remove(folder.root / "weights.csv", ignored);  // of an earlier calibration
   else
     write_text_atomic(folder.root / "weights.csv", weights_text(c));
   write_text_atomic(json_file(folder.root), posterior_json(c));
@@ -237,8 +267,15 @@ std::vector<std::string> posterior_overrides(const fs::path& folder) {
 
 std::vector<std::string> posterior_warnings(const fs::path& folder, const FoundAt& now) {
   FoundAt then;
+  double least_m3 = 0, most_m3 = 0;  // releases of all events
   try {
-    const Json at = Json::parse(read_text(json_file(folder))).at("found_at");
+    const Json all = Json::parse(read_text(json_file(folder)));
+    const Json at = all.at("found_at");
+    least_m3 = most_m3 = at.at("release_volume_m3").get<double>();
+    for (const Json& event : all.value("events", Json::array())) {
+      least_m3 = std::min(least_m3, event.at("release_volume_m3").get<double>());
+      most_m3 = std::max(most_m3, event.at("release_volume_m3").get<double>());
+    }
     then = {at.at("formulation").get<std::string>(), at.at("spacing_m").get<double>(),
             at.at("release_volume_m3").get<double>()};
   } catch (const Json::exception&) {
@@ -258,11 +295,12 @@ std::vector<std::string> posterior_warnings(const fs::path& folder, const FoundA
         fmt::format("the posterior was found at a spacing of {} m, this scene has {} "
                     "m{}",
                     then.spacing_m, now.spacing_m, effective));
-  if (std::abs(then.release_volume_m3 - now.release_volume_m3) > 0.01 * then.release_volume_m3)
-    warnings.push_back(
-        fmt::format("the posterior was found with a release of {:.4g} m3, this scene "
-                    "has {:.4g} m3{}",
-                    then.release_volume_m3, now.release_volume_m3, effective));
+  if (now.release_volume_m3 < 0.99 * least_m3 || now.release_volume_m3 > 1.01 * most_m3)
+    warnings.push_back(fmt::format(
+        "the posterior was found with {}, this scene has {:.4g} m3{}",
+        most_m3 > least_m3 ? fmt::format("releases of {:.4g} .. {:.4g} m3", least_m3, most_m3)
+                           : fmt::format("a release of {:.4g} m3", least_m3),
+        now.release_volume_m3, effective));
   return warnings;
 }
 

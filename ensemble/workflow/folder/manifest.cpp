@@ -17,6 +17,22 @@ namespace sturz::workflow {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
 
+namespace {
+
+json stop_json(const StopRecord& stop) {
+  return {{"wanted_half_width", stop.wanted_half_width},
+          {"half_width", stop.last.found.half_width},  // null without valid members
+          {"reached", stop.reached()},
+          {"looked_at", to_string(stop.last.found.at)},
+          {"cells", stop.last.found.n_cells},
+          {"members", stop.last.n_members},
+          {"valid", stop.last.found.n_valid},
+          {"looks", stop.n_looks},
+          {"at_most", stop.at_most}};
+}
+
+}  // namespace
+
 void Manifest::write(const fs::path& file) {
   version = workflow::version;
   git_commit = workflow::git_commit;
@@ -30,33 +46,34 @@ void Manifest::write(const fs::path& file) {
                            {"parts", input.parts}});
   for (const Build& build : builds)
     builds_json.push_back({{"version", build.version}, {"git_commit", build.git_commit}});
-  const json all = {{"kind", kind},
-                    {"program",
-                     {{"name", "sturz"},
-                      {"version", version},
-                      {"git_commit", git_commit},
-                      {"compiler", compiler},
-                      {"build_type", build_type}}},
-                    {"started", started},
-                    {"updated", utc_now()},
-                    {"command", command},
-                    {"design", design},
-                    {"seed", seed},
-                    {"members", members},
-                    {"spacing_m", spacing_m},
-                    {"inputs", inputs_json},
-                    {"description", description},
-                    {"notes", notes},
-                    {"warnings", warnings},
-                    {"compute_s", compute_s},
-                    {"scenario_hash", scenario_hash},
-                    {"scene_hash", scene_hash},
-                    {"design_hash", design_hash},
-                    {"design_hash_before", design_hash_before},
-                    {"computed_by", builds_json},
-                    {"hazard_hash", hazard_hash},
-                    {"maps_of", maps_of},
-                    {"censored", censored}};
+  json all = {{"kind", kind},
+              {"program",
+               {{"name", "sturz"},
+                {"version", version},
+                {"git_commit", git_commit},
+                {"compiler", compiler},
+                {"build_type", build_type}}},
+              {"started", started},
+              {"updated", utc_now()},
+              {"command", command},
+              {"design", design},
+              {"seed", seed},
+              {"members", members},
+              {"spacing_m", spacing_m},
+              {"inputs", inputs_json},
+              {"description", description},
+              {"notes", notes},
+              {"warnings", warnings},
+              {"compute_s", compute_s},
+              {"scenario_hash", scenario_hash},
+              {"scene_hash", scene_hash},
+              {"design_hash", design_hash},
+              {"design_hash_before", design_hash_before},
+              {"computed_by", builds_json},
+              {"hazard_hash", hazard_hash},
+              {"maps_of", maps_of},
+              {"censored", censored}};
+  if (stop) all["stop_rule"] = stop_json(*stop);
   // Names of files are bytes, and JSON is UTF-8: what is not is replaced.
   write_text_atomic(file, all.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
@@ -92,6 +109,25 @@ InputIdentity identity_from(const json& input) {
   return identity;
 }
 
+std::optional<StopRecord> stop_from(const fs::path& file, const json& all) {
+  if (!all.contains("stop_rule")) return std::nullopt;
+  const json& rule = all.at("stop_rule");
+  StopRecord stop;
+  stop.wanted_half_width = rule.at("wanted_half_width").get<double>();
+  const json& half_width = rule.at("half_width");
+  stop.last.found.half_width = half_width.is_null() ? nan_d : half_width.get<double>();
+  const auto at = rule.at("looked_at").get<std::string>();
+  for (const LookedAt which :
+       {LookedAt::uncertain_cells, LookedAt::reached_cells, LookedAt::no_cell})
+    if (at == to_string(which)) stop.last.found.at = which;
+  stop.last.found.n_cells = whole<std::int64_t>(file, rule, "cells");
+  stop.last.n_members = whole<std::int64_t>(file, rule, "members");
+  stop.last.found.n_valid = whole<std::int64_t>(file, rule, "valid");
+  stop.n_looks = whole<std::int64_t>(file, rule, "looks");
+  stop.at_most = whole<std::int64_t>(file, rule, "at_most");
+  return stop;
+}
+
 }  // namespace
 
 Manifest Manifest::read(const fs::path& file) {
@@ -125,6 +161,7 @@ Manifest Manifest::read(const fs::path& file) {
       m.builds.push_back(
           {build.at("version").get<std::string>(), build.at("git_commit").get<std::string>()});
     m.censored = all.value("censored", "");
+    m.stop = stop_from(file, all);
   } catch (const json::exception& problem) {
     not_a_manifest(file, problem.what());
   }
@@ -145,6 +182,8 @@ std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
   }
   if (kind == "ensemble") {
     out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
+    if (!weighting.empty()) out.emplace_back("weighting", weighting);
+    if (stop) out.emplace_back("stop rule", stop_text(*stop));
     if (!censored.empty()) out.emplace_back("cut off", censored);
     out.emplace_back("hash of the maps", hazard_hash);
   }

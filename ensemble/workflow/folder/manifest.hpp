@@ -2,10 +2,12 @@
 /// manifest.json: how the results of a folder came to be.
 #pragma once
 
+#include "ensemble/stopping/stop_rule.hpp"
 #include "scenarios/input_identity.hpp"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,7 +42,9 @@ struct Manifest {
   std::string design_hash_before;  ///< of the table that this one replaces; empty: none
   std::string design_hash;         ///< as design_hash(); empty for a single run
   std::vector<Build> builds;       ///< all that computed members here, the first first
-  std::string censored;            ///< which of the maps' members are cut off; empty: no maps yet
+  std::optional<StopRecord> stop;  ///< what decided the number of members; nothing: the user did
+  std::string weighting;  ///< of weighted maps, in words; for their page, not kept in the file
+  std::string censored;   ///< which of the maps' members are cut off; empty: no maps yet
   // Of the program that wrote it; filled in by write().
   std::string version, git_commit, compiler, build_type;
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/members/shards.hpp"
+#include "ensemble/stopping/stop_rule.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
@@ -41,6 +42,7 @@ void continue_folder(EnsembleJob& job, Observer& observer) {
   if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
   now.hazard_hash = before.hazard_hash;
   now.maps_of = before.maps_of;
+  if (!job.growth && before.members == job.design.n_members()) now.stop = before.stop;
   now.builds = before.builds;
   if (now.builds.empty()) now.builds.push_back({before.version, before.git_commit});
   const Build mine = this_build();
@@ -64,16 +66,18 @@ void begin_folder(const EnsembleJob& job) {
   save_scenario(job.folder, job.scene.scenario);
 }
 
-/// Members of this call's share that are not finished.
-void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer& observer) {
+/// Members of this call's share that are not finished. \param from the first that is looked at
+void find_work(EnsembleJob& job, const Shard& shard, std::int64_t from, bool retry_failed,
+               Observer& observer) {
   const MemberStore store = members_of(job.folder, job.manifest, job.design, [&](std::int64_t k) {
-    return k < job.design.n_members() && k % shard.n == shard.k - 1;
+    return k >= from && k < job.design.n_members() && k % shard.n == shard.k - 1;
   });
   warn_of_problems(store, "It is computed again.", observer);
   std::set<std::int64_t> finished;
   for (const MemberSummary& m : store.members())
     if (is_valid(m.outcome) || !retry_failed) finished.insert(m.member);
   for (const std::int64_t k : shard_members(job.design.n_members(), shard.k, shard.n)) {
+    if (k < from) continue;
     if (finished.contains(k))
       ++job.finished_before;
     else
@@ -81,8 +85,50 @@ void find_work(EnsembleJob& job, const Shard& shard, bool retry_failed, Observer
   }
 }
 
-/// Workers times threads never exceeds the cores, nor workers times memory the machine.
-void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
+/// A design that cannot be looked at before its end, or by one who does not see all of it.
+void require_growing(const Scenario& scenario, const Shard& shard) {
+  require(shard.n == 1,
+          "--until-converged with --shard (a look needs all of the first members, and a shard sees "
+          "every n-th: each would stop elsewhere). Run the ensemble in one folder without shards, "
+          "or give their number with -n.");
+  const Design design = scenario.ensemble.design;
+  const bool grows =
+      design == Design::sobol || design == Design::monte_carlo || design == Design::table;
+  require(grows, fmt::format("--until-converged with ensemble.design = {} ({}). Use sobol or "
+                             "monte_carlo, for instance with --set ensemble.design=sobol.",
+                             to_string(design),
+                             design == Design::latin_hypercube
+                                 ? "it is drawn for a fixed number of members, and the first of "
+                                   "them are no even sample"
+                                 : "its members stand in sets and are no sample of what may "
+                                   "happen"));
+}
+
+DesignTable first_rows(const DesignTable& whole, std::int64_t n) {
+  DesignTable part = whole;
+  part.values.resize(static_cast<std::size_t>(n));
+  if (!part.unit_cube.empty()) part.unit_cube.resize(static_cast<std::size_t>(n));
+  return part;
+}
+
+/// The design up to the first look, or to the one that the folder had come to.
+void begin_with_first_look(EnsembleJob& job, bool begun) {
+  const std::vector<std::int64_t>& looks = job.growth->looks;
+  std::int64_t n = looks.front();
+  if (begun) {
+    const Manifest before = Manifest::read(job.folder.manifest());
+    const auto had = saved_design(job.folder, before, job.scene.scenario).n_members();
+    const auto next = std::lower_bound(looks.begin(), looks.end(), had);
+    n = next == looks.end() ? looks.back() : *next;
+  }
+  job.design = first_rows(job.growth->whole, n);
+  job.scene.scenario.ensemble.members = static_cast<int>(n);
+}
+
+}  // namespace
+
+void share_machine(EnsembleJob& job, Observer& observer) {
+  const int wanted_workers = job.wanted_workers;
   const int cores = available_cores();
   const auto n = static_cast<int>(std::clamp<std::size_t>(job.to_do.size(), 1, 1 << 20));
   if (wanted_workers > cores)
@@ -106,7 +152,22 @@ void share_machine(EnsembleJob& job, int wanted_workers, Observer& observer) {
   job.threads = std::max(1, cores / job.workers);
 }
 
-}  // namespace
+void grow_design(EnsembleJob& job, std::int64_t n_members, Observer& observer) {
+  const std::int64_t had = job.design.n_members();
+  const Manifest saved = Manifest::read(job.folder.manifest());
+  const DesignTable larger = first_rows(job.growth->whole, n_members);
+  const std::string hash_before = design_hash(job.design);
+  job.design = continued_design(job.folder, saved, job.scene.scenario, larger);
+  job.scene.scenario.ensemble.members = static_cast<int>(n_members);
+  Manifest& now = job.manifest;
+  now.inputs = with_known_parts(now.inputs, job.scene.ground->identities());
+  now.design_hash_before = hash_before;
+  now.design_hash = design_hash(job.design);
+  now.members = n_members;
+  begin_folder(job);
+  job.to_do.clear();
+  find_work(job, {}, had, false, observer);
+}
 
 void keep_what_is_read(EnsembleJob& job) {
   const auto lock = job.lock;
@@ -135,6 +196,10 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   EnsembleJob job;
   job.scene = load_scene(scene_of(request));
   job.design = new_design(job.scene.scenario);
+  if (request.until_half_width) {
+    require_growing(job.scene.scenario, shard);
+    job.growth = {*request.until_half_width, job.design, look_counts(job.design.n_members())};
+  }
   // With a user's table the number of rows is the number of members.
   job.scene.scenario.ensemble.members = static_cast<int>(job.design.n_members());
   job.folder.root = request.folder;
@@ -147,7 +212,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   holds_results(job.folder, "ensemble");  // refuses what is not ours before a lock is put there
   job.lock = shard.n > 1 ? FolderLock::shard(job.folder, shard, request.command)
                          : FolderLock::alone(job.folder, request.command);
-  if (holds_results(job.folder, "ensemble"))
+  const bool begun = holds_results(job.folder, "ensemble");
+  if (job.growth) begin_with_first_look(job, begun);
+  if (begun)
     continue_folder(job, observer);
   else
     job.manifest.builds = {this_build()};
@@ -157,8 +224,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   keep_what_is_read(job);
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
-  find_work(job, shard, request.retry_failed, observer);
-  share_machine(job, request.workers, observer);
+  find_work(job, shard, 0, request.retry_failed, observer);
+  job.wanted_workers = request.workers;
+  share_machine(job, observer);
   return job;
 }
 

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,17 @@ struct EnsembleRequest {
   int workers = 0;               ///< members at a time; 0: all cores available to the process
   Shard shard;
   bool retry_failed = false;  ///< compute failed members again
-  std::string command;        ///< how the user asked for it, for the manifest
+  /// Stop as soon as the largest half width of P(reached) is no more than this, see
+  /// run_until_converged(); `members` is the most then. Not for shards.
+  std::optional<double> until_half_width;
+  std::string command;  ///< how the user asked for it, for the manifest
+};
+
+/// An ensemble that grows look by look: its design is at every time a first part of `whole`.
+struct Growth {
+  double wanted_half_width = 0;
+  DesignTable whole;                ///< of all members that may be computed
+  std::vector<std::int64_t> looks;  ///< as look_counts() gives them
 };
 
 struct EnsembleJob {
@@ -35,8 +46,10 @@ struct EnsembleJob {
   OutputFolder folder;
   Manifest manifest;
   DesignTable design;
+  std::optional<Growth> growth;  ///< under a stop rule
   std::vector<std::int64_t> to_do;
   std::int64_t finished_before = 0;  ///< of this call's share
+  int wanted_workers = 0;            ///< 0: all cores available to the process
   int workers = 1;                   ///< members at a time
   int threads = 1;                   ///< of each member
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
@@ -47,6 +60,15 @@ struct EnsembleJob {
 /// Warns of damaged members, which count as absent, and of fewer workers than wanted.
 /// \throws SetupError; IoError when the folder cannot be written
 EnsembleJob prepare_ensemble(const EnsembleRequest&, Observer&);
+
+/// Workers, and threads of each, for what is to do: their product never exceeds the cores, nor
+/// workers times memory the machine. Part of prepare_ensemble.
+void share_machine(EnsembleJob&, Observer&);
+
+/// Takes more rows of job.growth->whole into the design, in memory and in the folder; to do is then
+/// what is not finished of them. 	hrows SetupError when design.csv was changed meanwhile;
+/// IoError
+void grow_design(EnsembleJob&, std::int64_t n_members, Observer&);
 
 /// From now on the manifest knows whatever part of the ground members read before one of them is
 /// stored: also for shards, and when the run is stopped. Part of prepare_ensemble.

@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct MembersRun {
   std::vector<FailedMember> failed;     ///< of `computed`: not valid
   bool interrupted = false;             ///< cancelled before all were finished
   std::string stop_error;  ///< why the run stopped by itself, as RunReport says; empty: it did not
+  std::optional<StopRecord> stop;  ///< of a stop rule, when it came to its end
 };
 
 /// Runs what is to do. The same request, prepared anew, goes on after whatever stopped this one.

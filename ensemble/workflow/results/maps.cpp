@@ -2,16 +2,14 @@
 #include "ensemble/workflow/results/maps.hpp"
 
 #include "ensemble/censoring/edge_crossing.hpp"
-#include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
-#include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
+#include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
-#include "ensemble/workflow/version.hpp"
 #include "io/files/text_files.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
@@ -41,31 +39,6 @@ void add_members(MapsMade& made, const MemberStore& store, const Manifest& manif
   made.warnings = member_warnings(store.members(), manifest.warnings);
   made.warned_members = std::count_if(store.members().begin(), store.members().end(),
                                       [](const MemberSummary& m) { return !m.warnings.empty(); });
-}
-
-HazardContext context_of(const Manifest& manifest, const Scenario& scenario,
-                         const DesignTable& design) {
-  HazardContext context;
-  context.spacing_m = scenario.numerics.spacing_m;
-  context.n_planned = design.n_members();
-  context.attributes = {{"title", scenario.title.empty() ? "Landslide hazard" : scenario.title},
-                        {"source", fmt::format("sturz {} ({})", version, git_commit)},
-                        {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
-                        {"censored_members", manifest.censored},
-                        {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
-                                               design.n_members(), design.seed)}};
-  return context;
-}
-
-/// Writes hazard.nc as the members pass by. \return the maps' hash
-std::string write_hazard(const OutputFolder& folder, const MemberStore& store,
-                         const HazardSpec& spec, const HazardContext& context) {
-  LayersFileWriter file(folder.hazard_nc());
-  HashingSink hashed(file);
-  make_hazard_map(store, spec, context, hashed);
-  context.cancel.check();
-  file.commit();
-  return fmt::format("{:016x}", hashed.value());
 }
 
 /// Members against what was observed. Nothing of it is stored with them: an observation may come
@@ -106,6 +79,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   made.folder = folder;
   made.max_failed_fraction = scenario.ensemble.max_failed_fraction;
   made.planned = design.n_members();
+  made.stop = manifest.stop;
   made.finished = static_cast<std::int64_t>(store.members().size());
   add_members(made, store, manifest, scenario);
   manifest.censored = one_line(made.censoring);
@@ -124,12 +98,12 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const GaugeFindings gauges = find_gauges(store, scenario, cancel);
   write_gauge_files(folder, gauges);
   ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
-  HazardContext context = context_of(manifest, scenario, design);
+  HazardContext context = hazard_context(manifest, scenario, design);
   context.ground = ground.get();
   context.whole_ground = inputs.terrain_grid();
   context.convergence = &convergence;
   context.cancel = cancel;
-  const std::string hash = write_hazard(folder, store, scenario.hazard, context);
+  const std::string hash = write_hazard(folder.hazard_nc(), store, scenario.hazard, context);
   const LayersFileReader maps(folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
   write_map_files(folder.tif_folder(), maps, coarse, cancel);
@@ -144,6 +118,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
                                      : std::vector<ConvergencePoint>{};
   page.convergence = points;
   page.cancel = cancel;
+  page.stop = manifest.stop ? &*manifest.stop : nullptr;
   page.where_mass_left = made.censoring.where;
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;

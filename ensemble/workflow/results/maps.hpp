@@ -31,6 +31,7 @@ struct MapsMade {
   double max_failed_fraction = 0;       ///< ensemble.max_failed_fraction of the scenario
   double seconds = 0;                   ///< of making them
   std::string hazard_hash;              ///< of every value of the maps
+  std::optional<StopRecord> stop;       ///< what decided the number of members, as the manifest
   std::optional<ScoreTable> scores;     ///< where something was observed
   std::vector<std::int64_t> numbers;    ///< of the members, in the order of the scores' rows
 

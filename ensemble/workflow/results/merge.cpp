@@ -12,9 +12,11 @@
 #include <fmt/core.h>
 
 #include <string>
+#include <utility>
 
 namespace sturz::workflow {
-MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFlag cancel) {
+
+MergeInput open_for_maps(const MergeRequest& request, Observer& observer, CancelFlag cancel) {
   FinishedFolder finished = open_finished(request.folder, observer);
   const std::string where = request.folder.string();
   require(finished.manifest.kind == "ensemble",
@@ -29,11 +31,11 @@ MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFl
       fmt::format("{}: its members were computed from other inputs (maps say 0 only where the "
                   "ground is known, and would take it from today's). Take these changes back:{}",
                   where, as_lines(finished.changed)));
-  const auto lock = FolderLock::alone(finished.folder, "merge " + where);
+  auto lock = FolderLock::alone(finished.folder, "merge " + where);
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   require_own_scenario(finished.folder, finished.manifest, finished.scenario);
-  const DesignTable design = saved_design(finished.folder, finished.manifest, finished.scenario);
-  const MemberStore store = members_of(finished.folder, finished.manifest, design, {}, cancel);
+  DesignTable design = saved_design(finished.folder, finished.manifest, finished.scenario);
+  MemberStore store = members_of(finished.folder, finished.manifest, design, {}, cancel);
   warn_of_problems(store, "It counts as missing.", observer);
   const std::string missing = what_is_missing(store, design.n_members());
   require(
@@ -46,9 +48,15 @@ MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFl
   if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");
   warn_of_builds(finished.manifest, observer);
   observer.folder_ready(finished.folder);
+  return {std::move(finished), std::move(lock), std::move(design), std::move(store)};
+}
+
+MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFlag cancel) {
+  MergeInput of = open_for_maps(request, observer, cancel);
+  FinishedFolder& finished = of.finished;
   return make_maps(
-      {finished.folder, finished.manifest, finished.scenario, design, *finished.inputs}, store,
-      observer, cancel);
+      {finished.folder, finished.manifest, finished.scenario, of.design, *finished.inputs},
+      of.store, observer, cancel);
 }
 
 }  // namespace sturz::workflow

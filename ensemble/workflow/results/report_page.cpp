@@ -127,7 +127,8 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
                 const PageContent& content) {
   ReportInput input;
   input.title = scenario.title.empty() ? as_utf8(folder.root.filename().string()) : scenario.title;
-  input.scenario_yaml = read_text(folder.scenario());
+  input.scenario_yaml =
+      read_text(content.scenario_file.empty() ? folder.scenario() : content.scenario_file);
   input.manifest = manifest.lines();
   input.elevation = content.elevation;
   input.hazard = content.hazard;
@@ -138,6 +139,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
     input.samples = sampled_values(*content.design, content.members);
   if (content.design) input.n_planned = content.design->n_members();
   input.convergence.assign(content.convergence.begin(), content.convergence.end());
+  if (content.stop != nullptr) input.stop_rule = stop_text(*content.stop);
   input.max_censored_fraction = scenario.ensemble.max_censored_fraction;
   input.where_mass_left = content.where_mass_left;
   input.release = content.release;
@@ -201,6 +203,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
     page.design = &design;
+    page.stop = finished.manifest.stop ? &*finished.manifest.stop : nullptr;
     convergence = probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
     page.convergence = convergence;
   }

@@ -39,12 +39,14 @@ NearestMember nearest_member(const MemberParts&, const std::optional<ScoreTable>
 
 /// What there is to show; absent parts are null or empty.
 struct PageContent {
+  std::filesystem::path scenario_file;  ///< empty: that of the page's folder
   const LayerStack* hazard = nullptr;
   const LayerStack* peaks = nullptr;
   const DesignTable* design = nullptr;
   const Raster<double>* elevation = nullptr;
   std::span<const MemberSummary> members;
   std::span<const ConvergencePoint> convergence;
+  const StopRecord* stop = nullptr;  ///< null: no stop rule
   CancelFlag cancel;
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()

@@ -3,10 +3,12 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/censoring/scalar_censoring.hpp"
+#include "ensemble/sensitivity/index_maps.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "io/files/text_files.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
 #include "scenarios/schema/suggest.hpp"
 
 #include <fmt/format.h>
@@ -120,6 +122,22 @@ std::string csv_of(const Sensitivity& all) {
   return text;
 }
 
+/// sensitivity.nc: indices of each cell.
+std::filesystem::path write_index_maps(const FinishedFolder& finished, const DesignTable& design,
+                                       const MemberStore& store, CancelFlag cancel) {
+  IndexMapRequest request;
+  request.keys = design.keys;
+  request.n_rows = design.n_members();
+  request.thickness_m = finished.scenario.hazard.thickness_m;
+  request.cancel = cancel;
+  const std::filesystem::path file = finished.folder.root / "sensitivity.nc";
+  LayersFileWriter writer(file);
+  make_index_maps(store, request, writer);
+  cancel.check();
+  writer.commit();
+  return file;
+}
+
 /// A result that no member has, or all alike, has no sensitivity.
 bool says_something(std::span<const Observation> column) {
   double least = INFINITY, most = -INFINITY;
@@ -143,6 +161,12 @@ Sensitivity sensitivity_of(const SensitivityRequest& request, Observer& observer
   require(!design.keys.empty(), where +
                                     ": no value of its scene is uncertain (nothing can matter). "
                                     "Give a key a distribution.");
+  require(
+      !request.maps || design.design == Design::saltelli,
+      fmt::format("{}: --maps needs the sets of ensemble.design: saltelli, this is {} (each cell "
+                  "compares members of which one value differs). Compute such an ensemble, "
+                  "about a hundred sets.",
+                  where, to_string(design.design)));
   const MemberStore store = members_of(finished.folder, finished.manifest, design, {}, cancel);
   warn_of_problems(store, "It counts as missing.", observer);
   if (const std::string missing = what_is_missing(store, design.n_members()); !missing.empty())
@@ -166,6 +190,7 @@ Sensitivity sensitivity_of(const SensitivityRequest& request, Observer& observer
           where + ": no result of its members is known and differs between them.");
   all.file = finished.folder.root / "sensitivity.csv";
   write_text_atomic(all.file, csv_of(all));
+  if (request.maps) all.maps = write_index_maps(finished, design, store, cancel);
   return all;
 }
 

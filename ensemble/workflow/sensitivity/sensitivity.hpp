@@ -33,16 +33,19 @@ struct Sensitivity {
   std::vector<std::string> keys, units;
   std::vector<ResultSensitivity> results;
   std::filesystem::path file;  ///< sensitivity.csv, written
+  std::filesystem::path maps;  ///< sensitivity.nc, where asked for
 };
 
 struct SensitivityRequest {
   std::filesystem::path folder;      ///< of a finished ensemble
   std::vector<std::string> results;  ///< columns of members.csv; empty: the usual ones
   bool emulate = true;               ///< indices by emulator where the design gives none
+  bool maps = false;                 ///< indices of each cell too; of a saltelli design
 };
 
-/// Reads the members of a folder and writes sensitivity.csv beside them.
-/// \throws SetupError: no ensemble, no uncertain value, an unknown result; Cancelled
+/// Reads the members of a folder and writes sensitivity.csv, and sensitivity.nc, beside them.
+/// \throws SetupError: no ensemble, no uncertain value, an unknown result, maps of another design;
+///   Cancelled
 Sensitivity sensitivity_of(const SensitivityRequest&, Observer&, CancelFlag cancel = {});
 
 }  // namespace sturz::workflow
