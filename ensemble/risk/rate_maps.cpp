@@ -53,8 +53,8 @@ LayerStack stack_of(const RiskSpec& spec, const Grid& grid, int n_censored) {
     stack.layers.push_back(std::move(layer));
   };
   using enum Quantity;
-  add(made("annual_rate", {reached, Statistic::value}, "how often the cell is reached",
-           "year-1", "sum of frequency x members that reach it / valid members" + cut),
+  add(made("annual_rate", {reached, Statistic::value}, "how often the cell is reached", "year-1",
+           "sum of frequency x members that reach it / valid members" + cut),
       false);
   add(made("annual_rate_standard_error", {other, Statistic::value},
            "Monte Carlo standard error of annual_rate", "year-1",
