@@ -14,7 +14,7 @@ double damage_at(const DamageCurve& curve, double intensity) {
                        [](double x, const DamageCurve::Point& q) { return x < q.intensity; });
   const auto below = above - 1;
   const double share = (intensity - below->intensity) / (above->intensity - below->intensity);
-  return below->damage + share * (above->damage - below->damage);
+  return std::min(above->damage, below->damage + share * (above->damage - below->damage));
 }
 
 }  // namespace sturz
