@@ -308,6 +308,10 @@ void read_layer(const Scenario& scenario, const Grid& maps, const Grid& terrain,
   const AssetsSpec& spec = *scenario.assets;
   const PolygonRequest request = request_of(scenario, maps.n_cols == 0);
   PolygonLayer opened = open_polygon_layer(request);
+  // Before anything is asked of its fields: an empty layer has mostly none.
+  require(opened.layer->GetFeatureCount(true) > 0,
+          fmt::format("{}: layer '{}' has no features. Draw the assets.", opened.label,
+                      opened.layer->GetName()));
   TransformPtr to_maps = terrain_transform(opened, request, maps);
   Reading r{spec, request, std::move(opened), maps, std::move(to_maps), -1, -1, -1, {}, {}, {}};
   r.name_field = find_field(r.layer, spec.name_attribute, "assets.name_attribute");
@@ -325,8 +329,6 @@ void read_layer(const Scenario& scenario, const Grid& maps, const Grid& terrain,
   r.layer.layer->ResetReading();
   while (const auto read = OGRFeatureUniquePtr(r.layer.layer->GetNextFeature()))
     read_feature(r, *read);
-  require(!r.assets.list.empty(), fmt::format("{}: layer '{}' has no features. Draw the assets.",
-                                              r.layer.label, r.layer.layer->GetName()));
   if (maps.n_cols > 0) {
     find_ground(r.assets.list, maps, terrain, ground);
     tell_places(r);
