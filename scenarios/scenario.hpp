@@ -2,6 +2,7 @@
 /// What a scene is: the plain data of one scenario file. Presence of a block switches an effect on.
 #pragma once
 
+#include "scenarios/assets/assets_spec.hpp"
 #include "scenarios/choices.hpp"
 #include "scenarios/observation/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
@@ -357,6 +358,7 @@ struct Scenario {
   HazardSpec hazard;
   std::optional<GaugesSpec> gauges;
   std::optional<ObservationSpec> observation;  ///< absent: members are not scored
+  std::optional<AssetsSpec> assets;            ///< absent: no table of assets is made
   std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;
 };

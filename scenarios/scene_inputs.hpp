@@ -5,6 +5,7 @@
 #include "engine/effects/bed_rasters.hpp"
 #include "engine/terrain/terrain.hpp"
 #include "scenarios/assembly/reach.hpp"
+#include "scenarios/assets/assets.hpp"
 #include "scenarios/ground_structures.hpp"
 #include "scenarios/inflow/hydrograph.hpp"
 #include "scenarios/input_identity.hpp"
@@ -76,6 +77,8 @@ struct SceneInputs {
   std::vector<std::vector<Vec2>> observed;
   /// What members are scored against; null: the scene has no `observation`.
   std::shared_ptr<const ObservedEvent> event;
+  /// What may be hit, on cells of `hazard_grid`; null: the scene has no `assets`.
+  std::shared_ptr<const Assets> assets;
   Grid hazard_grid;           ///< the maps' common grid
   double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =

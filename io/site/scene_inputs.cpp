@@ -296,6 +296,7 @@ void check_without_terrain(Loading& loading) {
   load_bed_supply(loading);
   load_observed(loading);
   load_event(loading);
+  load_assets(loading, {});
 }
 
 }  // namespace
@@ -328,6 +329,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   load_bed_supply(loading);
   load_observed(loading);
   load_event(loading);
+  load_assets(loading, [&](const Window& w) { return ground_of(loading, w); });
   loading.refuse_problems();
   expect(inputs.release && inputs.elevation, "a scene without problems has its release and ground");
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);

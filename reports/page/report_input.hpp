@@ -6,6 +6,7 @@
 #include "engine/core/vec.hpp"
 #include "engine/simulation/member_result.hpp"
 #include "engine/terrain/raster.hpp"
+#include "ensemble/assets/asset_risk.hpp"
 #include "ensemble/gauges/gauge_statistics.hpp"
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/scores/score_table.hpp"
@@ -77,7 +78,9 @@ struct ReportInput {
   const ScoreTable* scores = nullptr;  ///< one row per entry of `members`; null: none is scored
   const Raster<std::uint8_t>* nearest = nullptr;  ///< covered by the best member; may be null
   std::int64_t nearest_member = 0;                ///< its number
-  const PosteriorShown* posterior = nullptr;      ///< null: nothing was calibrated
+  const Assets* assets = nullptr;             ///< what may be hit; null: the scene names nothing
+  const RiskTable* risk = nullptr;            ///< of these assets
+  const PosteriorShown* posterior = nullptr;  ///< null: nothing was calibrated
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

@@ -24,6 +24,9 @@ std::string map_html(const ReportInput& input, const MapScene* scene, const Laye
 std::string motion_html(const ReportInput& input);
 /// Arrivals, peaks and discharges at the scene's gauges; empty text where it has none.
 std::string gauges_html(const ReportInput& input);
+/// Share of members, intensities, damage and loss at each asset; empty text where the scene has
+/// none.
+std::string assets_html(const ReportInput& input);
 /// How much of the mass of an ensemble's members was too loose for a scene without states; empty
 /// text where that is not known or nothing was left out.
 std::string left_out_html(const std::vector<MemberSummary>& members);

@@ -17,5 +17,6 @@ void check_erosion(const Scenario&, std::vector<Problem>&);
 void check_ensemble(const Scenario&, std::vector<Problem>&);
 void check_hazard(const Scenario&, std::vector<Problem>&);
 void check_observation(const Scenario&, std::vector<Problem>&);
+void check_assets(const Scenario&, std::vector<Problem>&);
 
 }  // namespace sturz

@@ -26,6 +26,7 @@ std::vector<Problem> validate(const Scenario& scenario) {
   check_ensemble(scenario, problems);
   check_hazard(scenario, problems);
   check_observation(scenario, problems);
+  check_assets(scenario, problems);
   return problems;
 }
 

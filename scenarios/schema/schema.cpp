@@ -24,6 +24,7 @@ std::vector<KeyInfo> all_keys() {
   schema_rows::add_run_keys(keys);
   schema_rows::add_gauge_keys(keys);
   schema_rows::add_observation_keys(keys);
+  schema_rows::add_asset_keys(keys);
   return keys;
 }
 
@@ -36,6 +37,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   schema_rows::add_erosion_blocks(blocks);
   schema_rows::add_gauge_blocks(blocks);
   schema_rows::add_observation_blocks(blocks);
+  schema_rows::add_asset_blocks(blocks);
   return blocks;
 }
 

@@ -86,6 +86,19 @@ def hydrograph_seeds(_root, _build, _scratch):
     yield from HYDROGRAPHS
 
 
+RISKS = [
+    "scenarios:\n  - {folder: a, frequency_per_year: 0.01}\n  - {folder: b, frequency_per_year: 1e-3}\n",
+    "scenarios: [{folder: a, frequency_per_year: 100}]\nreturn_periods_years: [1, 2.5]\n"
+    "probability_classes_years: [1, 2, 3]\nstrong_thickness_m: 2\nstrong_speed_m_s: .5\n",
+    "timber: {pressure_kpa: [[5, 0], [30, 1]]}\nroad: {thickness_m: [[0, 0.1], [1e6, 0.1]]}\n",
+    "a: {energy_kj_m2: [[1.5, 1]]}\nb: {speed_m_s: [[1, nan], [0, 2]]}\n", "scenarios: 3\n", "a: [1]\n",
+]
+
+
+def risk_seeds(_root, _build, _scratch):
+    yield from RISKS
+
+
 MANIFEST = {
     "kind": "ensemble",
     "program": {"name": "sturz", "version": "0.1.0", "git_commit": "0123abc", "compiler": "GNU 12",
@@ -195,6 +208,7 @@ def netcdf_seeds(_root, build, _scratch):
 
 
 SEEDS = {"scenario": scenario_seeds, "design": design_seeds, "hydrograph": hydrograph_seeds,
+         "risk": risk_seeds,
          "manifest": manifest_seeds,
          "rasters": raster_seeds, "polygons": polygon_seeds, "netcdf": netcdf_seeds}
 

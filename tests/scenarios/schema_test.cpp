@@ -158,7 +158,7 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_THAT(names_in_block(""),
               ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture",
                           "basal", "formulation", "erosion", "numerics", "domain", "ensemble",
-                          "hazard", "gauges", "observation"));
+                          "hazard", "gauges", "observation", "assets"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

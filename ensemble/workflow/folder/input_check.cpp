@@ -10,7 +10,8 @@ namespace sturz::workflow {
 
 std::vector<InputIdentity> of_members(std::vector<InputIdentity> inputs) {
   std::erase_if(inputs, [](const InputIdentity& i) {
-    return i.role == "hazard.observed_polygon" || i.role.starts_with("observation.");
+    return i.role == "hazard.observed_polygon" || i.role.starts_with("observation.") ||
+           i.role.starts_with("assets.");
   });
   return inputs;
 }

@@ -18,6 +18,8 @@ struct OutputFolder {
   std::filesystem::path log() const { return root / "log.txt"; }
   std::filesystem::path members() const { return root / "members"; }
   std::filesystem::path members_csv() const { return root / "members.csv"; }
+  std::filesystem::path assets_csv() const { return root / "assets.csv"; }
+  std::filesystem::path assets_gpkg() const { return root / "assets.gpkg"; }
   std::filesystem::path gauges_csv() const { return root / "gauges.csv"; }
   std::filesystem::path gauge_series_csv() const { return root / "gauge_series.csv"; }
   std::filesystem::path hazard_nc() const { return root / "hazard.nc"; }

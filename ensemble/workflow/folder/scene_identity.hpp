@@ -15,10 +15,10 @@
 namespace sturz::workflow {
 
 /// False for keys whose value no member depends on, so that a begun ensemble may go on with another
-/// one: title, thresholds and quantiles of the maps, what was observed, accepted shares, the number
-/// of members, the wall-time limit (a member that ran into it is failed, and `--retry-failed`
-/// computes it again), what is read first of a raster, and the names of files (what was read of
-/// them counts instead).
+/// one: title, thresholds and quantiles of the maps, what was observed, assets, accepted shares,
+/// the number of members, the wall-time limit (a member that ran into it is failed, and
+/// `--retry-failed` computes it again), what is read first of a raster, and the names of files
+/// (what was read of them counts instead).
 bool changes_members(const KeyInfo&);
 
 /// Each difference between two scenes that changes what a member computes, as "key: old -> new".

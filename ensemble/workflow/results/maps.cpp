@@ -6,6 +6,7 @@
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/results/asset_files.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
@@ -50,6 +51,13 @@ void add_scores(MapsMade& made, const MemberStore& store, const SceneInputs& inp
   for (const MemberSummary& m : store.members()) made.numbers.push_back(m.member);
 }
 
+/// Until they are whole, no page is written over half of them.
+void forget_maps(const OutputFolder& folder, Manifest& manifest) {
+  manifest.hazard_hash.clear();
+  manifest.maps_of.clear();
+  manifest.write(folder.manifest());
+}
+
 /// A member may be lost or damaged between its computation and the maps.
 void require_complete(const OutputFolder& folder, const MemberStore& store,
                       const DesignTable& design, Observer& observer) {
@@ -87,14 +95,12 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const auto ground = ground_of_map(scenario, inputs,
                                     grid_of(map_extent(MemberCells(store).touched(), grid), grid));
 
-  // Until they are whole, no page is written over half of them.
-  manifest.hazard_hash.clear();
-  manifest.maps_of.clear();
-  manifest.write(folder.manifest());
-
+  forget_maps(folder, manifest);
   add_scores(made, store, inputs, cancel);
   write_text_atomic(folder.members_csv(),
                     members_csv(design, store.members(), made.scores ? &*made.scores : nullptr));
+  const auto risk = find_risk(store, inputs, cancel);
+  write_asset_files(folder, risk, grid);
   const GaugeFindings gauges = find_gauges(store, scenario, cancel);
   write_gauge_files(folder, gauges);
   ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
@@ -127,6 +133,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const NearestMember nearest = nearest_member(store, made.scores, inputs.event);
   page.scores = made.scores ? &*made.scores : nullptr;
   page.nearest = &nearest;
+  if (risk) page.risk = &*risk;
   manifest.hazard_hash = hash;
   manifest.maps_of = members_hash(store, design.n_members());
   const auto posterior = shown_posterior(folder, manifest.maps_of);

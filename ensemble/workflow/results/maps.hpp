@@ -55,11 +55,11 @@ struct MapsRequest {
   const SceneInputs& inputs;  ///< for where the ground is known, and the page's relief
 };
 
-/// Scores the members where something was observed, reads their maps, writes members.csv,
-/// hazard.nc, hazard/*.tif with their styles and list, and report.html. Memory holds a few hundred
-/// MB whatever the size of terrain and ensemble. When it is cancelled or fails, the manifest has no
-/// hash until all files belong together again. \throws SetupError; IoError when the disk refuses
-/// (members are not touched); Cancelled
+/// Scores the members where something was observed, reads their maps, writes members.csv, the
+/// table of assets, hazard.nc, hazard/*.tif with their styles and list, and report.html. Memory
+/// holds a few hundred MB whatever the size of terrain and ensemble. When it is cancelled or fails,
+/// the manifest has no hash until all files belong together again. \throws SetupError; IoError when
+/// the disk refuses (members are not touched); Cancelled
 MapsMade make_maps(const MapsRequest&, const MemberStore&, Observer&, CancelFlag cancel = {});
 
 /// The same at the end of an ensemble, whose computing time so far goes into the manifest.

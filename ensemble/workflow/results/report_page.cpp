@@ -147,6 +147,10 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.observed_note = scenario.hazard.observed_note;
   input.scores = content.scores;
   input.posterior = content.posterior;
+  if (content.risk != nullptr) {
+    input.assets = content.risk->assets.get();
+    input.risk = &content.risk->risk;
+  }
   if (content.nearest != nullptr && content.nearest->member) {
     input.nearest = &content.nearest->cells;
     input.nearest_member = *content.nearest->member;
@@ -221,6 +225,9 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   }
   if (finished.inputs)
     page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
+  std::optional<AssetFindings> risk;
+  if (finished.inputs && !one_run) risk = find_risk(store, *finished.inputs, cancel);
+  if (risk) page.risk = &*risk;
   const auto posterior = shown_posterior(finished.folder, finished.manifest.maps_of);
   if (!one_run && posterior) page.posterior = &*posterior;
   page.members = store.members();

@@ -12,6 +12,7 @@
 #include "ensemble/workflow/folder/manifest.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
+#include "ensemble/workflow/results/asset_files.hpp"
 #include "reports/page/report_input.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 
@@ -54,6 +55,7 @@ struct PageContent {
   const ScoreTable* scores = nullptr;             ///< rows in the order of `members`
   const PosteriorShown* posterior = nullptr;      ///< of a calibration; null: none
   const NearestMember* nearest = nullptr;
+  const AssetFindings* risk = nullptr;    ///< null: the scene has no assets
   const GaugeFindings* gauges = nullptr;  ///< see gauge_files.hpp
   const MemberResult* run = nullptr;      ///< of a single run: its history and where its time went
 };

@@ -68,6 +68,9 @@ struct Loading {
   const Grid& grid() const { return inputs.whole; }
 };
 
+/// Only checks their files, while no terrain is known.
+void load_assets(Loading&, const ReadGround& read);
+
 // Dams and buildings, on ground that was just read or is not known at all.
 void load_structures(Loading&, const ReadGround& read);  ///< their files, and what they do
 void stand_structures(Loading&);                         ///< those of all members

@@ -170,6 +170,7 @@ void add_inflow_keys(std::vector<KeyInfo>&);       ///< inflow
 void add_run_keys(std::vector<KeyInfo>&);          ///< numerics, domain, ensemble, hazard
 void add_gauge_keys(std::vector<KeyInfo>&);        ///< gauges
 void add_observation_keys(std::vector<KeyInfo>&);  ///< observation
+void add_asset_keys(std::vector<KeyInfo>&);        ///< assets
 // Their optional blocks.
 void add_site_blocks(std::vector<BlockInfo>&);
 void add_material_blocks(std::vector<BlockInfo>&);
@@ -178,5 +179,6 @@ void add_bed_field_blocks(std::vector<BlockInfo>&);
 void add_erosion_blocks(std::vector<BlockInfo>&);
 void add_gauge_blocks(std::vector<BlockInfo>&);
 void add_observation_blocks(std::vector<BlockInfo>&);
+void add_asset_blocks(std::vector<BlockInfo>&);
 
 }  // namespace sturz::schema_rows

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two finished ensembles compared: with and without a dam, with and without pairs.
+#include "ensemble/workflow/comparison/compare.hpp"
+
+#include "io/netcdf/netcdf_layers.hpp"
+#include "tests/workflow/workflow_fixture.hpp"
+
+#include <cmath>
+
+namespace sturz::test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+class CompareWorkflow : public Workflow {
+ protected:
+  static std::string columns() {
+    return replaced(tiny_scene(), "formulation: full_stress", "formulation: depth_averaged");
+  }
+  void ensemble(const std::string& folder, const std::string& text) {
+    write("scene.yaml", text);
+    Recorder silent;
+    whole(request(folder), silent);
+  }
+  workflow::Compared compare(bool paired = true) {
+    return workflow::compare({path("a"), path("b"), path("both"), paired}, heard);
+  }
+  Recorder heard;
+};
+
+TEST_F(CompareWorkflow, WithAndWithoutADam) {
+  ensemble("a", columns());
+  // Across the path, 15 m below the release.
+  ensemble("b", replaced(columns(), "terrain:\n",
+                         "terrain:\n  dams: [{points_m: [[-25, -24], [-25, 24]], height_m: 4, "
+                         "crest_width_m: 4, side_slope: 1}]\n"));
+  const workflow::Compared made = compare();
+  EXPECT_EQ(made.n_pairs, 6U);
+  EXPECT_THAT(made.differences, Contains(HasSubstr("terrain.dams: absent ->")));
+  EXPECT_LE(made.summary.least, 0);
+  for (const char* file : {"both/comparison.nc", "both/comparison/index.csv"})
+    EXPECT_TRUE(exists(file)) << file;
+  EXPECT_FALSE(exists("both/asset_differences.csv"));
+  const LayerStack maps = read_layers(path("both/comparison.nc"));
+  ASSERT_NE(maps.find("probability_difference"), nullptr);
+  EXPECT_EQ(maps.find("thickness_exceedance_difference")->axis.values,
+            (std::vector<double>{0.5, 1}));
+}
+
+TEST_F(CompareWorkflow, MembersThatDrewOtherValuesAreNoPairs) {
+  ensemble("a", columns());
+  ensemble("b", replaced(columns(), "seed: 1", "seed: 2"));
+  EXPECT_THAT([&] { compare(); },
+              ThrowsMessage<SetupError>(HasSubstr("their members are no pairs (ensemble.seed is 1 "
+                                                  "and 2)")));
+  EXPECT_FALSE(exists("both/comparison.nc"));
+  const workflow::Compared made = compare(false);
+  EXPECT_EQ(made.n_pairs, 0U);
+  EXPECT_TRUE(std::isnan(made.summary.median_gain));
+  EXPECT_TRUE(exists("both/comparison.nc"));
+}
+
+TEST_F(CompareWorkflow, AnEnsembleDoesNotDifferFromItself) {
+  ensemble("a", columns());
+  ensemble("b", columns());
+  const workflow::Compared made = compare();
+  EXPECT_TRUE(made.differences.empty());
+  EXPECT_EQ(made.summary.least, 0);
+  EXPECT_EQ(made.summary.most, 0);
+}
+
+}  // namespace
+}  // namespace sturz::test
