@@ -5,6 +5,8 @@
 #include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/sampling/marginal.hpp"
 #include "ensemble/workflow/calibration/chosen_members.hpp"
+#include "ensemble/workflow/calibration/posterior_files.hpp"
+#include "ensemble/workflow/calibration/shown_posterior.hpp"
 
 #include <fmt/core.h>
 
@@ -93,7 +95,6 @@ std::vector<KeySummary> summaries(const EnsembleJob& job, const Calibrated& c) {
 /// The member at the best fit, beside what the emulators expected of it.
 void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibrated& c,
                 Observer& observer, const std::atomic<bool>& cancel) {
-  if (!c.found.best || !request.check_best) return;
   // Its name tells the point: another posterior has another best fit, and both may lie there.
   std::uint64_t name = 1469598103934665603ULL;
   for (const double x : c.found.best->cube)
@@ -128,7 +129,7 @@ void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibra
 
 FoundAt found_at(const Scene& scene) {
   return {scene.description.formulation, scene.scenario.numerics.spacing_m,
-          scene.description.release_volume_m3};
+          scene.description.release_volume_m3, scene.scenario.ensemble.members};
 }
 
 EnsembleJob prepare_calibration(const CalibrateRequest& request, Observer& observer) {
@@ -170,8 +171,16 @@ Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob
   c.seed = job.scene.scenario.ensemble.seed;
   c.at = found_at(job.scene);
   c.members_hash = job.manifest.maps_of;
-  check_best(request, job, c, observer, cancel);
+  c.observation_hash = observation_hash(job.scene.scenario, job.manifest.inputs);
   c.keys = summaries(job, c);
+  if (!c.found.best || !request.check_best) return c;
+  write_posterior(job.folder, c);
+  try {
+    check_best(request, job, c, observer, cancel);
+  } catch (const SetupError& problem) {
+    c.found.warnings.push_back(fmt::format(
+        "nothing confirms the best fit, its member was not computed: {}", problem.what()));
+  }
   return c;
 }
 
