@@ -198,7 +198,9 @@ Calibration calibrate(const CalibrationData& data, const CalibrationSettings& se
   else
     by_emulator(c, data, u, likelihood, settings, n_next);
   c.discrepancies = discrepancies_of(likelihood, c.posterior);
-  c.identifiability = identifiability_of(c.posterior);
+  const Copula copula(data.keys, data.correlation);
+  c.identifiability =
+      identifiability_of(c.posterior, data.correlation.empty() ? nullptr : &copula);
   c.check = predictive_check(likelihood, c.posterior);
   if (c.posterior.chains) warn_of_emulators(c);
   warn_of_posterior(c);

@@ -7,6 +7,7 @@
 #include "ensemble/calibration/prediction_check.hpp"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace sturz {
 struct CalibrationData {
   std::vector<std::string> keys;          ///< [n_dims], for words
   std::vector<std::vector<double>> cube;  ///< [n members][n_dims], independent coordinates
+  std::map<std::string, double> correlation{};  ///< "key/key", see Copula
   Comparison comparison;                  ///< of these members
   /// So many first members were drawn from the prior; those after them were chosen, and have no
   /// weight of their own.

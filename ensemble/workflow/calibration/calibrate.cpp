@@ -19,6 +19,7 @@ namespace {
 CalibrationData data_of(const EnsembleJob& job, const MapsMade& maps) {
   CalibrationData data;
   data.keys = job.design.keys;
+  data.correlation = job.scene.scenario.ensemble.correlation;
   data.comparison = maps.scores->comparison;
   for (const std::int64_t m : data.comparison.simulated.members)
     data.cube.push_back(job.design.unit_cube.at(static_cast<std::size_t>(m)));

@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/calibration/next_members.hpp"
 #include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/sampling/copula.hpp"
 #include "ensemble/sampling/random_words.hpp"
 #include "ensemble/sampling/unit_cube.hpp"
 
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <tuple>
 
 namespace sturz {
@@ -155,6 +157,26 @@ TEST(Calibration, ARidgeIsSeenAsOneDirectionThatIsKnownAndOneThatIsNot) {
   EXPECT_LT(c.identifiability.directions[0].variance_left, 0.05);
   EXPECT_GT(c.identifiability.directions[1].variance_left, 0.5);
   EXPECT_TRUE(c.held_out.quantities.empty());  // nothing to learn from without it
+}
+
+/// Only the first key is observed. The copula gives the second to it by 0.9, so that what is told
+/// of the first is told of the second as well, and their correlation is the prior's.
+TEST(Calibration, CorrelatedKeysAreToldByTheirOwnValues) {
+  const std::vector<std::string> keys{"key0", "key1"};
+  const std::map<std::string, double> correlation{{"key0/key1", 0.9}};
+  const Copula copula(keys, correlation);
+  const auto second = [&](const std::vector<double>& u) {
+    return std::vector<double>{10 * copula.apply(u)[1]};
+  };
+  CalibrationData data = data_of(second, 40, {{"travel_m", 5.0, 0.3, "m"}});
+  data.correlation = correlation;
+  const Calibration c = calibrate(data, without_discrepancy(PosteriorMethod::emulator));
+  EXPECT_GT(c.identifiability.variance_removed[1], 0.95);  // it is what was observed
+  EXPECT_GT(c.identifiability.variance_removed[0], 0.5);   // by the prior's correlation
+  EXPECT_NEAR(c.identifiability.mean[1], 0.5, 0.03);
+  EXPECT_TRUE(c.identifiability.ridges.empty());  // of the independent coordinates there is one
+  EXPECT_LT(c.identifiability.directions[0].variance_left, 0.05);
+  EXPECT_GT(c.identifiability.directions[1].variance_left, 0.7);
 }
 
 // --- twins ---
