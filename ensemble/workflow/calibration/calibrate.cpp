@@ -57,7 +57,7 @@ void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, Calibra
     const auto table = job.folder.root / "active" / fmt::format("{}.csv", round);
     std::vector<std::vector<double>> points;
     if (!std::filesystem::exists(table)) {
-      points = calibrate(data, settings, round_size(request, data.keys.size())).next;
+      points = points_to_compute(data, settings, round_size(request, data.keys.size()));
       if (points.empty()) {
         observer.warning(fmt::format(
             "round {} of {} has nothing to add: the emulators know the posterior well enough.",

@@ -122,6 +122,7 @@ Json emulators_json(const Calibration& c) {
                    {"inflation", number(e.inflation)},
                    {"noise_sd", number(e.noise_sd)},
                    {"members", e.n_exact},
+                   {"members_used", e.n_used},
                    {"at_least", e.n_at_least},
                    {"bounds_used", e.n_bounds_used},
                    {"not_known", e.n_not_known}});

@@ -92,6 +92,7 @@ TEST(Calibration, WeightsRecoverTheClosedForm) {
 TEST(Calibration, EmulatorAndChainsRecoverTheClosedForm) {
   const Calibration c = calibrate(linear_data(24), without_discrepancy(PosteriorMethod::emulator));
   EXPECT_GT(c.posterior.effective_size, 300);
+  EXPECT_TRUE(std::isnan(c.posterior.censored_share));  // its points are no members
   expect_exact(c.identifiability, c.posterior.effective_size);
   for (const double r : c.posterior.chains->r_hat) EXPECT_LT(r, most_r_hat);
   for (const double a : c.posterior.chains->acceptance) EXPECT_TRUE(a > 0.1 && a < 0.7) << a;
@@ -125,12 +126,13 @@ TEST(Calibration, TheSameInputsGiveTheSameBits) {
   CalibrationSettings settings;
   settings.method = PosteriorMethod::emulator;
   settings.seed = 5;
-  const Calibration a = calibrate(linear_data(24), settings, 3);
+  const Calibration a = calibrate(linear_data(24), settings);
+  const Points next = points_to_compute(linear_data(24), settings, 3);
   draw_unit_cube(Design::monte_carlo, 31, 2, 99);  // moves the process-wide generator on
-  const Calibration b = calibrate(linear_data(24), settings, 3);
+  const Calibration b = calibrate(linear_data(24), settings);
   EXPECT_EQ(a.posterior.cube, b.posterior.cube);
   EXPECT_EQ(a.best->cube, b.best->cube);
-  EXPECT_EQ(a.next, b.next);
+  EXPECT_EQ(next, points_to_compute(linear_data(24), settings, 3));
   EXPECT_EQ(a.held_out.mean_log_score, b.held_out.mean_log_score);
   settings.seed = 6;
   EXPECT_NE(calibrate(linear_data(24), settings).posterior.cube, a.posterior.cube);
@@ -323,6 +325,17 @@ TEST(Calibration, WhatCannotBeExplainedIsSaid) {
   data.comparison.observed[0].value = 300;
   const Calibration c = calibrate(data, {});
   EXPECT_THAT(c.warnings, testing::Contains(HasSubstr("travel_m = 300 m is not explained")));
+}
+
+TEST(Calibration, BoundsBelowTheObservationThatTeachAnEmulatorAreSaid) {
+  CalibrationData data = linear_data(40);
+  for (std::size_t i = 0; i < 40; ++i)
+    if (Observation& o = data.comparison.simulated.values[i][0]; data.cube[i][0] > 0.75)
+      o = {o.value + 0.4, Known::at_least};  // farther than the others foresee
+  data.comparison.observed[0].value = 14.5;
+  const auto said = testing::Contains(HasSubstr("the posterior is biased short"));
+  EXPECT_THAT(calibrate(data, {}).warnings, said);
+  EXPECT_THAT(calibrate(linear_data(40), {}).warnings, testing::Not(said));
 }
 
 // --- degenerate input ---
