@@ -85,6 +85,22 @@ std::vector<DiscrepancyFound> discrepancies_of(const Likelihood& likelihood,
   return all;
 }
 
+/// A bound below the observation leaves the member possible, but in an emulator it stands for a
+/// value, which then falls short.
+void warn_of_bounds(Calibration& c) {
+  for (std::size_t q = 0; q < c.emulators.size(); ++q) {
+    const EmulatorReport& e = c.emulators[q];
+    const ObservedQuantity& o = c.observed[q];
+    if (e.n_bounds_used > 0 && e.lowest_bound_used < o.value)
+      c.warnings.push_back(fmt::format(
+          "{}: {} lower bounds teach its emulator as if they were values, the lowest {:.4g} below "
+          "the observed {:.4g} {}: what such members would reach is not known, and the posterior "
+          "is biased short. --method weights takes bounds as bounds; a larger terrain or a later "
+          "end needs none.",
+          e.quantity, e.n_bounds_used, e.lowest_bound_used, o.value, o.unit));
+  }
+}
+
 void warn_of_emulators(Calibration& c) {
   for (const EmulatorReport& e : c.emulators) {
     if (e.q2 < poor_q2)
@@ -92,11 +108,11 @@ void warn_of_emulators(Calibration& c) {
           fmt::format("the emulator of {} tells {:.0f} % of its variance (Q2 {:.2f}, from {} "
                       "members): what it does not know widens the posterior. More members, or "
                       "--active rounds, mend that.",
-                      e.quantity, 100 * std::max(0.0, e.q2), e.q2, e.n_exact));
+                      e.quantity, 100 * std::max(0.0, e.q2), e.q2, e.n_used));
     if (const auto lost = e.n_at_least + e.n_not_known; lost > 0)
       c.warnings.push_back(fmt::format(
-          "{}: {} of {} members are cut off and do not teach the emulator ({} of them as a lower "
-          "bound). Where they lie it goes on from the others.",
+          "{}: {} of {} members are cut off and do not teach the emulator ({} more of them do as "
+          "lower bounds). Where they lie it goes on from the others.",
           e.quantity, lost - e.n_bounds_used, e.n_exact + lost, e.n_bounds_used));
   }
   const ChainSample& chains = *c.posterior.chains;
@@ -163,8 +179,7 @@ void by_weights(Calibration& c, const CalibrationData& data, const Usable& u,
 }
 
 void by_emulator(Calibration& c, const CalibrationData& data, const Usable& u,
-                 const Likelihood& likelihood, const CalibrationSettings& settings,
-                 std::size_t n_next) {
+                 const Likelihood& likelihood, const CalibrationSettings& settings) {
   const std::size_t n_dims = data.keys.size();
   const EmulatorSet emulators(u.observed, data.cube, u.members);
   for (const QuantityEmulator& e : emulators.quantities()) c.emulators.push_back(e.report);
@@ -178,7 +193,6 @@ void by_emulator(Calibration& c, const CalibrationData& data, const Usable& u,
     prior.push_back(emulators.at(point));
   hold_out(c, likelihood, without, prior);
   c.best = best_fit(likelihood, emulators, n_dims, settings.seed);
-  if (n_next > 0) c.next = next_members(likelihood, emulators, c.posterior, n_next);
 }
 
 std::vector<double> weights_of_drawn(const CalibrationData& data, const Usable& u,
@@ -196,8 +210,9 @@ PosteriorMethod chosen_method(std::size_t n_members, std::size_t n_dims) {
                                                : PosteriorMethod::weights;
 }
 
-Calibration calibrate(const CalibrationData& data, const CalibrationSettings& settings,
-                      std::size_t n_next) {
+namespace {
+
+void check(const CalibrationData& data) {
   const auto& simulated = data.comparison.simulated;
   expect(data.cube.size() == simulated.values.size(), "a point of the prior for each member");
   require(!data.keys.empty(),
@@ -207,6 +222,25 @@ Calibration calibrate(const CalibrationData& data, const CalibrationSettings& se
   require(!data.cube.empty(),
           "no valid member (there is nothing to learn from). Their reasons are "
           "in members.csv.");
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> points_to_compute(const CalibrationData& data,
+                                                   const CalibrationSettings& settings,
+                                                   std::size_t n) {
+  check(data);
+  std::vector<std::string> ignored;
+  const Usable u = usable(data, ignored);
+  const Likelihood likelihood(u.observed, u.members, settings.discrepancy);
+  const EmulatorSet emulators(u.observed, data.cube, u.members);
+  const Posterior posterior =
+      emulated_posterior(likelihood, emulators, data.keys.size(), settings.lengths, settings.seed);
+  return next_members(likelihood, emulators, posterior, n);
+}
+
+Calibration calibrate(const CalibrationData& data, const CalibrationSettings& settings) {
+  check(data);
   Calibration c;
   const Usable u = usable(data, c.warnings);
   const Likelihood likelihood(u.observed, u.members, settings.discrepancy);
@@ -217,12 +251,16 @@ Calibration calibrate(const CalibrationData& data, const CalibrationSettings& se
   if (method == PosteriorMethod::weights)
     by_weights(c, data, u, likelihood);
   else
-    by_emulator(c, data, u, likelihood, settings, n_next);
+    by_emulator(c, data, u, likelihood, settings);
   c.member_weights = weights_of_drawn(data, u, likelihood);
   c.discrepancies = discrepancies_of(likelihood, c.posterior);
-  c.identifiability = identifiability_of(c.posterior);
+  const Copula copula(data.keys, data.correlation);
+  c.identifiability = identifiability_of(c.posterior, data.correlation.empty() ? nullptr : &copula);
   c.check = predictive_check(likelihood, c.posterior);
-  if (c.posterior.chains) warn_of_emulators(c);
+  if (c.posterior.chains) {
+    warn_of_emulators(c);
+    warn_of_bounds(c);
+  }
   warn_of_posterior(c);
   return c;
 }

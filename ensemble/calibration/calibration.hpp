@@ -7,6 +7,7 @@
 #include "ensemble/calibration/prediction_check.hpp"
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,9 +15,10 @@
 namespace sturz {
 
 struct CalibrationData {
-  std::vector<std::string> keys;          ///< [n_dims], for words
-  std::vector<std::vector<double>> cube;  ///< [n members][n_dims], independent coordinates
-  Comparison comparison;                  ///< of these members
+  std::vector<std::string> keys;                ///< [n_dims], for words
+  std::vector<std::vector<double>> cube;        ///< [n members][n_dims], independent coordinates
+  std::map<std::string, double> correlation{};  ///< "key/key", see Copula
+  Comparison comparison;                        ///< of these members
   /// So many first members were drawn from the prior; those after them were chosen, and have no
   /// weight of their own.
   std::size_t n_drawn = 0;
@@ -55,13 +57,16 @@ struct Calibration {
   HeldOut held_out;
   std::optional<BestFit> best;            ///< by emulator
   std::vector<EmulatorReport> emulators;  ///< by emulator
-  std::vector<std::vector<double>> next;  ///< points worth computing next; by emulator
   std::vector<std::string> warnings;      ///< whole sentences
 };
 
-/// \param n_next how many points to compute next are wanted
 /// \throws SetupError: no member, nothing observed, all members censored, one and the same value
 ///   everywhere, all likelihoods 0, weights of chosen members
-Calibration calibrate(const CalibrationData&, const CalibrationSettings&, std::size_t n_next = 0);
+Calibration calibrate(const CalibrationData&, const CalibrationSettings&);
+
+/// Points worth computing next for an emulator, at most n: see next_members(). Needs the posterior
+/// and nothing else of a calibration. \throws SetupError as calibrate()
+std::vector<std::vector<double>> points_to_compute(const CalibrationData&,
+                                                   const CalibrationSettings&, std::size_t n);
 
 }  // namespace sturz

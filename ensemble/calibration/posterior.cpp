@@ -26,7 +26,7 @@ bool fully_known(const SimulatedRow& row) {
                      [](const SimulatedValue& s) { return s.known == Known::exactly; });
 }
 
-void finish(Posterior& p) {
+void add_censored_share(Posterior& p) {
   p.censored_share = 0;
   for (std::size_t i = 0; i < p.weights.size(); ++i)
     if (!fully_known(p.simulated[i])) p.censored_share += p.weights[i];
@@ -107,7 +107,7 @@ Posterior weighted_members(const Likelihood& likelihood, const Points& cube,
                       "their values, units and standard deviations, or widen the distributions.",
                       members.size()));
   p.effective_size = effective_size(p.weights);
-  finish(p);
+  add_censored_share(p);
   return p;
 }
 
@@ -158,7 +158,7 @@ Posterior emulated_posterior(const Likelihood& likelihood, const EmulatorSet& em
   for (const auto& u : p.cube) p.simulated.push_back(emulators.at(u));
   p.effective_size = chains.effective_size;
   p.chains = std::move(chains);
-  finish(p);
+  p.censored_share = std::numeric_limits<double>::quiet_NaN();
   return p;
 }
 

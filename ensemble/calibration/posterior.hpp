@@ -23,7 +23,9 @@ struct Posterior {
   std::vector<double> weights;            ///< [n], they add up to 1
   std::vector<SimulatedRow> simulated;    ///< [n][n_quantities], what is expected there
   double effective_size = 0;
-  double censored_share = 0;          ///< weight of points whose values are not all fully known
+  /// Weight of members whose values are not all fully known; NaN by emulator, whose points are
+  /// none.
+  double censored_share = 0;
   std::optional<ChainSample> chains;  ///< of an emulator, without the points
 };
 

@@ -81,7 +81,8 @@ GaussianProcess::GaussianProcess(const Points& points, std::span<const double> v
   divide_ = std::sqrt(values_.squaredNorm() / static_cast<double>(values.size()));
   expect(divide_ > 0 && std::isfinite(divide_), "values are finite and not all equal");
   values_ /= divide_;
-  linear_ = points_.size() >= 4 * (n_dims() + 1);
+  linear_ = scales_.linear.value_or(points_.size() >= 4 * (n_dims() + 1));
+  scales_.linear = linear_;
   solve();
 }
 

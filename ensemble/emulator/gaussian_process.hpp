@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,8 +36,9 @@ struct LeaveOneOut {
 class GaussianProcess {
  public:
   struct Scales {
-    std::vector<double> length;  ///< of each coordinate, in the unit of the coordinates
-    double noise_ratio = 1e-6;   ///< variance of the noise / variance of z
+    std::vector<double> length;    ///< of each coordinate, in the unit of the coordinates
+    double noise_ratio = 1e-6;     ///< variance of the noise / variance of z
+    std::optional<bool> linear{};  ///< trend; absent: by the number of points
   };
 
   /// Finds the scales: two local searches, no random number.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sturz {
 namespace {
@@ -27,9 +28,35 @@ bool is_bound(const Observation& o) { return o.known == Known::at_least && std::
 
 Lesson exact_members(const Points& cube, std::span<const Observation> simulated) {
   Lesson lesson;
-  for (std::size_t i = 0; i < cube.size() && lesson.values.size() < most_emulated_members; ++i)
-    if (is_exact(simulated[i])) lesson.add(cube[i], simulated[i].value);
+  for (const std::size_t i : teaching_members(simulated)) lesson.add(cube[i], simulated[i].value);
   return lesson;
+}
+
+/// Mean of a standard normal above a: phi(a) / (1 - Phi(a)).
+double mean_above(double a) {
+  if (a > 30) return a + 1 / a;  // the tail's first terms, before both underflow
+  const double above = 0.5 * std::erfc(a / std::numbers::sqrt2);
+  return std::exp(-0.5 * a * a) / std::sqrt(2 * std::numbers::pi) / above;
+}
+
+double expected_above(double bound, const GaussianPrediction& p) {
+  const double sd = std::sqrt(p.variance + p.noise);
+  if (!(sd > 0)) return bound;
+  return std::max(bound, p.mean + sd * mean_above((bound - p.mean) / sd));
+}
+
+/// Bounds that contradict what the exact members say, the last ones first: see teaching_members.
+void add_bounds(Lesson& lesson, EmulatorReport& report, const GaussianProcess& process,
+                const Points& cube, std::span<const Observation> simulated) {
+  for (std::size_t i = cube.size(); i-- > 0 && lesson.values.size() < most_emulated_members;) {
+    if (!is_bound(simulated[i])) continue;
+    const double bound = simulated[i].value;
+    const GaussianPrediction p = process.at(cube[i]);
+    if (p.mean >= bound) continue;
+    lesson.add(cube[i], expected_above(bound, p));
+    ++report.n_bounds_used;
+    report.lowest_bound_used = std::min(report.lowest_bound_used, bound);
+  }
 }
 
 void check(const Lesson& lesson, const std::string& quantity, std::size_t n_dims,
@@ -51,6 +78,14 @@ void check(const Lesson& lesson, const std::string& quantity, std::size_t n_dims
 
 }  // namespace
 
+std::vector<std::size_t> teaching_members(std::span<const Observation> simulated) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = simulated.size(); i-- > 0 && places.size() < most_emulated_members;)
+    if (is_exact(simulated[i])) places.push_back(i);
+  std::reverse(places.begin(), places.end());
+  return places;
+}
+
 QuantityEmulator emulate(const std::string& quantity, const Points& cube,
                          std::span<const Observation> simulated) {
   expect(cube.size() == simulated.size(), "one value per member");
@@ -67,11 +102,8 @@ QuantityEmulator emulate(const std::string& quantity, const Points& cube,
   Lesson lesson = exact_members(cube, simulated);
   check(lesson, quantity, cube.front().size(), report);
   GaussianProcess process = GaussianProcess::fitted(lesson.points, lesson.values);
-  for (std::size_t i = 0; i < cube.size() && lesson.values.size() < most_emulated_members; ++i) {
-    if (!is_bound(simulated[i]) || process.mean_at(cube[i]) >= simulated[i].value) continue;
-    lesson.add(cube[i], simulated[i].value);
-    ++report.n_bounds_used;
-  }
+  add_bounds(lesson, report, process, cube, simulated);
+  report.n_used = static_cast<std::int64_t>(lesson.values.size());
   if (report.n_bounds_used > 0) process = GaussianProcess::fitted(lesson.points, lesson.values);
   const LeaveOneOut& out = process.leave_one_out();
   report.q2 = out.q2;

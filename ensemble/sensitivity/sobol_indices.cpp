@@ -20,7 +20,7 @@ using Points = std::vector<std::vector<double>>;
 constexpr std::size_t least_sets = 8;
 /// Evaluations of an emulator cost microseconds.
 constexpr std::size_t emulated_sets = 1024;
-constexpr std::size_t n_groups = 10;
+constexpr std::size_t most_groups = 10;
 
 /// Numbers of the sets of which every result is fully known.
 std::vector<std::size_t> whole_sets(std::span<const Observation> results, std::size_t set) {
@@ -104,20 +104,21 @@ double jackknife_error(std::span<const double> without) {
   return std::sqrt((g - 1) / g * squares);
 }
 
-/// The indices of emulators that know all members but one group each.
+/// The indices of emulators that know all members but one group each, scales and trend of the
+/// whole.
 std::vector<SobolIndices> without_groups(const GaussianProcess::Scales& scales, const Points& cube,
                                          std::span<const Observation> results,
                                          const Points& saltelli) {
+  const std::vector<std::size_t> members = teaching_members(results);
+  const std::size_t n_groups = std::min(most_groups, members.size());
   std::vector<SobolIndices> all;
   for (std::size_t g = 0; g < n_groups; ++g) {
     Points points;
     std::vector<double> values;
-    std::size_t place = 0;
-    for (std::size_t i = 0; i < cube.size() && place < most_emulated_members; ++i) {
-      if (results[i].known != Known::exactly || !std::isfinite(results[i].value)) continue;
-      if (place++ % n_groups == g) continue;
-      points.push_back(cube[i]);
-      values.push_back(results[i].value);
+    for (std::size_t place = 0; place < members.size(); ++place) {
+      if (place % n_groups == g) continue;
+      points.push_back(cube[members[place]]);
+      values.push_back(results[members[place]].value);
     }
     if (points.size() < 3 || *std::min_element(values.begin(), values.end()) ==
                                  *std::max_element(values.begin(), values.end()))

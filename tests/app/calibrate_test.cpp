@@ -124,6 +124,69 @@ TEST_F(Calibrate, AnEnsembleOfThePosteriorHasItsValuesAndWarnsOfAnotherSpacing) 
               HasSubstr("the posterior was found at a spacing of 1 m, this scene has 1.2"));
 }
 
+/// What was observed changes no member, and maps are made anew: a posterior of another observation
+/// does not belong to them.
+TEST_F(Calibrate, AnotherObservationTakesThePosteriorOffThePageAndIsTold) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  const std::vector<std::string> again{"ensemble", path("scene.yaml"), "-o", path("out")};
+  ASSERT_EQ(sturz(again).exit_code, 0);
+  EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"posterior\">"));
+  std::vector<std::string> other = again;
+  for (const char* word : {"--set", "observation.runout_m.value=90"}) other.emplace_back(word);
+  const Ended changed = sturz(other);
+  ASSERT_EQ(changed.exit_code, 0) << changed.err;
+  EXPECT_THAT(read("out/report.html"), Not(HasSubstr("<section id=\"posterior\">")));
+  const Ended of_it = sturz(
+      {"ensemble", path("plain.yaml"), "--posterior", path("out"), "-o", path("a"), "-n", "2"});
+  EXPECT_THAT(of_it.err, HasSubstr("is not what its posterior was found with"));
+}
+
+TEST_F(Calibrate, ADamagedPosteriorIsToldAndStopsNoMaps) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  write("out/posterior.json", "{");
+  const Ended maps = sturz({"ensemble", path("scene.yaml"), "-o", path("out")});
+  EXPECT_EQ(maps.exit_code, 0) << maps.err;
+  EXPECT_THAT(maps.err, AllOf(HasSubstr("is damaged"), HasSubstr("The page is without it")));
+  const Ended report = sturz({"report", path("out")});
+  EXPECT_EQ(report.exit_code, 0) << report.err;
+  EXPECT_THAT(read("out/report.html"), Not(HasSubstr("<section id=\"posterior\">")));
+}
+
+/// The folder's name would be a comment and the end of a text if it were not quoted.
+TEST_F(Calibrate, FewIndependentMembersAreSaidOfMapsOfManyRows) {
+  const std::string odd = path("it's #1: x");
+  ASSERT_EQ(sturz({"calibrate", path("scene.yaml"), "-o", odd}).exit_code, 0);
+  const Ended ended =
+      sturz({"ensemble", path("plain.yaml"), "--posterior", odd, "-o", path("a"), "-n", "8"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("independent members and 8 are asked of it"),
+                               HasSubstr("the others are copies")));
+}
+
+TEST_F(Calibrate, ThePosteriorStandsWhenItsBestMemberCannotBeComputed) {
+  ASSERT_EQ(calibrate({"-n", "24", "--no-check"}).exit_code, 0);
+  write("out/best", "a file where the folder should be");
+  std::filesystem::remove(path("out/posterior.json"));
+  const Ended ended = calibrate({"-n", "24"});
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("nothing confirms the best fit"));
+  EXPECT_TRUE(exists("out/posterior.json"));
+}
+
+TEST_F(Calibrate, CorrelatedValuesAreToldAndHaveNoShares) {
+  const std::string correlation =
+      "ensemble.correlation={basal.friction_coefficient/basal.pore_pressure_ratio: 0.8}";
+  const Ended ended = calibrate({"-n", "24", "--no-check", "--json", "--set", correlation});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto found = event(ended, "done").at("identifiability").at("correlation");
+  EXPECT_GT(found.at(0).at(1).get<double>(), 0.4);  // the prior's, at least
+  const Ended shares = sturz({"sensitivity", path("out"), "--result", "front_travel_m", "--json"});
+  ASSERT_EQ(shares.exit_code, 0) << shares.err;
+  const auto result = event(shares, "done").at("results").at(0);
+  EXPECT_THAT(result.at("no_indices").get<std::string>(), HasSubstr("ensemble.correlation is set"));
+  EXPECT_FALSE(result.at("keys").at(0).contains("sobol_first"));
+}
+
 TEST_F(Calibrate, SaysWhatIsMissing) {
   const Ended nothing = sturz({"calibrate", path("plain.yaml"), "-o", path("out")});
   EXPECT_EQ(nothing.exit_code, 1);

@@ -19,6 +19,11 @@ std::string range(const double (&v)[3]) {
 }
 std::string unit_text(const std::string& unit) { return unit == "1" ? "" : " " + unit; }
 
+/// A dash where one member holds all the weight.
+std::string told_text(double share) {
+  return std::isnan(share) ? "-" : fmt::format("{:.0f} %", 100 * share);
+}
+
 std::string method_line(const Calibrated& c) {
   const Posterior& p = c.found.posterior;
   std::string text =
@@ -43,8 +48,8 @@ void add_keys(const Calibrated& c, Lines& lines) {
   lines.push_back(fmt::format("{:<{}}  {:<30}{:<30}{:>7}{}", "value", width, "prior [5 % .. 95 %]",
                               "posterior", "told", c.found.best ? "   best fit" : ""));
   for (const KeySummary& k : c.keys)
-    lines.push_back(fmt::format("{:<{}}  {:<30}{:<30}{:>5.0f} %{}", k.key + unit_text(k.unit),
-                                width, range(k.prior), range(k.posterior), 100 * k.variance_removed,
+    lines.push_back(fmt::format("{:<{}}  {:<30}{:<30}{:>7}{}", k.key + unit_text(k.unit), width,
+                                range(k.prior), range(k.posterior), told_text(k.variance_removed),
                                 k.best ? "   " + number(*k.best) : ""));
   for (const Ridge& r : c.found.identifiability.ridges)
     lines.push_back(

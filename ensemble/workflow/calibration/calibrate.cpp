@@ -5,6 +5,8 @@
 #include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/sampling/marginal.hpp"
 #include "ensemble/workflow/calibration/chosen_members.hpp"
+#include "ensemble/workflow/calibration/posterior_files.hpp"
+#include "ensemble/workflow/calibration/shown_posterior.hpp"
 
 #include <fmt/core.h>
 
@@ -17,6 +19,7 @@ namespace {
 CalibrationData data_of(const EnsembleJob& job, const MapsMade& maps) {
   CalibrationData data;
   data.keys = job.design.keys;
+  data.correlation = job.scene.scenario.ensemble.correlation;
   data.comparison = maps.scores->comparison;
   for (const std::int64_t m : data.comparison.simulated.members)
     data.cube.push_back(job.design.unit_cube.at(static_cast<std::size_t>(m)));
@@ -54,7 +57,7 @@ void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, Calibra
     const auto table = job.folder.root / "active" / fmt::format("{}.csv", round);
     std::vector<std::vector<double>> points;
     if (!std::filesystem::exists(table)) {
-      points = calibrate(data, settings, round_size(request, data.keys.size())).next;
+      points = points_to_compute(data, settings, round_size(request, data.keys.size()));
       if (points.empty()) {
         observer.warning(fmt::format(
             "round {} of {} has nothing to add: the emulators know the posterior well enough.",
@@ -69,7 +72,6 @@ void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, Calibra
 /// The member at the best fit, beside what the emulators expected of it.
 void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibrated& c,
                 Observer& observer, const std::atomic<bool>& cancel) {
-  if (!c.found.best || !request.check_best) return;
   // Its name tells the point: another posterior has another best fit, and both may lie there.
   std::uint64_t name = 1469598103934665603ULL;
   for (const double x : c.found.best->cube)
@@ -128,7 +130,7 @@ std::vector<KeySummary> key_summaries(const Scenario& scenario, const Calibrated
 
 FoundAt found_at(const Scene& scene) {
   return {scene.description.formulation, scene.scenario.numerics.spacing_m,
-          scene.description.release_volume_m3};
+          scene.description.release_volume_m3, scene.scenario.ensemble.members};
 }
 
 EnsembleJob prepare_calibration(const CalibrateRequest& request, Observer& observer) {
@@ -170,8 +172,16 @@ Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob
   c.seed = job.scene.scenario.ensemble.seed;
   c.at = found_at(job.scene);
   c.members_hash = job.manifest.maps_of;
-  check_best(request, job, c, observer, cancel);
+  c.observation_hash = observation_hash(job.scene.scenario, job.manifest.inputs);
   c.keys = key_summaries(job.scene.scenario, c);
+  if (!c.found.best || !request.check_best) return c;
+  write_posterior(job.folder, c);
+  try {
+    check_best(request, job, c, observer, cancel);
+  } catch (const SetupError& problem) {
+    c.found.warnings.push_back(fmt::format(
+        "nothing confirms the best fit, its member was not computed: {}", problem.what()));
+  }
   return c;
 }
 

@@ -44,6 +44,7 @@ struct KeySummary {
 struct FoundAt {
   std::string formulation;
   double spacing_m = 0, release_volume_m3 = 0;
+  std::int64_t members = 0;  ///< of the ensemble
 };
 
 /// One of the events that a posterior was found with, see shared_events.hpp.
@@ -64,6 +65,7 @@ struct Calibrated {
   std::uint64_t seed = 0;
   FoundAt at;
   std::string members_hash;       ///< of the ensemble, as its maps know it; empty: of several
+  std::string observation_hash;   ///< of what it was calibrated with; empty: of several
   std::vector<EventUsed> events;  ///< of finished ensembles
 };
 
@@ -72,7 +74,8 @@ struct Calibrated {
 EnsembleJob prepare_calibration(const CalibrateRequest&, Observer&);
 
 /// After the members of the job were computed and its maps made: rounds of chosen members, the
-/// posterior, its check on a real member. \param maps of the job
+/// posterior, its check on a real member. Its files are written before that check, whose member may
+/// fail or be interrupted, and stand without it. \param maps of the job
 /// \throws SetupError; Cancelled
 Calibrated calibrate_ensemble(const CalibrateRequest&, const EnsembleJob&, const MapsMade& maps,
                               Observer&, const std::atomic<bool>& cancel);

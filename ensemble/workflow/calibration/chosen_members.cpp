@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/scores/score_table.hpp"
+#include "ensemble/workflow/calibration/posterior_files.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "io/files/atomic_file.hpp"
@@ -45,8 +46,8 @@ EnsembleRequest request_of(const EnsembleRequest& base, const fs::path& table, s
   request.folder = fs::path(table).replace_extension();
   request.members = 0;
   for (const std::string& set :
-       {std::string("ensemble.design=table"), "ensemble.table=" + fs::absolute(table).string(),
-        std::string("ensemble.correlation=null"), fmt::format("ensemble.members={}", n)})
+       {std::string("ensemble.design=table"), "ensemble.table=" + yaml_quoted(fs::absolute(table)),
+        std::string("ensemble.correlation={}"), fmt::format("ensemble.members={}", n)})
     request.scene.overrides.push_back(set);
   request.command = base.command + " (chosen members)";
   return request;

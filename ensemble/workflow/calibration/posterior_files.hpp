@@ -21,11 +21,15 @@ void write_posterior(const OutputFolder&, const Calibrated&);
 /// The text of posterior.json: one object; numbers that are not finite are null.
 std::string posterior_json(const Calibrated&);
 
+/// The path as a YAML text that stands for itself: spaces, colons and hashes do no harm.
+std::string yaml_quoted(const std::filesystem::path&);
+
 /// Overrides that make a scene draw its members from the posterior in `folder`.
 /// \throws SetupError when it holds none
 std::vector<std::string> posterior_overrides(const std::filesystem::path& folder);
 
-/// What differs between this scene and the one that the posterior was found with, as sentences.
+/// What differs between this scene and the one that the posterior was found with, what its rows are
+/// worth where fewer than the members asked, and what changed in its folder, as sentences.
 /// \throws SetupError when posterior.json is damaged
 std::vector<std::string> posterior_warnings(const std::filesystem::path& folder,
                                             const FoundAt& now);

@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/scores/score_table.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"
+#include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "io/files/atomic_file.hpp"
@@ -63,7 +64,8 @@ Event read_event(const fs::path& folder, std::string name, Observer& observer, C
   require_drawn(folder, scenario);
   event.comparison = score_members(event.input.store, inputs.event, cancel).comparison;
   const SceneDescription d = describe(median_scenario(scenario), inputs);
-  event.at = {d.formulation, scenario.numerics.spacing_m, d.release_volume_m3};
+  event.at = {d.formulation, scenario.numerics.spacing_m, d.release_volume_m3,
+              scenario.ensemble.members};
   return event;
 }
 
@@ -116,6 +118,7 @@ CalibrationData data_of(const std::vector<Event>& events, std::vector<std::strin
   const DesignTable& design = events.front().input.design;
   CalibrationData data;
   data.keys = design.keys;
+  data.correlation = events.front().input.finished.scenario.ensemble.correlation;
   data.comparison = joint_comparison(comparisons, names, warnings);
   for (const std::int64_t m : data.comparison.simulated.members)
     data.cube.push_back(design.unit_cube.at(static_cast<std::size_t>(m)));
@@ -237,7 +240,11 @@ Calibrated calibrate_events(const EventsRequest& request, Observer& observer, Ca
                         members_hash(e.input.store, e.input.design.n_members()),
                         e.at.release_volume_m3,
                         static_cast<std::int64_t>(e.comparison.simulated.members.size())});
-  c.members_hash = several ? "" : c.events.front().members_hash;
+  if (!several) {  // the folder's own, as the page and `--posterior` know it
+    c.members_hash = c.events.front().members_hash;
+    c.observation_hash =
+        observation_hash(scenario, events.front().input.finished.inputs->identities);
+  }
   c.keys = key_summaries(scenario, c);
   add_weightless(events, c);
   make_folder(out.root);

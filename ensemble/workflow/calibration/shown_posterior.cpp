@@ -3,12 +3,14 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/sampling/design.hpp"
+#include "io/files/checksum.hpp"
 #include "io/files/text_files.hpp"
+#include "scenarios/schema/schema.hpp"
+#include "scenarios/schema/value_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <limits>
 
 namespace sturz::workflow {
@@ -81,15 +83,14 @@ PosteriorShown read(const Json& all) {
   return shown;
 }
 
-}  // namespace
-
-std::optional<PosteriorShown> shown_posterior(const OutputFolder& folder,
-                                              const std::string& maps_of) {
-  const fs::path json = folder.root / "posterior.json", csv = folder.root / "posterior.csv";
-  if (!fs::exists(json) || !fs::exists(csv)) return {};
+std::optional<PosteriorShown> read_files(const fs::path& json, const fs::path& csv,
+                                         const std::string& members,
+                                         const std::string& observation) {
   try {
     const Json all = Json::parse(read_text(json));
-    if (all.at("members_hash").get<std::string>() != maps_of) return {};
+    if (all.at("members_hash").get<std::string>() != members ||
+        all.at("observation_hash").get<std::string>() != observation)
+      return {};
     PosteriorShown shown = read(all);
     const DesignTable rows = from_csv(read_text(csv));
     require(rows.keys.size() == shown.keys.size(),
@@ -100,6 +101,33 @@ std::optional<PosteriorShown> shown_posterior(const OutputFolder& folder,
     throw SetupError(json.string() +
                      " is damaged (it is no posterior). Remove it, or calibrate "
                      "again.");
+  }
+}
+
+}  // namespace
+
+std::string observation_hash(const Scenario& scenario, const std::vector<InputIdentity>& inputs) {
+  std::string text;
+  for (const KeyInfo& key : schema())
+    if (key.path.starts_with("observation.") && key.kind != ValueKind::path)
+      text += fmt::format("{}={}\n", key.path, value_text(key.get(scenario)));
+  for (const InputIdentity& input : inputs) {
+    if (!input.role.starts_with("observation.")) continue;
+    text += fmt::format("{}: {}\n", input.role, input.shape);
+    for (const auto& [part, hash] : input.parts) text += fmt::format("{}={}\n", part, hash);
+  }
+  return text_checksum(text);
+}
+
+std::optional<PosteriorShown> shown_posterior(const OutputFolder& folder, const Manifest& manifest,
+                                              const Scenario& scenario, Observer& observer) {
+  const fs::path json = folder.root / "posterior.json", csv = folder.root / "posterior.csv";
+  if (!fs::exists(json) || !fs::exists(csv)) return {};
+  try {
+    return read_files(json, csv, manifest.maps_of, observation_hash(scenario, manifest.inputs));
+  } catch (const SetupError& problem) {
+    observer.warning(fmt::format("{} The page is without it.", problem.what()));
+    return {};
   }
 }
 

@@ -136,7 +136,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   if (risk) page.risk = &*risk;
   manifest.hazard_hash = hash;
   manifest.maps_of = members_hash(store, design.n_members());
-  const auto posterior = shown_posterior(folder, manifest.maps_of);
+  const auto posterior = shown_posterior(folder, manifest, scenario, observer);
   if (posterior) page.posterior = &*posterior;
   write_page(folder, manifest, scenario, page);
   manifest.write(folder.manifest());

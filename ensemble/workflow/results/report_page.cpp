@@ -228,8 +228,10 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   std::optional<AssetFindings> risk;
   if (finished.inputs && !one_run) risk = find_risk(store, *finished.inputs, cancel);
   if (risk) page.risk = &*risk;
-  const auto posterior = shown_posterior(finished.folder, finished.manifest.maps_of);
-  if (!one_run && posterior) page.posterior = &*posterior;
+  std::optional<PosteriorShown> posterior;
+  if (!one_run)
+    posterior = shown_posterior(finished.folder, finished.manifest, finished.scenario, observer);
+  if (posterior) page.posterior = &*posterior;
   page.members = store.members();
   if (one_run && !page.members.empty()) {
     run = read_member(finished.folder.members() / member_file_name(page.members.front().member));

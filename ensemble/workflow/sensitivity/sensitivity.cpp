@@ -59,13 +59,17 @@ void add_ranks(ResultSensitivity& r, const DesignTable& design,
   }
 }
 
-void add_indices(ResultSensitivity& r, const DesignTable& design,
+/// \param dependent the distributions are correlated: coordinates of the cube are not the keys'
+void add_indices(ResultSensitivity& r, const DesignTable& design, bool dependent,
                  std::span<const Observation> column, bool by_emulator) {
   if (design.design == Design::morris) {
     r.morris = morris_measures(design.unit_cube, column);
   } else if (design.design == Design::saltelli) {
     r.direct = sobol_indices(design.unit_cube, column);
     if (!r.direct) r.why_not = "fewer than 8 whole sets of fully known members, or no variance";
+  } else if (dependent) {
+    r.why_not =
+        "ensemble.correlation is set (shares of values that depend on one another have no meaning)";
   } else if (design.unit_cube.empty()) {
     r.why_not = "the members of a table are no sample of the distributions";
   } else if (by_emulator) {
@@ -78,7 +82,8 @@ void add_indices(ResultSensitivity& r, const DesignTable& design,
 }
 
 ResultSensitivity one_result(std::string name, std::string unit, const DesignTable& design,
-                             std::span<const Observation> column, bool by_emulator) {
+                             bool dependent, std::span<const Observation> column,
+                             bool by_emulator) {
   ResultSensitivity r;
   r.name = std::move(name);
   r.unit = std::move(unit);
@@ -86,7 +91,7 @@ ResultSensitivity one_result(std::string name, std::string unit, const DesignTab
                             [](const Observation& o) { return o.known == Known::exactly; });
   r.n_censored = static_cast<std::int64_t>(column.size()) - r.n_exact;
   add_ranks(r, design, column);
-  add_indices(r, design, column, by_emulator);
+  add_indices(r, design, dependent, column, by_emulator);
   return r;
 }
 
@@ -176,6 +181,7 @@ Sensitivity sensitivity_of(const SensitivityRequest& request, Observer& observer
   all.keys = design.keys;
   all.units = design.units;
   const bool usual = request.results.empty();
+  const bool dependent = !finished.scenario.ensemble.correlation.empty();
   const std::vector<std::string> names =
       usual ? std::vector<std::string>(std::begin(usual_results), std::end(usual_results))
             : request.results;
@@ -184,7 +190,8 @@ Sensitivity sensitivity_of(const SensitivityRequest& request, Observer& observer
     const ScalarInfo& scalar = scalar_named(name);
     const auto column = column_of(store, scalar.field, design.values.size());
     if (usual && !says_something(column)) continue;
-    all.results.push_back(one_result(scalar.name, scalar.units, design, column, request.emulate));
+    all.results.push_back(
+        one_result(scalar.name, scalar.units, design, dependent, column, request.emulate));
   }
   require(!all.results.empty(),
           where + ": no result of its members is known and differs between them.");

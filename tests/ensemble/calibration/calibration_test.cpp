@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/calibration/next_members.hpp"
 #include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/sampling/copula.hpp"
 #include "ensemble/sampling/random_words.hpp"
 #include "ensemble/sampling/unit_cube.hpp"
 
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <functional>
+#include <map>
 #include <tuple>
 
 namespace sturz {
@@ -90,6 +92,7 @@ TEST(Calibration, WeightsRecoverTheClosedForm) {
 TEST(Calibration, EmulatorAndChainsRecoverTheClosedForm) {
   const Calibration c = calibrate(linear_data(24), without_discrepancy(PosteriorMethod::emulator));
   EXPECT_GT(c.posterior.effective_size, 300);
+  EXPECT_TRUE(std::isnan(c.posterior.censored_share));  // its points are no members
   expect_exact(c.identifiability, c.posterior.effective_size);
   for (const double r : c.posterior.chains->r_hat) EXPECT_LT(r, most_r_hat);
   for (const double a : c.posterior.chains->acceptance) EXPECT_TRUE(a > 0.1 && a < 0.7) << a;
@@ -123,12 +126,13 @@ TEST(Calibration, TheSameInputsGiveTheSameBits) {
   CalibrationSettings settings;
   settings.method = PosteriorMethod::emulator;
   settings.seed = 5;
-  const Calibration a = calibrate(linear_data(24), settings, 3);
+  const Calibration a = calibrate(linear_data(24), settings);
+  const Points next = points_to_compute(linear_data(24), settings, 3);
   draw_unit_cube(Design::monte_carlo, 31, 2, 99);  // moves the process-wide generator on
-  const Calibration b = calibrate(linear_data(24), settings, 3);
+  const Calibration b = calibrate(linear_data(24), settings);
   EXPECT_EQ(a.posterior.cube, b.posterior.cube);
   EXPECT_EQ(a.best->cube, b.best->cube);
-  EXPECT_EQ(a.next, b.next);
+  EXPECT_EQ(next, points_to_compute(linear_data(24), settings, 3));
   EXPECT_EQ(a.held_out.mean_log_score, b.held_out.mean_log_score);
   settings.seed = 6;
   EXPECT_NE(calibrate(linear_data(24), settings).posterior.cube, a.posterior.cube);
@@ -155,6 +159,26 @@ TEST(Calibration, ARidgeIsSeenAsOneDirectionThatIsKnownAndOneThatIsNot) {
   EXPECT_LT(c.identifiability.directions[0].variance_left, 0.05);
   EXPECT_GT(c.identifiability.directions[1].variance_left, 0.5);
   EXPECT_TRUE(c.held_out.quantities.empty());  // nothing to learn from without it
+}
+
+/// Only the first key is observed. The copula gives the second to it by 0.9, so that what is told
+/// of the first is told of the second as well, and their correlation is the prior's.
+TEST(Calibration, CorrelatedKeysAreToldByTheirOwnValues) {
+  const std::vector<std::string> keys{"key0", "key1"};
+  const std::map<std::string, double> correlation{{"key0/key1", 0.9}};
+  const Copula copula(keys, correlation);
+  const auto second = [&](const std::vector<double>& u) {
+    return std::vector<double>{10 * copula.apply(u)[1]};
+  };
+  CalibrationData data = data_of(second, 40, {{"travel_m", 5.0, 0.3, "m"}});
+  data.correlation = correlation;
+  const Calibration c = calibrate(data, without_discrepancy(PosteriorMethod::emulator));
+  EXPECT_GT(c.identifiability.variance_removed[1], 0.95);  // it is what was observed
+  EXPECT_GT(c.identifiability.variance_removed[0], 0.5);   // by the prior's correlation
+  EXPECT_NEAR(c.identifiability.mean[1], 0.5, 0.03);
+  EXPECT_TRUE(c.identifiability.ridges.empty());  // of the independent coordinates there is one
+  EXPECT_LT(c.identifiability.directions[0].variance_left, 0.05);
+  EXPECT_GT(c.identifiability.directions[1].variance_left, 0.7);
 }
 
 // --- twins ---
@@ -301,6 +325,17 @@ TEST(Calibration, WhatCannotBeExplainedIsSaid) {
   data.comparison.observed[0].value = 300;
   const Calibration c = calibrate(data, {});
   EXPECT_THAT(c.warnings, testing::Contains(HasSubstr("travel_m = 300 m is not explained")));
+}
+
+TEST(Calibration, BoundsBelowTheObservationThatTeachAnEmulatorAreSaid) {
+  CalibrationData data = linear_data(40);
+  for (std::size_t i = 0; i < 40; ++i)
+    if (Observation& o = data.comparison.simulated.values[i][0]; data.cube[i][0] > 0.75)
+      o = {o.value + 0.4, Known::at_least};  // farther than the others foresee
+  data.comparison.observed[0].value = 14.5;
+  const auto said = testing::Contains(HasSubstr("the posterior is biased short"));
+  EXPECT_THAT(calibrate(data, {}).warnings, said);
+  EXPECT_THAT(calibrate(linear_data(40), {}).warnings, testing::Not(said));
 }
 
 // --- degenerate input ---

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/calibration/weighted_sample.hpp"
 
+#include "ensemble/calibration/identifiability.hpp"
+#include "ensemble/sampling/copula.hpp"
 #include "ensemble/sampling/unit_cube.hpp"
 
 #include <gmock/gmock.h>
@@ -76,6 +78,34 @@ TEST(WeightedSample, ResamplingComesAsOftenAsTheWeightSays) {
   EXPECT_THAT(resampled(std::vector<double>{0.5, 0, 0.25, 0.25}, 4), ElementsAre(0, 0, 2, 3));
   EXPECT_THAT(resampled(std::vector<double>{1}, 3), ElementsAre(0, 0, 0));
   EXPECT_TRUE(resampled({}, 3).empty());
+}
+
+/// Two points of equal weight have the variance of a sample of two, one point none at all.
+TEST(Identifiability, FewWeightsDoNotTellMoreThanTheyKnow) {
+  Posterior p;
+  p.cube = {{0.2, 0.4}, {0.4, 0.8}, {0.9, 0.9}};
+  p.weights = {0.5, 0.5, 0};
+  EXPECT_NEAR(identifiability_of(p).sd[0], std::sqrt(0.02), 1e-12);
+  p.weights = {1, 0, 0};
+  const Identifiability one = identifiability_of(p);
+  EXPECT_TRUE(std::isnan(one.variance_removed[0]));
+  EXPECT_TRUE(std::isnan(one.sd[1]));
+  EXPECT_TRUE(std::isnan(one.directions[0].variance_left));
+  EXPECT_TRUE(one.ridges.empty());
+}
+
+/// Nothing observed, nothing told, and no ridge of the prior's own correlation.
+TEST(Identifiability, APriorThatIsCorrelatedTellsNothingOfItself) {
+  const std::vector<std::string> keys{"a", "b"};
+  const Copula copula(keys, {{"a/b", 0.9}});
+  Posterior prior;
+  prior.cube = draw_unit_cube(Design::sobol, 2048, 2, 9);
+  prior.weights.assign(2048, 1.0 / 2048);
+  const Identifiability nothing = identifiability_of(prior, &copula);
+  EXPECT_GT(nothing.correlation[0][1], 0.8);
+  EXPECT_TRUE(nothing.ridges.empty());
+  for (const Direction& d : nothing.directions) EXPECT_NEAR(d.variance_left, 1, 0.05);
+  for (const double told : nothing.variance_removed) EXPECT_LT(told, 0.05);
 }
 
 }  // namespace

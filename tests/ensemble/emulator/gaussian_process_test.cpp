@@ -16,6 +16,7 @@
 #include <openturns/MaternModel.hxx>
 #include <openturns/ResourceMap.hxx>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sturz {
@@ -157,6 +158,46 @@ TEST(QuantityEmulator, CountsWhatIsCensoredAndUsesBoundsThatContradict) {
   EXPECT_EQ(r.n_at_least, 2);
   EXPECT_EQ(r.n_bounds_used, 1);
   EXPECT_EQ(r.n_not_known, 1);
+}
+
+/// Of more than 400 the last ones teach, and chosen members come last.
+TEST(QuantityEmulator, ChosenMembersTeachHoweverManyWereDrawn) {
+  Points cube = draw_unit_cube(Design::sobol, 400, 2, 3);
+  std::vector<Observation> simulated = exactly(cube);
+  for (std::size_t i = 0; i < 5; ++i) {  // a step that the drawn ones know nothing of
+    cube.push_back({0.5 + 0.001 * static_cast<double>(i), 0.5});
+    simulated.push_back({wavy(cube.back()) + 3, Known::exactly});
+  }
+  simulated[0].known = Known::not_at_all;
+  const std::vector<std::size_t> teachers = teaching_members(simulated);
+  ASSERT_EQ(teachers.size(), most_emulated_members);
+  EXPECT_EQ(teachers.front(), 5U);
+  EXPECT_EQ(teachers.back(), 404U);
+  const QuantityEmulator e = emulate("runout_m", cube, simulated);
+  EXPECT_EQ(e.report.n_exact, 404);
+  EXPECT_EQ(e.report.n_used, 400);
+  EXPECT_GT(e.process.mean_at(cube.back()), wavy(cube.back()) + 0.3);
+}
+
+/// Beyond a bound lies what a normal there would reach, not the bound itself.
+TEST(QuantityEmulator, BoundsTeachWhatLiesBeyondThem) {
+  const Points cube = cube_of(40);
+  std::vector<Observation> cut = exactly(cube), as_values = cut;
+  for (std::size_t i = 0; i < 40; ++i) {
+    if (cube[i][0] < 0.7) continue;  // beyond, the others do not foresee what is there
+    cut[i] = {cut[i].value + 0.5, Known::at_least};
+    as_values[i] = {cut[i].value, Known::exactly};
+  }
+  const QuantityEmulator e = emulate("runout_m", cube, cut);
+  ASSERT_GT(e.report.n_bounds_used, 5);
+  EXPECT_LT(e.report.lowest_bound_used, 1);
+  EXPECT_EQ(e.report.n_used, e.report.n_exact + e.report.n_bounds_used);
+  const QuantityEmulator taken = emulate("runout_m", cube, as_values);
+  double more = 0;
+  for (std::size_t i = 0; i < 40; ++i)
+    if (cut[i].known == Known::at_least)
+      more += e.process.mean_at(cube[i]) - taken.process.mean_at(cube[i]);
+  EXPECT_GT(more / static_cast<double>(e.report.n_bounds_used), 0.01);
 }
 
 std::string error_of(const Points& cube, const std::vector<Observation>& simulated) {

@@ -106,6 +106,19 @@ TEST(SobolIndices, AnEmulatorOfFewMembersGivesThemToo) {
   EXPECT_EQ(again.indices.total[2].upper, found.indices.total[2].upper);  // the same bits
 }
 
+/// 17 members of three values have a linear trend, and 15 of them would not by themselves: two of
+/// ten groups then measured the change of the trend (0.7 wide).
+TEST(SobolIndices, TheEmulatorsErrorIsThatOfFewerMembersNotOfAnotherTrend) {
+  const Points cube = draw_unit_cube(Design::sobol, 17, 3, 5);
+  const Points noise = draw_unit_cube(Design::monte_carlo, 17, 1, 3);
+  std::vector<Observation> noisy;
+  for (std::size_t i = 0; i < 17; ++i)
+    noisy.push_back({4 * cube[i][0] + cube[i][1] + noise[i][0] - 0.5, Known::exactly});
+  const EmulatedIndices found = emulated_indices("y", cube, noisy, 1);
+  EXPECT_LT(found.indices.first[0].upper - found.indices.first[0].lower, 0.3);
+  EXPECT_GT(found.indices.first[0].value, 0.8);
+}
+
 TEST(Morris, RanksAndTellsStraightFromCurved) {
   const auto f = [](const std::vector<double>& u) {
     return 10 * u[0] + 3 * u[1] + 8 * (u[2] - 0.5) * (u[3] - 0.5) + 0 * u[4];
