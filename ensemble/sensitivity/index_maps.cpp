@@ -84,7 +84,8 @@ class Layers {
                     fmt::format("Sobol' {} index of {}: {}{}", index, key, meaning,
                                 *bound == 0 ? "" : ", bound of the 95 % interval"),
                     "Martinez' estimator over the sets of a Saltelli design", axis);
-    add_layer("sobol_sets_of_" + word, "sets of members that count: " + meaning,
+    add_layer(fmt::format("sobol_sets_of_{}", word),
+              fmt::format("sets of members that count: {}", meaning),
               "sets with a member that is cut off before it exceeds are left out", axis);
     results.push_back(std::move(result));
   }
@@ -93,7 +94,7 @@ class Layers {
     Layer layer;
     layer.name = std::move(name);
     layer.long_name = std::move(long_name);
-    layer.units = "1";
+    layer.units.assign(1, '1');  // g++ 12 warns of a literal here
     layer.comment = std::move(comment);
     layer.axis = axis;
     layers.stack.layers.push_back(std::move(layer));
