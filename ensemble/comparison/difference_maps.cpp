@@ -63,25 +63,33 @@ struct Deeds {
   }
 };
 
+Layer made(const PartText& part, const std::string& event, const std::string& what,
+           const std::string& comment, std::string units) {
+  Layer layer;
+  layer.name = fmt::format("{}_{}", event, part.name);
+  layer.meaning = {Quantity::other, Statistic::value};
+  layer.long_name = fmt::format("{}, probability that {}", part.meaning, what);
+  layer.units = std::move(units);
+  layer.comment = comment;
+  return layer;
+}
+
 LayerStack stack_of(const Grid& grid, const std::vector<double>& thresholds, bool pairs) {
+  const LayerAxis by_threshold{"thickness_threshold", "", "m", thresholds};
+  const std::string comment =
+      pairs ? "paired: Newcombe (1998), Stat. Med. 17, 2635-2650; unpaired: 873-890"
+            : "no pairs: Newcombe (1998), Stat. Med. 17, 873-890";
   LayerStack stack;
   stack.grid = grid;
-  const auto add = [&](const std::string& event, const std::string& what, bool by_threshold) {
-    for (const PartText& part : part_texts) {
-      Layer layer;
-      layer.name = event + "_" + part.name;
-      layer.meaning = {Quantity::other, Statistic::value};
-      layer.long_name = fmt::format("{}, probability that {}", part.meaning, what);
-      layer.units = "1";
-      layer.comment = pairs ? "paired: Newcombe (1998), Stat. Med. 17, 2635-2650; unpaired: 873-890"
-                            : "no pairs: Newcombe (1998), Stat. Med. 17, 873-890";
-      if (by_threshold) layer.axis = {"thickness_threshold", "", "m", thresholds};
-      stack.layers.push_back(std::move(layer));
-    }
-  };
-  add("probability", "the cell is reached", false);
-  if (!thresholds.empty())
-    add("thickness_exceedance", "the largest vertical flow thickness exceeds the threshold", true);
+  for (const PartText& part : part_texts)
+    stack.layers.push_back(made(part, "probability", "the cell is reached", comment, "1"));
+  if (thresholds.empty()) return stack;
+  for (const PartText& part : part_texts) {
+    stack.layers.push_back(made(part, "thickness_exceedance",
+                                "the largest vertical flow thickness exceeds the threshold",
+                                comment, "1"));
+    stack.layers.back().axis = by_threshold;
+  }
   return stack;
 }
 

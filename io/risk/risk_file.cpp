@@ -43,10 +43,12 @@ class RiskReader {
                                                      "probability_classes_years",
                                                      "strong_thickness_m", "strong_speed_m_s"})});
     }
-    if (spec.scenarios.empty() && problems_.empty())
-      problems_.push_back({{name_, 0, 0},
-                           "names no scenario. Add `scenarios: [{folder: out/small, "
-                           "frequency_per_year: 0.01}]`."});
+    if (spec.scenarios.empty() && problems_.empty()) {
+      FileProblem& none = problems_.emplace_back();
+      none.at.source = name_;
+      none.message = fmt::format("names no scenario. Add {}.",
+                                 "`scenarios: [{folder: out/small, frequency_per_year: 0.01}]`");
+    }
     return spec;
   }
 
@@ -142,13 +144,14 @@ RiskSpec parse_risk(std::string_view text, const std::string& name) {
   FileProblems problems;
   RiskSpec spec;
   const bool blank = text.find_first_not_of(" \t\r\n") == std::string_view::npos;
-  const auto root = blank ? std::optional(YamlNode{YamlNode::Kind::map, {}, {}, false, {}, {}})
-                          : parse_yaml(text, name, problems);
+  YamlNode nothing;
+  nothing.kind = YamlNode::Kind::map;
+  const auto root = blank ? std::optional(nothing) : parse_yaml(text, name, problems);
   if (root) spec = RiskReader(name, problems).read(*root);
-  std::string lines;
+  std::vector<std::string> lines;
   for (const FileProblem& p : problems)
-    lines += (lines.empty() ? "" : "\n") + p.at.text() + ": " + p.message;
-  require(problems.empty(), lines);
+    lines.push_back(fmt::format("{}: {}", p.at.text(), p.message));
+  require(problems.empty(), fmt::format("{}", fmt::join(lines, "\n")));
   return spec;
 }
 

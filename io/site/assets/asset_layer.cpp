@@ -255,7 +255,7 @@ void tell_places(Reading& r) {
     if (a.place() == AssetPlace::partly_outside) partly.push_back(a.name);
   }
   OGREnvelope box;
-  r.layer.layer->GetExtent(&box, true);
+  if (r.layer.layer->GetExtent(&box, true) != OGRERR_NONE) box = {};
   require(
       beyond.size() < list.size(),
       fmt::format("{}: no asset lies on known ground (terrain x {:.10g} to {:.10g}, y {:.10g} to "

@@ -112,14 +112,16 @@ std::vector<DamageCurve> parse_damage_curves(std::string_view text, const std::s
   if (root && root->kind == YamlNode::Kind::map)
     for (const YamlEntry& entry : root->entries)
       if (auto curve = CurveReader(entry, problems).read()) curves.push_back(std::move(*curve));
-  if (curves.empty() && problems.empty())
-    problems.push_back({{name, 0, 0},
-                        "holds no class (a curve for each is needed). Write "
-                        "`timber: {pressure_kpa: [[5, 0], [30, 1]]}`, say."});
-  std::string lines;
+  if (curves.empty() && problems.empty()) {
+    FileProblem& none = problems.emplace_back();
+    none.at.source = name;
+    none.message = fmt::format("holds no class (a curve for each is needed). Write {}, say.",
+                               "`timber: {pressure_kpa: [[5, 0], [30, 1]]}`");
+  }
+  std::vector<std::string> lines;
   for (const FileProblem& p : problems)
-    lines += (lines.empty() ? "" : "\n") + p.at.text() + ": " + p.message;
-  require(problems.empty(), lines);
+    lines.push_back(fmt::format("{}: {}", p.at.text(), p.message));
+  require(problems.empty(), fmt::format("{}", fmt::join(lines, "\n")));
   return curves;
 }
 
