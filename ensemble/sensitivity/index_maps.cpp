@@ -13,7 +13,7 @@
 namespace sturz {
 namespace {
 
-constexpr std::int64_t least_sets = 8;
+constexpr std::int64_t least_sets = 8;  // that say the rarer one of yes and no
 constexpr double z95 = 1.959963984540054;
 
 /// Counts of two rows of 0 and 1 over the sets.
@@ -25,22 +25,30 @@ struct Pair {
     second += other;
     both += one && other;
   }
-  /// NaN where one of them is always the same.
+  /// NaN where one of them is almost always the same.
   double correlation(std::int64_t n) const {
+    const auto rarer = [n](std::int64_t hits) { return std::min(hits, n - hits); };
+    if (rarer(first) < least_sets || rarer(second) < least_sets) return nan_d;
     const auto f = static_cast<double>(first), s = static_cast<double>(second),
                all = static_cast<double>(n);
-    const double variances = f * (all - f) * s * (all - s);
-    return variances > 0 ? (all * static_cast<double>(both) - f * s) / std::sqrt(variances) : nan_d;
+    return (all * static_cast<double>(both) - f * s) / std::sqrt(f * (all - f) * s * (all - s));
+  }
+  /// Of rows that agree in every set but one, as far as r = 1 goes.
+  double almost_one(std::int64_t n) const {
+    const auto f = static_cast<double>(first), all = static_cast<double>(n);
+    return 1 - all / (2 * f * (all - f));
   }
 };
 
 struct Interval {
   double lower = nan_d, upper = nan_d;
 };
-/// Fisher's; closed where all sets agree.
-Interval interval_of(double r, std::int64_t n) {
-  const double z = std::atanh(r), wide = z95 / std::sqrt(static_cast<double>(n - 3));
-  return {std::tanh(z - wide), std::tanh(z + wide)};
+/// Fisher's, of a correlation r of the two rows.
+Interval interval_of(const Pair& rows, double r, std::int64_t n) {
+  const double wide = z95 / std::sqrt(static_cast<double>(n - 3)), one = rows.almost_one(n);
+  if (r > one) return {std::tanh(std::atanh(one) - wide), 1};
+  if (r < -one) return {-1, std::tanh(std::atanh(-one) + wide)};
+  return {std::tanh(std::atanh(r) - wide), std::tanh(std::atanh(r) + wide)};
 }
 
 std::string as_name(std::string key) {
@@ -181,12 +189,11 @@ CellIndices cell_indices(std::span<const Exceeds> rows, std::size_t n_dims) {
       with_b[k].add(b, mixed);
     }
   }
-  if (found.n_sets < least_sets) return found;
   for (std::size_t k = 0; k < n_dims; ++k) {
     const double first = with_b[k].correlation(found.n_sets);
     const double others = with_a[k].correlation(found.n_sets);
-    const Interval of_first = interval_of(first, found.n_sets);
-    const Interval of_others = interval_of(others, found.n_sets);
+    const Interval of_first = interval_of(with_b[k], first, found.n_sets);
+    const Interval of_others = interval_of(with_a[k], others, found.n_sets);
     found.first[k] = {first, of_first.lower, of_first.upper};
     found.total[k] = {1 - others, 1 - of_others.upper, 1 - of_others.lower};
   }

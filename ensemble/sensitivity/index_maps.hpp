@@ -5,7 +5,9 @@
 /// A cell's result is 0 or 1 of each member: reached, or thicker than a threshold. First and total
 /// index of value k by Martinez' estimator (Baudin and others 2016) over the whole sets,
 ///   first = r(b, e_k), total = 1 - r(a, e_k), r Pearson's correlation,
-/// with 95 % intervals by Fisher's z (standard error 1 / sqrt(sets - 3)). A member that is cut off
+/// with 95 % intervals by Fisher's z (standard error 1 / sqrt(sets - 3)). Rows that agree in every
+/// set have r = 1; the far end of their interval is then that of rows that differ in one set, as an
+/// interval without width would say what no number of sets can. A member that is cut off
 /// and did not exceed is not known there, and its set is left out in that cell alone.
 #pragma once
 
@@ -33,7 +35,8 @@ struct CellIndices {
   std::int64_t n_sets = 0;              ///< that count
 };
 
-/// Of one cell. NaN with fewer than 8 whole sets, and where the rows do not vary.
+/// Of one cell. An index is NaN where fewer than 8 whole sets say yes, or fewer than 8 say no, in
+/// one of the two rows that it compares: a handful that happens to agree has no interval.
 /// \param rows of saltelli_cube, [n]; a last set that is not whole does not count
 CellIndices cell_indices(std::span<const Exceeds> rows, std::size_t n_dims);
 
