@@ -31,17 +31,19 @@ enum Part : std::size_t {
 };
 struct PartText {
   const char *name, *meaning;
+  Statistic statistic;
 };
+constexpr auto delta = Statistic::difference;
 constexpr std::array<PartText, n_parts> part_texts{
-    {{"difference", "P(B) - P(A)"},
-     {"difference_lower", "lower end of its 95 % interval"},
-     {"difference_upper", "upper end of its 95 % interval"},
-     {"difference_unpaired_lower", "lower end of the interval as if members were no pairs"},
-     {"difference_unpaired_upper", "upper end of the interval as if members were no pairs"},
-     {"smallest", "the smaller one of P(A) and P(B)"},
-     {"largest", "the larger one of P(A) and P(B)"},
-     {"band_lower", "the lower one of both 95 % intervals' lower ends"},
-     {"band_upper", "the upper one of both 95 % intervals' upper ends"}}};
+    {{"difference", "P(B) - P(A)", delta},
+     {"difference_lower", "lower end of its 95 % interval", delta},
+     {"difference_upper", "upper end of its 95 % interval", delta},
+     {"difference_unpaired_lower", "lower end of the interval as if members were no pairs", delta},
+     {"difference_unpaired_upper", "upper end of the interval as if members were no pairs", delta},
+     {"smallest", "the smaller one of P(A) and P(B)", Statistic::probability},
+     {"largest", "the larger one of P(A) and P(B)", Statistic::probability},
+     {"band_lower", "the lower one of both 95 % intervals' lower ends", Statistic::lower_bound},
+     {"band_upper", "the upper one of both 95 % intervals' upper ends", Statistic::upper_bound}}};
 
 /// What members do in a cell: bits for each member that touched it.
 struct Deeds {
@@ -63,11 +65,11 @@ struct Deeds {
   }
 };
 
-Layer made(const PartText& part, const std::string& event, const std::string& what,
-           const std::string& comment, std::string units) {
+Layer made(const PartText& part, Quantity quantity, const std::string& event,
+           const std::string& what, const std::string& comment, std::string units) {
   Layer layer;
   layer.name = fmt::format("{}_{}", event, part.name);
-  layer.meaning = {Quantity::other, Statistic::value};
+  layer.meaning = {quantity, part.statistic};
   layer.long_name = fmt::format("{}, probability that {}", part.meaning, what);
   layer.units = std::move(units);
   layer.comment = comment;
@@ -82,10 +84,11 @@ LayerStack stack_of(const Grid& grid, const std::vector<double>& thresholds, boo
   LayerStack stack;
   stack.grid = grid;
   for (const PartText& part : part_texts)
-    stack.layers.push_back(made(part, "probability", "the cell is reached", comment, "1"));
+    stack.layers.push_back(
+        made(part, Quantity::reached, "probability", "the cell is reached", comment, "1"));
   if (thresholds.empty()) return stack;
   for (const PartText& part : part_texts) {
-    stack.layers.push_back(made(part, "thickness_exceedance",
+    stack.layers.push_back(made(part, Quantity::thickness, "thickness_exceedance",
                                 "the largest vertical flow thickness exceeds the threshold",
                                 comment, "1"));
     stack.layers.back().axis = by_threshold;

@@ -41,6 +41,17 @@ Layer made(const std::string& name, LayerMeaning meaning, const std::string& lon
   return layer;
 }
 
+/// Every field that classes() may give.
+std::vector<LayerClass> matrix_fields() {
+  std::vector<LayerClass> fields;
+  for (const auto& [intensity, row] : {std::pair{"medium", 3}, std::pair{"strong", 6}})
+    for (const auto& [probability, column] :
+         {std::pair{"low", 1}, std::pair{"medium", 2}, std::pair{"high", 3}})
+      fields.push_back(
+          {row + column, fmt::format("{} intensity {} probability", intensity, probability)});
+  return fields;
+}
+
 LayerStack stack_of(const RiskSpec& spec, const Grid& grid, int n_censored) {
   const LayerAxis periods{"return_period", "", "year", spec.return_periods_years};
   const std::string cut =
@@ -79,13 +90,16 @@ LayerStack stack_of(const RiskSpec& spec, const Grid& grid, int n_censored) {
            "none",
            "1", "Loat and Petrascheck (1997), BWW, BRP and BUWAL"),
       true);
+  stack.layers.back().classes = {{2, "medium intensity"}, {3, "strong intensity"}};
   add(made("matrix_field", {other, Statistic::value},
            "field of the matrix of intensity and probability, 4 to 9; 0 none", "1",
            "3 x (intensity - 1) + probability of the return period, 3 high, 2 medium, 1 low"),
       true);
+  stack.layers.back().classes = matrix_fields();
   add(made("highest_matrix_field", {other, Statistic::value},
            "largest matrix_field over the return periods", "1", ""),
       false);
+  stack.layers.back().classes = matrix_fields();
   return stack;
 }
 

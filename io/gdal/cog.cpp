@@ -80,13 +80,14 @@ void describe(GDALDataset& dataset, const Layer& layer, std::size_t plane,
     item(layer.axis.name.c_str(), fmt::format("{} {}", layer.axis.values[plane], layer.axis.units));
 }
 
-CPLStringList cog_options() {
+/// Between two classes lies none: their overviews take one of the four.
+CPLStringList cog_options(const Layer& layer) {
   CPLStringList options;
   options.SetNameValue("COMPRESS", "DEFLATE");
   options.SetNameValue("PREDICTOR", "YES");
   options.SetNameValue("NUM_THREADS", "1");
   options.SetNameValue("BIGTIFF", "IF_SAFER");
-  options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
+  options.SetNameValue("OVERVIEW_RESAMPLING", layer.classes.empty() ? "AVERAGE" : "MODE");
   return options;
 }
 
@@ -114,7 +115,7 @@ std::vector<PlaneFile> write_cogs(const fs::path& folder, const LayerSource& map
     make_folder(file.path.parent_path());
     PlaneDataset dataset(maps, file.layer, file.plane);
     describe(dataset, about.layers[file.layer], file.plane, about);
-    write_encoded(file.path, dataset, "COG", cog_options(), cancel);
+    write_encoded(file.path, dataset, "COG", cog_options(about.layers[file.layer]), cancel);
   }
   return files;
 }

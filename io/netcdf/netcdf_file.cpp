@@ -113,6 +113,11 @@ void NetcdfWriter::numbers(int variable, const std::string& name, std::span<cons
         "writing attribute " + name);
 }
 
+void NetcdfWriter::numbers(int variable, const std::string& name, std::span<const float> values) {
+  check(nc_put_att_float(id_, variable, name.c_str(), NC_FLOAT, values.size(), values.data()),
+        "writing attribute " + name);
+}
+
 void NetcdfWriter::integer(int variable, const std::string& name, std::int64_t value) {
   const long long wide = value;
   check(nc_put_att_longlong(id_, variable, name.c_str(), NC_INT64, 1, &wide),

@@ -50,6 +50,7 @@ class NetcdfWriter {
   void text(int variable, const std::string& name, const std::string& value);
   void number(int variable, const std::string& name, double value);
   void numbers(int variable, const std::string& name, std::span<const double> values);
+  void numbers(int variable, const std::string& name, std::span<const float> values);
   void integer(int variable, const std::string& name, std::int64_t value);
   void hash(int variable, const std::string& name, std::uint64_t value);
   void fill_value(int variable, float value);

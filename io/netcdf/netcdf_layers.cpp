@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace sturz {
 namespace {
@@ -72,6 +73,21 @@ void write_meaning(NetcdfWriter& file, int variable, const LayerMeaning& meaning
     file.text(variable, intensity_attribute, std::string(to_string(meaning.intensity)));
 }
 
+/// CF's flags: numbers in the type of the variable, and a word without spaces for each.
+void write_classes(NetcdfWriter& file, int variable, const std::vector<LayerClass>& classes) {
+  if (classes.empty()) return;
+  std::vector<float> values;
+  std::string words;
+  for (const LayerClass& c : classes) {
+    values.push_back(static_cast<float>(c.value));
+    std::string word = c.words;
+    std::replace(word.begin(), word.end(), ' ', '_');
+    words += (words.empty() ? "" : " ") + word;
+  }
+  file.numbers(variable, "flag_values", values);
+  file.text(variable, "flag_meanings", words);
+}
+
 /// Defines one variable and tells its number.
 int define_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
                  const GridDimensions& place, std::map<std::string, WrittenAxis>& axes) {
@@ -96,6 +112,7 @@ int define_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
   text_if_any(file, variable, "cell_methods", layer.cell_methods);
   text_if_any(file, variable, "comment", layer.comment);
   write_meaning(file, variable, layer.meaning);
+  write_classes(file, variable, layer.classes);
   if (layer.n_censored > 0) file.integer(variable, censored_attribute, layer.n_censored);
   link_grid(file, variable, grid);
   return variable;
@@ -140,6 +157,24 @@ LayerMeaning read_meaning(const NetcdfReader& file, const std::string& map) {
   return meaning;
 }
 
+std::vector<LayerClass> read_classes(const NetcdfReader& file, const std::string& map) {
+  const std::vector<double> values = file.numbers(map, "flag_values");
+  std::istringstream words(file.text(map, "flag_meanings").value_or(""));
+  std::vector<LayerClass> classes;
+  std::string word;
+  for (const double value : values) {
+    const bool whole = std::abs(value) < 1e6 && value == std::floor(value);
+    const int number = whole ? static_cast<int>(value) : 0;
+    if (!whole || !(words >> word) || (!classes.empty() && number <= classes.back().value))
+      throw IoError(
+          fmt::format("{}: the classes of map '{}' are no rising whole numbers with a "
+                      "word each (it is damaged). Compute it again.",
+                      file.file().string(), map));
+    classes.push_back({number, spoken(word)});
+  }
+  return classes;
+}
+
 /// Everything but the values.
 Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& name,
                  const std::vector<std::string>& dimensions) {
@@ -154,6 +189,7 @@ Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& 
   layer.units = text(name, "units");
   layer.cell_methods = text(name, "cell_methods");
   layer.comment = text(name, "comment");
+  layer.classes = read_classes(file, name);
   layer.n_censored =
       static_cast<int>(std::clamp(file.number(name, censored_attribute).value_or(0), 0.0, 1e9));
   if (dimensions.size() == 3)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/figures/legend.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -75,7 +78,35 @@ Ramp ramp_of(const LayerMeaning& meaning) {
   }
 }
 
+/// One class of each number, in greys: which field has which colour is not the program's to say.
+void name_classes(Legend& legend, const Layer& layer) {
+  const auto colours = ramp_colours(Ramp::neutral, static_cast<int>(layer.classes.size()));
+  for (std::size_t i = 0; i < layer.classes.size(); ++i)
+    legend.classes.push_back({static_cast<double>(layer.classes[i].value),
+                              fmt::format("{}: {}", layer.classes[i].value, layer.classes[i].words),
+                              colours[i]});
+}
+
+/// Less in the colours of magnitudes, more in those of hazards, both pale next to 0.
+void dress_difference(Legend& legend) {
+  constexpr std::array<double, 6> edges{0, 0.05, 0.1, 0.25, 0.5, 1};
+  constexpr std::size_t n = edges.size() - 1;
+  legend.diverging = true;
+  const auto less = ramp_colours(Ramp::magnitude, n), more = ramp_colours(Ramp::hazard, n);
+  const auto label = [&](const char* word, std::size_t k) {
+    const std::string range = k + 1 == n ? "\u2265\u00A0" + shown_number(100 * edges[k])
+                                         : range_label(100 * edges[k], 100 * edges[k + 1]);
+    return fmt::format("{} by {}\u00A0%", word, range);
+  };
+  for (std::size_t k = n; k-- > 0;)
+    legend.classes.push_back({-edges[k + 1], label("less", k), less[k]});
+  for (std::size_t k = 0; k < n; ++k)
+    legend.classes.push_back({edges[k], label("more", k), more[k]});
+}
+
 std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
+  if (layer.meaning.statistic == Statistic::difference)
+    return "Difference of the shares of the valid simulations";
   if (layer.meaning.statistic == Statistic::probability) return "Share of the valid simulations";
   const bool named = layer.meaning.quantity != Quantity::other;
   return (named ? title(layer.meaning.quantity) : words(layer.name)) +
@@ -85,7 +116,7 @@ std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
 }  // namespace
 
 int Legend::class_of(float stored) const {
-  if (std::isnan(stored) || (clear_zero && stored <= 0)) return -1;
+  if (std::isnan(stored) || (clear_zero && (diverging ? stored == 0 : stored <= 0))) return -1;
   const double shown = unit.factor * static_cast<double>(stored);
   int found = 0;
   for (std::size_t i = 1; i < classes.size(); ++i)
@@ -98,13 +129,18 @@ Legend legend_for(const Layer& layer) {
   Legend legend;
   legend.unit = display_unit(layer.units);
   legend.title = legend_title(layer, legend.unit);
-  legend.probability =
-      (meaning.statistic == Statistic::probability || meaning.is_bound()) && layer.units == "1";
+  legend.probability = (meaning.statistic == Statistic::probability ||
+                        meaning.statistic == Statistic::difference || meaning.is_bound()) &&
+                       layer.units == "1";
   legend.clear_zero = meaning.quantity != Quantity::arrival;
   double largest = 0;
   for (const float v : layer.values)
     if (std::isfinite(v)) largest = std::max(largest, legend.unit.factor * v);
-  if (legend.probability)
+  if (!layer.classes.empty())
+    name_classes(legend, layer);
+  else if (meaning.statistic == Statistic::difference)
+    dress_difference(legend);
+  else if (legend.probability)
     dress(legend, {0, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9}, Ramp::hazard);
   else if (meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::intensity ||
            largest <= 0)

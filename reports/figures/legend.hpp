@@ -24,13 +24,15 @@ struct Legend {
   DisplayUnit unit;
   bool probability = false;  ///< shown in per cent
   bool clear_zero = true;    ///< cells with 0 are not painted (NaN never is)
+  bool diverging = false;    ///< values below 0 are painted as those above are
   std::vector<LegendClass> classes;
 
   /// Index of the class of a stored value; -1 where the cell stays clear.
   int class_of(float stored) const;
 };
-/// Classes that cover all planes of `layer`: fixed ones for probabilities, a 1-2-5 series up to
-/// the largest value for magnitudes, even steps for times. Never empty.
+/// Classes that cover all planes of `layer`: its own where its numbers stand for classes; fixed
+/// ones for probabilities, and for differences of them, symmetric about 0; a 1-2-5 series up to the
+/// largest value for magnitudes, even steps for times. Never empty.
 Legend legend_for(const Layer& layer);
 
 }  // namespace sturz

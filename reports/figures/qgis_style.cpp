@@ -24,21 +24,23 @@ std::string upper_end(const Legend& legend, std::size_t k) {
 
 std::string qgis_style(const Layer& layer) {
   const Legend legend = legend_for(layer);
+  const double first = legend.diverging ? legend.classes.front().lower / legend.unit.factor : 0;
   const double last = legend.classes.back().lower / legend.unit.factor;
   std::string text = fmt::format(
       "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
       "<qgis version=\"3.22\" styleCategories=\"Symbology\">\n"
       " <pipe>\n"
       "  <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"0.85\" "
-      "alphaBand=\"-1\" classificationMin=\"0\" classificationMax=\"{0:.9g}\">\n"
+      "alphaBand=\"-1\" classificationMin=\"{2:.9g}\" classificationMax=\"{0:.9g}\">\n"
       "   <rasterTransparency>\n    <singleValuePixelList>\n{1}"
       "    </singleValuePixelList>\n   </rasterTransparency>\n"
       "   <rastershader>\n"
       "    <colorrampshader colorRampType=\"DISCRETE\" classificationMode=\"1\" clip=\"0\" "
-      "minimumValue=\"0\" maximumValue=\"{0:.9g}\" labelPrecision=\"3\">\n",
+      "minimumValue=\"{2:.9g}\" maximumValue=\"{0:.9g}\" labelPrecision=\"3\">\n",
       last,
       legend.clear_zero ? "     <pixelListEntry min=\"0\" max=\"0\" percentTransparent=\"100\"/>\n"
-                        : "");
+                        : "",
+      first);
   const std::string unit = legend.unit.label.empty() ? "" : " " + legend.unit.label;
   for (std::size_t k = 0; k < legend.classes.size(); ++k)
     text += fmt::format("     <item value=\"{}\" color=\"{}\" alpha=\"255\" label=\"{}\"/>\n",

@@ -13,11 +13,18 @@ int factor_for(std::size_t n_cells, std::size_t max_cells) {
                                                           static_cast<double>(max_cells)))));
 }
 
+/// Whether `now` is shown rather than `before`.
+bool is_more_severe(const LayerMeaning& meaning, float now, float before) {
+  if (meaning.quantity == Quantity::arrival) return now < before;
+  if (meaning.statistic == Statistic::difference) return std::abs(now) > std::abs(before);
+  return now > before;
+}
+
 /// Joins one plane into `to`, [coarse.n_rows][coarse.n_cols] of NaN.
 void join_plane(const LayerSource& source, std::size_t layer, std::size_t plane, const Grid& coarse,
                 int factor, float* to) {
   const Grid& fine = source.about().grid;
-  const bool smallest = source.about().layers[layer].meaning.quantity == Quantity::arrival;
+  const LayerMeaning& meaning = source.about().layers[layer].meaning;
   const int band = std::max(factor, 128 / factor * factor);
   std::vector<float> rows;
   for (int row0 = 0; row0 < fine.n_rows; row0 += band) {
@@ -30,7 +37,7 @@ void join_plane(const LayerSource& source, std::size_t layer, std::size_t plane,
       const int row = row0 + static_cast<int>(i / static_cast<std::size_t>(fine.n_cols));
       const int col = static_cast<int>(i % static_cast<std::size_t>(fine.n_cols));
       float& shown = to[coarse.index(row / factor, col / factor)];
-      if (std::isnan(shown) || (smallest ? v < shown : v > shown)) shown = v;
+      if (std::isnan(shown) || is_more_severe(meaning, v, shown)) shown = v;
     }
   }
 }

@@ -9,8 +9,8 @@ namespace sturz {
 
 /// All layers but counts and bounds, in at most about `max_cells` cells: each joins f x f cells of
 /// the source (f = LayerStack::joined) and holds the most severe value of them, the smallest
-/// arrival time, the largest of everything else; NaN only if all are. The source is read in bands
-/// of rows. \throws Cancelled, and what the source throws
+/// arrival time, the difference that is farthest from 0, the largest of everything else; NaN only
+/// if all are. The source is read in bands of rows. \throws Cancelled, and what the source throws
 LayerStack coarse_layers(const LayerSource& source, std::size_t max_cells, CancelFlag cancel = {});
 
 }  // namespace sturz

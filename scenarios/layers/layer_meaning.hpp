@@ -33,7 +33,8 @@ enum class Statistic {
   peak,  ///< of one member: largest over time; of an arrival the first, of deposit and erosion the
          ///< last
   count,
-  value  ///< none of these
+  difference,  ///< of two probabilities, -1 .. 1, or an end of its interval
+  value        ///< none of these
 };
 
 /// Which class an intensity is about.
@@ -58,6 +59,7 @@ constexpr auto words_of(Statistic) {
                     Word{mean, "mean"},
                     Word{peak, "peak"},
                     Word{count, "count"},
+                    Word{difference, "difference"},
                     Word{value, "value"}};
 }
 constexpr auto words_of(IntensityClass) {
@@ -71,7 +73,9 @@ struct LayerMeaning {
   IntensityClass intensity = IntensityClass::none;
 
   /// The numbers of the layer's axis are thresholds that members exceed (else levels of quantiles).
-  bool has_thresholds() const { return statistic == Statistic::probability || is_bound(); }
+  bool has_thresholds() const {
+    return statistic == Statistic::probability || statistic == Statistic::difference || is_bound();
+  }
   bool is_bound() const {
     return statistic == Statistic::lower_bound || statistic == Statistic::upper_bound;
   }

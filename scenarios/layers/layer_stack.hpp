@@ -22,6 +22,13 @@ struct LayerAxis {
   std::vector<double> values;
 };
 
+/// A whole number that stands for a class and is no amount.
+struct LayerClass {
+  int value = 0;
+  std::string words;  ///< letters, digits and single spaces
+  bool operator==(const LayerClass&) const = default;
+};
+
 /// One named field of results: [axis.values.size() or 1][n_rows][n_cols], NaN where undefined.
 struct Layer {
   std::string name;  ///< variable name, e.g. "thickness_exceedance"
@@ -35,6 +42,8 @@ struct Layer {
   std::vector<float> values;  ///< empty where layers are only described, see layer_stream.hpp
   /// Members behind the values whose end was not seen: probabilities and peaks are lower bounds.
   int n_censored = 0;
+  /// All that the values may be besides 0 (none of them), rising; empty: values are amounts.
+  std::vector<LayerClass> classes{};
 
   std::size_t n_planes() const { return axis.values.empty() ? 1 : axis.values.size(); }
   /// Whole numbers: stored as int32, never quantised.

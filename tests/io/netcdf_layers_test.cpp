@@ -102,7 +102,12 @@ LayerStack every_kind() {
   Layer mean{
       "deposit_mean", {Quantity::deposit, Statistic::mean}, "mean deposit", "", "m", "", "", {},
       values(30, 3)};
-  s.layers = {count, probability, quantile, energy, mean};
+  Layer classes;
+  classes.name = "matrix_field";
+  classes.units = "1";
+  classes.classes = {{4, "medium intensity low probability"}, {9, "strong"}};
+  classes.values.assign(30, 4);
+  s.layers = {count, probability, quantile, energy, mean, classes};
   return s;
 }
 
@@ -132,6 +137,7 @@ TEST_F(NetcdfLayers, RoundTripsEveryBit) {
     EXPECT_EQ(in.layers[i].comment, out.layers[i].comment);
     EXPECT_EQ(in.layers[i].cell_methods, out.layers[i].cell_methods);
     EXPECT_EQ(in.layers[i].meaning, out.layers[i].meaning);
+    EXPECT_EQ(in.layers[i].classes, out.layers[i].classes);
     EXPECT_EQ(in.layers[i].axis.name, out.layers[i].axis.name);
     EXPECT_EQ(in.layers[i].axis.values, out.layers[i].axis.values);
     EXPECT_EQ(bits(in.layers[i].values), bits(out.layers[i].values)) << in.layers[i].name;

@@ -63,6 +63,38 @@ TEST(ReportLegend, ShowsTheEarliestArrivalToo) {
   EXPECT_EQ(t.class_of(74), static_cast<int>(t.classes.size()) - 1);
 }
 
+TEST(ReportLegend, GivesEachClassItsColourAndItsWords) {
+  Layer fields = layer(other, Statistic::value, "1", {0, 4, 5, 7, 9});
+  for (int field = 4; field <= 9; ++field)
+    fields.classes.push_back({field, "words of " + std::to_string(field)});
+  const Legend l = legend_for(fields);
+  ASSERT_EQ(l.classes.size(), 6U);
+  for (const int field : {4, 5, 7, 9})
+    EXPECT_EQ(l.class_of(static_cast<float>(field)), field - 4) << field;
+  EXPECT_EQ(l.class_of(0), -1);
+  EXPECT_EQ(l.classes[3].label, "7: words of 7");
+  for (std::size_t k = 1; k < l.classes.size(); ++k)
+    EXPECT_NE(l.classes[k].colour, l.classes[k - 1].colour);
+}
+
+TEST(ReportLegend, OfDifferencesIsSymmetricAndPaintsWhatIsLess) {
+  const Legend less = legend_for(layer(reached, difference, "1", {-0.9F, -0.3F, -0.01F, nan_f}));
+  const Legend more = legend_for(layer(reached, difference, "1", {0, 0.9F}));
+  ASSERT_EQ(less.classes.size(), 10U);
+  ASSERT_EQ(more.classes.size(), 10U);
+  for (const float d : {0.01F, 0.07F, 0.2F, 0.3F, 0.9F})
+    EXPECT_EQ(less.class_of(d) + less.class_of(-d), 9) << d;
+  EXPECT_EQ(less.class_of(-0.9F), 0);
+  EXPECT_EQ(less.class_of(-1), 0);
+  EXPECT_EQ(less.class_of(-0.3F), 1);
+  EXPECT_EQ(less.class_of(-0.01F), 4);
+  EXPECT_EQ(less.class_of(0), -1);
+  EXPECT_EQ(less.class_of(nan_f), -1);
+  EXPECT_EQ(less.classes[0].label, "less by \u2265\u00A050\u00A0%");
+  EXPECT_EQ(more.classes[8].label, "more by 25\u201350\u00A0%");
+  EXPECT_EQ(less.title, "Difference of the shares of the valid simulations");
+}
+
 TEST(ReportLegend, IsNeverEmpty) {
   EXPECT_FALSE(legend_for(layer(speed, peak, "m s-1", {0, 0})).classes.empty());
   EXPECT_FALSE(legend_for(layer(speed, peak, "m s-1", {nan_f})).classes.empty());

@@ -36,6 +36,27 @@ TEST(QgisStyle, KeepsTheFirstMomentOfAnArrival) {
   EXPECT_THAT(style, HasSubstr(" s\""));
 }
 
+/// QGIS paints by upper ends: each field of the matrix lies below the end of its own class alone.
+TEST(QgisStyle, HasOneClassForEachNumberOfALayerOfClasses) {
+  Layer fields = layer(Quantity::other, Statistic::value, "1", {0, 4, 5, 7, 9});
+  for (int field = 4; field <= 9; ++field)
+    fields.classes.push_back({field, "field " + std::to_string(field)});
+  const std::string style = qgis_style(fields);
+  for (const char* item :
+       {"<item value=\"4.999995\"", "<item value=\"5.999994\"", "<item value=\"6.999993\"",
+        "<item value=\"7.999992\"", "<item value=\"8.999991\"", "label=\"7: field 7\""})
+    EXPECT_THAT(style, HasSubstr(item));
+}
+
+TEST(QgisStyle, OfADifferenceReachesFromLessToMore) {
+  const std::string style =
+      qgis_style(layer(Quantity::reached, Statistic::difference, "1", {-0.3F, -0.1F}));
+  EXPECT_THAT(style, HasSubstr("classificationMin=\"-1\""));
+  EXPECT_THAT(style, HasSubstr("<item value=\"-0.5000005\""));
+  EXPECT_THAT(style, HasSubstr("<item value=\"0\""));
+  EXPECT_THAT(style, HasSubstr("label=\"less by 25\u201350\u00A0%\""));
+}
+
 TEST(QgisStyle, OfBoundsIsThatOfTheirProbability) {
   const Layer bound = layer(Quantity::thickness, Statistic::lower_bound, "1", {});
   const Layer probability = layer(Quantity::thickness, Statistic::probability, "1", {0.25F});

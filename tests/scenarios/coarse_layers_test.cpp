@@ -46,6 +46,25 @@ TEST(CoarseLayers, HoldTheMostSevereValueOfTheirCells) {
     }
 }
 
+TEST(CoarseLayers, HoldTheDifferenceFarthestFromZeroAndTheClasses) {
+  LayerStack s;
+  s.grid = {2, 2, 0, 2, 1, ""};
+  Layer less;
+  less.name = "difference";
+  less.meaning = {Quantity::reached, Statistic::difference};
+  less.values = {0.1F, -0.6F, nan_f, 0.5F};
+  Layer field;
+  field.name = "field";
+  field.classes = {{4, "low"}, {9, "high"}};
+  field.values = {4, 0, nan_f, 4};
+  s.layers = {less, field};
+  const LayerStack coarse = coarse_layers(StackSource(s), 1);
+  EXPECT_EQ(coarse.joined, 2);
+  EXPECT_EQ(coarse.layers[0].values, std::vector<float>{-0.6F});
+  EXPECT_EQ(coarse.layers[1].values, std::vector<float>{4});
+  EXPECT_EQ(coarse.layers[1].classes, field.classes);
+}
+
 TEST(CoarseLayers, AreTheLayersThemselvesWhereTheyFit) {
   LayerStack s;
   s.grid = {3, 2, 0, 2, 1, ""};

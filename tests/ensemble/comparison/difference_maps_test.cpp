@@ -110,6 +110,16 @@ TEST_F(DifferenceMaps, CountPairsByHand) {
   EXPECT_EQ(summary.n_cells, 2U);
 }
 
+TEST_F(DifferenceMaps, AreDrawnAsDifferencesAndProbabilities) {
+  const LayerStack m = maps(find_pairs(a, b));
+  for (const char* end : {"", "_lower", "_upper", "_unpaired_lower"})
+    EXPECT_EQ(m.find(std::string("probability_difference") + end)->meaning,
+              (LayerMeaning{Quantity::reached, Statistic::difference}));
+  EXPECT_EQ(m.find("thickness_exceedance_largest")->meaning,
+            (LayerMeaning{Quantity::thickness, Statistic::probability}));
+  EXPECT_TRUE(m.find("probability_band_lower")->meaning.is_bound());
+}
+
 TEST_F(DifferenceMaps, UntouchedCellsHoldTheIntervalsOfZero) {
   const LayerStack m = maps(find_pairs(a, b));
   EXPECT_EQ(at(m, "probability_difference", 0), 0);

@@ -103,6 +103,19 @@ TEST_F(RateMaps, TwoScenariosByHand) {
   EXPECT_EQ(m.find("pressure_return_level")->units, "kPa");
 }
 
+TEST_F(RateMaps, NameTheClassesThatTheirNumbersStandFor) {
+  const LayerStack m = maps();
+  const std::vector<LayerClass>& fields = m.find("matrix_field")->classes;
+  ASSERT_EQ(fields.size(), 6U);
+  EXPECT_EQ(fields.front(), (LayerClass{4, "medium intensity low probability"}));
+  EXPECT_EQ(fields[2], (LayerClass{6, "medium intensity high probability"}));
+  EXPECT_EQ(fields[3], (LayerClass{7, "strong intensity low probability"}));
+  EXPECT_EQ(fields.back(), (LayerClass{9, "strong intensity high probability"}));
+  EXPECT_EQ(m.find("highest_matrix_field")->classes, fields);
+  EXPECT_EQ(m.find("intensity_class")->classes.size(), 2U);
+  EXPECT_TRUE(m.find("annual_rate")->classes.empty());
+}
+
 TEST_F(RateMaps, MatrixClassesOfThreeCellsByHand) {
   const LayerStack m = maps();
   // Strong 0.0035 times a year, so once in 300 years: strong and low, field 7. Rarer than 300 years
