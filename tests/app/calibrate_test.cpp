@@ -260,6 +260,13 @@ TEST_F(Calibrate, MapsTheEnsembleUnderItsPosterior) {
   const auto done = event(json, "done");
   EXPECT_GE(done.value("effective_members", 0.0), 1);
   EXPECT_NE(done.value("hazard_hash", ""), hash);
+  // The same calibration leaves them; by one of other weights they are no maps.
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  EXPECT_TRUE(exists("out/weighted/hazard.nc"));
+  ASSERT_EQ(calibrate({"--discrepancy", "0.4"}).exit_code, 0);
+  for (const char* file : {"hazard.nc", "report.html", "hazard/index.csv",
+                           "hazard/probability_of_reach.tif", "hazard/probability_of_reach.qml"})
+    EXPECT_FALSE(exists(std::string("out/weighted/") + file)) << file;
 }
 
 TEST_F(Calibrate, RefusesWeightsOfOtherMembers) {
@@ -312,6 +319,40 @@ TEST_F(TwoEvents, TellTogetherAndPredictEachOther) {
   EXPECT_EQ(ensemble("plain.yaml", "third", {"--posterior", path("both"), "-n", "2"}).exit_code, 0);
 }
 
+TEST_F(TwoEvents, OneFinishedFolderKeepsItsPosteriorOnItsPage) {
+  ASSERT_EQ(ensemble("north.yaml", "north").exit_code, 0);
+  const Ended ended = sturz({"calibrate", path("north")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(read("north/report.html"), HasSubstr("<section id=\"posterior\">"));
+  const Ended of_it = ensemble("plain.yaml", "third", {"--posterior", path("north"), "-n", "2"});
+  ASSERT_EQ(of_it.exit_code, 0) << of_it.err;
+  EXPECT_THAT(of_it.err, Not(HasSubstr("Calibrate again")));
+  // Another observation is another posterior.
+  ASSERT_EQ(ensemble("north.yaml", "north", {"--set", "observation.runout_m.value=90"}).exit_code,
+            0);
+  EXPECT_THAT(read("north/report.html"), Not(HasSubstr("<section id=\"posterior\">")));
+}
+
+/// What is told of correlated values does not depend on which way the members came.
+TEST_F(TwoEvents, KnowThatValuesAreCorrelated) {
+  const std::vector<std::string> correlated{
+      "-n", "24", "--set",
+      "ensemble.correlation={basal.friction_coefficient/basal.pore_pressure_ratio: 0.8}"};
+  std::vector<std::string> at_once{"--no-check"};
+  at_once.insert(at_once.end(), correlated.begin(), correlated.end());
+  ASSERT_EQ(calibrate(at_once).exit_code, 0);
+  const auto told = [&](const std::string& folder) {
+    return nlohmann::json::parse(read(folder + "/posterior.json")).at("identifiability");
+  };
+  const auto expected = told("out");
+  ASSERT_EQ(sturz({"calibrate", path("out")}).exit_code, 0);
+  EXPECT_EQ(told("out"), expected);
+  ASSERT_EQ(ensemble("south.yaml", "south", correlated).exit_code, 0);
+  const Ended both = sturz({"calibrate", path("out"), path("south"), "-o", path("both")});
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_GT(told("both").at("correlation").at(0).at(1).get<double>(), 0.4);  // the prior's
+}
+
 TEST_F(TwoEvents, AreRefusedWhereTheirValuesDiffer) {
   ASSERT_EQ(ensemble("north.yaml", "north").exit_code, 0);
   ASSERT_EQ(ensemble("south.yaml", "south", {"--set", "ensemble.seed=9"}).exit_code, 0);
@@ -358,6 +399,8 @@ TEST_F(Calibrate, SensitivityMapsNeedSets) {
   const Ended maps = sturz({"sensitivity", path("sets"), "--maps"});
   ASSERT_EQ(maps.exit_code, 0) << maps.err;
   EXPECT_TRUE(exists("sets/sensitivity.nc"));
+  ASSERT_EQ(sturz({"sensitivity", path("sets")}).exit_code, 0);
+  EXPECT_FALSE(exists("sets/sensitivity.nc")) << "the table is new, and the maps are not";
   EXPECT_THAT(maps.out, HasSubstr("Maps of the shares in"));
   ASSERT_EQ(sturz({"ensemble", path("plain.yaml"), "-o", path("plain")}).exit_code, 0);
   EXPECT_THAT(sturz({"sensitivity", path("plain"), "--maps"}).err, HasSubstr("saltelli"));

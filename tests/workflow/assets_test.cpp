@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Assets of an ensemble: table, GeoPackage and page, made anew without computing.
+#include "ensemble/workflow/results/report_page.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
 #include <sstream>
@@ -55,6 +56,16 @@ TEST_F(AssetsWorkflow, TableGeoPackageAndPageAreWritten) {
   EXPECT_TRUE(exists("out/assets.gpkg"));
   EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"assets\">"));
   EXPECT_THAT(read("out/report.html"), HasSubstr("nothing is said of them: away"));
+}
+
+TEST_F(AssetsWorkflow, APageMadeAnewAndItsTableAreOfTheSameAssets) {
+  write("scene.yaml", columns() + block);
+  Recorder heard;
+  whole(request("out"), heard);
+  write("assets.geojson", replaced(layer, "\"hut\"", "\"barn\""));
+  workflow::rewrite_page(path("out"), heard);
+  EXPECT_THAT(read("out/report.html"), HasSubstr("barn"));
+  EXPECT_THAT(read("out/assets.csv"), HasSubstr("\nbarn,inside,"));
 }
 
 TEST_F(AssetsWorkflow, TheBlockComesLaterAndGoesWithoutNewMembers) {

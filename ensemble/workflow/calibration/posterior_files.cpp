@@ -6,6 +6,7 @@
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
+#include "ensemble/workflow/results/map_files.hpp"
 #include "io/files/text_files.hpp"
 #include "io/scenario/scenario_file.hpp"
 
@@ -255,16 +256,37 @@ fs::path csv_file(const fs::path& folder) { return folder / "posterior.csv"; }
 
 std::string posterior_json(const Calibrated& c) { return document(c).dump(2) + "\n"; }
 
+namespace {
+
+/// Maps by other weights than those of today would pass for today's.
+void forget_weighted_maps(const OutputFolder& folder) {
+  const OutputFolder weighted{folder.root / "weighted"};
+  fs::remove(weighted.report());
+  fs::remove(weighted.hazard_nc());
+  remove_map_files(weighted.tif_folder());
+}
+
+/// weights.csv; none where no member explains anything.
+void write_weights(const OutputFolder& folder, const Calibrated& c) {
+  const fs::path file = folder.root / "weights.csv";
+  const std::string text = c.members.empty() ? "" : weights_text(c);
+  if (fs::exists(file) && read_text(file) == text) return;
+  forget_weighted_maps(folder);
+  if (text.empty())
+    fs::remove(file);  // of an earlier calibration
+  else
+    write_text_atomic(file, text);
+}
+
+}  // namespace
+
 // The numbers go first and come last: what is stopped in between leaves rows without numbers, which
 // is no posterior, and never the rows of one calibration beside the numbers of another.
 void write_posterior(const OutputFolder& folder, const Calibrated& c) {
   std::error_code ignored;
   fs::remove(json_file(folder.root), ignored);
   write_text_atomic(csv_file(folder.root), table_text(c));
-  if (c.members.empty())
-    fs::remove(folder.root / "weights.csv", ignored);  // of an earlier calibration
-  else
-    write_text_atomic(folder.root / "weights.csv", weights_text(c));
+  write_weights(folder, c);
   write_text_atomic(json_file(folder.root), posterior_json(c));
 }
 

@@ -14,8 +14,8 @@ namespace sturz::workflow {
 /// Rows of posterior.csv at most.
 inline constexpr std::size_t posterior_rows = 2000;
 
-/// posterior.csv, posterior.json and, where a member explains anything, weights.csv. \throws
-/// IoError
+/// posterior.csv, posterior.json and, where a member explains anything, weights.csv. Maps in
+/// weighted/ go when the weights are others than before. \throws IoError
 void write_posterior(const OutputFolder&, const Calibrated&);
 
 /// The text of posterior.json: one object; numbers that are not finite are null.

@@ -53,7 +53,23 @@ void list_both(const fs::path& index, const std::string& now) {
   write_text_atomic(index, before + now.substr(std::string(index_header).size()));
 }
 
+void remove_files(const fs::path& folder, const std::set<std::string>& names) {
+  for (const std::string& name : names) {
+    if (!is_ours(name)) continue;
+    fs::remove(folder / name);
+    fs::remove(style_of(folder / name));
+  }
+}
+
 }  // namespace
+
+void remove_map_files(const fs::path& folder) {
+  const fs::path index = folder / "index.csv";
+  const std::set<std::string> listed = listed_files(index);
+  if (listed.empty()) return;
+  remove_files(folder, listed);
+  fs::remove(index);
+}
 
 void write_map_files(const fs::path& folder, const LayerSource& maps, const LayerStack& coarse,
                      CancelFlag cancel) {
@@ -72,11 +88,7 @@ void write_map_files(const fs::path& folder, const LayerSource& maps, const Laye
     const Layer* shown = coarse.find(layer.name);
     write_text_atomic(style_of(file.path), qgis_style(shown != nullptr ? *shown : layer));
   }
-  for (const std::string& name : before) {
-    if (!is_ours(name)) continue;
-    fs::remove(folder / name);
-    fs::remove(style_of(folder / name));
-  }
+  remove_files(folder, before);
   write_text_atomic(index, list);
 }
 

@@ -17,4 +17,7 @@ namespace sturz::workflow {
 void write_map_files(const std::filesystem::path& folder, const LayerSource& maps,
                      const LayerStack& coarse, CancelFlag cancel);
 
+/// Removes what write_map_files() left in the folder, and nothing else. \throws IoError
+void remove_map_files(const std::filesystem::path& folder);
+
 }  // namespace sturz::workflow

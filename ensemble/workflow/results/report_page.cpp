@@ -228,6 +228,8 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   std::optional<AssetFindings> risk;
   if (finished.inputs && !one_run) risk = find_risk(store, *finished.inputs, cancel);
   if (risk) page.risk = &*risk;
+  // The table and the page are of the same assets: those of today.
+  if (finished.inputs && !one_run) write_asset_files(finished.folder, risk, store.grid());
   std::optional<PosteriorShown> posterior;
   if (!one_run)
     posterior = shown_posterior(finished.folder, finished.manifest, finished.scenario, observer);

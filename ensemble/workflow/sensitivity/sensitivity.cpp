@@ -127,6 +127,10 @@ std::string csv_of(const Sensitivity& all) {
   return text;
 }
 
+std::filesystem::path maps_file(const FinishedFolder& finished) {
+  return finished.folder.root / "sensitivity.nc";
+}
+
 /// sensitivity.nc: indices of each cell.
 std::filesystem::path write_index_maps(const FinishedFolder& finished, const DesignTable& design,
                                        const MemberStore& store, CancelFlag cancel) {
@@ -135,7 +139,7 @@ std::filesystem::path write_index_maps(const FinishedFolder& finished, const Des
   request.n_rows = design.n_members();
   request.thickness_m = finished.scenario.hazard.thickness_m;
   request.cancel = cancel;
-  const std::filesystem::path file = finished.folder.root / "sensitivity.nc";
+  const std::filesystem::path file = maps_file(finished);
   LayersFileWriter writer(file);
   make_index_maps(store, request, writer);
   cancel.check();
@@ -196,6 +200,7 @@ Sensitivity sensitivity_of(const SensitivityRequest& request, Observer& observer
   require(!all.results.empty(),
           where + ": no result of its members is known and differs between them.");
   all.file = finished.folder.root / "sensitivity.csv";
+  std::filesystem::remove(maps_file(finished));
   write_text_atomic(all.file, csv_of(all));
   if (request.maps) all.maps = write_index_maps(finished, design, store, cancel);
   return all;

@@ -43,7 +43,8 @@ struct SensitivityRequest {
   bool maps = false;                 ///< indices of each cell too; of a saltelli design
 };
 
-/// Reads the members of a folder and writes sensitivity.csv, and sensitivity.nc, beside them.
+/// Reads the members of a folder and writes sensitivity.csv, and sensitivity.nc, beside them. Maps
+/// of an earlier call go when none are asked for: they may be of other members than the table.
 /// \throws SetupError: no ensemble, no uncertain value, an unknown result, maps of another design;
 ///   Cancelled
 Sensitivity sensitivity_of(const SensitivityRequest&, Observer&, CancelFlag cancel = {});
