@@ -56,8 +56,8 @@ int compare(const Options& options, Console& console) {
     console.say(
         fmt::format("  {} of them were cut off: differences may be more or less", c.cut_off));
   console.say(
-      fmt::format("  P(reached), B less A: {:+.3f} to {:+.3f}; certainly (95 %, cell by "
-                  "cell) less in {} cells, more in {}",
+      fmt::format("  P(reached), B less A: {:+.3f} to {:+.3f}; the 95 % interval, each cell for "
+                  "itself, lies below 0 in {} cells, above in {}",
                   c.summary.least, c.summary.most, c.summary.n_less, c.summary.n_more));
   if (std::isfinite(c.summary.median_gain))
     console.say(

@@ -44,8 +44,22 @@ Json json_of(const workflow::RiskMade& made) {
   done["number_of_assets"] = made.n_assets;
   done["expected_loss_per_year"] = number(made.total_loss.mean);
   done["expected_loss_standard_error_per_year"] = number(made.total_loss.standard_error);
+  done["assets_without_loss"] = made.n_without_loss;
   done["value_unit"] = made.value_unit;
   return done;
+}
+
+std::string assets_text(const workflow::RiskMade& made, const char* least) {
+  std::string text = fmt::format("{} assets", made.n_assets);
+  if (!std::isfinite(made.total_loss.mean)) return text;
+  text += fmt::format(": expected loss {}{:.4g} {} a year (standard error {:.2g})", least,
+                      made.total_loss.mean, made.value_unit, made.total_loss.standard_error);
+  if (made.n_without_loss > 0)
+    text += fmt::format(
+        "; without {} of them, whose loss is not known (beyond the known ground, "
+        "no curve or no value)",
+        made.n_without_loss);
+  return text;
 }
 
 int risk(const Options& options, Console& console) {
@@ -65,13 +79,7 @@ int risk(const Options& options, Console& console) {
   if (made.highest_rate > 0)
     console.say(fmt::format("  reached most often: {}{:.3g} times a year, once in {:.3g} years",
                             least, made.highest_rate, 1 / made.highest_rate));
-  if (made.n_assets > 0)
-    console.say(std::isfinite(made.total_loss.mean)
-                    ? fmt::format("  {} assets: expected loss {}{:.4g} {} a year (standard error "
-                                  "{:.2g})",
-                                  made.n_assets, least, made.total_loss.mean, made.value_unit,
-                                  made.total_loss.standard_error)
-                    : fmt::format("  {} assets", made.n_assets));
+  if (made.n_assets > 0) console.say("  " + assets_text(made, least));
   console.say("In " + out);
   console.event(json_text(json_of(made)));
   return ok;

@@ -116,6 +116,7 @@ RiskTable assess_assets(const Assets& assets, const AssetHits& hits) {
           losses[hits.of[a][i].member] += asset.value * damages[i];
       }
     }
+    table.n_without_loss += std::isnan(r.loss.mean);
     table.rows.push_back(std::move(r));
   }
   if (any_loss) table.total_loss = expected_value(losses, n);

@@ -57,8 +57,9 @@ struct AssetRisk {
 };
 
 struct RiskTable {
-  std::vector<AssetRisk> rows;  ///< in the order of the assets
-  ExpectedValue total_loss;     ///< of all assets on the maps together; NaN where no loss is known
+  std::vector<AssetRisk> rows;     ///< in the order of the assets
+  ExpectedValue total_loss;        ///< of all assets whose loss is known; NaN where none is
+  std::size_t n_without_loss = 0;  ///< that it leaves out: outside, without curve or value
 };
 
 RiskTable assess_assets(const Assets&, const AssetHits&);

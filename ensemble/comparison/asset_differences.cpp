@@ -55,7 +55,11 @@ std::vector<AssetDifference> asset_differences(const Assets& assets, const Membe
     d.cut_off = ra.not_known + ra.hit_cut_off + rb.not_known + rb.hit_cut_off > 0;
     if (ra.place != AssetPlace::outside && rb.place != AssetPlace::outside) {
       d.unpaired = unpaired_difference(ra.hit, ra.valid, rb.hit, rb.valid);
-      if (pairs.n > 0) d.paired = paired_difference(counts_of(a.of[i], b.of[i], pairs));
+      if (pairs.n > 0) {
+        const PairCounts counts = counts_of(a.of[i], b.of[i], pairs);
+        d.paired = paired_difference(counts);
+        d.unpaired = unpaired_difference(counts.a(), counts.n(), counts.b(), counts.n());
+      }
       const Asset& asset = assets.list[i];
       if (asset.curve && pairs.n > 0 && !std::isnan(asset.value))
         d.loss = loss_of(asset, assets.curves[*asset.curve], pairs, a.of[i], b.of[i]);

@@ -14,8 +14,9 @@ namespace sturz {
 struct AssetDifference {
   AssetPlace place = AssetPlace::inside;  ///< outside: nothing below is known
   double probability_a = nan_d, probability_b = nan_d;
-  DifferenceBounds paired{nan_d, nan_d, nan_d};  ///< P(B) - P(A); NaN without pairs
-  DifferenceBounds unpaired{nan_d, nan_d, nan_d};
+  DifferenceBounds paired{nan_d, nan_d, nan_d};    ///< P(B) - P(A); NaN without pairs
+  DifferenceBounds unpaired{nan_d, nan_d, nan_d};  ///< of the same members as if they were none;
+                                                   ///< without pairs of all
   ExpectedValue loss;    ///< expected loss of B less that of A, by one event, with the standard
                          ///< error of the mean over pairs; without pairs of both means
   bool cut_off = false;  ///< members that were cut off may make it more or less

@@ -171,8 +171,10 @@ class DifferenceStatistics {
     }
   }
 
-  DifferenceBounds unpaired(std::int64_t hits_a, std::int64_t hits_b) const {
-    return unpaired_difference(hits_a, static_cast<std::int64_t>(pairs_.n_a), hits_b,
+  /// Of the members that have partners, as if they had none; of all where none has.
+  DifferenceBounds unpaired(const Deeds& deeds, const PairCounts& counts) const {
+    if (pairs_.n > 0) return unpaired_difference(counts.a(), counts.n(), counts.b(), counts.n());
+    return unpaired_difference(deeds.n_a, static_cast<std::int64_t>(pairs_.n_a), deeds.n_b,
                                static_cast<std::int64_t>(pairs_.n_b));
   }
 
@@ -180,7 +182,7 @@ class DifferenceStatistics {
                  const PairCounts& counts) {
     const auto n_a = static_cast<std::int64_t>(pairs_.n_a);
     const auto n_b = static_cast<std::int64_t>(pairs_.n_b);
-    const DifferenceBounds heaps = unpaired(deeds.n_a, deeds.n_b);
+    const DifferenceBounds heaps = unpaired(deeds, counts);
     const DifferenceBounds own = pairs_.n > 0 ? paired_difference(counts) : heaps;
     const double a = static_cast<double>(deeds.n_a) / static_cast<double>(n_a);
     const double b = static_cast<double>(deeds.n_b) / static_cast<double>(n_b);
@@ -202,14 +204,14 @@ class DifferenceStatistics {
   /// Of `reached`: where and how much the pairs help.
   void sum_up(const PairCounts& counts) {
     const bool pairs = pairs_.n > 0;
-    const DifferenceBounds heaps = unpaired(deeds_.n_a, deeds_.n_b);
+    const DifferenceBounds heaps = unpaired(deeds_, counts);
     const DifferenceBounds own = pairs ? paired_difference(counts) : heaps;
     summary_.n_less += own.upper < 0;
     summary_.n_more += own.lower > 0;
     summary_.least = std::min(summary_.least, own.difference);
     summary_.most = std::max(summary_.most, own.difference);
-    const auto hits = static_cast<std::size_t>(deeds_.n_a + deeds_.n_b);
-    if (pairs && hits > 0 && hits < pairs_.n_a + pairs_.n_b)
+    const std::int64_t hits = counts.a() + counts.b();
+    if (pairs && hits > 0 && hits < 2 * counts.n())
       gains_.push_back(static_cast<float>(heaps.width() / own.width()));
   }
 

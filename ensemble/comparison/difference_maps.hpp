@@ -4,8 +4,8 @@
 ///
 /// Rules, also written into the layers' comments:
 ///   difference  P(B) - P(A) over pairs of members, with 95 % intervals from the pairs and, for
-///               comparison, from all members as if they were none (paired_difference.hpp). Without
-///               pairs the difference is that of all members, and only the latter is there
+///               comparison, from the same members as if they were none (paired_difference.hpp).
+///               Without pairs both are of all members, and the same
 ///   band        smallest and largest of both probabilities; and both Wilson intervals of 95 %
 ///               together, from the lower lower end to the upper upper end
 #pragma once

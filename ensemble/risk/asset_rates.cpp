@@ -80,7 +80,8 @@ RateTable assess_rates(const Assets& assets, const RiskSpec& spec,
     rates.push_back({spec.scenarios[i].frequency_per_year, scenarios[i].hits.members.size()});
   RateTable table;
   for (std::size_t a = 0; a < assets.list.size(); ++a)
-    table.rows.push_back(rate_of(spec, rates, scenarios, a));
+    table.n_without_loss +=
+        std::isnan(table.rows.emplace_back(rate_of(spec, rates, scenarios, a)).loss.mean);
   table.total_loss = by_year(spec, scenarios, [](const RiskTable& t) { return t.total_loss; });
   return table;
 }

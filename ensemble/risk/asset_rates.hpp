@@ -31,7 +31,8 @@ struct AssetRate {
 
 struct RateTable {
   std::vector<AssetRate> rows;
-  ExpectedValue total_loss;  ///< of all assets together, by year
+  ExpectedValue total_loss;        ///< by year, of all assets whose loss is known
+  std::size_t n_without_loss = 0;  ///< that it leaves out, of some scenario at least
 };
 
 /// Rates and losses add up over scenarios with their frequencies; standard errors as those of

@@ -94,10 +94,15 @@ std::string total_text(const Assets& assets, const RiskTable& risk) {
     return r.not_known + r.hit_cut_off > 0 || r.place != AssetPlace::inside;
   });
   const double error = risk.total_loss.standard_error;
-  return fmt::format("<p>Expected loss of all assets together, by one event: {}{} {}.</p>",
+  const std::string out =
+      risk.n_without_loss == 0
+          ? ""
+          : fmt::format(" That is without {} of {} assets, whose loss is not known.",
+                        risk.n_without_loss, risk.rows.size());
+  return fmt::format("<p>Expected loss of all assets together, by one event: {}{} {}.{}</p>",
                      at_least(more, shown_number(risk.total_loss.mean)),
                      std::isnan(error) ? "" : " \u00B1 " + shown_number(error, 2),
-                     html_escape(assets.value_unit));
+                     html_escape(assets.value_unit), out);
 }
 
 }  // namespace

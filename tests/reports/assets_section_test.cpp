@@ -39,6 +39,7 @@ TEST(AssetsSection, ListsTheMostProbableFirstAndMarksLowerBounds) {
   high.loss = {400, 50};
   high.cut_off = "2 cut off before they hit";
   risk.total_loss = {412.3, 51};
+  risk.n_without_loss = 2;
   ReportInput input;
   input.assets = &assets;
   input.risk = &risk;
@@ -55,7 +56,7 @@ TEST(AssetsSection, ListsTheMostProbableFirstAndMarksLowerBounds) {
   EXPECT_THAT(html, HasSubstr("10 % (4 % \u2013 23 %)"));
   EXPECT_THAT(html, HasSubstr("beyond the known ground: nothing is known"));
   EXPECT_THAT(html, HasSubstr("by one event: \u2265\u00A0"
-                              "412 \u00B1 51 CHF"));
+                              "412 \u00B1 51 CHF. That is without 2 of 3 assets, whose loss"));
 }
 
 TEST(AssetsSection, IsNotThereWithoutAssets) {

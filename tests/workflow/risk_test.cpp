@@ -78,6 +78,50 @@ TEST_F(RiskWorkflow, RefusesWhatDoesNotBelongTogether) {
               ::testing::ThrowsMessage<SetupError>(HasSubstr("holds no results of sturz")));
 }
 
+TEST_F(RiskWorkflow, RefusesMembersThatAreNoSampleAndTellsOfSets) {
+  ensemble("small", "1", "");
+  const auto of_design = [&](const char* design, const char* members, const char* folder) {
+    const std::string columns =
+        replaced(tiny_scene(), "formulation: full_stress", "formulation: depth_averaged");
+    write("scene.yaml", replaced(columns, "design: sobol, members: 6",
+                                 std::string("design: ") + design + ", members: " + members));
+    Recorder silent;
+    whole(request(folder), silent);
+  };
+  of_design("morris", "6", "large");
+  EXPECT_THAT([&] { risk("years"); },
+              ::testing::ThrowsMessage<SetupError>(HasSubstr("ensemble.design = morris")));
+  EXPECT_FALSE(exists("years"));
+  of_design("saltelli", "8", "sets");
+  write("risk.yaml", "scenarios: [{folder: sets, frequency_per_year: 0.1}]\n");
+  risk("years");
+  EXPECT_THAT(heard.warnings, ::testing::Contains(HasSubstr("ensemble.design = saltelli")));
+}
+
+TEST_F(RiskWorkflow, RefusesOneFolderUnderTwoNames) {
+  ensemble("small", "1", "");
+  write("risk.yaml",
+        "scenarios:\n"
+        "  - {folder: small, frequency_per_year: 0.01}\n"
+        "  - {folder: ../" +
+            path("").parent_path().filename().string() + "/small/, frequency_per_year: 0.001}\n");
+  EXPECT_THAT([&] { risk("years"); },
+              ::testing::ThrowsMessage<SetupError>(HasSubstr("are one folder")));
+  EXPECT_FALSE(exists("years"));
+}
+
+TEST_F(RiskWorkflow, TablesOfEarlierAssetsGoBeforeTheMapsChange) {
+  ensemble("small", "1", block);
+  write("risk.yaml", "scenarios: [{folder: small, frequency_per_year: 0.1}]\n");
+  risk("years");
+  ASSERT_TRUE(exists("years/assets_by_year.csv"));
+  std::filesystem::remove(path("years/risk.nc"));
+  std::filesystem::create_directories(path("years/risk.nc/in_the_way"));
+  EXPECT_ANY_THROW(risk("years"));
+  EXPECT_FALSE(exists("years/assets_by_year.csv"));
+  EXPECT_FALSE(exists("years/assets_by_year.gpkg"));
+}
+
 TEST_F(RiskWorkflow, RefusesOtherCells) {
   ensemble("small", "1", "");
   const std::string coarse =

@@ -79,22 +79,25 @@ void write_maps(const CompareRequest& request, const Both& both, const MemberPai
   write_map_files(request.out / "comparison", maps, coarse, cancel);
 }
 
+fs::path asset_csv(const fs::path& out) { return out / "asset_differences.csv"; }
+fs::path asset_gpkg(const fs::path& out) { return out / "asset_differences.gpkg"; }
+
+/// They belong to the maps that were there.
+void forget_assets(const fs::path& out) {
+  fs::remove(asset_csv(out));
+  fs::remove(asset_gpkg(out));
+}
+
 void write_assets(const CompareRequest& request, const Both& both, const MemberPairs& pairs,
                   CancelFlag cancel, Compared& made) {
-  const fs::path csv = request.out / "asset_differences.csv";
-  const fs::path gpkg = request.out / "asset_differences.gpkg";
   const auto assets = common_assets(both);
-  if (assets == nullptr) {
-    fs::remove(csv);
-    fs::remove(gpkg);
-    return;
-  }
+  if (assets == nullptr) return;
   const AssetHits a = find_hits(*both[0].members, *assets, cancel);
   const AssetHits b = find_hits(*both[1].members, *assets, cancel);
   const FeatureTable features = difference_features(
       *assets, asset_differences(*assets, pairs, a, b), both[0].members->grid().crs_wkt);
-  write_text_atomic(csv, to_csv(features));
-  write_geopackage(gpkg, features);
+  write_text_atomic(asset_csv(request.out), to_csv(features));
+  write_geopackage(asset_gpkg(request.out), features);
   made.n_assets = assets->list.size();
 }
 
@@ -118,6 +121,7 @@ Compared compare(const CompareRequest& request, Observer& observer, CancelFlag c
   made.maps = request.out / "comparison.nc";
   observer.maps_begin();
   make_folder(request.out);
+  forget_assets(request.out);
   write_maps(request, both, pairs, cancel, made);
   write_assets(request, both, pairs, cancel, made);
   return made;

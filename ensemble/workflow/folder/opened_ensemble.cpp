@@ -21,6 +21,19 @@ std::string place_text(const Grid& g) {
                      g.n_rows, g.cell_m, g.west_m, g.north_m);
 }
 
+/// Shares of members are probabilities where members are a sample of the distributions.
+void require_sample(const DesignTable& design, const std::string& where, Observer& observer) {
+  require(design.design != Design::morris,
+          where +
+              ": ensemble.design = morris (its members are steps through the distributions, no "
+              "sample of them: shares of them are no probabilities). Compute the ensemble with "
+              "sobol, latin_hypercube or monte_carlo.");
+  if (design.design == Design::saltelli)
+    observer.warning(where +
+                     ": ensemble.design = saltelli (members of a set share values: intervals of "
+                     "probabilities and standard errors are too narrow).");
+}
+
 bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 /// What of two assets of one place differs, or empty text.
@@ -76,6 +89,7 @@ OpenedEnsemble open_ensemble(const std::filesystem::path& folder, Observer& obse
                       where, as_lines(finished.changed)));
   require_own_scenario(finished.folder, finished.manifest, finished.scenario);
   opened.design = saved_design(finished.folder, finished.manifest, finished.scenario);
+  require_sample(opened.design, where, observer);
   opened.members = std::make_unique<const MemberStore>(
       members_of(finished.folder, finished.manifest, opened.design, {}, cancel));
   warn_of_problems(*opened.members, "It counts as missing.", observer);

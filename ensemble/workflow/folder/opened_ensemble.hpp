@@ -23,8 +23,10 @@ struct OpenedEnsemble {
   std::string name() const { return finished.folder.root.string(); }
 };
 
-/// Warns of members that are missing or damaged. Nothing of the folder is changed.
-/// \throws SetupError: no ensemble, inputs that cannot be read or were changed, a changed scenario,
+/// Warns of members that are missing or damaged, and of members that stand in sets. Nothing of the
+/// folder is changed.
+/// \throws SetupError: no ensemble, a design whose members have no probability, inputs that cannot
+/// be read or were changed, a changed scenario,
 ///   no valid member; Cancelled
 OpenedEnsemble open_ensemble(const std::filesystem::path& folder, Observer&,
                              CancelFlag cancel = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/risk/risk.hpp"
 
+#include "engine/core/error.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/risk/asset_rates.hpp"
 #include "ensemble/risk/rate_maps.hpp"
@@ -32,6 +33,11 @@ std::vector<OpenedEnsemble> open_all(const RiskSpec& spec, const fs::path& direc
     const fs::path folder(s.folder);
     all.push_back(
         open_ensemble(folder.is_absolute() ? folder : directory / folder, observer, cancel));
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+      require(!fs::equivalent(all[i].finished.folder.root, all.back().finished.folder.root),
+              fmt::format("{} and {} are one folder (its events would count twice). Name it once, "
+                          "with both frequencies added up.",
+                          spec.scenarios[i].folder, s.folder));
   }
   return all;
 }
@@ -75,15 +81,19 @@ void write_maps(const RiskSpec& spec, const std::vector<OpenedEnsemble>& all, co
       if (std::isfinite(v)) made.highest_rate = std::max(made.highest_rate, static_cast<double>(v));
 }
 
+fs::path asset_csv(const fs::path& out) { return out / "assets_by_year.csv"; }
+fs::path asset_gpkg(const fs::path& out) { return out / "assets_by_year.gpkg"; }
+
+/// They belong to the maps that were there.
+void forget_assets(const fs::path& out) {
+  fs::remove(asset_csv(out));
+  fs::remove(asset_gpkg(out));
+}
+
 void write_assets(const RiskSpec& spec, const std::vector<OpenedEnsemble>& all, const fs::path& out,
                   CancelFlag cancel, RiskMade& made) {
-  const fs::path csv = out / "assets_by_year.csv", gpkg = out / "assets_by_year.gpkg";
   const auto assets = common_assets(all);
-  if (assets == nullptr) {
-    fs::remove(csv);
-    fs::remove(gpkg);
-    return;
-  }
+  if (assets == nullptr) return;
   std::vector<ScenarioAtAssets> scenarios;
   for (const OpenedEnsemble& e : all) {
     AssetHits hits = find_hits(*e.members, *assets, cancel);
@@ -93,12 +103,13 @@ void write_assets(const RiskSpec& spec, const std::vector<OpenedEnsemble>& all, 
   const RateTable table = assess_rates(*assets, spec, scenarios);
   const FeatureTable features =
       rate_features(*assets, spec, table, all.front().members->grid().crs_wkt);
-  write_text_atomic(csv, to_csv(features));
-  write_geopackage(gpkg, features);
-  made.assets_csv = csv;
+  write_text_atomic(asset_csv(out), to_csv(features));
+  write_geopackage(asset_gpkg(out), features);
+  made.assets_csv = asset_csv(out);
   made.n_assets = assets->list.size();
   made.value_unit = assets->value_unit;
   made.total_loss = table.total_loss;
+  made.n_without_loss = table.n_without_loss;
 }
 
 }  // namespace
@@ -123,6 +134,7 @@ RiskMade make_risk(const RiskRequest& request, Observer& observer, CancelFlag ca
   observer.maps_begin();
   make_folder(request.out);
   made.maps = request.out / "risk.nc";
+  forget_assets(request.out);
   write_maps(spec, all, request.out, cancel, made);
   write_assets(spec, all, request.out, cancel, made);
   return made;

@@ -31,15 +31,16 @@ struct RiskMade {
   double highest_rate = 0;  ///< annual rate of the cell that is reached most often [1/year]
   std::size_t n_assets = 0;
   std::string value_unit;            ///< of the loss; empty: no values
-  ExpectedValue total_loss;          ///< by year, of all assets; NaN: not known
+  ExpectedValue total_loss;          ///< by year, of the assets that have one; NaN: not known
+  std::size_t n_without_loss = 0;    ///< assets that it leaves out
   std::filesystem::path maps;        ///< risk.nc
   std::filesystem::path assets_csv;  ///< empty: no assets
 };
 
 /// Writes risk.nc, risk/*.tif with styles and list, and, where the scenes have assets,
-/// assets_by_year.csv and .gpkg. \throws SetupError: a wrong risk file, folders that are no
-/// finished
-///   ensembles, lie on other cells or have other assets; IoError; Cancelled
+/// assets_by_year.csv and .gpkg.
+/// \throws SetupError: a wrong risk file, folders that are no finished ensembles, are named twice,
+///   lie on other cells or have other assets; IoError; Cancelled
 RiskMade make_risk(const RiskRequest&, Observer&, CancelFlag cancel = {});
 
 }  // namespace sturz::workflow

@@ -113,6 +113,7 @@ TEST(AssetRisk, ThreeMembersAndTwoAssetsByHand) {
   // Losses by member 600, 1125 and 0.
   EXPECT_NEAR(table.total_loss.mean, 575, 1e-9);
   EXPECT_NEAR(table.total_loss.standard_error, 325, 1e-9);
+  EXPECT_EQ(table.n_without_loss, 0U);
 }
 
 TEST(AssetRisk, MembersThatWereCutOffLeaveLowerBounds) {
@@ -145,6 +146,7 @@ TEST(AssetRisk, NothingIsSaidOfWhatLiesBeyondTheKnownGround) {
   EXPECT_TRUE(std::isnan(bridge.bounds_95.upper));
   EXPECT_TRUE(std::isnan(bridge.damage.mean));
   EXPECT_NEAR(table.total_loss.mean, 1600.0 / 3, 1e-9);
+  EXPECT_EQ(table.n_without_loss, 1U);
   const std::string csv = to_csv(risk_features(assets, table, ""));
   EXPECT_THAT(csv, HasSubstr("bridge,outside,road,500,3,0,3,0,,,,,,"));
 }

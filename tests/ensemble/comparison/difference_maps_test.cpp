@@ -91,8 +91,8 @@ TEST_F(DifferenceMaps, CountPairsByHand) {
   EXPECT_FLOAT_EQ(at(m, "probability_difference", 5), -0.2F);
   EXPECT_FLOAT_EQ(at(m, "probability_difference_lower", 5), static_cast<float>(d.lower));
   EXPECT_FLOAT_EQ(at(m, "probability_difference_upper", 5), static_cast<float>(d.upper));
-  // All members: 3 of 5 and 3 of 6.
-  const DifferenceBounds heaps = unpaired_difference(3, 5, 3, 6);
+  // The same five of each as if they were no pairs: 3 and 2 of 5, and without B's member 4.
+  const DifferenceBounds heaps = unpaired_difference(3, 5, 2, 5);
   EXPECT_FLOAT_EQ(at(m, "probability_difference_unpaired_lower", 5),
                   static_cast<float>(heaps.lower));
   EXPECT_FLOAT_EQ(at(m, "probability_smallest", 5), 0.5F);
@@ -164,6 +164,7 @@ TEST_F(DifferenceMaps, AssetsByHand) {
   EXPECT_DOUBLE_EQ(rows[0].probability_a, 0.6);
   EXPECT_DOUBLE_EQ(rows[0].probability_b, 0.5);
   EXPECT_DOUBLE_EQ(rows[0].paired.difference, -0.2);
+  EXPECT_DOUBLE_EQ(rows[0].unpaired.difference, -0.2);  // of the same five of each
   // Losses 500, 500, 125, 0, 0 without and 125, 0, 0, 0, 750 with the dam: -375, -500, -125, 0,
   // 750.
   EXPECT_NEAR(rows[0].loss.mean, -50, 1e-9);

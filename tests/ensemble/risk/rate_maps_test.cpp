@@ -200,6 +200,7 @@ TEST_F(RateMaps, AssetsByYearByHand) {
   const double variance = (125.0 * 125 + 125 * 125 + 375 * 375 + 375 * 375) / 3;
   EXPECT_NEAR(r.loss.standard_error, 0.01 * std::sqrt(variance / 4), 1e-9);
   EXPECT_NEAR(table.total_loss.mean, 4.75, 1e-9);
+  EXPECT_EQ(table.n_without_loss, 1U);
   EXPECT_EQ(table.rows[1].place, AssetPlace::outside);
   EXPECT_TRUE(std::isnan(table.rows[1].rate));
   const std::string csv = to_csv(rate_features(assets, spec(), table, ""));
