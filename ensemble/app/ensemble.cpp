@@ -171,9 +171,10 @@ void add_ensemble(Grammar& grammar) {
   add_scenario(parser, options.scenario, options.set);
   parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
       ->type_name("DIR");
-  parser
-      .add_option("-n,--members", options.members, "Number of members, instead of the scenario's")
-      ->check(CLI::Range(1, 100000000));
+  CLI::Option* const members = parser
+                                   .add_option("-n,--members", options.members,
+                                               "Number of members, instead of the scenario's")
+                                   ->check(CLI::Range(1, 100000000));
   parser.add_option("--workers", options.workers, "Members at a time (default: all cores)")
       ->check(CLI::Range(1, 4096));
   CLI::Option* const until =
@@ -187,6 +188,7 @@ void add_ensemble(Grammar& grammar) {
       .add_option("--at-most", options.at_most,
                   "Members that --until-converged may compute, instead of the scenario's number")
       ->needs(until)
+      ->excludes(members)
       ->check(CLI::Range(1, 100000000));
   parser
       .add_option("--shard", options.shard,
