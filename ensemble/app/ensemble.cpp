@@ -36,6 +36,7 @@ struct Options {
   std::string shard;             ///< "k/n", 1 <= k <= n; empty: everything
   bool retry_failed = false;     ///< compute failed members again
   double until_converged = 0;    ///< half width of P(reached); 0: no stop rule
+  std::string asset;             ///< name of the one that the rule looks at; empty: the map
   int at_most = 0;               ///< members under that rule; 0: as the scenario says
   std::string posterior;         ///< folder of a calibration; empty: the scene's own design
 };
@@ -58,6 +59,7 @@ std::string command_text(const Options& o) {
   for (const std::string& set : o.set) text += " --set " + set;
   if (o.members > 0) text += fmt::format(" -n {}", o.members);
   if (o.until_converged > 0) text += fmt::format(" --until-converged {}", o.until_converged);
+  if (!o.asset.empty()) text += " --asset " + o.asset;
   if (o.at_most > 0) text += fmt::format(" --at-most {}", o.at_most);
   if (!o.posterior.empty()) text += " --posterior " + o.posterior;
   return text;
@@ -72,6 +74,7 @@ workflow::EnsembleRequest request_of(const Options& o) {
   request.folder = o.out.empty() ? workflow::default_folder(o.scenario) : o.out;
   request.members = o.at_most > 0 ? o.at_most : o.members;
   if (o.until_converged > 0) request.until_half_width = o.until_converged;
+  request.until_asset = o.asset;
   request.workers = o.workers;
   request.shard = shard_of(o.shard);
   request.retry_failed = o.retry_failed;
@@ -82,12 +85,13 @@ workflow::EnsembleRequest request_of(const Options& o) {
 std::string rule_text(const workflow::Growth& rule) {
   const std::int64_t at_most = rule.whole.n_members();
   const std::int64_t certain = certain_count(rule.wanted_half_width);
-  std::string text =
-      fmt::format("Until the largest half width of P(reached) is {} or less, at most {} members",
-                  rule.wanted_half_width, at_most);
+  std::string text = fmt::format("Until the {} is {} or less, at most {} members",
+                                 rule.asset ? "half width of P(hit) of " + rule.asset->name
+                                            : std::string("largest half width of P(reached)"),
+                                 rule.wanted_half_width, at_most);
   if (certain > at_most)
-    text +=
-        fmt::format("; it is certain to be so from {} valid members on only (--at-most)", certain);
+    text += fmt::format("; it is certain to be so from {} valid members on only{} (--at-most)",
+                        certain, rule.asset ? ", none of them cut off before it hits" : "");
   return text;
 }
 
@@ -184,6 +188,11 @@ void add_ensemble(Grammar& grammar) {
                       "in every cell with 0.05 < P < 0.95; such as 0.05")
           ->type_name("HALF_WIDTH")
           ->check(CLI::Range(0.0005, 0.4));
+  parser
+      .add_option("--asset", options.asset,
+                  "With --until-converged: look at this asset's probability of a hit alone")
+      ->type_name("NAME")
+      ->needs(until);
   parser
       .add_option("--at-most", options.at_most,
                   "Members that --until-converged may compute, instead of the scenario's number")

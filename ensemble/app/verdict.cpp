@@ -4,6 +4,7 @@
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/score_text.hpp"
+#include "ensemble/workflow/folder/stop_rule_json.hpp"
 #include "ensemble/workflow/readable.hpp"
 
 #include <fmt/core.h>
@@ -37,18 +38,6 @@ nlohmann::json nearest_json(const workflow::MapsMade& made) {
   return members;
 }
 
-nlohmann::json stop_json(const StopRecord& stop) {
-  return {{"wanted_half_width", stop.wanted_half_width},
-          {"half_width", stop.last.found.half_width},
-          {"reached", stop.reached()},
-          {"looked_at", to_string(stop.last.found.at)},
-          {"cells", stop.last.found.n_cells},
-          {"members", stop.last.n_members},
-          {"valid", stop.last.found.n_valid},
-          {"looks", stop.n_looks},
-          {"at_most", stop.at_most}};
-}
-
 void tell_stop(const StopRecord& stop, Console& console) {
   const std::string text = stop_text(stop);
   if (stop.reached())
@@ -57,8 +46,9 @@ void tell_stop(const StopRecord& stop, Console& console) {
       "not as sure as was asked for: {}. {}", text,
       stop.last.found.n_valid > 0
           ? fmt::format("The same command with a larger --at-most goes on; {} is certain from {} "
-                        "valid members on.",
-                        stop.wanted_half_width, certain_count(stop.wanted_half_width))
+                        "valid members on{}.",
+                        stop.wanted_half_width, certain_count(stop.wanted_half_width),
+                        stop.asset.empty() ? "" : ", of which none is cut off before it hits")
           : "No member is valid."));
 }
 
@@ -73,7 +63,7 @@ std::string done_event(const workflow::MapsMade& made) {
                        {"hazard_hash", made.hazard_hash},
                        {"folder", made.folder.root.string()}};
   if (made.scores) event["nearest"] = nearest_json(made);
-  if (made.stop) event["stop_rule"] = stop_json(*made.stop);
+  if (made.stop) event["stop_rule"] = workflow::stop_json(*made.stop);
   return json_text(event);
 }
 

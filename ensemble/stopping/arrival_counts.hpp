@@ -12,19 +12,21 @@
 
 namespace sturz {
 
-/// Which cells the largest half width was sought in.
+/// Where the largest half width was sought.
 enum class LookedAt {
   uncertain_cells,  ///< those with 0.05 < P(reached) < 0.95
   reached_cells,    ///< no cell lies there: all that some member reached
-  no_cell           ///< none was reached: what a probability of 0 is known to
+  no_cell,          ///< none was reached: what a probability of 0 is known to
+  asset             ///< one asset, see asset_count.hpp
 };
 
 /// How sure the probabilities are.
 struct LargestHalfWidth {
-  double half_width = 0;  ///< of the 95 % Wilson interval of P(reached); NaN without valid members
+  double half_width = 0;  ///< of the 95 % interval of P(reached); NaN without valid members
   LookedAt at = LookedAt::no_cell;
-  std::int64_t n_cells = 0;  ///< that it is the largest of
-  std::int64_t n_valid = 0;  ///< members that count
+  std::int64_t n_cells = 0;      ///< that it is the largest of
+  std::int64_t n_valid = 0;      ///< members that count
+  std::int64_t n_not_known = 0;  ///< of an asset: of these, cut off before they hit it
 };
 
 /// Counts of the cells that members reached, and of the cells by that count: a look costs as many

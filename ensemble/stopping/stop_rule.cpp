@@ -2,6 +2,7 @@
 #include "ensemble/stopping/stop_rule.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/hazard/wilson.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@
 namespace sturz {
 namespace {
 
-constexpr double z = 1.959963984540054;  // as in wilson.cpp
+constexpr double z = z_95;
 
 std::int64_t batch_after(std::int64_t n) {
   const auto power = static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(n)));
@@ -54,6 +55,8 @@ const char* to_string(LookedAt at) {
       return "uncertain_cells";
     case LookedAt::reached_cells:
       return "reached_cells";
+    case LookedAt::asset:
+      return "asset";
     case LookedAt::no_cell:
       break;
   }
@@ -66,6 +69,8 @@ std::string looked_at_text(const LargestHalfWidth& found) {
       return fmt::format("{} cells with 0.05 < P < 0.95", found.n_cells);
     case LookedAt::reached_cells:
       return fmt::format("all {} reached cells, because none has 0.05 < P < 0.95", found.n_cells);
+    case LookedAt::asset:
+      return fmt::format("{} cells of one asset", found.n_cells);
     case LookedAt::no_cell:
       break;
   }
@@ -74,11 +79,15 @@ std::string looked_at_text(const LargestHalfWidth& found) {
 
 std::string stop_text(const StopRecord& record) {
   const LargestHalfWidth& found = record.last.found;
-  return fmt::format(
-      "the largest half width of P(reached) is {:.3g}, wanted is {}, in {}; {} members, {} of them "
-      "valid; look {}; {} members at most",
-      found.half_width, record.wanted_half_width, looked_at_text(found), record.last.n_members,
-      found.n_valid, record.n_looks, record.at_most);
+  const bool map = record.asset.empty();
+  std::string text = map ? "the largest half width of P(reached)"
+                         : fmt::format("the half width of P(hit) of {}", record.asset);
+  text += fmt::format(" is {:.3g}, wanted is {}", found.half_width, record.wanted_half_width);
+  if (map) text += ", in " + looked_at_text(found);
+  text += fmt::format("; {} members, {} of them valid", record.last.n_members, found.n_valid);
+  if (found.n_not_known > 0)
+    text += fmt::format(", {} cut off before they hit it", found.n_not_known);
+  return text + fmt::format("; look {}; {} members at most", record.n_looks, record.at_most);
 }
 
 }  // namespace sturz

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// When an ensemble has enough members: at the first of some fixed member counts at which no
-/// probability of its map is less sure than was asked for (docs/decisions/0036).
+/// probability of its map, or that of one asset, is less sure than was asked for
+/// (docs/decisions/0036).
 #pragma once
 
 #include "ensemble/stopping/arrival_counts.hpp"
@@ -30,13 +31,15 @@ struct Look {
 struct StopRecord {
   double wanted_half_width = 0;
   std::int64_t at_most = 0;  ///< members
+  std::string asset;         ///< name of the one that is looked at; empty: the map
   std::int64_t n_looks = 0;
   Look last;
 
   bool reached() const { return last.found.half_width <= wanted_half_width; }  ///< no for NaN
 };
 
-/// Members after which every probability is that sure, the least sure of all, 1/2, too.
+/// Members after which every probability is that sure, the least sure of all, 1/2, too; of an asset
+/// where none is cut off before it hits.
 std::int64_t certain_count(double half_width);
 
 /// The look at which the rule will probably stop: half widths fall as one over the square root of
@@ -45,7 +48,8 @@ std::int64_t certain_count(double half_width);
 std::int64_t expected_count(const StopRecord&, const std::vector<std::int64_t>& looks);
 
 /// "the largest half width of P(reached) is 0.0987, wanted is 0.1, in 214 cells with 0.05 < P <
-/// 0.95; 96 members, 96 of them valid; look 3; 256 members at most"
+/// 0.95; 96 members, 96 of them valid; look 3; 256 members at most". Of an asset "the half width of
+/// P(hit) of house is 0.0987, wanted is 0.1; 96 members, ..."
 std::string stop_text(const StopRecord&);
 /// "214 cells with 0.05 < P < 0.95", or what was looked at instead.
 std::string looked_at_text(const LargestHalfWidth&);

@@ -59,6 +59,8 @@ TEST_F(StopRule, RefusesWhatItCannotDo) {
   EXPECT_EQ(latin.exit_code, 1);
   EXPECT_THAT(latin.err, HasSubstr("--set ensemble.design=sobol"));
   EXPECT_EQ(sturz({"ensemble", path("scene.yaml"), "--at-most", "9"}).exit_code, 1);
+  EXPECT_THAT(until("0.1", {"--asset", "house"}).err, HasSubstr("the scene has no `assets`"));
+  EXPECT_EQ(sturz({"ensemble", path("scene.yaml"), "--asset", "house"}).exit_code, 1);
   EXPECT_THAT(until("0.1", {"--at-most", "9", "-n", "12"}).err, HasSubstr("--at-most"));
   EXPECT_FALSE(exists("out"));
 }

@@ -140,6 +140,87 @@ TEST_F(UntilConverged, AFolderThatWasSureStaysAndGoesOnWhenMoreIsAsked) {
   EXPECT_EQ(finer.maps.hazard_hash, plain(96, "plain"));
 }
 
+class UntilAssetIsSure : public UntilConverged {
+ protected:
+  UntilAssetIsSure() {
+    write("assets.geojson", R"({"type": "FeatureCollection", "features": [
+      {"type": "Feature", "properties": {"id": "source"},
+       "geometry": {"type": "Point", "coordinates": [-45, 0]}},
+      {"type": "Feature", "properties": {"id": "away"},
+       "geometry": {"type": "Point", "coordinates": [5000, 0]}}]})");
+    write("scene.yaml",
+          replaced(tiny_scene(), "formulation: full_stress", "formulation: depth_averaged") +
+              "assets: {features: assets.geojson, name_attribute: id}\n");
+  }
+  workflow::EnsembleRequest until_sure(const std::string& asset) {
+    workflow::EnsembleRequest r = until("out", 0.06, 200);
+    r.until_asset = asset;
+    return r;
+  }
+  std::string refusal(const std::string& asset) {
+    Recorder heard;
+    try {
+      workflow::prepare_ensemble(until_sure(asset), heard);
+    } catch (const SetupError& refused) {
+      return refused.what();
+    }
+    return "";
+  }
+};
+
+/// Every member reaches its own release: 32 of 32, for which the interval is 0.107 wide unless
+/// members still move, and then the map would need 381.
+TEST_F(UntilAssetIsSure, LooksAtThatAssetAlone) {
+  Listener heard;
+  const Ended ended = run(until_sure("source"), heard);
+  ASSERT_TRUE(ended.run.stop.has_value());
+  EXPECT_TRUE(ended.run.stop->reached());
+  EXPECT_EQ(ended.run.stop->asset, "source");
+  EXPECT_EQ(ended.run.stop->last.found.at, LookedAt::asset);
+  EXPECT_THAT(heard.counts(), ElementsAre(32));
+  EXPECT_EQ(heard.last_half_width, ended.run.stop->last.found.half_width);
+  const auto kept = workflow::Manifest::read(path("out/manifest.json")).stop;
+  ASSERT_TRUE(kept.has_value());
+  EXPECT_EQ(stop_text(*kept), stop_text(*ended.run.stop));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("P(hit) of source"));
+  // From the stored members it is the same look.
+  Listener again;
+  run(until_sure("source"), again);
+  EXPECT_TRUE(again.members.empty());
+  EXPECT_EQ(stop_text(again.looks.at(0)), stop_text(heard.looks.at(0)));
+}
+
+TEST_F(UntilAssetIsSure, RefusesAssetsThatAreNotThere) {
+  EXPECT_THAT(refusal("sorce"), HasSubstr("did you mean source?"));
+  EXPECT_THAT(refusal("away"), HasSubstr("beyond the known ground"));
+  write("scene.yaml", tiny_scene());
+  EXPECT_THAT(refusal("source"), HasSubstr("the scene has no `assets`"));
+  EXPECT_FALSE(exists("out"));
+}
+
+TEST_F(UntilConverged, AFolderOfAnotherNumberGoesOnAtTheNextLook) {
+  plain(40, "out");
+  Listener heard;
+  run(until("out", 0.2, 200), heard);  // 32 members would do
+  EXPECT_THAT(heard.counts(), ElementsAre(32, 64));
+  EXPECT_EQ(heard.members.size(), 24u);
+}
+
+TEST_F(UntilConverged, MembersThatAreComputedAgainForgetTheRule) {
+  workflow::EnsembleRequest hurried = until("out", 0.14, 32);
+  hurried.scene = scene({"numerics.max_wall_time_s=1e-7"});
+  Listener heard;
+  run(hurried, heard);
+  const workflow::OutputFolder folder{path("out")};
+  ASSERT_TRUE(workflow::Manifest::read(folder.manifest()).stop.has_value());
+  workflow::EnsembleRequest again = request("out");
+  again.members = 32;
+  again.retry_failed = true;
+  Recorder silent;
+  EXPECT_EQ(whole(again, silent).valid, 32);
+  EXPECT_FALSE(workflow::Manifest::read(folder.manifest()).stop.has_value());
+}
+
 TEST_F(UntilConverged, RefusesDesignsThatCannotGrowAndShards) {
   const auto refusal = [&](const workflow::EnsembleRequest& r) -> std::string {
     Recorder heard;

@@ -3,6 +3,7 @@
 
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/console/progress_bar.hpp"
+#include "ensemble/workflow/folder/stop_rule_json.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -40,16 +41,11 @@ void ConsoleObserver::member_stored(const MemberResult& result) {
 
 void ConsoleObserver::looked(const StopRecord& stop) {
   console_.note(stop_text(stop));
-  console_.event(json_text(nlohmann::json{{"event", "look"},
-                                          {"look", stop.n_looks},
-                                          {"members", stop.last.n_members},
-                                          {"valid", stop.last.found.n_valid},
-                                          {"half_width", stop.last.found.half_width},
-                                          {"wanted_half_width", stop.wanted_half_width},
-                                          {"looked_at", to_string(stop.last.found.at)},
-                                          {"cells", stop.last.found.n_cells},
-                                          {"at_most", stop.at_most},
-                                          {"reached", stop.reached()}}));
+  nlohmann::json look = workflow::stop_json(stop);
+  look.erase("looks");
+  look["event"] = "look";
+  look["look"] = stop.n_looks;
+  console_.event(json_text(look));
 }
 
 void ConsoleObserver::maps_begin() { console_.progress("making maps ..."); }

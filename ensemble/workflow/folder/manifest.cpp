@@ -2,6 +2,7 @@
 #include "ensemble/workflow/folder/manifest.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/workflow/folder/stop_rule_json.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
@@ -16,22 +17,6 @@
 namespace sturz::workflow {
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
-
-namespace {
-
-json stop_json(const StopRecord& stop) {
-  return {{"wanted_half_width", stop.wanted_half_width},
-          {"half_width", stop.last.found.half_width},  // null without valid members
-          {"reached", stop.reached()},
-          {"looked_at", to_string(stop.last.found.at)},
-          {"cells", stop.last.found.n_cells},
-          {"members", stop.last.n_members},
-          {"valid", stop.last.found.n_valid},
-          {"looks", stop.n_looks},
-          {"at_most", stop.at_most}};
-}
-
-}  // namespace
 
 void Manifest::write(const fs::path& file) {
   version = workflow::version;
@@ -118,13 +103,16 @@ std::optional<StopRecord> stop_from(const fs::path& file, const json& all) {
   stop.last.found.half_width = half_width.is_null() ? nan_d : half_width.get<double>();
   const auto at = rule.at("looked_at").get<std::string>();
   for (const LookedAt which :
-       {LookedAt::uncertain_cells, LookedAt::reached_cells, LookedAt::no_cell})
+       {LookedAt::uncertain_cells, LookedAt::reached_cells, LookedAt::no_cell, LookedAt::asset})
     if (at == to_string(which)) stop.last.found.at = which;
   stop.last.found.n_cells = whole<std::int64_t>(file, rule, "cells");
   stop.last.n_members = whole<std::int64_t>(file, rule, "members");
   stop.last.found.n_valid = whole<std::int64_t>(file, rule, "valid");
   stop.n_looks = whole<std::int64_t>(file, rule, "looks");
   stop.at_most = whole<std::int64_t>(file, rule, "at_most");
+  if (!rule.contains("asset")) return stop;
+  stop.asset = rule.at("asset").get<std::string>();
+  stop.last.found.n_not_known = whole<std::int64_t>(file, rule, "not_known");
   return stop;
 }
 

@@ -12,6 +12,7 @@
 #include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
@@ -67,15 +68,19 @@ void begin_folder(const EnsembleJob& job) {
 }
 
 /// Members of this call's share that are not finished. \param from the first that is looked at
-void find_work(EnsembleJob& job, const Shard& shard, std::int64_t from, bool retry_failed,
-               Observer& observer) {
+/// \return how many of them failed before
+std::size_t find_work(EnsembleJob& job, const Shard& shard, std::int64_t from, Observer& observer) {
   const MemberStore store = members_of(job.folder, job.manifest, job.design, [&](std::int64_t k) {
     return k >= from && k < job.design.n_members() && k % shard.n == shard.k - 1;
   });
   warn_of_problems(store, "It is computed again.", observer);
   std::set<std::int64_t> finished;
+  std::size_t again = 0;
   for (const MemberSummary& m : store.members())
-    if (is_valid(m.outcome) || !retry_failed) finished.insert(m.member);
+    if (is_valid(m.outcome) || !job.retry_failed)
+      finished.insert(m.member);
+    else
+      ++again;
   for (const std::int64_t k : shard_members(job.design.n_members(), shard.k, shard.n)) {
     if (k < from) continue;
     if (finished.contains(k))
@@ -83,6 +88,7 @@ void find_work(EnsembleJob& job, const Shard& shard, std::int64_t from, bool ret
     else
       job.to_do.push_back(k);
   }
+  return again;
 }
 
 /// A design that cannot be looked at before its end, or by one who does not see all of it.
@@ -102,6 +108,26 @@ void require_growing(const Scenario& scenario, const Shard& shard) {
                                    "them are no even sample"
                                  : "its members stand in sets and are no sample of what may "
                                    "happen"));
+}
+
+/// The asset that a stop rule looks at.
+Asset asset_named(const std::shared_ptr<const Assets>& assets, const std::string& name) {
+  require(assets != nullptr,
+          fmt::format("--asset {} (the scene has no `assets`). Add them to the scene.", name));
+  std::vector<std::string> names;
+  for (const Asset& a : assets->list) names.push_back(a.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  const std::string near = nearest_name(name, names);
+  require(found != names.end(),
+          fmt::format("--asset {} (no asset has that name{}). Names are those of "
+                      "assets.name_attribute.",
+                      name, near.empty() ? "" : fmt::format("; did you mean {}?", near)));
+  const Asset& asset = assets->list[static_cast<std::size_t>(found - names.begin())];
+  require(asset.place() != AssetPlace::outside,
+          fmt::format("--asset {} (it lies beyond the known ground: nothing will be known of it). "
+                      "Use a larger terrain.",
+                      name));
+  return asset;
 }
 
 DesignTable first_rows(const DesignTable& whole, std::int64_t n) {
@@ -166,7 +192,7 @@ void grow_design(EnsembleJob& job, std::int64_t n_members, Observer& observer) {
   now.members = n_members;
   begin_folder(job);
   job.to_do.clear();
-  find_work(job, {}, had, false, observer);
+  find_work(job, {}, had, observer);
 }
 
 void keep_what_is_read(EnsembleJob& job) {
@@ -198,7 +224,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   job.design = new_design(job.scene.scenario);
   if (request.until_half_width) {
     require_growing(job.scene.scenario, shard);
-    job.growth = {*request.until_half_width, job.design, look_counts(job.design.n_members())};
+    job.growth = {*request.until_half_width, job.design, look_counts(job.design.n_members()), {}};
+    if (!request.until_asset.empty())
+      job.growth->asset = asset_named(job.scene.inputs.assets, request.until_asset);
   }
   // With a user's table the number of rows is the number of members.
   job.scene.scenario.ensemble.members = static_cast<int>(job.design.n_members());
@@ -224,7 +252,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   keep_what_is_read(job);
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
-  find_work(job, shard, 0, request.retry_failed, observer);
+  job.retry_failed = request.retry_failed;
+  // What a rule saw of the members is not what they will be.
+  if (find_work(job, shard, 0, observer) > 0 && !job.growth) job.manifest.stop.reset();
   job.wanted_workers = request.workers;
   share_machine(job, observer);
   return job;

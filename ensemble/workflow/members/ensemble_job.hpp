@@ -9,6 +9,7 @@
 #include "ensemble/workflow/folder/shard.hpp"
 #include "ensemble/workflow/observer.hpp"
 #include "ensemble/workflow/scene.hpp"
+#include "scenarios/assets/assets.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -30,7 +31,8 @@ struct EnsembleRequest {
   /// Stop as soon as the largest half width of P(reached) is no more than this, see
   /// run_until_converged(); `members` is the most then. Not for shards.
   std::optional<double> until_half_width;
-  std::string command;  ///< how the user asked for it, for the manifest
+  std::string until_asset;  ///< name of the asset whose P(hit) is meant instead; empty: the map
+  std::string command;      ///< how the user asked for it, for the manifest
 };
 
 /// An ensemble that grows look by look: its design is at every time a first part of `whole`.
@@ -38,6 +40,7 @@ struct Growth {
   double wanted_half_width = 0;
   DesignTable whole;                ///< of all members that may be computed
   std::vector<std::int64_t> looks;  ///< as look_counts() gives them
+  std::optional<Asset> asset;       ///< that is looked at; nothing: the map
 };
 
 struct EnsembleJob {
@@ -49,6 +52,7 @@ struct EnsembleJob {
   std::optional<Growth> growth;  ///< under a stop rule
   std::vector<std::int64_t> to_do;
   std::int64_t finished_before = 0;  ///< of this call's share
+  bool retry_failed = false;         ///< failed members are to do
   int wanted_workers = 0;            ///< 0: all cores available to the process
   int workers = 1;                   ///< members at a time
   int threads = 1;                   ///< of each member

@@ -2,11 +2,13 @@
 #include "ensemble/workflow/members/until_converged.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/stopping/asset_count.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <optional>
 #include <set>
 
 namespace sturz::workflow {
@@ -23,7 +25,9 @@ class Rounds final : public Observer {
         cancel_(cancel),
         finished_before_(job.finished_before),
         waiting_(job.to_do),
-        record_(stop_before(job)) {}
+        record_(stop_before(job)) {
+    if (job.growth->asset) asset_.emplace(*job.growth->asset);
+  }
 
   MembersRun run() {
     const std::int64_t begun = job_.design.n_members();
@@ -44,7 +48,10 @@ class Rounds final : public Observer {
   void warning(std::string_view text) override { to_.warning(text); }
 
   void member_stored(const MemberResult& result) override {
-    counts_.add(result);
+    if (asset_)
+      asset_->add(result);
+    else
+      counts_.add(result);
     to_.member_stored(result);
   }
 
@@ -59,7 +66,7 @@ class Rounds final : public Observer {
     const bool known = p.n_done > 0 && p.elapsed_s > 0;
     p.members_per_hour = known ? 3600 * done / p.elapsed_s : 0;
     p.eta_s = known ? p.elapsed_s * static_cast<double>(p.n_total - p.n_done) / done : nan_d;
-    p.half_width = counts_.largest_half_width().half_width;
+    p.half_width = found().half_width;
     p.wanted_half_width = record_.wanted_half_width;
     to_.ensemble_progress(p, finished_before_);
   }
@@ -86,7 +93,10 @@ class Rounds final : public Observer {
       if (!is_valid(member.outcome)) continue;
       arrival.resize(member.window.n_cells());
       if (!arrival.empty()) stored.read_part(i, PeakLayer::arrival, member.window, arrival);
-      counts_.add(member.window, arrival);
+      if (asset_)
+        asset_->add(stored.grid(), member.window, arrival, member.censoring);
+      else
+        counts_.add(member.window, arrival);
     }
   }
 
@@ -110,9 +120,13 @@ class Rounds final : public Observer {
     all_.stop_error = std::move(round.stop_error);
   }
 
+  LargestHalfWidth found() const {
+    return asset_ ? asset_->half_width() : counts_.largest_half_width();
+  }
+
   void look(std::int64_t count) {
     ++record_.n_looks;
-    record_.last = {count, counts_.largest_half_width()};
+    record_.last = {count, found()};
     to_.looked(record_);
   }
 
@@ -122,7 +136,8 @@ class Rounds final : public Observer {
   const std::int64_t finished_before_;
   const std::vector<std::int64_t> waiting_;
   const Clock::time_point start_ = Clock::now();
-  ArrivalCounts counts_;
+  ArrivalCounts counts_;             // of the map
+  std::optional<AssetCount> asset_;  // or of one asset
   StopRecord record_;
   MembersRun all_;
 };
@@ -133,6 +148,7 @@ StopRecord stop_before(const EnsembleJob& job) {
   StopRecord record;
   record.wanted_half_width = job.growth->wanted_half_width;
   record.at_most = job.growth->whole.n_members();
+  if (job.growth->asset) record.asset = job.growth->asset->name;
   record.last.found.half_width = nan_d;
   return record;
 }

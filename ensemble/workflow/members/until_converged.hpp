@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// An ensemble that stops when its map is as sure as was asked for.
+/// An ensemble that stops when its map, or the probability of a hit of one asset, is as sure as was
+/// asked for.
 #pragma once
 
 #include "ensemble/workflow/members/run_ensemble.hpp"

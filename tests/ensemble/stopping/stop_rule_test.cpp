@@ -82,6 +82,12 @@ TEST(StopRule, SaysWhatWasLookedAt) {
   EXPECT_THAT(stop_text(record), HasSubstr("all 214 reached cells, because none has 0.05 < P"));
   record.last.found.at = LookedAt::no_cell;
   EXPECT_THAT(stop_text(record), HasSubstr("because no member reached one"));
+  record.last.found.at = LookedAt::asset;
+  record.last.found.n_not_known = 2;
+  record.asset = "house";
+  EXPECT_EQ(stop_text(record),
+            "the half width of P(hit) of house is 0.0987, wanted is 0.1; 96 members, 96 of them "
+            "valid, 2 cut off before they hit it; look 3; 4000 members at most");
 }
 
 }  // namespace
