@@ -113,6 +113,15 @@ void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const
                           : ""));
 }
 
+/// The table goes with the page: both are of today's assets.
+std::optional<AssetFindings> assets_anew(const FinishedFolder& finished, const MemberStore& store,
+                                         CancelFlag cancel) {
+  if (!finished.inputs || finished.manifest.kind == "run") return {};
+  std::optional<AssetFindings> risk = find_risk(store, *finished.inputs, cancel);
+  write_asset_files(finished.folder, risk, store.grid());
+  return risk;
+}
+
 }  // namespace
 
 NearestMember nearest_member(const MemberParts& source, const std::optional<ScoreTable>& scores,
@@ -225,11 +234,8 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   }
   if (finished.inputs)
     page.where_mass_left = where_mass_left(stack, finished.inputs->terrain_grid());
-  std::optional<AssetFindings> risk;
-  if (finished.inputs && !one_run) risk = find_risk(store, *finished.inputs, cancel);
+  const std::optional<AssetFindings> risk = assets_anew(finished, store, cancel);
   if (risk) page.risk = &*risk;
-  // The table and the page are of the same assets: those of today.
-  if (finished.inputs && !one_run) write_asset_files(finished.folder, risk, store.grid());
   std::optional<PosteriorShown> posterior;
   if (!one_run)
     posterior = shown_posterior(finished.folder, finished.manifest, finished.scenario, observer);
