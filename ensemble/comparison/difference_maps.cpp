@@ -4,7 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/comparison/paired_difference.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
-#include "ensemble/hazard/known_ground.hpp"
+#include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/wilson.hpp"
 
 #include <fmt/format.h>
@@ -76,38 +76,34 @@ Layer made(const PartText& part, Quantity quantity, const std::string& event,
   return layer;
 }
 
-LayerStack stack_of(const Grid& grid, const std::vector<double>& thresholds, bool pairs) {
+HazardLayers layers_of(const Grid& grid, const std::vector<double>& thresholds, bool pairs) {
   const LayerAxis by_threshold{"thickness_threshold", "", "m", thresholds};
   const std::string comment =
       pairs ? "paired: Newcombe (1998), Stat. Med. 17, 2635-2650; unpaired: 873-890"
             : "no pairs: Newcombe (1998), Stat. Med. 17, 873-890";
-  LayerStack stack;
-  stack.grid = grid;
+  HazardLayers all;
+  all.stack.grid = grid;
+  std::vector<Layer>& layers = all.stack.layers;
   for (const PartText& part : part_texts)
-    stack.layers.push_back(
+    layers.push_back(
         made(part, Quantity::reached, "probability", "the cell is reached", comment, "1"));
-  if (thresholds.empty()) return stack;
   for (const PartText& part : part_texts) {
-    stack.layers.push_back(made(part, Quantity::thickness, "thickness_exceedance",
-                                "the largest vertical flow thickness exceeds the threshold",
-                                comment, "1"));
-    stack.layers.back().axis = by_threshold;
+    if (thresholds.empty()) break;
+    layers.push_back(made(part, Quantity::thickness, "thickness_exceedance",
+                          "the largest vertical flow thickness exceeds the threshold", comment,
+                          "1"));
+    layers.back().axis = by_threshold;
   }
-  return stack;
+  all.untouched.assign(layers.size(), 0);
+  return all;
 }
 
 class DifferenceStatistics {
  public:
   DifferenceStatistics(const MemberPairs& pairs, const std::vector<double>& thresholds,
-                       const LayerStack& stack, const Window& extent, KnownGround ground,
+                       const HazardLayers& layers, const Window& extent, KnownGround ground,
                        LayerSink& to)
-      : pairs_(pairs),
-        thresholds_(thresholds),
-        stack_(stack),
-        extent_(extent),
-        ground_(std::move(ground)),
-        to_(to),
-        values_(stack.layers.size()) {}
+      : pairs_(pairs), thresholds_(thresholds), block_(layers, extent, std::move(ground), to) {}
 
   void add(const CellRows& rows) {
     if (rows.window.row0 == rows.block.row0) begin(rows.block);
@@ -115,10 +111,10 @@ class DifferenceStatistics {
                          static_cast<std::size_t>(rows.block.n_cols);
     for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
       if (rows.members_of(i).empty()) continue;
-      touched_[skipped + i] = true;
+      block_.touch(skipped + i);
       cell(rows, i, skipped + i);
     }
-    if (rows.completes_block()) finish(rows.block);
+    if (rows.completes_block()) block_.finish(rows.block);
   }
 
   DifferenceSummary summary() {
@@ -132,14 +128,11 @@ class DifferenceStatistics {
 
  private:
   void begin(const Window& block) {
-    n_cells_ = block.n_cells();
-    touched_.assign(n_cells_, false);
-    for (std::size_t l = 0; l < values_.size(); ++l)
-      values_[l].assign(stack_.layers[l].n_planes() * n_cells_, 0.0F);
+    block_.begin(block);
     // No member came: the intervals of two shares of 0.
     const auto n = static_cast<std::int64_t>(pairs_.n);
     const Deeds none;
-    for (std::size_t cell = 0; cell < n_cells_; ++cell) {
+    for (std::size_t cell = 0; cell < block.n_cells(); ++cell) {
       put_event(0, 0, cell, none, {0, 0, 0, n});
       for (std::size_t p = 0; p < thresholds_.size(); ++p)
         put_event(n_parts, p, cell, none, {0, 0, 0, n});
@@ -197,8 +190,7 @@ class DifferenceStatistics {
                                               std::max(a, b),
                                               std::min(of_a.lower, of_b.lower),
                                               std::max(of_a.upper, of_b.upper)};
-    for (std::size_t k = 0; k < n_parts; ++k)
-      values_[first + k][plane * n_cells_ + cell] = static_cast<float>(numbers[k]);
+    for (std::size_t k = 0; k < n_parts; ++k) block_.put(first + k, plane, cell, numbers[k]);
   }
 
   /// Of `reached`: where and how much the pairs help.
@@ -215,30 +207,9 @@ class DifferenceStatistics {
       gains_.push_back(static_cast<float>(heaps.width() / own.width()));
   }
 
-  void finish(const Window& block) {
-    const auto width = static_cast<std::size_t>(block.n_cols);
-    for (std::size_t cell = 0; cell < n_cells_; ++cell) {
-      const int row = block.row0 + static_cast<int>(cell / width);
-      if (touched_[cell] || ground_.at(row, block.col0 + static_cast<int>(cell % width))) continue;
-      for (auto& values : values_)
-        for (std::size_t i = cell; i < values.size(); i += n_cells_) values[i] = nan_f;
-    }
-    const Window window{block.row0 - extent_.row0, block.col0 - extent_.col0, block.n_rows,
-                        block.n_cols};
-    for (std::size_t l = 0; l < values_.size(); ++l)
-      for (std::size_t plane = 0; plane < stack_.layers[l].n_planes(); ++plane)
-        to_.put(l, plane, window, std::span(values_[l]).subspan(plane * n_cells_, n_cells_));
-  }
-
   const MemberPairs& pairs_;
   const std::vector<double>& thresholds_;
-  const LayerStack& stack_;
-  Window extent_;
-  KnownGround ground_;
-  LayerSink& to_;
-  std::size_t n_cells_ = 0;                 // of the block
-  std::vector<std::vector<float>> values_;  // [layer][plane][cell of the block]
-  std::vector<bool> touched_;
+  LayerBlock block_;
   Deeds deeds_;  // scratch
   DifferenceSummary summary_;
   std::vector<float> gains_;
@@ -252,14 +223,15 @@ DifferenceSummary make_difference_maps(const JoinedMembers& joined, const Member
          "two ensembles with members are compared");
   const MemberCells cells(joined);
   const Window extent = map_extent(cells.touched(), joined.grid());
-  LayerStack stack = stack_of(grid_of(extent, joined.grid()), context.thickness_m, pairs.n > 0);
+  HazardLayers layers = layers_of(grid_of(extent, joined.grid()), context.thickness_m, pairs.n > 0);
+  LayerStack& stack = layers.stack;
   stack.attributes = context.attributes;
   for (Layer& layer : stack.layers)
     layer.n_censored = static_cast<int>(std::count_if(
         joined.members().begin(), joined.members().end(),
         [](const MemberSummary& m) { return is_valid(m.outcome) && is_censored(m.censoring); }));
   to.begin(stack);
-  DifferenceStatistics statistics(pairs, context.thickness_m, stack, extent,
+  DifferenceStatistics statistics(pairs, context.thickness_m, layers, extent,
                                   KnownGround(context.ground, context.whole_ground, joined.grid()),
                                   to);
   cells.visit(extent, {PeakLayer::thickness, PeakLayer::arrival}, context.memory_bytes,

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
-#include "ensemble/hazard/known_ground.hpp"
+#include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/map_units.hpp"
 
 #include <fmt/format.h>
@@ -52,16 +52,18 @@ std::vector<LayerClass> matrix_fields() {
   return fields;
 }
 
-LayerStack stack_of(const RiskSpec& spec, const Grid& grid, int n_censored) {
+HazardLayers layers_of(const RiskSpec& spec, const Grid& grid, int n_censored) {
   const LayerAxis periods{"return_period", "", "year", spec.return_periods_years};
   const std::string cut =
       n_censored > 0 ? "; a lower bound: the end of some members was not seen" : "";
-  LayerStack stack;
+  HazardLayers layers;
+  LayerStack& stack = layers.stack;
   stack.grid = grid;
   const auto add = [&](Layer layer, bool by_period) {
     if (by_period) layer.axis = periods;
     layer.n_censored = n_censored;
     stack.layers.push_back(std::move(layer));
+    layers.untouched.push_back(0);
   };
   using enum Quantity;
   add(made("annual_rate", {reached, Statistic::value}, "how often the cell is reached", "year-1",
@@ -100,47 +102,32 @@ LayerStack stack_of(const RiskSpec& spec, const Grid& grid, int n_censored) {
            "largest matrix_field over the return periods", "1", ""),
       false);
   stack.layers.back().classes = matrix_fields();
-  return stack;
+  return layers;
 }
 
 /// One block after the other, as CellStatistics does it.
 class RateStatistics {
  public:
-  RateStatistics(const JoinedMembers& members, const RiskSpec& spec, const LayerStack& stack,
+  RateStatistics(const JoinedMembers& members, const RiskSpec& spec, const HazardLayers& layers,
                  const Window& extent, KnownGround ground, LayerSink& to)
       : spec_(spec),
-        stack_(stack),
         rates_(scenario_rates(spec, members)),
         scenario_of_(members.ensemble_of_valid()),
-        extent_(extent),
-        ground_(std::move(ground)),
-        to_(to),
-        values_(stack.layers.size()) {}
+        block_(layers, extent, std::move(ground), to) {}
 
   void add(const CellRows& rows) {
-    if (rows.window.row0 == rows.block.row0) begin(rows.block);
+    if (rows.window.row0 == rows.block.row0) block_.begin(rows.block);
     const auto skipped = static_cast<std::size_t>(rows.window.row0 - rows.block.row0) *
                          static_cast<std::size_t>(rows.block.n_cols);
     for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
       if (rows.members_of(i).empty()) continue;
-      touched_[skipped + i] = true;
+      block_.touch(skipped + i);
       cell(rows, i, skipped + i);
     }
-    if (rows.completes_block()) finish(rows.block);
+    if (rows.completes_block()) block_.finish(rows.block);
   }
 
  private:
-  void begin(const Window& block) {
-    n_cells_ = block.n_cells();
-    touched_.assign(n_cells_, false);
-    for (std::size_t l = 0; l < values_.size(); ++l)
-      values_[l].assign(stack_.layers[l].n_planes() * n_cells_, 0.0F);
-  }
-
-  void put(std::size_t layer, std::size_t plane, std::size_t cell, double value) {
-    values_[layer][plane * n_cells_ + cell] = static_cast<float>(value);
-  }
-
   void cell(const CellRows& rows, std::size_t i, std::size_t cell) {
     const auto members = rows.members_of(i);
     const auto arrival = rows.of(PeakLayer::arrival, i), h = rows.of(PeakLayer::thickness, i),
@@ -154,9 +141,9 @@ class RateStatistics {
                           static_cast<double>(v[m]) > spec_.strong_speed_m_s;
     }
     const double rate = annual_rate(rates_, reached), high = annual_rate(rates_, strong);
-    put(at_.rate, 0, cell, rate);
-    put(at_.error, 0, cell, annual_rate_error(rates_, reached));
-    put(at_.high, 0, cell, high);
+    block_.put(at_.rate, 0, cell, rate);
+    block_.put(at_.error, 0, cell, annual_rate_error(rates_, reached));
+    block_.put(at_.high, 0, cell, high);
     for (std::size_t q = 0; q < level_maps.size(); ++q) {
       const auto values = rows.of(level_maps[q].source, i);
       peaks_.clear();
@@ -165,7 +152,7 @@ class RateStatistics {
       const auto levels = return_levels(rates_, peaks_, spec_.return_periods_years);
       const double unit = map_unit(level_maps[q].source).per_si;
       for (std::size_t p = 0; p < levels.size(); ++p)
-        put(at_.levels + q, p, cell, levels[p] * unit);
+        block_.put(at_.levels + q, p, cell, levels[p] * unit);
     }
     classes(rate, high, cell);
   }
@@ -179,39 +166,18 @@ class RateStatistics {
                                                              : 0;
       const int probability = probability_class(spec_, period);
       const int field = intensity > 0 && probability > 0 ? 3 * (intensity - 1) + probability : 0;
-      put(at_.intensity, p, cell, intensity);
-      put(at_.field, p, cell, field);
+      block_.put(at_.intensity, p, cell, intensity);
+      block_.put(at_.field, p, cell, field);
       highest = std::max(highest, field);
     }
-    put(at_.highest, 0, cell, highest);
-  }
-
-  void finish(const Window& block) {
-    const auto width = static_cast<std::size_t>(block.n_cols);
-    for (std::size_t cell = 0; cell < n_cells_; ++cell) {
-      const int row = block.row0 + static_cast<int>(cell / width);
-      if (touched_[cell] || ground_.at(row, block.col0 + static_cast<int>(cell % width))) continue;
-      for (auto& values : values_)
-        for (std::size_t i = cell; i < values.size(); i += n_cells_) values[i] = nan_f;
-    }
-    const Window window{block.row0 - extent_.row0, block.col0 - extent_.col0, block.n_rows,
-                        block.n_cols};
-    for (std::size_t l = 0; l < values_.size(); ++l)
-      for (std::size_t plane = 0; plane < stack_.layers[l].n_planes(); ++plane)
-        to_.put(l, plane, window, std::span(values_[l]).subspan(plane * n_cells_, n_cells_));
+    block_.put(at_.highest, 0, cell, highest);
   }
 
   const RiskSpec& spec_;
-  const LayerStack& stack_;
   std::vector<ScenarioRate> rates_;
   const std::vector<std::size_t>& scenario_of_;
-  Window extent_;
-  KnownGround ground_;
-  LayerSink& to_;
+  LayerBlock block_;
   Places at_;
-  std::size_t n_cells_ = 0;                 // of the block
-  std::vector<std::vector<float>> values_;  // [layer][plane][cell of the block]
-  std::vector<bool> touched_;
   std::vector<ScenarioPeak> peaks_;  // scratch
 };
 
@@ -240,10 +206,11 @@ void make_rate_maps(const JoinedMembers& members, const RiskSpec& spec, const Ra
   const auto n_censored = std::count_if(
       members.members().begin(), members.members().end(),
       [](const MemberSummary& m) { return is_valid(m.outcome) && is_censored(m.censoring); });
-  LayerStack stack = stack_of(spec, grid_of(extent, members.grid()), static_cast<int>(n_censored));
-  stack.attributes = context.attributes;
-  to.begin(stack);
-  RateStatistics statistics(members, spec, stack, extent,
+  HazardLayers layers =
+      layers_of(spec, grid_of(extent, members.grid()), static_cast<int>(n_censored));
+  layers.stack.attributes = context.attributes;
+  to.begin(layers.stack);
+  RateStatistics statistics(members, spec, layers, extent,
                             KnownGround(context.ground, context.whole_ground, members.grid()), to);
   cells.visit(extent,
               {PeakLayer::thickness, PeakLayer::speed, PeakLayer::energy, PeakLayer::pressure,

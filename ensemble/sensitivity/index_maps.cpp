@@ -3,6 +3,7 @@
 
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/layer_block.hpp"
+#include "ensemble/hazard/wilson.hpp"
 
 #include <fmt/format.h>
 
@@ -14,7 +15,6 @@ namespace sturz {
 namespace {
 
 constexpr std::int64_t least_sets = 8;  // that say the rarer one of yes and no
-constexpr double z95 = 1.959963984540054;
 
 /// Counts of two rows of 0 and 1 over the sets.
 struct Pair {
@@ -45,7 +45,7 @@ struct Interval {
 };
 /// Fisher's, of a correlation r of the two rows.
 Interval interval_of(const Pair& rows, double r, std::int64_t n) {
-  const double wide = z95 / std::sqrt(static_cast<double>(n - 3)), one = rows.almost_one(n);
+  const double wide = z_95 / std::sqrt(static_cast<double>(n - 3)), one = rows.almost_one(n);
   if (r > one) return {std::tanh(std::atanh(one) - wide), 1};
   if (r < -one) return {-1, std::tanh(std::atanh(-one) + wide)};
   return {std::tanh(std::atanh(r) - wide), std::tanh(std::atanh(r) + wide)};

@@ -2,6 +2,7 @@
 #include "ensemble/sensitivity/sobol_indices.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/hazard/wilson.hpp"
 #include "ensemble/sampling/structured_cube.hpp"
 
 #include <openturns/Exception.hxx>
@@ -90,7 +91,7 @@ SobolIndices of_process(const GaussianProcess& process, const Points& saltelli) 
 
 /// Widens an interval by a standard error that is independent of it.
 void widen(Share& share, double error) {
-  const double more = 1.959963984540054 * error;
+  const double more = z_95 * error;
   share.lower = share.value - std::hypot(share.value - share.lower, more);
   share.upper = share.value + std::hypot(share.upper - share.value, more);
 }

@@ -13,8 +13,6 @@
 namespace sturz {
 namespace {
 
-constexpr double z = z_95;
-
 std::int64_t batch_after(std::int64_t n) {
   const auto power = static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(n)));
   return std::max(least_batch, power / 8);
@@ -32,7 +30,7 @@ std::vector<std::int64_t> look_counts(std::int64_t at_most) {
 
 std::int64_t certain_count(double half_width) {
   // z / (2 sqrt(n + z^2)), the half width at a probability of 1/2.
-  const double n = z * z / (4 * half_width * half_width) - z * z;
+  const double n = z_95 * z_95 / (4 * half_width * half_width) - z_95 * z_95;
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(n)));
 }
 
