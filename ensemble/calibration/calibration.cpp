@@ -3,7 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/calibration/next_members.hpp"
-#include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/sampling/unit_cube.hpp"
 
 #include <fmt/format.h>

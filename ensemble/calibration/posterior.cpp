@@ -2,8 +2,8 @@
 #include "ensemble/calibration/posterior.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/emulator/bounded_minimum.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/sampling/unit_cube.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/calibration/prediction_check.hpp"
 
-#include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -13,7 +13,7 @@
 #include "engine/core/cancel.hpp"
 #include "ensemble/comparison/member_pairs.hpp"
 #include "ensemble/hazard/member_cells.hpp"
-#include "ensemble/risk/joined_members.hpp"
+#include "ensemble/members/joined_members.hpp"
 #include "scenarios/layers/layer_stream.hpp"
 
 #include <string>

@@ -2,10 +2,10 @@
 #include "ensemble/hazard/hazard_map.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/hazard/cell_statistics.hpp"
 #include "ensemble/hazard/hazard_layers.hpp"
-#include "ensemble/weighting/weighted_statistics.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
+#include "ensemble/hazard/weighting/weighted_statistics.hpp"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@
 
 #include "engine/core/cancel.hpp"
 #include "ensemble/hazard/member_cells.hpp"
-#include "ensemble/risk/joined_members.hpp"
+#include "ensemble/members/joined_members.hpp"
 #include "ensemble/risk/return_level.hpp"
 #include "scenarios/layers/layer_stream.hpp"
 #include "scenarios/risk/risk_spec.hpp"

@@ -2,7 +2,7 @@
 #include "ensemble/workflow/calibration/calibrate.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/sampling/marginal.hpp"
 #include "ensemble/workflow/calibration/chosen_members.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"

@@ -2,7 +2,7 @@
 #include "ensemble/workflow/calibration/posterior_files.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"

@@ -2,9 +2,9 @@
 #include "ensemble/workflow/results/weighted_maps.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/release_footprint.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/workflow/calibration/posterior_weights.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"

@@ -4,7 +4,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/calibration/next_members.hpp"
-#include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/sampling/copula.hpp"
 #include "ensemble/sampling/random_words.hpp"
 #include "ensemble/sampling/unit_cube.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "tests/support/memory_members.hpp"
 
 #include <gmock/gmock.h>

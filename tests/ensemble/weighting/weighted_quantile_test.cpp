@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/weighting/weighted_quantile.hpp"
+#include "ensemble/hazard/weighting/weighted_quantile.hpp"
 
 #include "ensemble/hazard/sample_quantile.hpp"
 

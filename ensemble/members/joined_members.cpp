@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/risk/joined_members.hpp"
+#include "ensemble/members/joined_members.hpp"
 
 #include "engine/core/error.hpp"
 

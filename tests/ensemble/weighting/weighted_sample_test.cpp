@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/calibration/weighted_sample.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 
 #include "ensemble/calibration/identifiability.hpp"
 #include "ensemble/sampling/copula.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/weighting/weighted_statistics.hpp"
+#include "ensemble/hazard/weighting/weighted_statistics.hpp"
 
-#include "ensemble/calibration/weighted_sample.hpp"
 #include "ensemble/hazard/swiss_intensity.hpp"
+#include "ensemble/hazard/weighting/weighted_sample.hpp"
 
 #include <algorithm>
 #include <cmath>

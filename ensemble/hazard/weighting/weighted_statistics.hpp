@@ -5,7 +5,7 @@
 
 #include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/member_cells.hpp"
-#include "ensemble/weighting/weighted_quantile.hpp"
+#include "ensemble/hazard/weighting/weighted_quantile.hpp"
 
 #include <span>
 #include <vector>
