@@ -112,8 +112,11 @@ std::string posterior_html(const ReportInput& input) {
   const PosteriorShown& p = *input.posterior;
   std::string html = "<section id=\"posterior\"><h2>What the observations tell</h2><p>" +
                      html_escape(p.origin) + "</p>";
-  for (const std::string& warning : p.warnings)
-    html += "<p class=\"note\">" + html_escape(warning) + "</p>";
+  if (!p.warnings.empty()) {
+    html += "<div class=\"warnings\"><ul>";
+    for (const std::string& warning : p.warnings) html += "<li>" + html_escape(warning) + "</li>";
+    html += "</ul></div>";
+  }
   html += keys_table(p);
   for (const std::string& ridge : p.ridges) html += "<p>" + html_escape(ridge) + "</p>";
   const bool same = input.samples.columns == p.rows.columns;
