@@ -83,7 +83,7 @@ std::string gauges_html(const ReportInput& input) {
   const GaugeFindings& f = *input.gauges;
   std::string html =
       "<section id=\"gauges\"><h2>Gauges</h2><div class=\"table-box short\" tabindex=\"0\">"
-      "<table class=\"gauge-table\"><thead><tr>" +
+      "<table class=\"spaced\"><thead><tr>" +
       head_of(f) + "</tr></thead><tbody>";
   for (std::size_t k = 0; k < std::min(most_rows, f.rows.size()); ++k) html += row_of(f.rows[k]);
   html += "</tbody></table></div><div class=\"charts motion\">";

@@ -35,16 +35,6 @@ std::string head_cell(const std::string& label, const std::string& unit, const s
                      shown.empty() ? "" : "<small>" + html_escape(shown) + "</small>");
 }
 
-/// "outline distance" of "outline_distance_m".
-std::string label_of(std::string name) {
-  for (const char* unit : {"_m_s", "_m2", "_m3", "_m", "_s"})
-    if (name.ends_with(unit)) {
-      name.erase(name.size() - std::string_view(unit).size());
-      break;
-    }
-  return words(name);
-}
-
 /// The scores that a reader looks for first; the others are in members.csv.
 std::vector<std::size_t> shown_scores(const ScoreTable& scores) {
   constexpr std::array tails = {"misfit", "_iou",        "_hit_rate", "_false_alarm_ratio",
@@ -114,11 +104,12 @@ std::string table_head(const ReportInput& input, const std::vector<std::size_t>&
                         input.samples.columns[k]);
   for (const std::size_t k : shown) {
     const ScoreInfo& score = input.scores->columns[k];
-    head += head_cell(label_of(score.name), score.unit,
+    head += head_cell(words_without_unit(score.name), score.unit,
                       score.long_name + "; " + good_values(score.better));
   }
   for (const ObservedQuantity& q : input.scores->comparison.observed)
-    head += head_cell(label_of(q.name), q.unit, "Compared with what was observed: " + q.name);
+    head +=
+        head_cell(words_without_unit(q.name), q.unit, "Compared with what was observed: " + q.name);
   return head;
 }
 
@@ -156,7 +147,8 @@ std::string observed_html(const ReportInput& input, const Headline& h) {
       "what was passed over, deposits with what lies at rest. Members that are cut off come last, "
       "their values marked.</p>";
   return html +
-         "<div class=\"table-box short\" tabindex=\"0\"><table id=\"observed-table\"><thead><tr>" +
+         "<div class=\"table-box short\" tabindex=\"0\"><table id=\"observed-table\" "
+         "class=\"spaced\"><thead><tr>" +
          table_head(input, shown) + "</tr></thead><tbody>" + rows +
          "</tbody></table></div></section>";
 }

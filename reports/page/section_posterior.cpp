@@ -61,7 +61,8 @@ std::string interval(const double (&v)[3], double factor) {
 
 std::string keys_table(const PosteriorShown& p) {
   std::string html =
-      "<div class=\"table-box short\" tabindex=\"0\"><table><thead><tr><th scope=\"col\">value</th>"
+      "<div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr><th "
+      "scope=\"col\">value</th>"
       "<th scope=\"col\">before (5 \u2013 95 %)</th><th scope=\"col\">after</th>"
       "<th scope=\"col\" title=\"Share of the prior's variance that the observations took\">told"
       "</th></tr></thead><tbody>";
@@ -80,7 +81,7 @@ std::string keys_table(const PosteriorShown& p) {
 std::string check_table(const PosteriorShown& p) {
   std::string html =
       "<h3>Does it give what was observed?</h3><div class=\"table-box short\" "
-      "tabindex=\"0\"><table>"
+      "tabindex=\"0\"><table class=\"spaced\">"
       "<thead><tr><th scope=\"col\">quantity</th><th scope=\"col\">observed</th>"
       "<th scope=\"col\">predicted (5 \u2013 95 %)</th><th scope=\"col\" title=\"By what the other "
       "quantities tell\">predicted without it</th></tr></thead><tbody>";
@@ -90,7 +91,7 @@ std::string check_table(const PosteriorShown& p) {
     html += fmt::format(
         "<tr><th scope=\"row\">{}{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td class=\"n\">{}</td></tr>",
-        html_escape(words(q.name)), unit.empty() ? "" : " [" + html_escape(unit) + "]",
+        html_escape(words_without_unit(q.name)), unit.empty() ? "" : " [" + html_escape(unit) + "]",
         shown_number(factor * q.observed), interval(q.check, factor),
         q.has_held_out ? interval(q.held_out, factor) : "\u2013");
   }
@@ -111,8 +112,11 @@ std::string posterior_html(const ReportInput& input) {
   const PosteriorShown& p = *input.posterior;
   std::string html = "<section id=\"posterior\"><h2>What the observations tell</h2><p>" +
                      html_escape(p.origin) + "</p>";
-  for (const std::string& warning : p.warnings)
-    html += "<p class=\"note\">" + html_escape(warning) + "</p>";
+  if (!p.warnings.empty()) {
+    html += "<div class=\"warnings\"><ul>";
+    for (const std::string& warning : p.warnings) html += "<li>" + html_escape(warning) + "</li>";
+    html += "</ul></div>";
+  }
   html += keys_table(p);
   for (const std::string& ridge : p.ridges) html += "<p>" + html_escape(ridge) + "</p>";
   const bool same = input.samples.columns == p.rows.columns;

@@ -174,4 +174,13 @@ std::string words(std::string_view identifier) {
   return out;
 }
 
+std::string words_without_unit(std::string_view identifier) {
+  for (const std::string_view unit : {"_m_s", "_m2", "_m3", "_m", "_s"})
+    if (identifier.ends_with(unit)) {
+      identifier.remove_suffix(unit.size());
+      break;
+    }
+  return words(identifier);
+}
+
 }  // namespace sturz

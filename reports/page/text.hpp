@@ -38,5 +38,7 @@ std::string area_text(double from_m2, double to_m2);
 
 /// "probability_of_x" or "basal.friction_coefficient" as words: "probability of x".
 std::string words(std::string_view identifier);
+/// Likewise without the unit at its end: "outline distance" of "outline_distance_m".
+std::string words_without_unit(std::string_view identifier);
 
 }  // namespace sturz

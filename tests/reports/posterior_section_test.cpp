@@ -39,6 +39,7 @@ TEST(PosteriorSection, HoldsBeforeAfterPairsAndWhatWasHeldOut) {
   input.posterior = &p;
   const std::string html = posterior_html(input);
   EXPECT_THAT(html, AllOf(HasSubstr("By emulator, from 40 members"), HasSubstr("80\u00A0%"),
+                          HasSubstr("<th scope=\"row\">runout [m]</th>"),
                           HasSubstr("760 (700 \u2013 820)"), HasSubstr("750 (600 \u2013 900)"),
                           HasSubstr("pore pressure ratio against friction coefficient")));
   EXPECT_THAT(html, AllOf(HasSubstr("friction &amp; pore"), HasSubstr("&lt;bounds&gt;"),

@@ -37,7 +37,7 @@ DamLine line_of(const std::vector<Vec2>& corners, const std::function<double(dou
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const Vec2 along = corners[i + 1] - corners[i];
     const int n = static_cast<int>(std::ceil(along.norm()));
-    for (int k = 0; k < n; ++k) line.points.push_back(corners[i] + k * along / n);
+    for (int k = 0; k < n; ++k) line.points.emplace_back(corners[i] + k * along / n);
     line.length_m += along.norm();
   }
   line.points.push_back(corners.back());

@@ -29,7 +29,8 @@ std::string method_line(const Calibrated& c) {
   std::string text =
       fmt::format("method {} ({}); {} members{}", to_string(p.method), c.found.reason, c.n_drawn,
                   c.n_chosen > 0 ? fmt::format(" and {} chosen ones", c.n_chosen) : "");
-  text += fmt::format("; worth {:.0f} independent ones", p.effective_size);
+  text += p.chains ? fmt::format("; chains of {:.0f} independent draws", p.effective_size)
+                   : fmt::format("; worth {:.0f} independent members", p.effective_size);
   if (p.chains) {
     const auto& r = p.chains->r_hat;
     const auto [least, most] =

@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/sampling/marginal.hpp"
+#include "ensemble/scores/score_sheet.hpp"
 #include "ensemble/workflow/calibration/chosen_members.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
@@ -102,6 +103,23 @@ void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibra
   c.best_member = std::move(row);
 }
 
+/// A member that was computed anyway may be nearer than the one that the emulator calls best.
+void compare_best(const CalibrationData& data, Calibrated& c) {
+  if (!c.best_member) return;
+  const Observation best = misfit(c.found.observed, *c.best_member);
+  double least = best.value;
+  for (const auto& member : data.comparison.simulated.values) {
+    const Observation one = misfit(data.comparison.observed, member);
+    if (one.known == Known::exactly) least = std::min(least, one.value);
+  }
+  if (least < best.value)
+    c.found.warnings.insert(
+        c.found.warnings.begin(),
+        fmt::format("the best fit is none: its member has a misfit of {:.3g}, the nearest of the "
+                    "others {:.3g}. What the emulator says of the posterior is no surer than that.",
+                    best.value, least));
+}
+
 }  // namespace
 
 std::vector<KeySummary> key_summaries(const Scenario& scenario, const Calibrated& c) {
@@ -178,6 +196,7 @@ Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob
   write_posterior(job.folder, c);
   try {
     check_best(request, job, c, observer, cancel);
+    compare_best(data, c);
   } catch (const SetupError& problem) {
     c.found.warnings.push_back(fmt::format(
         "nothing confirms the best fit, its member was not computed: {}", problem.what()));

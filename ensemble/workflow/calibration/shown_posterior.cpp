@@ -33,14 +33,15 @@ std::string origin_of(const Json& all) {
   const Json& sample = all.at("sample");
   const Json& at = all.at("found_at");
   const auto chosen = sample.at("members_chosen").get<std::int64_t>();
+  const bool chains = sample.contains("chains");
   return fmt::format(
-      "By {} ({}), from {} members{}; worth {:.0f} independent ones. Found in {} at a spacing of "
+      "By {} ({}), from {} members{}; {} {:.0f} independent {}. Found in {} at a spacing of "
       "{:.4g} m: the values belong to these.",
       sample.at("method").get<std::string>(), sample.at("reason").get<std::string>(),
       sample.at("members_drawn").get<std::int64_t>(),
-      chosen > 0 ? fmt::format(" and {} chosen ones", chosen) : "",
-      number(sample.at("effective_size")), at.at("formulation").get<std::string>(),
-      number(at.at("spacing_m")));
+      chosen > 0 ? fmt::format(" and {} chosen ones", chosen) : "", chains ? "chains of" : "worth",
+      number(sample.at("effective_size")), chains ? "draws" : "members",
+      at.at("formulation").get<std::string>(), number(at.at("spacing_m")));
 }
 
 void read_quantities(const Json& all, PosteriorShown& shown) {

@@ -76,10 +76,15 @@ void read_areas(Reading& r) {
        o.deposit_sd_m.value_or(0), r.read.event.deposit);
 }
 
+struct MaskedSource {
+  std::size_t cells = 0;
+  double sum_m = 0;  ///< of their values
+};
+
 /// An elevation difference tells where the source lay how much was lost, not what lies there.
-std::size_t mask_source(Raster<double>& value, const Grid& maps, const Raster<double>& release) {
+MaskedSource mask_source(Raster<double>& value, const Grid& maps, const Raster<double>& release) {
   const Window at = window_of(value.grid, maps);
-  std::size_t masked = 0;
+  MaskedSource masked;
   const Grid& g = release.grid;
   for (int row = 0; row < g.n_rows; ++row)
     for (int col = 0; col < g.n_cols; ++col) {
@@ -90,11 +95,22 @@ std::size_t mask_source(Raster<double>& value, const Grid& maps, const Raster<do
         for (int c = maps.col_of(x - half); c <= maps.col_of(x + half); ++c) {
           if (!at.contains(r, c)) continue;
           double& v = value.at(r - at.row0, c - at.col0);
-          masked += std::isfinite(v);
+          if (std::isfinite(v)) ++masked.cells, masked.sum_m += v;
           v = nan_d;
         }
     }
   return masked;
+}
+
+/// Members would be praised for leaving nothing.
+void require_deposit(const ObservedThickness& thickness, double threshold_m,
+                     const std::string& label) {
+  for (const double v : thickness.value.values)
+    if (std::abs(v) > threshold_m) return;
+  throw SetupError(fmt::format(
+      "{}: no cell that is compared holds more than {:g} m (observation.threshold_m). Check "
+      "observation.thickness_sign, or lower the threshold.",
+      label, threshold_m));
 }
 
 void read_thickness(Reading& r, const Raster<double>* release) {
@@ -112,14 +128,21 @@ void read_thickness(Reading& r, const Raster<double>* release) {
                               o.thickness_sd_m.value_or(0)};
   const std::string label = request.key + " = " + request.path;
   if (thickness.net_change && r.has_maps()) {
-    const std::size_t source = release ? mask_source(thickness.value, r.maps, *release) : 0;
+    const MaskedSource source =
+        release ? mask_source(thickness.value, r.maps, *release) : MaskedSource{};
+    if (source.sum_m > 0)
+      read.warnings.push_back(
+          fmt::format("{}: where mass was released the ground rises, by {:.2g} m on the mean. Is "
+                      "observation.thickness_sign the other way round?",
+                      label, source.sum_m / static_cast<double>(source.cells)));
     std::size_t fell = 0;
     for (double& v : thickness.value.values)
       if (o.mask_erosion && v < 0) v = nan_d, ++fell;
     read.notes.push_back(
-        fmt::format("{}: net change, not compared in {} cells of the source{}", label, source,
+        fmt::format("{}: net change, not compared in {} cells of the source{}", label, source.cells,
                     o.mask_erosion ? fmt::format(" and {} where the ground fell", fell) : ""));
   }
+  if (r.has_maps()) require_deposit(thickness, r.read.event.threshold_m, label);
   r.take(read);
   r.read.event.thickness = std::move(thickness);
 }
@@ -257,6 +280,22 @@ void compare_areas(EventRead& read) {
         100 * beyond / all));
 }
 
+/// What was passed over holds the source.
+void doubt_place(EventRead& read, const Raster<double>& release) {
+  if (!read.event.outline) return;
+  const Raster<double>& cover = read.event.outline->cover;
+  const Grid& g = release.grid;
+  for (int row = 0; row < g.n_rows; ++row)
+    for (int col = 0; col < g.n_cols; ++col) {
+      if (!(release.at(row, col) > 0)) continue;
+      const int r = cover.grid.row_of(g.y_center(row)), c = cover.grid.col_of(g.x_center(col));
+      if (cover.grid.contains(r, c) && cover.at(r, c) > 0) return;
+    }
+  read.warnings.emplace_back(
+      "observation.outline: does not touch the release, and should hold all that was passed over; "
+      "does it show this event, in the right coordinate system?");
+}
+
 /// Distances count from the line's start.
 void doubt_direction(EventRead& read) {
   const ObservedEvent& e = read.event;
@@ -290,6 +329,7 @@ EventRead read_observed_event(const Scenario& scenario, const Grid& maps,
   if (r.has_maps()) require_on_maps(r);
   require(r.problems.empty(), fmt::format("{}", fmt::join(r.problems, "\n")));
   if (r.has_maps()) compare_areas(r.read);
+  if (r.has_maps() && has_source) doubt_place(r.read, *release);
   if (has_source) doubt_direction(r.read);
   note_threshold(r.read.event, r.read);
   return std::move(r.read);

@@ -87,8 +87,11 @@ BuildingsRead read_buildings(const Scenario& scenario, const Grid& terrain, cons
   out.notes = std::move(layer.notes);
   out.warnings = std::move(layer.warnings);
   out.identity = std::move(layer.identity);
-  out.notes.push_back(fmt::format("{}: {} buildings on {} cells of {:g} m", layer.label,
-                                  out.n_buildings - lost, on_terrain, terrain.cell_m));
+  double highest = 0;
+  for (const RaisedCell& cell : out.cells) highest = std::max(highest, cell.by_m);
+  out.notes.push_back(fmt::format("{}: {} buildings on {} cells of {:g} m, up to {:g} m high",
+                                  layer.label, out.n_buildings - lost, on_terrain, terrain.cell_m,
+                                  highest));
   if (lost > 0)
     out.warnings.push_back(
         fmt::format("{}: {} of {} buildings hold the centre of no cell of {:g} m (too small, or "

@@ -233,8 +233,8 @@ struct Twins {
   }
 };
 
-std::vector<double> perfect(std::uint64_t /*seed*/) { return std::vector<double>(4, 0); }
-std::vector<double> always_a_tenth(std::uint64_t /*seed*/) { return std::vector<double>(4, 0.1); }
+std::vector<double> perfect(std::uint64_t /*seed*/) { return {0, 0, 0, 0}; }
+std::vector<double> always_a_tenth(std::uint64_t /*seed*/) { return {0.1, 0.1, 0.1, 0.1}; }
 /// As the prior of the discrepancy has it: half-normal, for each kind by itself.
 std::vector<double> as_the_prior_says(std::uint64_t seed) {
   std::vector<double> t;

@@ -51,7 +51,8 @@ MemberResult slide(std::int64_t number, int end, Censoring censoring = Censoring
                                                  info(static_cast<PeakLayer>(k)).untouched);
   for (int row = 0; row < 4; ++row)
     for (int col = 0; col < end - 2; ++col) {
-      const auto k = static_cast<std::size_t>(row * (end - 2) + col);
+      const auto k = static_cast<std::size_t>(row) * static_cast<std::size_t>(end - 2) +
+                     static_cast<std::size_t>(col);
       r.layer(PeakLayer::thickness)[k] = 3;
       r.layer(PeakLayer::speed)[k] = 12;
       r.layer(PeakLayer::arrival)[k] = static_cast<float>(col);
@@ -122,7 +123,8 @@ TEST(EventScorer, OnlyWhatIsThickerThanTheThresholdCounts) {
   MemberResult thin = slide(0, 32);
   for (int row = 0; row < 4; ++row)
     for (int col = 20; col < 30; ++col)
-      thin.layer(PeakLayer::thickness)[static_cast<std::size_t>(row * 30 + col)] = 0.3F;
+      thin.layer(PeakLayer::thickness)[static_cast<std::size_t>(row) * 30 +
+                                       static_cast<std::size_t>(col)] = 0.3F;
   EXPECT_DOUBLE_EQ(score(score_result(thin, e), "outline_iou").value, 2.0 / 3);
   e->threshold_m = 0.5, e->threshold_given = true;
   EXPECT_DOUBLE_EQ(score(score_result(thin, e), "outline_iou").value, 1);

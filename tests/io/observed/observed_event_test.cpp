@@ -174,6 +174,34 @@ TEST_F(ObservedEvents, ADemOfDifferenceIsNotComparedWhereTheSourceWas) {
   EXPECT_EQ(measured_cells(in.event->thickness->value), 81U - 25U);
   EXPECT_THAT(in.notes, Contains(HasSubstr("net change, not compared in 25 cells of the source "
                                            "and 0 where the ground fell")));
+  EXPECT_THAT(in.warnings, Contains(AllOf(HasSubstr("the ground rises, by 1.5 m on the mean"),
+                                          HasSubstr("thickness_sign the other way round?"))));
+  std::vector<double> event(81, 1.5);  // as it is: a hollow where the source was
+  std::fill(event.begin() + 18, event.begin() + 63, -4);
+  raster("dod.tif", 180, 270, 10, 9, event);
+  EXPECT_THAT(load_scene_inputs(scene).warnings, Not(Contains(HasSubstr("thickness_sign"))));
+}
+
+TEST_F(ObservedEvents, WithoutAnyDepositThereIsNothingToCompare) {
+  raster("dod.tif", 100, 200, 10, 2, {-3, -2, -1, 0.05});
+  spec().deposit_thickness = "dod.tif";
+  spec().thickness_sd_m = 0.5;
+  spec().thickness_sign = ThicknessSign::rise_positive;
+  EXPECT_THAT(message_of([&] { load(); }),
+              AllOf(HasSubstr("no cell that is compared holds more than 0.1 m"),
+                    HasSubstr("Check observation.thickness_sign")));
+  spec().threshold_m = 0.01;
+  EXPECT_EQ(measured_cells(load()->thickness->value), 1U);
+}
+
+TEST_F(ObservedEvents, AnOutlineBesideTheReleaseIsDoubted) {
+  spec().outline = "mapped.geojson";
+  spec().outline_sd_m = 5;
+  polygon("mapped.geojson", square(205, 205, 60));
+  EXPECT_THAT(load_scene_inputs(scene).warnings, Not(Contains(HasSubstr("observation.outline"))));
+  polygon("mapped.geojson", square(30, 30, 60));
+  EXPECT_THAT(load_scene_inputs(scene).warnings,
+              Contains(HasSubstr("observation.outline: does not touch the release")));
 }
 
 TEST_F(ObservedEvents, LinesAndPoints) {

@@ -211,7 +211,7 @@ TEST_F(StructureInputs, CellsOfBuildingsStandAboveTheGround) {
   EXPECT_EQ(in.elevation->at(29, 13), bare(29, 13));
   EXPECT_THAT(in.notes,
               Contains("terrain.buildings.polygon = houses.geojson: 2 buildings on 18 cells "
-                       "of 10 m"));
+                       "of 10 m, up to 10 m high"));
   EXPECT_THAT(in.warnings, Contains(HasSubstr("1 of 3 buildings hold the centre of no cell")));
   scene.terrain.buildings->height_attribute = "h";
   in = load_scene_inputs(scene);
