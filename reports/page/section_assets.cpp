@@ -112,7 +112,7 @@ std::string assets_html(const ReportInput& input) {
   const Assets& assets = *input.assets;
   std::string html =
       "<section id=\"assets\"><h2>Assets</h2>" + total_text(assets, *input.risk) +
-      "<div class=\"table-box short\" tabindex=\"0\"><table class=\"asset-table\"><thead><tr>" +
+      "<div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr>" +
       head_of(assets) + "</tr></thead><tbody>";
   const std::vector<std::size_t> order = order_of(*input.risk);
   for (std::size_t k = 0; k < std::min(most_rows, order.size()); ++k)
