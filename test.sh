@@ -72,7 +72,7 @@ stage_tidy() { record tidy scripts/tidy.sh; }
 
 # Whole ensembles, browser pages and counted allocations take minutes there, or mean nothing.
 asan_tests=(engine_tests scenarios_test io_foreign_bytes_test io_input_test io_output_test
-            scenario_file_test ensemble_design_test ensemble_hazard_test ensemble_scores_test ensemble_posterior_test)
+            scenario_file_test ensemble_design_test ensemble_hazard_test ensemble_scores_test)
 
 stage_asan() {
   build asan "${asan_tests[@]}"
