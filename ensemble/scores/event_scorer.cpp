@@ -101,26 +101,23 @@ double EventScorer::threshold_m(const MemberView& member) const {
   return std::max(event_->threshold_m, event_->spacing_m / 10);
 }
 
-Raster<std::uint8_t> EventScorer::passed(const MemberView& member) const {
+Raster<std::uint8_t> EventScorer::covered(const MemberView& member, PeakLayer layer) const {
   const Window& w = member.window;
   Raster<std::uint8_t> cells(grid_of(w, maps_), 0);
   const auto limit = static_cast<float>(threshold_m(member));
   for (int r = 0; r < w.n_rows; ++r)
     for (int c = 0; c < w.n_cols; ++c)
       cells.at(r, c) = std::isfinite(member.at(PeakLayer::arrival, w.row0 + r, w.col0 + c)) &&
-                       member.at(PeakLayer::thickness, w.row0 + r, w.col0 + c) > limit;
+                       member.at(layer, w.row0 + r, w.col0 + c) > limit;
   return cells;
 }
 
+Raster<std::uint8_t> EventScorer::passed(const MemberView& member) const {
+  return covered(member, PeakLayer::thickness);
+}
+
 Raster<std::uint8_t> EventScorer::at_rest(const MemberView& member) const {
-  const Window& w = member.window;
-  Raster<std::uint8_t> cells(grid_of(w, maps_), 0);
-  const auto limit = static_cast<float>(threshold_m(member));
-  for (int r = 0; r < w.n_rows; ++r)
-    for (int c = 0; c < w.n_cols; ++c)
-      cells.at(r, c) = std::isfinite(member.at(PeakLayer::arrival, w.row0 + r, w.col0 + c)) &&
-                       member.at(PeakLayer::deposit, w.row0 + r, w.col0 + c) > limit;
-  return cells;
+  return covered(member, PeakLayer::deposit);
 }
 
 Raster<std::uint8_t> EventScorer::shown_cells(const MemberView& member) const {

@@ -48,6 +48,8 @@ class EventScorer {
     PathProfile profile;
   };
   double threshold_m(const MemberView&) const;
+  /// Reached cells that are thicker than the threshold in a layer of thicknesses.
+  Raster<std::uint8_t> covered(const MemberView&, PeakLayer) const;
   Raster<std::uint8_t> passed(const MemberView&) const;
   Raster<std::uint8_t> at_rest(const MemberView&) const;
   void score_area(const Area&, const std::string& name, const std::string& noun,

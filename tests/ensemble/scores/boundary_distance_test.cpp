@@ -18,7 +18,7 @@ std::vector<Vec2> square(double west, double south, double edge) {
 }
 
 SegmentIndex index_of(const std::vector<std::vector<Vec2>>& rings, double piece_m = 10) {
-  return SegmentIndex(sides_of(rings), piece_m);
+  return {sides_of(rings), piece_m};
 }
 
 /// Cells of 10 m whose south-west corner lies at 0, 0; text rows from the north.
