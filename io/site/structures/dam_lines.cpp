@@ -162,7 +162,8 @@ std::vector<Vec2> densified(const std::vector<Vec2>& corners, double step) {
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const Vec2 along = corners[i + 1] - corners[i];
     const int n = std::max(1, static_cast<int>(std::ceil(along.norm() / step * (1 - 1e-9))));
-    for (int k = 0; k < n; ++k) points.push_back(corners[i] + (static_cast<double>(k) / n) * along);
+    for (int k = 0; k < n; ++k)
+      points.emplace_back(corners[i] + (static_cast<double>(k) / n) * along);
   }
   points.push_back(corners.back());
   return points;
