@@ -139,7 +139,7 @@ std::filesystem::path write_index_maps(const FinishedFolder& finished, const Des
   request.n_rows = design.n_members();
   request.thickness_m = finished.scenario.hazard.thickness_m;
   request.cancel = cancel;
-  const std::filesystem::path file = maps_file(finished);
+  std::filesystem::path file = maps_file(finished);
   LayersFileWriter writer(file);
   make_index_maps(store, request, writer);
   cancel.check();

@@ -130,10 +130,11 @@ double rounded(const Raster<double>& nodes, double x, double y) {
   };
   const auto east = weights(u - col), south = weights(v - row);
   double z = 0;
-  for (int r = -1; r <= 1; ++r)
-    for (int c = -1; c <= 1; ++c)
-      z += south[static_cast<std::size_t>(r + 1)] * east[static_cast<std::size_t>(c + 1)] *
-           nodes.at(static_cast<int>(row) + r, static_cast<int>(col) + c);
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      z += south[r] * east[c] *
+           nodes.at(static_cast<int>(row) + static_cast<int>(r) - 1,
+                    static_cast<int>(col) + static_cast<int>(c) - 1);
   return z;
 }
 
