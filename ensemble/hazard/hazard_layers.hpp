@@ -44,7 +44,7 @@ struct HazardExtras {
   bool eroded = false;  ///< the flow takes its bed along
   bool phases = false;  ///< grains and liquid move apart
   /// Members do not count alike, and are worth so many that do; nothing: they do.
-  std::optional<double> effective_members;
+  std::optional<double> effective_members = std::nullopt;
 };
 
 /// All layers, and what a cell holds that no member touched: probability 0 (upper bound that of 0

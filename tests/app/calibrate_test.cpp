@@ -256,5 +256,22 @@ TEST_F(Calibrate, SensitivityMapsNeedSets) {
   EXPECT_THAT(sturz({"sensitivity", path("plain"), "--maps"}).err, HasSubstr("saltelli"));
 }
 
+TEST_F(Calibrate, TheShippedEventGivesItsKnownFrictionAndLeavesTheThicknessOpen) {
+  ASSERT_EQ(sturz({"cases", "mapped_event", "-o", path("mapped")}).exit_code, 0);
+  const Ended ended =
+      sturz({"calibrate", path("mapped/scenario.yaml"), "-o", path("mapped_out"), "--json"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  for (const auto& key : event(ended, "done").at("keys")) {
+    const bool friction = key.at("key") == "basal.friction_coefficient";
+    const double truth = friction ? 0.31 : 6.5;
+    EXPECT_LE(key.at("posterior").at("p5").get<double>(), truth) << key.dump();
+    EXPECT_GE(key.at("posterior").at("p95").get<double>(), truth) << key.dump();
+    if (friction)
+      EXPECT_GE(key.at("variance_removed").get<double>(), 0.8) << key.dump();
+    else
+      EXPECT_LE(key.at("variance_removed").get<double>(), 0.2) << key.dump();
+  }
+}
+
 }  // namespace
 }  // namespace sturz::test
