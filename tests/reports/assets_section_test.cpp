@@ -47,13 +47,13 @@ TEST(AssetsSection, ListsTheMostProbableFirstAndMarksLowerBounds) {
   EXPECT_LT(html.find(">high<"), html.find(">low<"));
   EXPECT_LT(html.find(">low<"), html.find("far &lt;1&gt;"));
   EXPECT_THAT(html, AllOf(HasSubstr("\u2265\u00A0"
-                                    "80 % (65 % \u2013 97 %)"),
+                                    "80\u00A0% (65\u00A0% \u2013 97\u00A0%)"),
                           HasSubstr("\u2265\u00A0"
                                     "1.25 (0.5 \u2013 2)"),
                           HasSubstr("\u2265\u00A0"
                                     "400 \u00B1 50"),
                           HasSubstr("expected loss<small>CHF</small>")));
-  EXPECT_THAT(html, HasSubstr("10 % (4 % \u2013 23 %)"));
+  EXPECT_THAT(html, HasSubstr("10\u00A0% (4\u00A0% \u2013 23\u00A0%)"));
   EXPECT_THAT(html, HasSubstr("beyond the known ground: nothing is known"));
   EXPECT_THAT(html, HasSubstr("by one event: \u2265\u00A0"
                               "412 \u00B1 51 CHF. That is without 2 of 3 assets, whose loss"));
