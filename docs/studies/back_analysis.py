@@ -4,7 +4,8 @@
 usage: back_analysis.py STURZ DATA_FOLDER OUT_FOLDER twins|s1000 [FULL_STRESS_MEMBERS]
 DATA_FOLDER is ../shared/data. `twins`: ten members of a slope play the event in turn; one ensemble of 200 others is calibrated
 against each, with measurement errors added. `s1000`: the landslide of 2021 by its lengths alone, then held against its measured
-thickness and outline; friction alone, friction with pore pressure, with an eroding bed, and in full stress. Prints tables.
+thickness and outline; friction alone, friction with pore pressure, with an eroding bed; with a number of members
+full stress with so many of them in their place. Prints tables.
 """
 import csv
 import json
@@ -137,7 +138,7 @@ def s1000(program, data, out, full_members):
     data = prepared(data, out)
     models = {"columns": (False, False, FRICTION, 64), "columns, pore pressure": (False, False, WITH_PORES, 128), "columns, bed": (False, True, FRICTION, 128)}
     if full_members:
-        models["full stress"] = (True, False, FRICTION, full_members)
+        models = {"full stress": (True, False, FRICTION, full_members)}
     print("| model | value | 5 % / median / 95 % | variance removed | method | Q2 | correlation with the last value |\n|---|---|---|---|---|---|---|")
     scored = {name: s1000_model(program, data, out, name, *model) for name, model in models.items()}
     columns = ("score_outline_iou", "score_outline_distance_m", "score_thickness_rmse_m", "score_thickness_volume_ratio", "score_thickness_band_overlap", "eroded_volume_m3")

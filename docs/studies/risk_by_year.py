@@ -93,8 +93,8 @@ def house_by_hand(cells, reached, pressure, kind):
 def houses(out, sets):
     worst, by_year = 0.0, {}
     print("| house | P(hit) small | P(hit) large | large, 95 % | pressure q95 kPa | expected damage | loss a year kCHF | once in 300 years m |\n|---|---|---|---|---|---|---|---|")
-    tables = {k: {r["id"]: r for r in csv.DictReader((out / k / "assets.csv").open(encoding="utf-8"))} for k in sets}
-    years = {r["id"]: r for r in csv.DictReader((out / "years" / "assets_by_year.csv").open(encoding="utf-8"))}
+    tables = {k: {r["name"]: r for r in csv.DictReader((out / k / "assets.csv").open(encoding="utf-8"))} for k in sets}
+    years = {r["name"]: r for r in csv.DictReader((out / "years" / "assets_by_year.csv").open(encoding="utf-8"))}
     for name, kind, x, y, worth in HOUSES:
         rows = {k: tables[k][name] for k in sets}
         large, year = rows["large"], years[name]
@@ -138,9 +138,7 @@ def cell_by_hand(sets, r, c):
 
 def years(out, sets):
     with netCDF4.Dataset(out / "years" / "risk.nc") as data:
-        names = list(data.variables)
-        periods = list(data["return_period_years"][:]) if "return_period_years" in names else [30, 100, 300]
-        level = data["thickness_return_level"][list(periods).index(300)].filled(0)
+        level = data["thickness_return_level"][list(data["return_period"][:]).index(300)].filled(0)
         field = data["highest_matrix_field"][:].filled(0)
         rate = data["annual_rate"][:].filled(0)
         west, north = float(data["x"][0]), float(data["y"][0])
@@ -152,21 +150,25 @@ def years(out, sets):
             by_hand = cell_by_hand(sets, r + row0, c + column0)
             differ += by_hand[3] != field[r, c]
             largest = max(largest, abs(by_hand[0] - level[r, c]), abs(by_hand[1] - rate[r, c]))
-    print("\n| cell | rate reached a year | rate strong a year | level of 300 years m | highest field by hand | in risk.nc |\n|---|---|---|---|---|---|")
-    for name in ("upper hut", "chapel", "house 10"):
-        house = next(h for h in HOUSES if h[0] == name)
-        r, c = math.floor((grid[1] - house[3]) / grid[2]), math.floor((house[2] - grid[0]) / grid[2])
-        value = cell_by_hand(sets, r, c)
-        print(f"| of {name} | {value[1]:.5f} | {value[2]:.5f} | {value[0]:.2f} | {value[3]} | {int(field[r - row0, c - column0])} |")
+    print("\n| cell, row and column | rate reached a year | rate strong a year | level of 300 years m | highest field by hand | in risk.nc |\n|---|---|---|---|---|---|")
+    for value in np.unique(field[field > 0]):
+        cells = np.argwhere(field == value)
+        r, c = cells[len(cells) // 2]
+        by_hand = cell_by_hand(sets, r + row0, c + column0)
+        print(f"| {r}, {c} | {by_hand[1]:.5f} | {by_hand[2]:.5f} | {by_hand[0]:.2f} | {by_hand[3]} | {int(value)} |")
     print(f"\nof {field.size} cells {differ} differ in their field; largest difference of level and rate {largest:.1e}")
 
 
 def dam(program, out):
     told = sturz(program, "compare", out / "large", out / "with_dam", "-o", out / "dam")
     print("\n" + "\n".join(line for line in told.splitlines() if line and "warning" not in line))
-    print("\n| house | P without | with the dam | difference, 95 % paired | unpaired |\n|---|---|---|---|---|")
+    print("\n| house | P without | P with the dam | difference, 95 % of pairs | 95 % without pairs | loss kCHF |\n|---|---|---|---|---|---|")
     for row in csv.DictReader((out / "dam" / "asset_differences.csv").open(encoding="utf-8")):
-        print("| " + " | ".join(v[:9] for k, v in row.items() if k == "id" or "probability" in k) + " |")
+        if row["place"] == "inside":
+            value = {k: f"{float(v):.3f}" for k, v in row.items() if v and ("differ" in k or "prob" in k)}
+            print(f"| {row['name']} | {value['probability_a']} | {value['probability_b']} | {value['difference_paired_lower_95']} to {value['difference_paired_upper_95']} | "
+                  f"{value['difference_unpaired_lower_95']} to {value['difference_unpaired_upper_95']} | {value['loss_difference_kCHF']} |")
+
 
 
 def main(program, data, out, members="200"):

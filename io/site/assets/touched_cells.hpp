@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sturz {
@@ -15,7 +16,7 @@ namespace sturz {
 /// it, so that of two cells that share an edge one is touched by what lies on it.
 class TouchedCells {
  public:
-  explicit TouchedCells(const Grid& grid) : grid_(grid) {}
+  explicit TouchedCells(Grid grid) : grid_(std::move(grid)) {}
 
   void add_point(const Vec2& p);
   /// Every cell that the line through these corners passes.

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sturz::test {
@@ -187,7 +188,7 @@ TEST(AssetHits, DependOnNoOrderAndNoWindow) {
   for (int k = 0; k < 12; ++k) results.push_back(random_member(k, grid, random));
   MemoryMembers forward(grid), backward(grid);
   for (const MemberResult& r : results) forward.add(r);
-  for (auto r = results.rbegin(); r != results.rend(); ++r) backward.add(*r);
+  std::for_each(results.rbegin(), results.rend(), [&](const auto& r) { backward.add(r); });
   Assets assets = two_assets();
   assets.list[0].cells = {7, 4000, 5119, 5120, 11999};  // also on both sides of a band's edge
   assets.list[1].cells = {6000, 6001, 6040};
