@@ -12,6 +12,7 @@
 #include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
@@ -219,11 +220,13 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   const Shard shard = request.shard;
   require(shard.k >= 1 && shard.k <= shard.n,
           fmt::format("shard {}/{} (must be k/n with 1 <= k <= n).", shard.k, shard.n));
+  // Before the wanted number of members is held against a design that cannot grow.
+  if (request.until_half_width)
+    require_growing(read_scenario(request.scene.file, request.scene.overrides), shard);
   EnsembleJob job;
   job.scene = load_scene(scene_of(request));
   job.design = new_design(job.scene.scenario);
   if (request.until_half_width) {
-    require_growing(job.scene.scenario, shard);
     job.growth = {*request.until_half_width, job.design, look_counts(job.design.n_members()), {}};
     if (!request.until_asset.empty())
       job.growth->asset = asset_named(job.scene.inputs.assets, request.until_asset);
