@@ -31,7 +31,7 @@ bool only_together(const std::vector<double>& u) { return (u[0] > 0.5) != (u[1] 
 bool mostly_friction(const std::vector<double>& u) { return u[0] + 0.3 * u[1] > 0.7; }
 
 TEST(CellIndices, OfAValueThatDecidesAloneAreOne) {
-  const Cube cube = saltelli_cube(4 * 256, 2, 5);
+  const Cube cube = saltelli_cube(1024, 2, 5);
   const CellIndices found = cell_indices(rows_of(cube, friction_decides), 2);
   EXPECT_EQ(found.n_sets, 256);
   EXPECT_NEAR(found.first[0].value, 1, 1e-12);
@@ -48,7 +48,7 @@ TEST(CellIndices, OfAValueThatDecidesAloneAreOne) {
 /// Three sets of two hundred hit, all by friction: they agree, and that says next to nothing.
 TEST(CellIndices, OfCellsThatAFewSetsReachAreNotKnown) {
   const auto of_hits = [](std::size_t hits) {
-    std::vector<Exceeds> rows(4 * 200, Exceeds::no);
+    std::vector<Exceeds> rows(800, Exceeds::no);
     for (std::size_t set = 0; set < hits; ++set)
       rows[4 * set + 1] = rows[4 * set + 2] = Exceeds::yes;  // b, and the mixed one of value 0
     return cell_indices(rows, 2);
@@ -62,7 +62,7 @@ TEST(CellIndices, OfCellsThatAFewSetsReachAreNotKnown) {
 }
 
 TEST(CellIndices, OfValuesThatDecideTogetherAreJoint) {
-  const Cube cube = saltelli_cube(4 * 512, 2, 5);
+  const Cube cube = saltelli_cube(2048, 2, 5);
   const CellIndices found = cell_indices(rows_of(cube, only_together), 2);
   for (int k = 0; k < 2; ++k) {
     EXPECT_NEAR(found.first[k].value, 0, 0.1);
@@ -73,7 +73,7 @@ TEST(CellIndices, OfValuesThatDecideTogetherAreJoint) {
 }
 
 TEST(CellIndices, AreMartinezEstimates) {
-  const Cube cube = saltelli_cube(4 * 300, 2, 9);
+  const Cube cube = saltelli_cube(1200, 2, 9);
   const auto rows = rows_of(cube, mostly_friction);
   std::vector<Observation> results;
   for (const Exceeds e : rows) results.push_back({e == Exceeds::yes ? 1.0 : 0.0, Known::exactly});
@@ -90,11 +90,11 @@ TEST(CellIndices, AreMartinezEstimates) {
 }
 
 TEST(CellIndices, LeaveOutSetsThatAreNotKnownAndSayNothingOfFew) {
-  const Cube cube = saltelli_cube(4 * 40 + 3, 2, 9);  // a last set that is not whole
+  const Cube cube = saltelli_cube(163, 2, 9);  // 40 sets of four, and one that is not whole
   auto rows = rows_of(cube, mostly_friction);
-  rows[4 * 7 + 2] = rows[4 * 11] = Exceeds::not_known;
+  rows[30] = rows[44] = Exceeds::not_known;
   EXPECT_EQ(cell_indices(rows, 2).n_sets, 38);
-  const CellIndices few = cell_indices(std::span(rows).first(4 * 7), 2);
+  const CellIndices few = cell_indices(std::span(rows).first(28), 2);
   EXPECT_EQ(few.n_sets, 7);
   EXPECT_TRUE(std::isnan(few.first[0].value));
   const std::vector<Exceeds> always(160, Exceeds::yes);
@@ -102,7 +102,7 @@ TEST(CellIndices, LeaveOutSetsThatAreNotKnownAndSayNothingOfFew) {
 }
 
 TEST(IndexMaps, HoldTheIndicesOfEachCell) {
-  const Cube cube = saltelli_cube(4 * 64, 2, 5);
+  const Cube cube = saltelli_cube(256, 2, 5);
   MemoryMembers members(small_grid(1, 3));
   for (std::size_t i = 0; i < cube.size(); ++i) {
     MemberResult m;
