@@ -63,7 +63,8 @@ void add_emulators(const Calibrated& c, Lines& lines) {
   if (c.found.emulators.empty()) return;
   std::string text;
   for (const EmulatorReport& e : c.found.emulators)
-    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", e.quantity, e.q2);
+    text += fmt::format("{}{} {:.2f}{}", text.empty() ? "" : ", ", e.quantity, e.q2,
+                        e.step ? " (two sides of a step)" : "");
   lines.push_back("emulators, Q2 by leaving one out: " + text);
 }
 

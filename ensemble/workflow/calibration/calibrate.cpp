@@ -70,6 +70,17 @@ void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, Calibra
   }
 }
 
+/// More than three standard deviations from what is expected, on either side of a step that is not
+/// ruled out.
+bool is_far_off(double value, const SimulatedValue& expected) {
+  const auto far = [value](double mean, double variance) {
+    return (value - mean) * (value - mean) > 9 * variance;
+  };
+  constexpr double ruled_out = 0.05;
+  return far(expected.value, expected.variance) &&
+         (expected.other_share < ruled_out || far(expected.other_value, expected.other_variance));
+}
+
 /// The member at the best fit, beside what the emulators expected of it.
 void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibrated& c,
                 Observer& observer, const std::atomic<bool>& cancel) {
@@ -93,8 +104,7 @@ void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibra
     row.push_back(
         member.comparison.simulated.values.front()[static_cast<std::size_t>(place - all.begin())]);
     const SimulatedValue& expected = c.found.best->simulated[q];
-    const double off = row.back().value - expected.value;
-    if (row.back().known == Known::exactly && off * off > 9 * expected.variance)
+    if (row.back().known == Known::exactly && is_far_off(row.back().value, expected))
       c.found.warnings.push_back(fmt::format(
           "{}: the member at the best fit gives {:.4g} {}, the emulator {:.4g} +- {:.2g}: the "
           "emulator is not to be trusted there. Add --active rounds.",

@@ -142,7 +142,13 @@ Json held_out_json(const HeldOut& h) {
 
 Json emulators_json(const Calibration& c) {
   Json all = Json::array();
-  for (const EmulatorReport& e : c.emulators)
+  for (const EmulatorReport& e : c.emulators) {
+    Json step = nullptr;
+    if (e.step)
+      step = {{"below", e.step->below},     {"above", e.step->above},
+              {"least", e.step->least},     {"most", e.step->most},
+              {"n_below", e.step->n_below}, {"n_above", e.step->n_above},
+              {"sides_told", e.step->told}};
     all.push_back({{"quantity", e.quantity},
                    {"q2", number(e.q2)},
                    {"coverage95", number(e.coverage95)},
@@ -152,7 +158,9 @@ Json emulators_json(const Calibration& c) {
                    {"members_used", e.n_used},
                    {"at_least", e.n_at_least},
                    {"bounds_used", e.n_bounds_used},
-                   {"not_known", e.n_not_known}});
+                   {"not_known", e.n_not_known},
+                   {"step", std::move(step)}});
+  }
   return all;
 }
 
