@@ -91,7 +91,8 @@ Json predicted_json(const PredictedQuantity& p) {
           {"p5", number(p.lower)},
           {"median", number(p.median)},
           {"p95", number(p.upper)},
-          {"below", number(p.below)}};
+          {"below", number(p.below)},
+          {"ends_at_least", p.ends_at_least}};
 }
 
 Json held_out_events_json(const std::vector<HeldOutEvent>& events) {
