@@ -29,16 +29,14 @@ namespace {
 
 struct Options {
   std::string scenario;
-  std::string out;               ///< folder; empty: out/<name of the scenario>
   std::vector<std::string> set;  ///< "key=value"
-  int members = 0;               ///< 0: as the scenario says
-  int workers = 0;               ///< 0: all cores available to the process
-  std::string shard;             ///< "k/n", 1 <= k <= n; empty: everything
-  bool retry_failed = false;     ///< compute failed members again
-  double until_converged = 0;    ///< half width of P(reached); 0: no stop rule
-  std::string asset;             ///< name of the one that the rule looks at; empty: the map
-  int at_most = 0;               ///< members under that rule; 0: as the scenario says
-  std::string posterior;         ///< folder of a calibration; empty: the scene's own design
+  MembersOptions of;
+  std::string shard;           ///< "k/n", 1 <= k <= n; empty: everything
+  bool retry_failed = false;   ///< compute failed members again
+  double until_converged = 0;  ///< half width of P(reached); 0: no stop rule
+  std::string asset;           ///< name of the one that the rule looks at; empty: the map
+  int at_most = 0;             ///< members under that rule; 0: as the scenario says
+  std::string posterior;       ///< folder of a calibration; empty: the scene's own design
 };
 
 using workflow::EnsembleJob;
@@ -57,7 +55,7 @@ workflow::Shard shard_of(const std::string& text) {
 std::string command_text(const Options& o) {
   std::string text = "ensemble " + o.scenario;
   for (const std::string& set : o.set) text += " --set " + set;
-  if (o.members > 0) text += fmt::format(" -n {}", o.members);
+  if (o.of.members > 0) text += fmt::format(" -n {}", o.of.members);
   if (o.until_converged > 0) text += fmt::format(" --until-converged {}", o.until_converged);
   if (!o.asset.empty()) text += " --asset " + o.asset;
   if (o.at_most > 0) text += fmt::format(" --at-most {}", o.at_most);
@@ -71,11 +69,11 @@ workflow::EnsembleRequest request_of(const Options& o) {
   if (!o.posterior.empty())
     for (std::string& set : workflow::posterior_overrides(o.posterior))
       request.scene.overrides.push_back(std::move(set));
-  request.folder = o.out.empty() ? workflow::default_folder(o.scenario) : o.out;
-  request.members = o.at_most > 0 ? o.at_most : o.members;
+  request.folder = o.of.out.empty() ? workflow::default_folder(o.scenario) : o.of.out;
+  request.members = o.at_most > 0 ? o.at_most : o.of.members;
   if (o.until_converged > 0) request.until_half_width = o.until_converged;
   request.until_asset = o.asset;
-  request.workers = o.workers;
+  request.workers = o.of.workers;
   request.shard = shard_of(o.shard);
   request.retry_failed = o.retry_failed;
   request.command = command_text(o);
@@ -173,14 +171,7 @@ void add_ensemble(Grammar& grammar) {
       add_command(grammar, "ensemble",
                   "Compute many members and the hazard maps; the same command resumes", ensemble);
   add_scenario(parser, options.scenario, options.set);
-  parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
-      ->type_name("DIR");
-  CLI::Option* const members = parser
-                                   .add_option("-n,--members", options.members,
-                                               "Number of members, instead of the scenario's")
-                                   ->check(CLI::Range(1, 100000000));
-  parser.add_option("--workers", options.workers, "Members at a time (default: all cores)")
-      ->check(CLI::Range(1, 4096));
+  CLI::Option* const members = add_members(parser, options.of);
   CLI::Option* const until =
       parser
           .add_option("--until-converged", options.until_converged,

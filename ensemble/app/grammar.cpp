@@ -26,6 +26,17 @@ void add_remote(CLI::App& parser) {
       "Let inputs lie on the network (/vsicurl/, servers) or be raw virtual rasters");
 }
 
+CLI::Option* add_members(CLI::App& parser, MembersOptions& options) {
+  parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
+      ->type_name("DIR");
+  CLI::Option* const members = parser.add_option("-n,--members", options.members,
+                                                 "Number of members, instead of the scenario's");
+  members->check(CLI::Range(1, 100000000));
+  parser.add_option("--workers", options.workers, "Members at a time (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  return members;
+}
+
 void add_json(Grammar& grammar, CLI::App& parser, const char* help) {
   parser.add_flag("--json", grammar.json, help);
 }

@@ -46,6 +46,14 @@ void add_scenario(CLI::App& parser, std::string& scenario, std::vector<std::stri
 void add_set(CLI::App& parser, std::vector<std::string>& set, const char* help);
 /// --allow-remote-inputs; takes effect while the command line is read.
 void add_remote(CLI::App& parser);
+/// --out, --members and --workers of the commands that compute an ensemble.
+struct MembersOptions {
+  std::string out;  ///< folder; empty: out/<name of the scenario>
+  int members = 0;  ///< 0: as the scenario says
+  int workers = 0;  ///< 0: all cores available to the process
+};
+/// \return --members, for what excludes it
+CLI::Option* add_members(CLI::App& parser, MembersOptions&);
 void add_json(Grammar&, CLI::App& parser, const char* help = "JSON lines instead of words");
 
 }  // namespace sturz::app

@@ -101,6 +101,28 @@ void warn_of_bounds(Calibration& c) {
   }
 }
 
+/// Where values jump the observation may fit no side.
+void warn_of_steps(Calibration& c) {
+  for (std::size_t q = 0; q < c.emulators.size(); ++q) {
+    if (!c.emulators[q].step) continue;
+    const ValueStep& s = *c.emulators[q].step;
+    const ObservedQuantity& o = c.observed[q];
+    std::string text = fmt::format(
+        "{} jumps: {} members give {:.4g} .. {:.4g} {}, {} give {:.4g} .. {:.4g}, and none what "
+        "lies between. Each side has an emulator of its own, and the side is predicted with a "
+        "probability ({:.0f} % of the members' sides are told by the others): one smooth emulator "
+        "would expect what no member does.",
+        o.name, s.n_below, s.least, s.below, o.unit, s.n_above, s.above, s.most, 100 * s.told);
+    if (s.below < o.value && o.value < s.above)
+      text += fmt::format(
+          " The observed {:.4g} lies in the gap: only the errors of model and measurement explain "
+          "it, whatever the uncertain values are. Look on the ground for what stops the members at "
+          "{:.4g}, and compute more of them (--active).",
+          o.value, s.below);
+    c.warnings.push_back(std::move(text));
+  }
+}
+
 void warn_of_emulators(Calibration& c) {
   for (const EmulatorReport& e : c.emulators) {
     if (e.q2 < poor_q2)
@@ -182,7 +204,7 @@ void by_emulator(Calibration& c, const CalibrationData& data, const Usable& u,
                  const Likelihood& likelihood, const CalibrationSettings& settings) {
   const std::size_t n_dims = data.keys.size();
   const EmulatorSet emulators(u.observed, data.cube, u.members);
-  for (const QuantityEmulator& e : emulators.quantities()) c.emulators.push_back(e.report);
+  for (const QuantityEmulator& e : emulators.quantities()) c.emulators.push_back(e.report());
   c.posterior = emulated_posterior(likelihood, emulators, n_dims, settings.lengths, settings.seed);
   const auto without = [&](std::span<const std::size_t> left_out) {
     return emulated_posterior(likelihood, emulators, n_dims, settings.held_out_lengths,
@@ -260,6 +282,7 @@ Calibration calibrate(const CalibrationData& data, const CalibrationSettings& se
   if (c.posterior.chains) {
     warn_of_emulators(c);
     warn_of_bounds(c);
+    warn_of_steps(c);
   }
   warn_of_posterior(c);
   return c;

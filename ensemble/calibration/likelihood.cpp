@@ -141,12 +141,22 @@ const Likelihood::Kind& Likelihood::kind_of(std::size_t q) const {
 
 double Likelihood::log_density(const SimulatedValue& simulated, std::size_t q, double t) const {
   if (simulated.known == Known::not_at_all) return -std::log(range_[q]);
-  const double of_model = discrepancy_sd(q, t);
-  const double variance =
-      observed_[q].sd * observed_[q].sd + simulated.variance + of_model * of_model;
+  const double sd = sd_about(simulated.variance, q, t);
   const double off = observed_[q].value - simulated.value;
-  if (simulated.known == Known::exactly) return log_normal_density(off, variance);
-  return log_normal_below(off / std::sqrt(variance)) - std::log(range_[q]);
+  if (simulated.known != Known::exactly) return log_normal_below(off / sd) - std::log(range_[q]);
+  const double likely = log_normal_density(off, sd * sd);
+  if (!(simulated.other_share > 0)) return likely;
+  const double other_sd = sd_about(simulated.other_variance, q, t);
+  const double sides[] = {
+      std::log1p(-simulated.other_share) + likely,
+      std::log(simulated.other_share) +
+          log_normal_density(observed_[q].value - simulated.other_value, other_sd * other_sd)};
+  return log_sum_of(sides);
+}
+
+double Likelihood::sd_about(double variance, std::size_t q, double t) const {
+  const double of_model = discrepancy_sd(q, t);
+  return std::sqrt(observed_[q].sd * observed_[q].sd + variance + of_model * of_model);
 }
 
 template <class Counts>
@@ -218,10 +228,12 @@ double Likelihood::below(std::span<const SimulatedValue> simulated, std::size_t 
   }
   double probability = 0;
   for (std::size_t j = 0; j < nodes_.size(); ++j) {
-    const double of_model = discrepancy_sd(q, nodes_[j]);
-    const double sd =
-        std::sqrt(observed_[q].sd * observed_[q].sd + s.variance + of_model * of_model);
-    probability += std::exp(logs[j] - sum) * normal_below((level - s.value) / sd);
+    double below = normal_below((level - s.value) / sd_about(s.variance, q, nodes_[j]));
+    if (s.other_share > 0)
+      below = (1 - s.other_share) * below +
+              s.other_share *
+                  normal_below((level - s.other_value) / sd_about(s.other_variance, q, nodes_[j]));
+    probability += std::exp(logs[j] - sum) * below;
   }
   return probability;
 }

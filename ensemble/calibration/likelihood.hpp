@@ -15,7 +15,8 @@
 /// A simulated value of which only a lower bound c is known may be anything from c to c + range,
 /// all alike: the density is then Phi((observed - c) / s) / range, which falls like the normal's
 /// tail where the bound lies above the observation and stays small and even where it lies below.
-/// One that is not known at all has 1 / range.
+/// One that is not known at all has 1 / range. One that an emulator sees beside a step is a mixture
+/// of its two sides.
 #pragma once
 
 #include "ensemble/scores/comparison.hpp"
@@ -36,6 +37,8 @@ struct SimulatedValue {
   double value = 0;
   double variance = 0;  ///< of an emulator; 0: a member's own
   Known known = Known::exactly;
+  double other_share = 0;  ///< probability of the other side of a step, 0..0.5
+  double other_value = 0, other_variance = 0;
 };
 using SimulatedRow = std::vector<SimulatedValue>;  ///< [n_quantities]
 
@@ -86,6 +89,8 @@ class Likelihood {
 
  private:
   double log_density(const SimulatedValue& simulated, std::size_t q, double t) const;
+  /// Standard deviation of an observation about a simulated value, whose own variance is given.
+  double sd_about(double variance, std::size_t q, double t) const;
   /// log of sum over nodes of weight times product over the quantities that `counts`.
   template <class Counts>
   double log_sum(std::span<const SimulatedValue> simulated, const Kind& kind, Counts counts) const;

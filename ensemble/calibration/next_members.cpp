@@ -16,7 +16,7 @@ double gain(const Likelihood& likelihood, const EmulatorSet& emulators,
             const std::vector<double>& point) {
   double sum = 0;
   for (std::size_t q = 0; q < emulators.quantities().size(); ++q) {
-    const GaussianPrediction p = emulators.quantities()[q].process.at(point);
+    const EmulatedValue p = emulators.quantities()[q].at(point);
     const double spread = likelihood.spread(q);
     sum += p.variance / (p.variance + p.noise + spread * spread);
   }

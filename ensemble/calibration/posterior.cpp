@@ -117,23 +117,31 @@ EmulatorSet::EmulatorSet(const std::vector<ObservedQuantity>& observed, const Po
     std::vector<Observation> column;
     for (const auto& member : members) column.push_back(member[q]);
     quantities_.push_back(emulate(observed[q].name, cube, column));
+    least_.push_back(observed[q].least);
   }
 }
 
 SimulatedRow EmulatorSet::at(std::span<const double> point) const {
   SimulatedRow row;
-  for (const QuantityEmulator& q : quantities_) {
-    const GaussianPrediction p = q.process.at(point);
-    row.push_back({p.mean, p.variance + p.noise, Known::exactly});
+  for (std::size_t q = 0; q < quantities_.size(); ++q) {
+    const EmulatedValue e = quantities_[q].at(point);
+    SimulatedValue value{std::max(least_[q], e.likely.mean), e.likely.variance + e.likely.noise,
+                         Known::exactly};
+    if (e.other_share > 0) {
+      value.other_share = e.other_share;
+      value.other_value = std::max(least_[q], e.other.mean);
+      value.other_variance = e.other.variance + e.other.noise;
+    }
+    row.push_back(value);
   }
   return row;
 }
 
 EmulatorSet EmulatorSet::with_point(std::span<const double> point) const {
-  std::vector<QuantityEmulator> more;
-  for (const QuantityEmulator& q : quantities_)
-    more.push_back({q.process.with_point(point), q.report});
-  return EmulatorSet(std::move(more));
+  EmulatorSet more;
+  for (const QuantityEmulator& q : quantities_) more.quantities_.push_back(q.with_point(point));
+  more.least_ = least_;
+  return more;
 }
 
 Posterior emulated_posterior(const Likelihood& likelihood, const EmulatorSet& emulators,

@@ -42,17 +42,20 @@ class EmulatorSet {
   EmulatorSet(const std::vector<ObservedQuantity>& observed,
               const std::vector<std::vector<double>>& cube,
               const std::vector<std::vector<Observation>>& members);
-  explicit EmulatorSet(std::vector<QuantityEmulator> quantities)
-      : quantities_(std::move(quantities)) {}
-
   /// What is expected of a member there: variance of the emulator and of the member's own noise.
+  /// An emulator is a sum of curves and may fall below the least that a quantity can be (a distance
+  /// below 0): there it expects the least. A logarithm would not do instead: values of 0 are good
+  /// ones, and near them it would tell millimetres from one another.
   SimulatedRow at(std::span<const double> point) const;
   const std::vector<QuantityEmulator>& quantities() const { return quantities_; }
   /// See GaussianProcess::with_point.
   EmulatorSet with_point(std::span<const double> point) const;
 
  private:
+  EmulatorSet() = default;
+
   std::vector<QuantityEmulator> quantities_;
+  std::vector<double> least_;  ///< [n_quantities]
 };
 
 /// Draws by chains on the emulators. They start where a Sobol' sample of the prior is likely, and

@@ -45,13 +45,12 @@ PredictedQuantity predicted(const Likelihood& likelihood, const Posterior& poste
   const ObservedQuantity& o = likelihood.observed()[q];
   const double start = (*rows[rows.size() / 2])[q].value;
   const double first = std::isfinite(start) ? start : o.value, width = likelihood.spread(q);
-  return {o.name,
-          o.unit,
-          o.value,
-          quantile_of(below, 0.5, first, width),
-          quantile_of(below, 0.05, first, width),
-          quantile_of(below, 0.95, first, width),
-          below(o.value)};
+  const auto quantile = [&](double level) {
+    return std::max(o.least, quantile_of(below, level, first, width));
+  };
+  const double lower = quantile(0.05);
+  return {o.name, o.unit,         o.value,        quantile(0.5),
+          lower,  quantile(0.95), below(o.value), lower == o.least};
 }
 
 /// log of the weighted mean of exp(logs).

@@ -12,12 +12,15 @@
 
 namespace sturz {
 
-/// What is predicted for a new observation: simulation, discrepancy and measurement together.
+/// What is predicted for a new observation: simulation, discrepancy and measurement together. The
+/// errors are normal and go below the least that a quantity can be, such as 0 for a distance: what
+/// lies there stands at the least in quantiles, and where it lay in `below`.
 struct PredictedQuantity {
   std::string name, unit;
   double observed = 0;
   double median = 0, lower = 0, upper = 0;  ///< 5 % and 95 %
   double below = 0;                         ///< predicted probability of less than was observed
+  bool ends_at_least = false;               ///< the lower one was below the least of its quantity
 };
 
 /// Each quantity under the posterior that knows it: what falls outside is not explained at all.

@@ -153,6 +153,8 @@ void GaussianProcess::look_left_out() {
   const double limit = 1.959963984540054 * 1.959963984540054 * left_out_.inflation;
   left_out_.coverage95 =
       static_cast<double>((ratio.array() <= limit).count()) / static_cast<double>(ratio.size());
+  for (Index i = 0; i < n; ++i)
+    left_out_.predicted.push_back(shift_ + divide_ * (values_(i) - errors(i)));
 }
 
 double GaussianProcess::mean_at(std::span<const double> point) const {

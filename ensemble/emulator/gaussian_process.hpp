@@ -31,6 +31,7 @@ struct LeaveOneOut {
   double coverage95 = 0;  ///< share of points inside the 95 % interval that the others give
   double inflation = 1;   ///< mean squared error / predicted variance, at least 1: all variances
                           ///< are multiplied by it
+  std::vector<double> predicted;  ///< [n] mean at each point that the others give
 };
 
 class GaussianProcess {

@@ -137,6 +137,32 @@ DesignTable table_design(const Scenario& scenario, std::span<const std::string> 
   return table;
 }
 
+std::vector<std::string> keys_without_column(const Scenario& scenario, const DesignTable& table) {
+  std::vector<std::string> without;
+  for (const UncertainKey& key : uncertain_keys(scenario))
+    if (std::find(table.keys.begin(), table.keys.end(), key.path) == table.keys.end())
+      without.push_back(key.path);
+  return without;
+}
+
+DesignTable with_prior_columns(const Scenario& scenario, DesignTable table) {
+  const std::vector<UncertainKey> keys = uncertain_keys(scenario);
+  // A column of its own for every key: those of the posterior's were its coordinates.
+  const auto cube =
+      draw_unit_cube(Design::sobol, table.values.size(), keys.size(), scenario.ensemble.seed);
+  const std::vector<std::string> without = keys_without_column(scenario, table);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (std::find(without.begin(), without.end(), keys[k].path) == without.end()) continue;
+    const Marginal marginal(keys[k].distribution, keys[k].path);
+    table.keys.push_back(keys[k].path);
+    table.units.push_back(keys[k].units);
+    for (std::size_t i = 0; i < table.values.size(); ++i)
+      table.values[i].push_back(marginal.quantile(cube[i][k]));
+  }
+  table.unit_cube.clear();
+  return table;
+}
+
 Scenario member_scenario(const Scenario& scenario, const DesignTable& design, std::int64_t member) {
   require(member >= 0 && member < design.n_members(),
           fmt::format("member {} is not in the design table (it has members 0 .. {}). Ask for one "

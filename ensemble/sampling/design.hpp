@@ -29,6 +29,8 @@ struct DesignTable {
   std::vector<std::vector<double>> unit_cube;  ///< [n_members][n_keys] before the copula; empty
                                                ///< for a user's table
   std::vector<std::vector<double>> values;     ///< [n_members][n_keys] in the key's unit
+  /// It is a posterior's table: keys that it has no column for keep their prior.
+  bool is_posterior = false;
 
   std::int64_t n_members() const { return static_cast<std::int64_t>(values.size()); }
   bool operator==(const DesignTable&) const = default;
@@ -62,12 +64,19 @@ std::vector<std::vector<double>> values_at(std::span<const UncertainKey> keys,
 DesignTable table_design(const Scenario& scenario, std::span<const std::string> columns,
                          const std::vector<std::vector<double>>& rows);
 
+/// Keys of the scenario that a table has no column for.
+std::vector<std::string> keys_without_column(const Scenario&, const DesignTable&);
+/// The table with a column more for each of those, drawn from its own distribution by Sobol' points
+/// of ensemble.seed, independent of all others; a longer table goes on with the same rows.
+/// \throws SetupError naming the key when its distribution is unusable
+DesignTable with_prior_columns(const Scenario&, DesignTable);
+
 /// CSV text: `# name: value` lines (design, seed, units), then
 /// `member,<key>...,unit_cube:<key>...`. Numbers survive the round trip bit by bit.
 std::string to_csv(const DesignTable&);
-/// Reads what to_csv wrote, or a user's plain table: a line of keys and lines of numbers, an
-/// optional `member` column that counts 0, 1, 2, ..., comment lines starting with #.
-/// \throws SetupError naming the line
+/// Reads what to_csv wrote, a posterior.csv (`# posterior: ...`), or a user's plain table: a line
+/// of keys and lines of numbers, an optional `member` column that counts 0, 1, 2, ..., comment
+/// lines starting with #. \throws SetupError naming the line
 DesignTable from_csv(std::string_view text);
 
 /// The scene of numbers that member `member` computes.

@@ -98,6 +98,7 @@ class Reader {
     if (name == "seed" && !parse(value, table_.seed))
       fail(fmt::format("seed '{}' is not a whole number (it names the random stream). Restore it.",
                        value));
+    if (name == "posterior") table_.is_posterior = true;
     if (name == "units" && !value.empty()) table_.units = cells_of(value, ',');
   }
 
@@ -168,6 +169,8 @@ class Reader {
 std::string to_csv(const DesignTable& table) {
   std::string text = fmt::format("{}\n# design: {}\n# seed: {}\n# units: {}\nmember", title,
                                  to_string(table.design), table.seed, fmt::join(table.units, ","));
+  if (table.is_posterior)
+    text.insert(text.find("\nmember"), "\n# posterior: keys without a column keep their prior");
   for (const std::string& key : table.keys) text += "," + key;
   if (!table.unit_cube.empty())
     for (const std::string& key : table.keys) text += fmt::format(",{}{}", cube_prefix, key);

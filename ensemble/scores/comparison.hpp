@@ -5,6 +5,7 @@
 #include "ensemble/censoring/censored_quantile.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct ObservedQuantity {
   double value = 0;
   double sd = 0;  ///< standard deviation in the same unit, > 0
   std::string unit;
+  /// No value is smaller: lengths, distances, areas and times end at 0.
+  double least = -std::numeric_limits<double>::infinity();
 };
 
 /// The same quantities of every valid member. `Known` says whether a value is the member's own, a

@@ -30,8 +30,11 @@ class ScoreSheet {
     columns.push_back(std::move(info));
     scores.push_back({value, known});
   }
+  /// All that is compared of an event is a length, a distance, an area, a volume, a ratio of
+  /// lengths, a time or a speed: none is below 0.
   void compare(ObservedQuantity quantity, double value, Known known) {
     if (std::isnan(value)) known = Known::not_at_all;
+    quantity.least = 0;
     observed.push_back(std::move(quantity));
     simulated.push_back({value, known});
   }

@@ -83,9 +83,9 @@ std::optional<SobolIndices> sobol_indices(const Points& cube,
 
 namespace {
 
-SobolIndices of_process(const GaussianProcess& process, const Points& saltelli) {
+SobolIndices of_emulator(const QuantityEmulator& emulator, const Points& saltelli) {
   std::vector<Observation> results;
-  for (const auto& row : saltelli) results.push_back({process.mean_at(row), Known::exactly});
+  for (const auto& row : saltelli) results.push_back({emulator.mean_at(row), Known::exactly});
   return sobol_indices(saltelli, results).value_or(SobolIndices{});
 }
 
@@ -107,7 +107,7 @@ double jackknife_error(std::span<const double> without) {
 
 /// The indices of emulators that know all members but one group each, scales and trend of the
 /// whole.
-std::vector<SobolIndices> without_groups(const GaussianProcess::Scales& scales, const Points& cube,
+std::vector<SobolIndices> without_groups(const QuantityEmulator& whole, const Points& cube,
                                          std::span<const Observation> results,
                                          const Points& saltelli) {
   const std::vector<std::size_t> members = teaching_members(results);
@@ -121,10 +121,9 @@ std::vector<SobolIndices> without_groups(const GaussianProcess::Scales& scales, 
       points.push_back(cube[members[place]]);
       values.push_back(results[members[place]].value);
     }
-    if (points.size() < 3 || *std::min_element(values.begin(), values.end()) ==
-                                 *std::max_element(values.begin(), values.end()))
-      continue;
-    SobolIndices indices = of_process(GaussianProcess(points, values, scales), saltelli);
+    const auto others = whole.of_others(points, values);
+    if (!others) continue;
+    SobolIndices indices = of_emulator(*others, saltelli);
     if (!indices.first.empty()) all.push_back(std::move(indices));
   }
   return all;
@@ -137,8 +136,8 @@ EmulatedIndices emulated_indices(const std::string& quantity, const Points& cube
   const QuantityEmulator emulator = emulate(quantity, cube, results);
   const std::size_t n_dims = cube.front().size();
   const Points saltelli = saltelli_cube(emulated_sets * (n_dims + 2), n_dims, seed);
-  EmulatedIndices found{of_process(emulator.process, saltelli), emulator.report};
-  const auto others = without_groups(emulator.process.scales(), cube, results, saltelli);
+  EmulatedIndices found{of_emulator(emulator, saltelli), emulator.report()};
+  const auto others = without_groups(emulator, cube, results, saltelli);
   if (others.size() < 2) return found;
   for (std::size_t d = 0; d < found.indices.first.size(); ++d) {
     std::vector<double> first, total;

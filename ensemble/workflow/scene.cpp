@@ -16,12 +16,35 @@
 
 #include <fmt/core.h>
 
+#include <map>
+#include <sstream>
+#include <utility>
+
 namespace sturz::workflow {
 
 namespace {
 
+/// "file:line:column: " in front of lines that begin with a key, where the file says it or the
+/// block that it is in.
+std::string at_their_places(const std::string& lines, const std::map<std::string, Position>& at) {
+  std::string placed;
+  std::istringstream in(lines);
+  for (std::string line; std::getline(in, line);) {
+    std::string key = line.substr(0, line.find_first_not_of("abcdefghijklmnopqrstuvwxyz"
+                                                            "0123456789_.[]"));
+    auto found = at.find(key);
+    while (found == at.end() && key.find_last_of(".[") != std::string::npos) {
+      key.erase(key.find_last_of(".["));
+      found = at.find(key);
+    }
+    if (!placed.empty()) placed += '\n';
+    placed += (found != at.end() ? found->second.text() + ": " : "") + line;
+  }
+  return placed;
+}
+
 /// Inputs and table of a scene, with what is wrong with either of them in one message.
-void load_files(Scene& scene) {
+void load_files(Scene& scene, const std::map<std::string, Position>& at) {
   std::string wrong;
   const auto collect = [&](const auto& read) {
     try {
@@ -34,16 +57,17 @@ void load_files(Scene& scene) {
   if (scene.scenario.ensemble.design == Design::table && !uncertain_keys(scene.scenario).empty())
     collect([&] { new_design(scene.scenario); });
   collect([&] { scene.inputs = load_scene_inputs(scene.scenario); });
-  require(wrong.empty(), wrong);
+  require(wrong.empty(), at_their_places(wrong, at));
 }
 
 }  // namespace
 
 Scene load_scene(const SceneRequest& request) {
   Scene scene;
-  scene.scenario = read_scenario(request.file, request.overrides);
+  ScenarioFile file = read_scenario_file(request.file, request.overrides);
+  scene.scenario = std::move(file.scenario);
   scene.medians = median_scenario(scene.scenario);
-  load_files(scene);
+  load_files(scene, file.positions);
   for (std::string& note : material_notes(scene.scenario))
     scene.inputs.notes.push_back(std::move(note));
   scene.ground = std::make_shared<GrowingGround>(scene.scenario, scene.inputs);

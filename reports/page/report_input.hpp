@@ -13,6 +13,7 @@
 #include "scenarios/layers/layer_stack.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -32,6 +33,7 @@ struct PosteriorShown {
   struct Key {
     double before[3] = {}, after[3] = {};  ///< 5 %, 50 %, 95 %
     double variance_removed = 0;
+    double best = std::numeric_limits<double>::quiet_NaN();  ///< NaN: no best fit
   };
   struct Quantity {
     std::string name, unit;
@@ -39,12 +41,24 @@ struct PosteriorShown {
     double check[3] = {};  ///< predicted: 5 %, 50 %, 95 %
     bool has_held_out = false;
     double held_out[3] = {};  ///< the same by what the others tell
+    double best_expected = std::numeric_limits<double>::quiet_NaN();  ///< by the emulator
+    std::string best_computed{};  ///< words before the number, "at least" or "not known"
+    double best_member = std::numeric_limits<double>::quiet_NaN();
+    double q2 = std::numeric_limits<double>::quiet_NaN();  ///< of its emulator; NaN: none
+    bool has_step = false;                                 ///< emulated on two sides
+    bool ends_at_zero = false;  ///< a prediction was below 0, where no value is
+  };
+  struct Discrepancy {
+    std::string kind;
+    double mean = 0, lower = 0, upper = 0;  ///< share of the observed value; 5 % and 95 %
   };
   std::string origin;     ///< method, members, what they are worth: one sentence
   ReportTable rows;       ///< of equal weight
   std::vector<Key> keys;  ///< one per column of `rows`
   std::vector<Quantity> quantities;
   std::vector<std::pair<double, double>> reliability;  ///< nominal, inside
+  double discrepancy_scale = 0;                        ///< of its prior; 0: none was allowed
+  std::vector<Discrepancy> discrepancies;              ///< by kind of quantity
   std::vector<std::string> ridges, warnings;           ///< sentences
 };
 

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace sturz {
@@ -59,43 +61,107 @@ std::string interval(const double (&v)[3], double factor) {
                      shown_number(factor * v[2]));
 }
 
+bool any_best(const PosteriorShown& p) {
+  return std::any_of(p.keys.begin(), p.keys.end(),
+                     [](const PosteriorShown::Key& k) { return std::isfinite(k.best); });
+}
+
 std::string keys_table(const PosteriorShown& p) {
+  const bool best = any_best(p);
   std::string html =
       "<div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr><th "
       "scope=\"col\">value</th>"
       "<th scope=\"col\">before (5 \u2013 95 %)</th><th scope=\"col\">after</th>"
       "<th scope=\"col\" title=\"Share of the prior's variance that the observations took\">told"
-      "</th></tr></thead><tbody>";
+      "</th>";
+  if (best) html += "<th scope=\"col\" title=\"Largest likelihood\">best fit</th>";
+  html += "</tr></thead><tbody>";
   for (std::size_t k = 0; k < p.keys.size(); ++k) {
     const PosteriorShown::Key& key = p.keys[k];
     const double factor = factor_of(p.rows, k);
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-        "<td class=\"n\">{}</td></tr>",
+        "<td class=\"n\">{}</td>",
         html_escape(label_of(p.rows, k)), interval(key.before, factor), interval(key.after, factor),
         html_escape(percent_text(key.variance_removed)));
+    if (best) html += fmt::format("<td class=\"n\">{}</td>", shown_number(factor * key.best));
+    html += "</tr>";
   }
   return html + "</tbody></table></div>";
 }
 
+/// What the emulator expects of the best fit, and what its member gave.
+std::string best_text(const PosteriorShown::Quantity& q, double factor) {
+  std::string text = shown_number(factor * q.best_expected);
+  if (q.best_computed.empty() && std::isnan(q.best_member)) return text;
+  text += "; member " + q.best_computed;
+  if (!std::isnan(q.best_member))
+    text += (q.best_computed.empty() ? "" : " ") + shown_number(factor * q.best_member);
+  return text;
+}
+
+std::string q2_text(const PosteriorShown::Quantity& q) {
+  if (std::isnan(q.q2)) return "\u2013";
+  return shown_number(q.q2, 2) + (q.has_step ? " (two sides)" : "");
+}
+
+std::string discrepancy_html(const PosteriorShown& p) {
+  if (!(p.discrepancy_scale > 0))
+    return "<p>Model discrepancy: none was allowed; the posterior is as sure as if the model were "
+           "perfect.</p>";
+  std::string pieces;
+  for (const PosteriorShown::Discrepancy& d : p.discrepancies)
+    pieces +=
+        fmt::format("{}{} {} ({} \u2013 {})", pieces.empty() ? "" : ", ",
+                    html_escape(words_without_unit(d.kind)), html_escape(percent_text(d.mean)),
+                    html_escape(percent_text(d.lower)), html_escape(percent_text(d.upper)));
+  return fmt::format(
+      "<p>Model discrepancy, what the model misses whatever the values are: prior scale {} of what "
+      "was observed; found (5 \u2013 95 %): {}.</p>",
+      html_escape(percent_text(p.discrepancy_scale)), pieces);
+}
+
 std::string check_table(const PosteriorShown& p) {
+  const bool best = any_best(p);
+  bool ends_at_zero = false, has_step = false;
   std::string html =
       "<h3>Does it give what was observed?</h3><div class=\"table-box short\" "
       "tabindex=\"0\"><table class=\"spaced\">"
       "<thead><tr><th scope=\"col\">quantity</th><th scope=\"col\">observed</th>"
       "<th scope=\"col\">predicted (5 \u2013 95 %)</th><th scope=\"col\" title=\"By what the other "
-      "quantities tell\">predicted without it</th></tr></thead><tbody>";
+      "quantities tell\">predicted without it</th>";
+  if (best)
+    html +=
+        "<th scope=\"col\" title=\"What the emulator expects there, and what the member gave that "
+        "was computed there\">at the best fit</th><th scope=\"col\" title=\"Share of the variance "
+        "that the emulator tells of a member that is left out; 1 is perfect\">emulator's Q2</th>";
+  html += "</tr></thead><tbody>";
   for (const PosteriorShown::Quantity& q : p.quantities) {
     const auto [label, factor] = display_unit(q.unit);
     const std::string unit = label;
     html += fmt::format(
         "<tr><th scope=\"row\">{}{}</th><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-        "<td class=\"n\">{}</td></tr>",
+        "<td class=\"n\">{}</td>",
         html_escape(words_without_unit(q.name)), unit.empty() ? "" : " [" + html_escape(unit) + "]",
         shown_number(factor * q.observed), interval(q.check, factor),
         q.has_held_out ? interval(q.held_out, factor) : "\u2013");
+    if (best)
+      html += fmt::format("<td class=\"n\">{}</td><td class=\"n\">{}</td>", best_text(q, factor),
+                          q2_text(q));
+    html += "</tr>";
+    ends_at_zero = ends_at_zero || q.ends_at_zero;
+    has_step = has_step || q.has_step;
   }
   html += "</tbody></table></div>";
+  if (ends_at_zero)
+    html +=
+        "<p class=\"note\">A predicted 0 is the least that a quantity can be: what normal errors "
+        "put below stands there.</p>";
+  if (has_step)
+    html +=
+        "<p class=\"note\">Two sides: members jump there, and none gives what lies between. Each "
+        "side is emulated by itself; an interval may span the gap.</p>";
+  html += discrepancy_html(p);
   if (p.reliability.empty()) return html;
   html += "<p class=\"note\">Held out one by one: ";
   std::string pieces;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What was observed says how well it is known, and is only compared with what is like it.
 #include "scenarios/checks/combination_checks.hpp"
+#include "scenarios/schema/number_text.hpp"
+
+#include <cmath>
+#include <numbers>
 
 namespace sturz {
 namespace {
@@ -68,6 +72,21 @@ void check_fronts(const ObservationSpec& o, const Check& check) {
   }
 }
 
+/// A travel angle of 63 degrees: no ground that a slide runs out on is steeper.
+constexpr double steepest_travel = 2;
+
+void check_ratio(const ObservationSpec& o, const Check& check) {
+  if (!o.h_over_l || !o.h_over_l->value || !(*o.h_over_l->value > steepest_travel)) return;
+  const double value = *o.h_over_l->value;
+  std::string rest = "= " + number_text(value) +
+                     " (fall over length is the tangent of the travel angle: above 2 that is "
+                     "steeper than 63 degrees).";
+  if (value <= 90)
+    rest += " If it is the angle in degrees, its tangent is " +
+            short_number(std::tan(value * std::numbers::pi / 180)) + ".";
+  check.add("h_over_l.value", rest);
+}
+
 bool has_file(const ObservationSpec& o) {
   return !o.outline.empty() || !o.deposit.empty() || !o.deposit_thickness.empty() ||
          !o.farthest_point.empty() || !o.thalweg.empty();
@@ -101,6 +120,7 @@ void check_observation(const Scenario& s, Problems& problems) {
              o.farthest_point_sd_m.has_value(), "farthest_point_sd_m");
   check.pair(o.runout_m, "runout_m");
   check.pair(o.h_over_l, "h_over_l");
+  check_ratio(o, check);
   check.pair(o.com_travel_m, "com_travel_m");
   check.pair(o.volume_m3, "volume_m3");
   check.pair(o.area_m2, "area_m2");

@@ -61,6 +61,55 @@ TEST_F(Calibrate, RoundsAddMembersThatAreKept) {
   EXPECT_EQ(read("out/posterior.json"), first);
 }
 
+/// They are kept, whichever command reads the folder again, and said where they cannot be used.
+TEST_F(Calibrate, ChosenMembersAreNotForgotten) {
+  ASSERT_EQ(calibrate({"-n", "16", "--active", "2", "--active-members", "3", "--no-check",
+                       "--discrepancy", "0.02"})
+                .exit_code,
+            0);
+  const std::string first = read("out/posterior.json");
+  ASSERT_EQ(n_members("out/active/2"), 3U);
+  const Ended again = calibrate(
+      {"-n", "16", "--method", "emulator", "--no-check", "--discrepancy", "0.02", "--json"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(event(again, "done").at("sample").at("members_chosen"), 6);
+  EXPECT_EQ(read("out/posterior.json"), first);
+  ASSERT_EQ(
+      calibrate({"-n", "16", "--active", "1", "--no-check", "--discrepancy", "0.02"}).exit_code, 0);
+  EXPECT_EQ(read("out/posterior.json"), first);  // the second round is there
+  const Ended folder =
+      sturz({"calibrate", path("out"), "--discrepancy", "0.02", "--method", "emulator", "--json"});
+  ASSERT_EQ(folder.exit_code, 0) << folder.err;
+  EXPECT_EQ(event(folder, "done").at("sample").at("members_chosen"), 6);
+  const Ended weighed = calibrate({"-n", "16", "--method", "weights", "--json"});
+  ASSERT_EQ(weighed.exit_code, 0) << weighed.err;
+  EXPECT_EQ(event(weighed, "done").at("sample").at("members_chosen"), 0);
+  EXPECT_THAT(weighed.err, HasSubstr("6 members that earlier --active rounds chose have no say"));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("--active rounds chose have no say"));
+}
+
+TEST_F(Calibrate, AKeyThatThePosteriorDoesNotKnowKeepsItsPrior) {
+  ASSERT_EQ(calibrate({}).exit_code, 0);
+  std::string more = slide;
+  const std::string was = "thickness_m: 2\n";
+  more.replace(more.find(was), was.size(), "thickness_m: {uniform: [1.5, 2.5]}\n");
+  write("more.yaml", more);
+  const Ended ended = sturz(
+      {"ensemble", path("more.yaml"), "--posterior", path("out"), "-o", path("a"), "-n", "4"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("drawn from its own distribution, independently of the "
+                                         "rest: release.thickness_m"),
+                               HasSubstr("posterior.csv")));
+  EXPECT_THAT(read("a/report.html"), HasSubstr("independently of the rest"));
+  EXPECT_THAT(read("a/design.csv"), HasSubstr("release.thickness_m"));
+  // The same rows go on, and a folder of the posterior's keys alone has no such words.
+  ASSERT_EQ(
+      sturz({"ensemble", path("more.yaml"), "--posterior", path("out"), "-o", path("a"), "-n", "6"})
+          .exit_code,
+      0);
+  EXPECT_EQ(n_members("a"), 6U);
+}
+
 TEST_F(Calibrate, AnEnsembleOfThePosteriorHasItsValuesAndWarnsOfAnotherSpacing) {
   ASSERT_EQ(calibrate({}).exit_code, 0);
   const Ended same = sturz(

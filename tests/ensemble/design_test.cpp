@@ -170,5 +170,38 @@ TEST(TableDesign, NamesWhatIsWrong) {
       HasSubstr("no rows"));
 }
 
+/// A posterior of friction says nothing of the thickness.
+TEST(PosteriorTable, KeysWithoutAColumnAreDrawnFromTheirPrior) {
+  Scenario scenario;
+  scenario.ensemble.seed = 7;
+  scenario.basal.friction_coefficient = uniform(0.1, 0.5);
+  scenario.release.thickness_m = uniform(1, 3);
+  DesignTable posterior;
+  posterior.keys = {"basal.friction_coefficient"};
+  posterior.units = {"1"};
+  posterior.is_posterior = true;
+  for (int i = 0; i < 500; ++i) posterior.values.push_back({0.2 + 0.0002 * ((i * 309) % 500)});
+  EXPECT_EQ(from_csv(to_csv(posterior)), posterior);
+  EXPECT_EQ(keys_without_column(scenario, posterior),
+            (std::vector<std::string>{"release.thickness_m"}));
+  const DesignTable whole = with_prior_columns(scenario, posterior);
+  ASSERT_EQ(whole.keys.size(), 2U);
+  double mean = 0, square = 0, product = 0;
+  for (const auto& row : whole.values) {
+    EXPECT_TRUE(row[1] > 1 && row[1] < 3);
+    const double x = (row[0] - 0.25) / 0.1, y = (row[1] - 2) / 2;
+    mean += y / 500, square += y * y / 500, product += x * y / 500;
+  }
+  EXPECT_NEAR(mean, 0, 0.01);
+  EXPECT_NEAR(square, 1.0 / 12, 0.005);
+  EXPECT_NEAR(product, 0, 0.01);  // of 1/12, were they one
+  posterior.values.resize(100);
+  const DesignTable part = with_prior_columns(scenario, posterior);
+  EXPECT_TRUE(std::equal(part.values.begin(), part.values.end(), whole.values.begin()));
+  const DesignTable used = table_design(scenario, whole.keys, whole.values);
+  EXPECT_EQ(used.keys.size(), 2U);
+  EXPECT_FALSE(used.is_posterior);
+}
+
 }  // namespace
 }  // namespace sturz

@@ -8,6 +8,7 @@
 namespace sturz {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -122,6 +123,21 @@ TEST(ObservationMessages, WordsAndNumbersOfLists) {
               ElementsAre(HasSubstr("must be a list of measurements")));
   EXPECT_THAT(problems("  outline_sd_m: 0\n  outline: a.gpkg\n"),
               ElementsAre(HasSubstr("observation.outline_sd_m = 0 (must be > 0")));
+}
+
+TEST(ObservationMessages, NumbersThatNoSlideHasAreRefusedAtTheirLine) {
+  EXPECT_THAT(
+      problems("  runout_m: {value: -770, sd: 20}\n"
+               "  h_over_l: {value: 25, sd: 1}\n"
+               "  com_travel_m: {value: 0, sd: 20}\n"),
+      ElementsAre(AllOf(StartsWith("scenario.yaml:6:"), HasSubstr("runout_m.value = -770")),
+                  AllOf(StartsWith("scenario.yaml:7:21: observation.h_over_l.value = 25"),
+                        HasSubstr("its tangent is 0.466")),
+                  AllOf(StartsWith("scenario.yaml:8:"), HasSubstr("com_travel_m.value = 0"))));
+  EXPECT_THAT(problems("  h_over_l: {value: 2, sd: 0.1}\n"), ElementsAre());
+  EXPECT_THAT(problems("  h_over_l: {value: 200, sd: 1}\n"),
+              ElementsAre(AllOf(HasSubstr("steeper than 63 degrees"),
+                                ::testing::Not(HasSubstr("tangent is")))));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "reports/page/sections.hpp"
 #include "tests/reports/made_up_results.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -47,6 +48,35 @@ TEST(PosteriorSection, HoldsBeforeAfterPairsAndWhatWasHeldOut) {
   EXPECT_THAT(make_report(input), HasSubstr("<a href=\"#posterior\">Calibration</a>"));
 }
 
+TEST(PosteriorSection, TellsBestFitEmulatorsAndDiscrepancy) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  PosteriorShown p = found();
+  p.discrepancy_scale = 0.1;
+  p.discrepancies = {{"runout_m", 0.062, 0.01, 0.17}};
+  input.posterior = &p;
+  const std::string weighed = posterior_html(input);
+  EXPECT_THAT(weighed, AllOf(Not(HasSubstr("best fit")), Not(HasSubstr("Q2")),
+                             HasSubstr("prior scale 10\u00A0% of"),
+                             HasSubstr("runout 6\u00A0% (1\u00A0% \u2013 17\u00A0%)")));
+  p.keys[0].best = 0.317;
+  p.keys[1].best = 0.22;
+  p.quantities[0].best_expected = 768;
+  p.quantities[0].best_member = 751;
+  p.quantities[0].q2 = 0.934;
+  p.quantities[0].has_step = true;
+  p.quantities[1].best_expected = 1.9;
+  p.quantities[1].best_computed = "not known";
+  p.quantities[1].ends_at_zero = true;
+  const std::string html = posterior_html(input);
+  EXPECT_THAT(html, AllOf(HasSubstr(">0.317<"), HasSubstr("768; member 751"),
+                          HasSubstr("1.9; member not known"), HasSubstr("0.93 (two sides)"),
+                          HasSubstr("none gives what lies between"),
+                          HasSubstr("A predicted 0 is the least"), Not(HasSubstr("nan"))));
+  p.discrepancy_scale = 0;
+  EXPECT_THAT(posterior_html(input), HasSubstr("none was allowed"));
+}
+
 /// Pascals are stored, kilopascals are what the label says.
 TEST(PosteriorSection, ShowsNumbersAndAxesInTheUnitOfTheirLabel) {
   const auto results = testing::make_up_results();
@@ -74,6 +104,24 @@ TEST(PosteriorFigures, DrawWhatThereIsAndNothingOfNothing) {
   EXPECT_EQ(pair_svg(some, one, more, one, "x", "y"), "");
   const std::string dots = pair_svg(some, some, more, more, "x", "y");
   EXPECT_THAT(dots, AllOf(HasSubstr("<circle"), Not(HasSubstr("nan"))));
+}
+
+/// Numbers beside the axis end where it begins, and none begins left of the picture.
+TEST(PosteriorFigures, LeaveRoomForLongNumbersBesideTheAxis) {
+  const std::vector<double> x{0.1, 0.2}, large{1234567, 89012345}, small{-0.000123, 0.000456};
+  const auto axis = [](const std::string& svg) {
+    const std::size_t at = svg.find("<path d=\"M") + 10;
+    return std::stod(svg.substr(at));
+  };
+  const double short_numbers = axis(pair_svg(x, x, x, x, "x", "y"));
+  EXPECT_GT(axis(pair_svg(x, large, x, large, "x", "y")), short_numbers + 10);
+  EXPECT_GT(axis(pair_svg(x, small, x, small, "x", "y")), short_numbers + 5);
+  for (const auto& y : {large, small}) {
+    const std::string svg = pair_svg(x, y, x, y, "x", "y");
+    const double room = axis(svg) - 4;
+    EXPECT_GE(room, 6 * 9);  // nine characters of 11 px
+    EXPECT_THAT(svg, HasSubstr(fmt::format("<text x=\"{:.1f}\"", room)));
+  }
 }
 
 }  // namespace

@@ -254,5 +254,32 @@ TEST(BuildingsUnderColumns, StandUprightOnAveragedGround) {
       Contains(StartsWith("terrain.buildings: 1 buildings cover no half of any cell of 6 m")));
 }
 
+/// A release of `n` x `n` cells whose north-western one has its corner at (x, y).
+std::shared_ptr<const Raster<double>> release_at(double x, double y, double cell, int n) {
+  return std::make_shared<const Raster<double>>(Grid{n, n, x, y, cell, ""}, 2.0);
+}
+
+TEST(Structures, OnTheReleaseAreSaid) {
+  Built b = built(1, dam(6, 4, 1.5), {{90, 60}, {90, 240}});
+  b.in.release = release_at(200, 150, 1, 20);
+  EXPECT_THAT(structure_warnings(b.s, b.in, 1, true), IsEmpty());
+  b.in.release = release_at(80, 150, 1, 20);  // 20 m of the line cross it
+  const auto dam_words = structure_warnings(b.s, b.in, 1, false);
+  ASSERT_EQ(dam_words.size(), 1U);
+  EXPECT_THAT(dam_words[0], StartsWith("terrain.dams[0]: about 20"));
+  EXPECT_THAT(dam_words[0], ::testing::HasSubstr("m of it stand on the release"));
+
+  SceneInputs in = with_houses({{3, 3, 3, 4}, {12, 12, 2, 2}, {20, 2, 2, 2}});
+  in.release = release_at(0, 48, 2, 4);  // its last cell is the first house's first
+  EXPECT_THAT(structure_warnings({}, in, 2, true),
+              Contains(StartsWith("terrain.buildings: 1 building stands on the release")));
+  in.release = release_at(0, 48, 2, 14);
+  EXPECT_THAT(structure_warnings({}, in, 2, true),
+              Contains(StartsWith("terrain.buildings: 2 buildings stand on the release")));
+  Raster<double> empty(Grid{14, 14, 0, 48, 2, ""}, 0.0);
+  in.release = std::make_shared<const Raster<double>>(std::move(empty));
+  EXPECT_THAT(structure_warnings({}, in, 2, true), IsEmpty());
+}
+
 }  // namespace
 }  // namespace sturz

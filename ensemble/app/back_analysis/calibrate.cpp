@@ -30,10 +30,8 @@ namespace {
 
 struct Options {
   std::vector<std::string> inputs;  ///< a scenario, or folders of finished ensembles
-  std::string out;
   std::vector<std::string> set;
-  int members = 0;
-  int workers = 0;
+  MembersOptions of;
   std::string method;  ///< empty: by the number of members
   double discrepancy = default_discrepancy;
   int active = 0;
@@ -44,7 +42,7 @@ struct Options {
 std::string command_text(const Options& o) {
   std::string text = "calibrate " + o.inputs.front();
   for (const std::string& set : o.set) text += " --set " + set;
-  if (o.members > 0) text += fmt::format(" -n {}", o.members);
+  if (o.of.members > 0) text += fmt::format(" -n {}", o.of.members);
   if (!o.method.empty()) text += " --method " + o.method;
   if (o.discrepancy != default_discrepancy) text += fmt::format(" --discrepancy {}", o.discrepancy);
   if (o.active > 0) text += fmt::format(" --active {}", o.active);
@@ -59,10 +57,11 @@ std::optional<PosteriorMethod> method_of(const Options& o) {
 workflow::CalibrateRequest request_of(const Options& o) {
   workflow::CalibrateRequest request;
   request.ensemble.scene = {o.inputs.front(), o.set, speed_cache()};
-  if (o.members > 0)
-    request.ensemble.scene.overrides.push_back(fmt::format("ensemble.members={}", o.members));
-  request.ensemble.folder = o.out.empty() ? workflow::default_folder(o.inputs.front()) : o.out;
-  request.ensemble.workers = o.workers;
+  if (o.of.members > 0)
+    request.ensemble.scene.overrides.push_back(fmt::format("ensemble.members={}", o.of.members));
+  request.ensemble.folder =
+      o.of.out.empty() ? workflow::default_folder(o.inputs.front()) : o.of.out;
+  request.ensemble.workers = o.of.workers;
   request.ensemble.command = command_text(o);
   request.method = method_of(o);
   request.discrepancy = o.discrepancy;
@@ -127,19 +126,19 @@ bool all_folders(const std::vector<std::string>& inputs) { return first_file(inp
 
 /// What finished ensembles tell, together where there are several.
 int calibrate_finished(const Options& o, Console& console) {
-  require(
-      o.set.empty() && o.members == 0 && o.active == 0 && o.active_members == 0 && o.workers == 0,
-      "calibrate with folders computes no members (--set, --members, --workers and --active "
-      "belong to a scenario). Leave them out, or name the scenario.");
+  require(o.set.empty() && o.of.members == 0 && o.active == 0 && o.active_members == 0 &&
+              o.of.workers == 0,
+          "calibrate with folders computes no members (--set, --members, --workers and --active "
+          "belong to a scenario). Leave them out, or name the scenario.");
   ConsoleObserver observer(console);
   const workflow::EventsRequest request{
-      {o.inputs.begin(), o.inputs.end()}, o.out, method_of(o), o.discrepancy};
+      {o.inputs.begin(), o.inputs.end()}, o.of.out, method_of(o), o.discrepancy};
   const workflow::Calibrated found =
       workflow::calibrate_events(request, observer, interrupt_flag());
-  const std::string folder = o.out.empty() ? o.inputs.front() : o.out;
-  if (o.out.empty()) workflow::rewrite_page(folder, observer, interrupt_flag());
+  const std::string folder = o.of.out.empty() ? o.inputs.front() : o.of.out;
+  if (o.of.out.empty()) workflow::rewrite_page(folder, observer, interrupt_flag());
   console.clear_progress();
-  tell(found, folder, o.out.empty(), console);
+  tell(found, folder, o.of.out.empty(), console);
   return ok;
 }
 
@@ -173,13 +172,7 @@ void add_calibrate(Grammar& grammar) {
       ->required();
   add_remote(parser);
   add_set(parser, options.set, "key=value: replaces one value of the scenario; may be repeated");
-  parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
-      ->type_name("DIR");
-  parser
-      .add_option("-n,--members", options.members, "Number of members, instead of the scenario's")
-      ->check(CLI::Range(1, 100000000));
-  parser.add_option("--workers", options.workers, "Members at a time (default: all cores)")
-      ->check(CLI::Range(1, 4096));
+  add_members(parser, options.of);
   parser
       .add_option("--method", options.method,
                   "weights of the members, or chains on an emulator (default: emulator from ten "

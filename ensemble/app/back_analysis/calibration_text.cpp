@@ -63,7 +63,8 @@ void add_emulators(const Calibrated& c, Lines& lines) {
   if (c.found.emulators.empty()) return;
   std::string text;
   for (const EmulatorReport& e : c.found.emulators)
-    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", e.quantity, e.q2);
+    text += fmt::format("{}{} {:.2f}{}", text.empty() ? "" : ", ", e.quantity, e.q2,
+                        e.step ? " (two sides of a step)" : "");
   lines.push_back("emulators, Q2 by leaving one out: " + text);
 }
 
@@ -88,6 +89,12 @@ void add_quantities(const Calibrated& c, Lines& lines) {
     }
     lines.push_back(std::move(line));
   }
+  const auto ends = [](const PredictedQuantity& p) { return p.ends_at_least; };
+  if (std::any_of(c.found.check.begin(), c.found.check.end(), ends) ||
+      std::any_of(held.begin(), held.end(),
+                  [&](const HeldOutQuantity& h) { return ends(h.predicted); }))
+    lines.emplace_back(
+        "a 0 predicted: the quantity is never smaller; what normal errors put below stands there");
   if (!held.empty())
     lines.push_back(fmt::format(
         "held out one by one: {:.0f} % inside 50 %, {:.0f} % inside 90 %; log score {:.2f} against "

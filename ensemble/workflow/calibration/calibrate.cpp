@@ -28,14 +28,6 @@ CalibrationData data_of(const EnsembleJob& job, const MapsMade& maps) {
   return data;
 }
 
-void append(CalibrationData& data, const ChosenMembers& more) {
-  data.cube.insert(data.cube.end(), more.cube.begin(), more.cube.end());
-  auto& [members, values] = data.comparison.simulated;
-  for (std::size_t i = 0; i < more.cube.size(); ++i) members.push_back(-1);  // not of the ensemble
-  values.insert(values.end(), more.comparison.simulated.values.begin(),
-                more.comparison.simulated.values.end());
-}
-
 CalibrationSettings settings_of(const CalibrateRequest& request, const EnsembleJob& job) {
   CalibrationSettings settings;
   settings.method = request.method;
@@ -50,12 +42,13 @@ std::size_t round_size(const CalibrateRequest& request, std::size_t n_keys) {
                                     : std::max<std::size_t>(4, 2 * n_keys);
 }
 
-/// Chosen members join the data round by round, until the emulators know the posterior.
+/// Chosen members join the data round by round, until the emulators know the posterior; then those
+/// of rounds beyond that an earlier call computed.
 void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, CalibrationData& data,
                 Observer& observer, const std::atomic<bool>& cancel) {
   const CalibrationSettings settings = settings_of(request, job);
   for (int round = 1; round <= request.active_rounds; ++round) {
-    const auto table = job.folder.root / "active" / fmt::format("{}.csv", round);
+    const auto table = round_table(job.folder, round);
     std::vector<std::vector<double>> points;
     if (!std::filesystem::exists(table)) {
       points = points_to_compute(data, settings, round_size(request, data.keys.size()));
@@ -68,6 +61,19 @@ void run_rounds(const CalibrateRequest& request, const EnsembleJob& job, Calibra
     }
     append(data, compute_chosen(request.ensemble, job, table, points, observer, cancel));
   }
+  append(data, finished_rounds(job.folder, request.active_rounds + 1, data.keys,
+                               job.scene.inputs.event, observer, CancelFlag(cancel)));
+}
+
+/// More than three standard deviations from what is expected, on either side of a step that is not
+/// ruled out.
+bool is_far_off(double value, const SimulatedValue& expected) {
+  const auto far = [value](double mean, double variance) {
+    return (value - mean) * (value - mean) > 9 * variance;
+  };
+  constexpr double ruled_out = 0.05;
+  return far(expected.value, expected.variance) &&
+         (expected.other_share < ruled_out || far(expected.other_value, expected.other_variance));
 }
 
 /// The member at the best fit, beside what the emulators expected of it.
@@ -93,8 +99,7 @@ void check_best(const CalibrateRequest& request, const EnsembleJob& job, Calibra
     row.push_back(
         member.comparison.simulated.values.front()[static_cast<std::size_t>(place - all.begin())]);
     const SimulatedValue& expected = c.found.best->simulated[q];
-    const double off = row.back().value - expected.value;
-    if (row.back().known == Known::exactly && off * off > 9 * expected.variance)
+    if (row.back().known == Known::exactly && is_far_off(row.back().value, expected))
       c.found.warnings.push_back(fmt::format(
           "{}: the member at the best fit gives {:.4g} {}, the emulator {:.4g} +- {:.2g}: the "
           "emulator is not to be trusted there. Add --active rounds.",
@@ -121,6 +126,28 @@ void compare_best(const CalibrationData& data, Calibrated& c) {
 }
 
 }  // namespace
+
+void append(CalibrationData& data, const ChosenMembers& more) {
+  data.cube.insert(data.cube.end(), more.cube.begin(), more.cube.end());
+  auto& [members, values] = data.comparison.simulated;
+  for (std::size_t i = 0; i < more.cube.size(); ++i) members.push_back(-1);  // not of the ensemble
+  values.insert(values.end(), more.comparison.simulated.values.begin(),
+                more.comparison.simulated.values.end());
+}
+
+std::string leave_to_emulators(CalibrationData& data, const CalibrationSettings& settings) {
+  const std::size_t n_chosen = data.cube.size() - data.n_drawn;
+  const PosteriorMethod method =
+      settings.method.value_or(chosen_method(data.cube.size(), data.keys.size()));
+  if (n_chosen == 0 || method == PosteriorMethod::emulator) return "";
+  data.cube.resize(data.n_drawn);
+  data.comparison.simulated.members.resize(data.n_drawn);
+  data.comparison.simulated.values.resize(data.n_drawn);
+  return fmt::format(
+      "{} members that earlier --active rounds chose have no say: they were not drawn from the "
+      "distributions, and have no weight. --method emulator learns from them.",
+      n_chosen);
+}
 
 std::vector<KeySummary> key_summaries(const Scenario& scenario, const Calibrated& c) {
   const auto keys = uncertain_keys(scenario);
@@ -178,8 +205,11 @@ Calibrated calibrate_ensemble(const CalibrateRequest& request, const EnsembleJob
   expect(maps.scores.has_value(), "an ensemble with an observation is scored");
   CalibrationData data = data_of(job, maps);
   run_rounds(request, job, data, observer, cancel);
+  const CalibrationSettings settings = settings_of(request, job);
+  const std::string left_out = leave_to_emulators(data, settings);
   Calibrated c;
-  c.found = calibrate(data, settings_of(request, job));
+  c.found = calibrate(data, settings);
+  if (!left_out.empty()) c.found.warnings.insert(c.found.warnings.begin(), left_out);
   const auto keys = uncertain_keys(job.scene.scenario);
   c.values = values_at(keys, job.scene.scenario.ensemble, c.found.posterior.cube);
   c.members = data.comparison.simulated.members;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "ensemble/calibration/calibration.hpp"
+#include "ensemble/workflow/calibration/chosen_members.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/observer.hpp"
 #include "ensemble/workflow/results/maps.hpp"
@@ -68,6 +69,12 @@ struct Calibrated {
   std::string observation_hash;   ///< of what it was calibrated with; empty: of several
   std::vector<EventUsed> events;  ///< of finished ensembles
 };
+
+/// Members that were chosen, behind those that were drawn.
+void append(CalibrationData&, const ChosenMembers&);
+/// Takes the chosen members away again where the method weighs members, which they are not drawn
+/// for. \return a sentence where that is so, else empty
+std::string leave_to_emulators(CalibrationData&, const CalibrationSettings&);
 
 /// \throws SetupError before anything is computed: the scene has no `observation`, no uncertain
 ///   value, or a design that is not drawn from the prior

@@ -143,6 +143,24 @@ void add_weightless(const std::vector<Event>& events, Calibrated& c) {
   }
 }
 
+/// Members that --active chose for the one event. Of several events each has others, or none.
+void take_chosen(const std::vector<Event>& events, const EventsRequest& request,
+                 CalibrationData& data, Observer& observer, CancelFlag cancel,
+                 std::vector<std::string>& warnings) {
+  if (events.size() == 1) {
+    const FinishedFolder& finished = events.front().input.finished;
+    append(data, finished_rounds(finished.folder, 1, data.keys, finished.inputs->event, observer,
+                                 cancel));
+    return;
+  }
+  for (const fs::path& folder : request.folders)
+    if (fs::exists(round_table(OutputFolder{folder}, 1)))
+      warnings.push_back(fmt::format(
+          "members that --active chose in {} have no say: the other events have none with the same "
+          "values.",
+          folder.string()));
+}
+
 bool is_about_values(const std::string& difference, const DesignTable& design) {
   const std::string key = difference.substr(0, difference.find(": "));
   if (key == "ensemble.design" || key == "ensemble.seed" || key == "ensemble.correlation")
@@ -220,18 +238,23 @@ Calibrated calibrate_events(const EventsRequest& request, Observer& observer, Ca
   const Scenario& scenario = events.front().input.finished.scenario;
   std::vector<std::string> warnings;
   warn_of_unlike(events, warnings);
-  const CalibrationData data = data_of(events, warnings);
+  CalibrationData data = data_of(events, warnings);
   CalibrationSettings settings;
   settings.method = request.method;
   settings.discrepancy = request.discrepancy;
   settings.seed = scenario.ensemble.seed;
+  take_chosen(events, request, data, observer, cancel, warnings);
+  const std::string left_out = leave_to_emulators(data, settings);
+  if (!left_out.empty()) warnings.push_back(left_out);
   Calibrated c;
   c.found = calibrate(data, settings);
   cancel.check();
   c.found.warnings.insert(c.found.warnings.begin(), warnings.begin(), warnings.end());
   c.values = values_at(uncertain_keys(scenario), scenario.ensemble, c.found.posterior.cube);
   c.members = data.comparison.simulated.members;
+  c.members.resize(data.n_drawn);  // the chosen ones stand behind
   c.n_drawn = static_cast<std::int64_t>(data.n_drawn);
+  c.n_chosen = static_cast<std::int64_t>(data.cube.size() - data.n_drawn);
   c.discrepancy = request.discrepancy;
   c.seed = settings.seed;
   c.at = events.front().at;

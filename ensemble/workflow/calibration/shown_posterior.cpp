@@ -46,9 +46,12 @@ std::string origin_of(const Json& all) {
 
 void read_quantities(const Json& all, PosteriorShown& shown) {
   for (const Json& q : all.at("predictive_check")) {
-    PosteriorShown::Quantity one{q.at("name"), q.at("unit"), number(q.at("observed")),
-                                 {},           false,        {}};
+    PosteriorShown::Quantity one;
+    one.name = q.at("name");
+    one.unit = q.at("unit");
+    one.observed = number(q.at("observed"));
     read_three(q, one.check);
+    one.ends_at_zero = q.value("ends_at_least", false);
     shown.quantities.push_back(std::move(one));
   }
   const Json& held = all.at("held_out");
@@ -63,6 +66,42 @@ void read_quantities(const Json& all, PosteriorShown& shown) {
     shown.reliability.emplace_back(number(r.at("nominal")), number(r.at("inside")));
 }
 
+PosteriorShown::Quantity* quantity_named(PosteriorShown& shown, const std::string& name) {
+  for (PosteriorShown::Quantity& q : shown.quantities)
+    if (q.name == name) return &q;
+  return nullptr;
+}
+
+void read_best(const Json& all, PosteriorShown& shown) {
+  if (!all.at("best_fit").is_array()) return;
+  for (const Json& b : all.at("best_fit")) {
+    PosteriorShown::Quantity* const q = quantity_named(shown, b.at("name").get<std::string>());
+    if (q == nullptr) continue;
+    q->best_expected = number(b.at("emulated"));
+    if (!b.contains("computed_is")) continue;
+    q->best_member = number(b.at("computed"));
+    const auto is = b.at("computed_is").get<std::string>();
+    if (is != "known") q->best_computed = is;
+  }
+}
+
+void read_emulators(const Json& all, PosteriorShown& shown) {
+  for (const Json& e : all.at("emulators")) {
+    PosteriorShown::Quantity* const q = quantity_named(shown, e.at("quantity").get<std::string>());
+    if (q == nullptr) continue;
+    q->q2 = number(e.at("q2"));
+    q->has_step = e.contains("step") && e.at("step").is_object();
+  }
+}
+
+void read_discrepancy(const Json& all, PosteriorShown& shown) {
+  const Json& from = all.at("discrepancy");
+  shown.discrepancy_scale = number(from.at("prior_scale"));
+  for (const Json& d : from.at("found"))
+    shown.discrepancies.push_back({d.at("kind").get<std::string>(), number(d.at("mean")),
+                                   number(d.at("p5")), number(d.at("p95"))});
+}
+
 PosteriorShown read(const Json& all) {
   PosteriorShown shown;
   shown.origin = origin_of(all);
@@ -71,9 +110,13 @@ PosteriorShown read(const Json& all) {
     read_three(k.at("prior"), key.before);
     read_three(k.at("posterior"), key.after);
     key.variance_removed = number(k.at("variance_removed"));
+    if (k.contains("best_fit")) key.best = number(k.at("best_fit"));
     shown.keys.push_back(key);
   }
   read_quantities(all, shown);
+  read_best(all, shown);
+  read_emulators(all, shown);
+  read_discrepancy(all, shown);
   for (const Json& r : all.at("identifiability").at("ridges"))
     shown.ridges.push_back(fmt::format(
         "Ridge: {} and {} (correlation {:.2f}). The observations know a combination of them, not "

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace sturz::workflow {
 namespace fs = std::filesystem;
@@ -49,8 +50,16 @@ auto with_table(const Scenario& scenario, Use use) {
 
 DesignTable new_design(const Scenario& scenario) {
   if (scenario.ensemble.design != Design::table) return draw_design(scenario);
-  return with_table(scenario, [&](const DesignTable& rows) {
+  return with_table(scenario, [&](DesignTable rows) {
+    if (rows.is_posterior) rows = with_prior_columns(scenario, std::move(rows));
     return table_design(scenario, rows.keys, rows.values);
+  });
+}
+
+std::vector<std::string> keys_from_prior(const Scenario& scenario) {
+  if (scenario.ensemble.design != Design::table) return {};
+  return with_table(scenario, [&](const DesignTable& rows) {
+    return rows.is_posterior ? keys_without_column(scenario, rows) : std::vector<std::string>{};
   });
 }
 

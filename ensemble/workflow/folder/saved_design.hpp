@@ -11,6 +11,10 @@ namespace sturz::workflow {
 /// Draws the design, or reads the user's table when the scenario says `design: table`.
 DesignTable new_design(const Scenario&);
 
+/// Uncertain keys that a posterior as `ensemble.table` says nothing of: each is drawn from its own
+/// distribution. Empty for any other design. \throws SetupError
+std::vector<std::string> keys_from_prior(const Scenario&);
+
 /// Rows of the user's table, whether members use them or not. \throws SetupError
 std::int64_t rows_of_table(const Scenario&);
 

@@ -58,6 +58,18 @@ void warn_of_unused_rows(const Scene& scene, const DesignTable& design, Warnings
         scene.scenario.ensemble.table, design.n_members(), rows, design.n_members()));
 }
 
+/// What was found without a value may lie elsewhere beside it.
+void warn_of_prior_columns(const Scene& scene, Warnings& out) {
+  const std::vector<std::string> keys = keys_from_prior(scene.scenario);
+  if (keys.empty()) return;
+  out.push_back(fmt::format(
+      "drawn from {} own distribution{}, independently of the rest: {}. The posterior in "
+      "ensemble.table = {} says nothing of {}, and was found while {} one number",
+      keys.size() == 1 ? "its" : "their", keys.size() == 1 ? "" : "s", comma_separated(keys),
+      scene.scenario.ensemble.table, keys.size() == 1 ? "it" : "them",
+      keys.size() == 1 ? "it was" : "each was"));
+}
+
 /// Release thickness of each member over that of the medians.
 std::vector<double> thickness_scales(const Scene& scene, const DesignTable& design) {
   const ReleaseSpec& r = scene.medians.release;
@@ -144,6 +156,7 @@ Warnings ensemble_warnings(const Scene& scene, const DesignTable& design) {
   warn_of_copies(scene, design, out);
   warn_of_idle_draws(scene, out);
   warn_of_unused_rows(scene, design, out);
+  warn_of_prior_columns(scene, out);
   warn_of_layers(scene, design, out);
   warn_of_no_brake(scene, design, out);
   return out;

@@ -257,6 +257,53 @@ void require_on_maps(Reading& r) {
     check(event.speeds[i].point, fmt::format("observation.speeds[{}].point_m", i));
 }
 
+/// No member can be longer or wider than its terrain: such a number was mostly written in another
+/// unit, or the terrain is too small to show the event.
+void require_within_terrain(Reading& r) {
+  const Grid& g = r.maps;
+  const double diagonal = std::hypot(g.n_cols, g.n_rows) * g.cell_m;
+  const auto check = [&r](const std::string& key, double value, double most, const char* unit,
+                          const char* than) {
+    if (!(value > most)) return;
+    r.problems.push_back(fmt::format(
+        "{} = {:g} {}: {}, {:.4g} {} (no member could come that far). Check the unit, or use a "
+        "larger terrain.",
+        key, value, unit, than, most, unit));
+  };
+  const ObservedEvent& e = r.read.event;
+  const char* longer = "is longer than the terrain is across";
+  if (e.runout_m) check("observation.runout_m.value", e.runout_m->value, diagonal, "m", longer);
+  if (e.com_travel_m)
+    check("observation.com_travel_m.value", e.com_travel_m->value, diagonal, "m", longer);
+  if (e.area_m2)
+    check("observation.area_m2.value", e.area_m2->value,
+          static_cast<double>(g.n_cols) * g.n_rows * g.cell_m * g.cell_m, "m2",
+          "is more than the terrain's area");
+  double along = 0;  // a thalweg may wind
+  for (std::size_t i = 1; i < e.thalweg.size(); ++i)
+    along += (e.thalweg[i] - e.thalweg[i - 1]).norm();
+  for (std::size_t i = 0; i < e.fronts.size(); ++i)
+    if (e.fronts[i].distance_m)
+      check(fmt::format("observation.fronts[{}].distance_m", i), *e.fronts[i].distance_m,
+            std::max(along, diagonal), "m",
+            along > diagonal ? "is longer than the thalweg" : longer);
+}
+
+/// Possible, and of little use.
+void doubt_deviations(EventRead& read) {
+  const auto check = [&read](const char* key, const std::optional<Measured>& m) {
+    if (m && m->sd > m->value)
+      read.warnings.push_back(fmt::format(
+          "observation.{}: its standard deviation of {:g} is larger than its value of {:g}, so it "
+          "says next to nothing. Are both in the same unit?",
+          key, m->sd, m->value));
+  };
+  const ObservedEvent& e = read.event;
+  check("runout_m", e.runout_m), check("h_over_l", e.h_over_l);
+  check("com_travel_m", e.com_travel_m), check("volume_m3", e.volume_m3);
+  check("area_m2", e.area_m2);
+}
+
 /// A deposit lies where something passed: two layers that say otherwise are of different events,
 /// or in different places.
 void compare_areas(EventRead& read) {
@@ -327,10 +374,12 @@ EventRead read_observed_event(const Scenario& scenario, const Grid& maps,
   read_corners(r);
   const bool has_source = take_origin(r, release);
   if (r.has_maps()) require_on_maps(r);
+  if (r.has_maps()) require_within_terrain(r);
   require(r.problems.empty(), fmt::format("{}", fmt::join(r.problems, "\n")));
   if (r.has_maps()) compare_areas(r.read);
   if (r.has_maps() && has_source) doubt_place(r.read, *release);
   if (has_source) doubt_direction(r.read);
+  doubt_deviations(r.read);
   note_threshold(r.read.event, r.read);
   return std::move(r.read);
 }

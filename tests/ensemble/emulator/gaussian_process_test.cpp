@@ -153,7 +153,7 @@ TEST(QuantityEmulator, CountsWhatIsCensoredAndUsesBoundsThatContradict) {
   simulated[3] = {simulated[3].value - 5, Known::at_least};  // says nothing new
   simulated[4] = {simulated[4].value + 5, Known::at_least};
   simulated[5].known = Known::not_at_all;
-  const EmulatorReport r = emulate("runout_m", cube, simulated).report;
+  const EmulatorReport r = emulate("runout_m", cube, simulated).report();
   EXPECT_EQ(r.n_exact, 37);
   EXPECT_EQ(r.n_at_least, 2);
   EXPECT_EQ(r.n_bounds_used, 1);
@@ -174,9 +174,9 @@ TEST(QuantityEmulator, ChosenMembersTeachHoweverManyWereDrawn) {
   EXPECT_EQ(teachers.front(), 5U);
   EXPECT_EQ(teachers.back(), 404U);
   const QuantityEmulator e = emulate("runout_m", cube, simulated);
-  EXPECT_EQ(e.report.n_exact, 404);
-  EXPECT_EQ(e.report.n_used, 400);
-  EXPECT_GT(e.process.mean_at(cube.back()), wavy(cube.back()) + 0.3);
+  EXPECT_EQ(e.report().n_exact, 404);
+  EXPECT_EQ(e.report().n_used, 400);
+  EXPECT_GT(e.mean_at(cube.back()), wavy(cube.back()) + 0.3);
 }
 
 /// Beyond a bound lies what a normal there would reach, not the bound itself.
@@ -189,15 +189,14 @@ TEST(QuantityEmulator, BoundsTeachWhatLiesBeyondThem) {
     as_values[i] = {cut[i].value, Known::exactly};
   }
   const QuantityEmulator e = emulate("runout_m", cube, cut);
-  ASSERT_GT(e.report.n_bounds_used, 5);
-  EXPECT_LT(e.report.lowest_bound_used, 1);
-  EXPECT_EQ(e.report.n_used, e.report.n_exact + e.report.n_bounds_used);
+  ASSERT_GT(e.report().n_bounds_used, 5);
+  EXPECT_LT(e.report().lowest_bound_used, 1);
+  EXPECT_EQ(e.report().n_used, e.report().n_exact + e.report().n_bounds_used);
   const QuantityEmulator taken = emulate("runout_m", cube, as_values);
   double more = 0;
   for (std::size_t i = 0; i < 40; ++i)
-    if (cut[i].known == Known::at_least)
-      more += e.process.mean_at(cube[i]) - taken.process.mean_at(cube[i]);
-  EXPECT_GT(more / static_cast<double>(e.report.n_bounds_used), 0.01);
+    if (cut[i].known == Known::at_least) more += e.mean_at(cube[i]) - taken.mean_at(cube[i]);
+  EXPECT_GT(more / static_cast<double>(e.report().n_bounds_used), 0.01);
 }
 
 std::string error_of(const Points& cube, const std::vector<Observation>& simulated) {

@@ -284,6 +284,25 @@ TEST_F(ObservedEvents, AllThatIsWrongIsToldInOneRound) {
                     HasSubstr("holds a Point, not a line")));
 }
 
+TEST_F(ObservedEvents, LengthsBeyondTheTerrainAreRefusedAndWideOnesDoubted) {
+  spec().runout_m = MeasuredSpec{70000.0, 10.0};
+  spec().com_travel_m = MeasuredSpec{60000.0, 10.0};
+  spec().area_m2 = MeasuredSpec{1e9, 1e6};
+  spec().fronts = {{{"time_s", {3}}, {"distance_m", {50000}}, {"sd_m", {5}}}};
+  const std::string message = message_of([&] { load(); });
+  EXPECT_THAT(message,
+              AllOf(HasSubstr("observation.runout_m.value = 70000 m: is longer than the terrain"),
+                    HasSubstr("observation.com_travel_m.value = 60000 m"),
+                    HasSubstr("observation.area_m2.value = 1e+09 m2: is more than"),
+                    HasSubstr("observation.fronts[0].distance_m = 50000 m")));
+  spec().com_travel_m.reset(), spec().area_m2.reset(), spec().fronts.clear();
+  spec().runout_m = MeasuredSpec{70.0, 90.0};
+  EXPECT_THAT(load_scene_inputs(scene).warnings,
+              Contains(HasSubstr("observation.runout_m: its standard deviation of 90 is larger")));
+  spec().runout_m = MeasuredSpec{70.0, 10.0};
+  EXPECT_THAT(load_scene_inputs(scene).warnings, Not(Contains(HasSubstr("standard deviation"))));
+}
+
 TEST_F(ObservedEvents, OtherSystemsAreReprojected) {
   // The same place in degrees, as elsewhere; without a system GeoJSON is WGS84.
   write("mapped.geojson",
