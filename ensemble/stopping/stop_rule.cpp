@@ -36,7 +36,7 @@ std::int64_t certain_count(double half_width) {
 
 std::int64_t expected_count(const StopRecord& record, const std::vector<std::int64_t>& looks) {
   const Look& last = record.last;
-  double n = static_cast<double>(certain_count(record.wanted_half_width));
+  auto n = static_cast<double>(certain_count(record.wanted_half_width));
   if (last.found.n_valid > 0) {
     const double ratio = last.found.half_width / record.wanted_half_width;
     n = static_cast<double>(last.n_members) * std::max(1.0, ratio * ratio);

@@ -16,6 +16,10 @@ namespace {
 class Geos : public ::testing::Test {
  protected:
   Geos() : context_(GEOS_init_r()) {}
+  Geos(const Geos&) = delete;
+  Geos& operator=(const Geos&) = delete;
+  Geos(Geos&&) = delete;
+  Geos& operator=(Geos&&) = delete;
   ~Geos() override { GEOS_finish_r(context_); }
 
   struct Closer {
@@ -60,7 +64,7 @@ std::vector<Vec2> ragged_ring(std::mt19937& random, const Vec2& centre) {
   constexpr int n = 40;
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * i / n;
-    ring.push_back(centre + radius(random) * Vec2(std::cos(angle), std::sin(angle)));
+    ring.emplace_back(centre + radius(random) * Vec2(std::cos(angle), std::sin(angle)));
   }
   ring.push_back(ring.front());
   return ring;
