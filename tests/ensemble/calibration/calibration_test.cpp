@@ -359,7 +359,7 @@ double held_share(const Posterior& p) {
 TEST(Step, ThePosteriorLiesOnTheSideThatWasObserved) {
   for (const double observed : {975.0, 1645.0}) {
     const Calibration c = calibrate(bench_data(observed), {});
-    EXPECT_NEAR(held_share(c.posterior), observed < 1300 ? 1 : 0, 0.06) << observed;
+    EXPECT_NEAR(held_share(c.posterior), observed < 1300 ? 1 : 0, 0.1) << observed;
     EXPECT_NEAR(c.check[0].median, observed, 40);
     EXPECT_THAT(c.warnings, testing::Contains(HasSubstr("runout_m jumps: ")));
     EXPECT_THAT(c.warnings, testing::Not(testing::Contains(HasSubstr("lies in the gap"))));

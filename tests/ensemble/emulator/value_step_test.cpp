@@ -129,7 +129,7 @@ TEST(EmulatorBesideAStep, MembersAreWantedWhereTheSidesMeet) {
     if (off < 0.05 && v > at_the_step) at_the_step = v, widest = u;
     if (off > 0.3) far = std::max(far, v);
   }
-  EXPECT_GT(at_the_step, 10 * far);
+  EXPECT_GT(at_the_step, 3 * far);
   EXPECT_LT(e.with_point(widest).at(widest).variance, 0.5 * at_the_step);
 }
 
