@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace sturz {
 
-PathDistance::PathDistance(std::vector<Vec2> thalweg, const Vec2& origin) : origin_(origin) {
+PathDistance::PathDistance(const std::vector<Vec2>& thalweg, Vec2 origin)
+    : origin_(std::move(origin)) {
   for (const Vec2& p : thalweg)
     if (corners_.empty() || p != corners_.back()) corners_.push_back(p);
   if (corners_.size() < 2) corners_.clear();

@@ -14,7 +14,7 @@ namespace sturz {
 class PathDistance {
  public:
   /// \param thalweg corners down the path; fewer than two: straight from `origin`
-  PathDistance(std::vector<Vec2> thalweg, const Vec2& origin);
+  PathDistance(const std::vector<Vec2>& thalweg, Vec2 origin);
 
   bool along_thalweg() const { return !corners_.empty(); }
   double at(const Vec2& place) const;

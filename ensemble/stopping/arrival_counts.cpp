@@ -33,7 +33,8 @@ void ArrivalCounts::add(const Window& window, std::span<const float> arrival) {
         static_cast<std::uint64_t>(row / edge) << 32 | static_cast<std::uint64_t>(col / edge);
     std::vector<std::uint32_t>& hits = hits_[tile];
     if (hits.empty()) hits.assign(std::size_t{edge} * edge, 0);
-    std::uint32_t& here = hits[static_cast<std::size_t>(row % edge * edge + col % edge)];
+    std::uint32_t& here =
+        hits[static_cast<std::size_t>(row % edge) * edge + static_cast<std::size_t>(col % edge)];
     if (here > 0) --n_cells_[here];
     ++n_cells_[++here];
   }

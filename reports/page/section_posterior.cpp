@@ -92,12 +92,11 @@ std::string keys_table(const PosteriorShown& p) {
 
 /// What the emulator expects of the best fit, and what its member gave.
 std::string best_text(const PosteriorShown::Quantity& q, double factor) {
-  std::string text = shown_number(factor * q.best_expected);
+  const std::string text = shown_number(factor * q.best_expected);
   if (q.best_computed.empty() && std::isnan(q.best_member)) return text;
-  text += "; member " + q.best_computed;
-  if (!std::isnan(q.best_member))
-    text += (q.best_computed.empty() ? "" : " ") + shown_number(factor * q.best_member);
-  return text;
+  const std::string gave = std::isnan(q.best_member) ? "" : shown_number(factor * q.best_member);
+  const char* gap = q.best_computed.empty() || gave.empty() ? "" : " ";
+  return fmt::format("{}; member {}{}{}", text, q.best_computed, gap, gave);
 }
 
 std::string q2_text(const PosteriorShown::Quantity& q) {
