@@ -92,7 +92,7 @@ std::string keys_table(const PosteriorShown& p) {
 
 /// What the emulator expects of the best fit, and what its member gave.
 std::string best_text(const PosteriorShown::Quantity& q, double factor) {
-  const std::string text = shown_number(factor * q.best_expected);
+  std::string text = shown_number(factor * q.best_expected);
   if (q.best_computed.empty() && std::isnan(q.best_member)) return text;
   const std::string gave = std::isnan(q.best_member) ? "" : shown_number(factor * q.best_member);
   const char* gap = q.best_computed.empty() || gave.empty() ? "" : " ";
