@@ -101,7 +101,8 @@ void warn_of_bounds(Calibration& c) {
   }
 }
 
-/// Where values jump the observation may fit no side.
+/// Where values jump the observation may fit no side: it lies farther from both than the
+/// measurement errs.
 void warn_of_steps(Calibration& c) {
   for (std::size_t q = 0; q < c.emulators.size(); ++q) {
     if (!c.emulators[q].step) continue;
@@ -113,10 +114,10 @@ void warn_of_steps(Calibration& c) {
         "probability ({:.0f} % of the members' sides are told by the others): one smooth emulator "
         "would expect what no member does.",
         o.name, s.n_below, s.least, s.below, o.unit, s.n_above, s.above, s.most, 100 * s.told);
-    if (s.below < o.value && o.value < s.above)
+    if (s.below + 2 * o.sd < o.value && o.value < s.above - 2 * o.sd)
       text += fmt::format(
-          " The observed {:.4g} lies in the gap: only the errors of model and measurement explain "
-          "it, whatever the uncertain values are. Look on the ground for what stops the members at "
+          " The observed {:.4g} lies in the gap: only an error of the model explains it, "
+          "whatever the uncertain values are. Look on the ground for what stops the members at "
           "{:.4g}, and compute more of them (--active).",
           o.value, s.below);
     c.warnings.push_back(std::move(text));

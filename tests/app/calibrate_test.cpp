@@ -84,7 +84,7 @@ TEST_F(Calibrate, ChosenMembersAreNotForgotten) {
   const Ended weighed = calibrate({"-n", "16", "--method", "weights", "--json"});
   ASSERT_EQ(weighed.exit_code, 0) << weighed.err;
   EXPECT_EQ(event(weighed, "done").at("sample").at("members_chosen"), 0);
-  EXPECT_THAT(weighed.err, HasSubstr("6 members that earlier --active rounds chose have no say"));
+  EXPECT_THAT(weighed.out, HasSubstr("6 members that earlier --active rounds chose have no say"));
   EXPECT_THAT(read("out/report.html"), HasSubstr("--active rounds chose have no say"));
 }
 
