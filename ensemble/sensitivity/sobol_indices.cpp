@@ -36,11 +36,16 @@ std::vector<std::size_t> whole_sets(std::span<const Observation> results, std::s
   return whole;
 }
 
-std::vector<Share> shares(const OT::Point& values, const OT::Interval& interval) {
+/// Martinez' first indices are correlations r, his total ones 1 - r. Where r is 1 to rounding the
+/// asymptotic interval is 0 / 0 and may be anything: it ends where a correlation does.
+std::vector<Share> shares(const OT::Point& values, const OT::Interval& interval, double least,
+                          double most) {
   std::vector<Share> all;
-  for (OT::UnsignedInteger d = 0; d < values.getSize(); ++d)
-    all.push_back({values[d], std::min(values[d], interval.getLowerBound()[d]),
-                   std::max(values[d], interval.getUpperBound()[d])});
+  for (OT::UnsignedInteger d = 0; d < values.getSize(); ++d) {
+    const double value = std::clamp(values[d], least, most);
+    all.push_back({value, std::max(least, std::min(value, interval.getLowerBound()[d])),
+                   std::min(most, std::max(value, interval.getUpperBound()[d]))});
+  }
   return all;
 }
 
@@ -68,13 +73,19 @@ std::optional<SobolIndices> sobol_indices(const Points& cube,
       out(to, 0) = results[from].value;
     }
   if (!varies(out)) return {};
+  if (n_dims == 1) {  // what varies does so by this value alone
+    found.first = found.total = {{1, 1, 1}};
+    return found;
+  }
   OT::Log::Show(OT::Log::NONE);
   try {
     OT::MartinezSensitivityAlgorithm martinez(in, out, n);
     martinez.setUseAsymptoticDistribution(true);  // draws nothing
     martinez.setConfidenceLevel(0.95);
-    found.first = shares(martinez.getFirstOrderIndices(), martinez.getFirstOrderIndicesInterval());
-    found.total = shares(martinez.getTotalOrderIndices(), martinez.getTotalOrderIndicesInterval());
+    found.first =
+        shares(martinez.getFirstOrderIndices(), martinez.getFirstOrderIndicesInterval(), -1, 1);
+    found.total =
+        shares(martinez.getTotalOrderIndices(), martinez.getTotalOrderIndicesInterval(), 0, 2);
   } catch (const OT::Exception&) {
     return {};
   }

@@ -158,5 +158,21 @@ TEST(Morris, EffectsWithACensoredEndAreLeftOutAndCounted) {
   EXPECT_TRUE(std::isnan(morris_measures(cube, some)[0].mean_absolute));
 }
 
+/// One uncertain value has every share, and one that decides beside an idle one at most all.
+TEST(SobolIndices, EndWhereSharesEnd) {
+  const auto alone = saltelli_cube(192, 1, 5), beside = saltelli_cube(256, 2, 5);
+  for (const auto& cube : {alone, beside}) {
+    std::vector<Observation> results;
+    for (const auto& u : cube) results.push_back({std::exp(3 * u[0]), Known::exactly});
+    const auto found = sobol_indices(cube, results);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_NEAR(found->first[0].value, 1, 1e-9);
+    EXPECT_GE(found->first[0].lower, -1);
+    EXPECT_LE(found->first[0].upper, 1);
+    EXPECT_GE(found->total.back().lower, 0);
+    EXPECT_LE(found->total[0].upper, 2);
+  }
+}
+
 }  // namespace
 }  // namespace sturz
