@@ -20,13 +20,7 @@ CellStatistics::CellStatistics(const HazardLayers& layers, std::size_t n_members
 }
 
 void CellStatistics::add(const CellRows& rows) {
-  if (rows.window.row0 == rows.block.row0) block_.begin(rows.block);
-  const auto skipped = static_cast<std::size_t>(rows.window.row0 - rows.block.row0) *
-                       static_cast<std::size_t>(rows.block.n_cols);
-  for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
-    if (rows.members_of(i).empty()) continue;
-    const std::size_t cell = skipped + i;
-    block_.touch(cell);
+  block_.add(rows, [&](std::size_t i, std::size_t cell) {
     reached(rows, i, cell);
     for (const QuantityLayers& q : layers_.quantities) quantity(q, rows, i, cell);
     intensity(rows, i, cell);
@@ -35,8 +29,7 @@ void CellStatistics::add(const CellRows& rows) {
       block_.put(*layers_.mass_left, 0, cell,
                  share(std::count_if(left.begin(), left.end(), [](float v) { return v > 0; })));
     }
-  }
-  if (rows.completes_block()) block_.finish(rows.block);
+  });
 }
 
 void CellStatistics::reached(const CellRows& rows, std::size_t i, std::size_t cell) {

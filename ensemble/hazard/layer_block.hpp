@@ -4,6 +4,7 @@
 
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/known_ground.hpp"
+#include "ensemble/hazard/member_cells.hpp"
 #include "scenarios/layers/layer_stream.hpp"
 
 #include <span>
@@ -22,6 +23,26 @@ class LayerBlock {
         to_(to),
         values_(layers.stack.layers.size()) {}
 
+  /// Takes the rows of a block one after the other. \param begin (block) before its first ones
+  /// \param fill (cell of the rows, cell of the block) for each cell that a member touched; after
+  /// the last ones the block is handed over
+  template <class Begin, class Fill>
+  void add(const CellRows& rows, const Begin& begin, const Fill& fill) {
+    if (rows.window.row0 == rows.block.row0) begin(rows.block);
+    const auto skipped = static_cast<std::size_t>(rows.window.row0 - rows.block.row0) *
+                         static_cast<std::size_t>(rows.block.n_cols);
+    for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
+      if (rows.members_of(i).empty()) continue;
+      touched_[skipped + i] = true;  // known ground: a member came
+      fill(i, skipped + i);
+    }
+    if (rows.completes_block()) finish(rows.block);
+  }
+  template <class Fill>
+  void add(const CellRows& rows, const Fill& fill) {
+    add(
+        rows, [this](const Window& block) { begin(block); }, fill);
+  }
   /// Every cell as if no member came.
   void begin(const Window& block) {
     n_cells_ = block.n_cells();
@@ -29,11 +50,11 @@ class LayerBlock {
     for (std::size_t l = 0; l < values_.size(); ++l)
       values_[l].assign(layers_.stack.layers[l].n_planes() * n_cells_, layers_.untouched[l]);
   }
-  /// A member came: the cell counts as known ground.
-  void touch(std::size_t cell) { touched_[cell] = true; }
   void put(std::size_t layer, std::size_t plane, std::size_t cell, double value) {
     values_[layer][plane * n_cells_ + cell] = static_cast<float>(value);
   }
+
+ private:
   /// Takes out what lies on no known ground, and hands the block over.
   void finish(const Window& block) {
     for (std::size_t cell = 0; cell < n_cells_; ++cell) {
@@ -52,7 +73,6 @@ class LayerBlock {
         to_.put(l, plane, window, std::span(values_[l]).subspan(plane * n_cells_, n_cells_));
   }
 
- private:
   const HazardLayers& layers_;
   Window extent_;
   KnownGround ground_;

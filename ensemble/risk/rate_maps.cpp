@@ -116,15 +116,7 @@ class RateStatistics {
         block_(layers, extent, std::move(ground), to) {}
 
   void add(const CellRows& rows) {
-    if (rows.window.row0 == rows.block.row0) block_.begin(rows.block);
-    const auto skipped = static_cast<std::size_t>(rows.window.row0 - rows.block.row0) *
-                         static_cast<std::size_t>(rows.block.n_cols);
-    for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
-      if (rows.members_of(i).empty()) continue;
-      block_.touch(skipped + i);
-      cell(rows, i, skipped + i);
-    }
-    if (rows.completes_block()) block_.finish(rows.block);
+    block_.add(rows, [&](std::size_t i, std::size_t to) { cell(rows, i, to); });
   }
 
  private:

@@ -131,17 +131,11 @@ class IndexStatistics {
   }
 
   void add(const CellRows& rows) {
-    if (rows.window.row0 == rows.block.row0) block_.begin(rows.block);
-    const auto skipped = static_cast<std::size_t>(rows.window.row0 - rows.block.row0) *
-                         static_cast<std::size_t>(rows.block.n_cols);
-    for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
-      if (rows.members_of(i).empty()) continue;
-      block_.touch(skipped + i);
+    block_.add(rows, [&](std::size_t i, std::size_t to) {
       for (const Result& result : layers_.results)
         for (std::size_t plane = 0; plane < result.n_planes(); ++plane)
-          cell(result, plane, rows, i, skipped + i);
-    }
-    if (rows.completes_block()) block_.finish(rows.block);
+          cell(result, plane, rows, i, to);
+    });
   }
 
  private:

@@ -18,21 +18,14 @@ WeightedStatistics::WeightedStatistics(const HazardLayers& layers, std::span<con
       block_(layers, extent, std::move(ground), to) {}
 
 void WeightedStatistics::add(const CellRows& rows) {
-  if (rows.window.row0 == rows.block.row0) block_.begin(rows.block);
-  const auto skipped = static_cast<std::size_t>(rows.window.row0 - rows.block.row0) *
-                       static_cast<std::size_t>(rows.block.n_cols);
-  for (std::size_t i = 0; i < rows.window.n_cells(); ++i) {
-    if (rows.members_of(i).empty()) continue;
-    const std::size_t cell = skipped + i;
-    block_.touch(cell);
+  block_.add(rows, [&](std::size_t i, std::size_t cell) {
     reached(rows, i, cell);
     for (const QuantityLayers& q : layers_.quantities) quantity(q, rows, i, cell);
     intensity(rows, i, cell);
     if (layers_.mass_left)
       block_.put(*layers_.mass_left, 0, cell,
                  weight_of(rows, PeakLayer::left, i, [](float v) { return v > 0; }));
-  }
-  if (rows.completes_block()) block_.finish(rows.block);
+  });
 }
 
 void WeightedStatistics::reached(const CellRows& rows, std::size_t i, std::size_t cell) {
