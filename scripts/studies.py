@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Makes the studies of docs/studies again that rest on the three-dimensional solver, and puts their tables into their pages.
+
+usage: scripts/studies.py [--list] [NAME ...]    (all when no name is given: some three hours on two cores)
+Needs a release build with tests (./test.sh, or cmake --build build/release), python3-numpy, python3-netcdf4, python3-gdal,
+python3-matplotlib. A page keeps its words; what stands between <!-- made by NAME --> and <!-- end --> is replaced, with
+the day and the machine. Read the words again: they may no longer fit.
+"""
+import datetime
+import pathlib
+import platform
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+STUDIES, BUILD, OUT = ROOT / "docs/studies", ROOT / "build/release", ROOT / "build/studies"
+STURZ, BENCH = str(BUILD / "ensemble/app/sturz"), str(BUILD / "tests/bench/sturz_bench")
+
+
+def script(name, *arguments):
+    return ["/usr/bin/python3", str(STUDIES / f"{name}.py"), *arguments]
+
+
+# Name: (page, commands whose output is the block). An empty page: the command writes its own file.
+MADE = {
+    "verification": ("", [["ctest", "--test-dir", str(BUILD), "-L", "^physics$"],
+                          ["python3", str(ROOT / "scripts/verification_table.py"), str(BUILD), str(STUDIES / "verification_table.md")]]),
+    "stability": ("", [[BENCH, "hard", "--full", "--states", "both", "--markdown", str(STUDIES / "stability.md")]]),
+    "error_against_seconds": ("error_against_seconds.md",
+                              [script("error_against_seconds", "measure", STURZ, str(OUT / "ladder")),
+                               script("error_against_seconds", "show", str(OUT / "ladder/figures.json"),
+                                      str(STUDIES / "error_against_seconds_earlier.json"),
+                                      str(ROOT / "docs/images/error_against_seconds.png"))]),
+    "beside_the_paper": ("beside_the_paper.md", [script("beside_the_paper", STURZ, str(OUT / "paper"))]),
+}
+
+
+def machine():
+    model = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.machine())
+    commit = subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"], capture_output=True, text=True).stdout.strip()
+    return f"{datetime.date.today()}, {model}, release preset, commit {commit}."
+
+
+def put(page, name, text):
+    """Replaces the block of a page. \\raises ValueError when the page has none."""
+    path = STUDIES / page
+    words, begin, end = path.read_text(), f"<!-- made by {name} -->", "<!-- end -->"
+    if begin not in words:
+        raise ValueError(f"{path}: no line {begin}")
+    head, rest = words.split(begin, 1)
+    path.write_text(f"{head}{begin}\n{text.strip()}\n\n{machine()}\n{end}{rest.split(end, 1)[1]}")
+
+
+def make(name):
+    page, commands = MADE[name]
+    well = True
+    for command in commands:  # tests that fail and bounds that do not hold are written down, too
+        done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
+        if done.returncode != 0:
+            print(f"{name}: {' '.join(command)} ended with {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}", file=sys.stderr)
+            well = False
+    if well or page.startswith(WHOLE):
+        if page.startswith(WHOLE):
+            (STUDIES / page.removeprefix(WHOLE)).write_text(done.stdout)
+        elif page:
+            put(page, name, done.stdout)
+    print(f"{name}: {'made again' if well else 'look at what failed'}")
+    return well
+
+
+def main(arguments):
+    if "--list" in arguments:
+        print("\n".join(MADE))
+        return 0
+    unknown = [name for name in arguments if name not in MADE]
+    if unknown:
+        print(f"no study is called {', '.join(unknown)}; there are {', '.join(MADE)}", file=sys.stderr)
+        return 2
+    OUT.mkdir(parents=True, exist_ok=True)
+    return 0 if all([make(name) for name in arguments or MADE]) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
