@@ -53,10 +53,15 @@ inline double plane_strain_angle(double slope) {
   return slope < 1 ? std::asin(slope) : std::numeric_limits<double>::infinity();
 }
 
-/// Horizontal over vertical stress of a level mass at rest, 1 - sin(phi) (Jaky 1944).
+/// Horizontal over vertical stress of a level mass at rest, 1 - sin(phi) (Jaky 1944), but no less
+/// than the cone bears with both horizontal stresses alike: (sqrt 3 - M)/(sqrt 3 + 2 M). That binds
+/// on the cone of plane strain from 39.4 degrees on.
 /// \param slope  M
 inline double pressure_ratio_at_rest(FrictionCone cone, double slope) {
-  return 1 - (cone == FrictionCone::simple_shear ? slope / std::sqrt(1 + slope * slope) : slope);
+  const double jaky =
+      1 - (cone == FrictionCone::simple_shear ? slope / std::sqrt(1 + slope * slope) : slope);
+  const double root3 = std::sqrt(3.0);
+  return std::fmax(jaky, (root3 - slope) / (root3 + 2 * slope));
 }
 
 }  // namespace sturz

@@ -70,11 +70,12 @@ TEST(FrictionCone, PorePressureLeavesTheLawOfThePressureBetweenTheGrains) {
 
 TEST(FrictionCone, PressureAtRestLiesInsideTheCone) {
   for (const FrictionCone cone : {FrictionCone::simple_shear, FrictionCone::plane_strain})
-    for (const double angle : {10.0, 33.0, 44.0}) {
+    for (const double angle : {10.0, 33.0, 39.0, 44.0, 60.0}) {
       const double slope = cone_slope(cone, std::tan(angle * degree));
       const double k0 = pressure_ratio_at_rest(cone, slope);
-      EXPECT_NEAR(k0, 1 - std::sin(angle * degree), 1e-14);
-      EXPECT_LT((1 - k0) / std::sqrt(3.0), slope * (1 + 2 * k0) / 3);
+      EXPECT_LE((1 - k0) / std::sqrt(3.0), slope * (1 + 2 * k0) / 3 + 1e-14) << angle;
+      if (cone == FrictionCone::simple_shear || angle < 39.4)
+        EXPECT_NEAR(k0, 1 - std::sin(angle * degree), 1e-14);
     }
 }
 
