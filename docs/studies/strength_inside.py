@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Strength inside the mass, full stress: both friction cones, and pore pressure inside or at the bed alone.
 
-usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [pile|slope|s1000 ...]   (needs gdal_translate)
-`pile`: a heap steeper than its friction angle, the slope that it comes down to. `slope`: six layers without end on a rough bed around their
+usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|slope|s1000 ...]   (needs gdal_translate)
+`collapse`: V8b, the slice of a column beside its run-out laws. `pile`: a heap steeper than its friction angle, the slope that it comes down to. `slope`: six layers without end on a rough bed around their
 friction angle. `s1000`: the landslide of 2021 beside its DEM of difference; DATA_FOLDER/s1000_sthelens holds
 pre_runout_DEM.asc, landslide_depth.asc and DEM_of_Difference.asc. Prints tables.
 """
@@ -14,6 +14,23 @@ import sys
 from erosion_s1000 import centre, layer, read_grid, run
 
 CONES = ("simple_shear", "plane_strain")
+
+COLLAPSE = """
+title: Collapse of a slice
+terrain: {{synthetic: {{plane: {{cell_size_m: {cell}, slope_deg: 0, length_m: {length}, width_m: {width}}}}}}}
+release: {{box: {{x_m: [0, 1], y_m: [-{half}, {half}]}}, thickness_m: {aspect}}}
+grains: {{diameter_m: 0.01, {friction}, friction_cone: {cone}}}
+basal: {{friction_coefficient: {bed}}}
+formulation: full_stress
+domain: {{periodic: [y], walls: [{{point_m: [0, 0, 0], normal: [1, 0, 0]}}]}}
+numerics: {{spacing_m: {dx}, end_time_s: {end}, accept_unresolved: true}}
+hazard: {{cell_size_m: {dx}}}
+"""
+# Name, internal friction, angle of the bed, run-out over length by aspect ratio a, height over length (docs/physics.md V8b).
+GRAINS = (
+    ("sand", "friction_angle_deg: 31", 31, lambda a: 1.2 * a if a < 2.3 else 1.9 * a ** (2 / 3), lambda a: a if a < 0.7 else a ** (1 / 3)),
+    ("beads", "friction: {}", 27.4, lambda a: 1.67 * a if a < 2.3 else 2.7 * a ** (2 / 3), None),
+)
 
 PILE = """
 title: Steep pile
@@ -65,6 +82,29 @@ def pile_slope(cells, cell):
     part = [(r, h) for r, h in profile if 0.25 * top < h < 0.75 * top]
     mean_r, mean_h = sum(r for r, _ in part) / len(part), sum(h for _, h in part) / len(part)
     return math.degrees(math.atan(-sum((r - mean_r) * (h - mean_h) for r, h in part) / sum((r - mean_r) ** 2 for r, _ in part)))
+
+
+def collapses(sturz, _, out):
+    print("| grains | a | along | cone | run-out / L0, contour | law | height / L0 | law |\n|---|---|---|---|---|---|---|---|")
+    for name, friction, bed, far, high in GRAINS:
+        for aspect, along in ((0.5, 20), (1, 20), (2, 14), (5, 10)):
+            for cone in CONES:
+                dx = 1 / along
+                runout = 2 * dx * math.ceil((1.5 + 3 * aspect) / (2 * dx))
+                text = COLLAPSE.format(cell=2 * dx, length=2 * runout, width=4 * dx, half=2 * dx, aspect=aspect, friction=friction, cone=cone,
+                                       bed=math.tan(math.radians(bed)), dx=dx, end=8 * math.sqrt(aspect / 9.80665))
+                cells, _ = layer(run(sturz, out / f"collapse_{name}_{aspect}_{cone}", text), "deposit_thickness")
+                strips = {}
+                for (x, _), h in cells.items():
+                    strips.setdefault(round(x / dx - 0.5), []).append(h)
+                mean = {k: sum(v) / len(v) for k, v in strips.items() if k >= 0}
+                edge = max(k for k, h in mean.items() if h > 0.5 * dx)
+                # Between the last strip over half a spacing and the first under it.
+                after = mean.get(edge + 1, 0.0)
+                contour = (edge + 0.5 + (mean[edge] - 0.5 * dx) / (mean[edge] - after)) * dx - 1
+                top = max(h for k, h in mean.items() if (k + 0.5) * dx < 0.3)
+                law = f"{high(aspect):.2f}" if high else ""
+                print(f"| {name} | {aspect} | {along} | {cone} | {contour:.2f} | {far(aspect):.2f} | {top:.2f} | {law} |", flush=True)
 
 
 def piles(sturz, _, out):
@@ -131,9 +171,9 @@ def s1000(sturz, data, out):
 
 def main(sturz, data, out, *parts):
     out = pathlib.Path(out)
-    for part in parts or ("pile", "slope", "s1000"):
+    for part in parts or ("collapse", "pile", "slope", "s1000"):
         print(f"\n{part}")
-        {"pile": piles, "slope": slopes, "s1000": s1000}[part](sturz, data, out)
+        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[part](sturz, data, out)
 
 
 if __name__ == "__main__":
