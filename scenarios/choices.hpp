@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/words.hpp"
+#include "engine/laws/friction_cone.hpp"
 
 namespace sturz {
 
@@ -60,6 +61,12 @@ constexpr auto words_of(LateralPressure) {
 
 constexpr bool asks_for_internal_friction(LateralPressure p) {
   return p == LateralPressure::active || p == LateralPressure::active_passive;
+}
+
+/// Where an internal friction angle holds: in shear along a plane, or in plane strain.
+constexpr auto words_of(FrictionCone) {
+  using enum FrictionCone;
+  return std::array{Word{simple_shear, "simple_shear"}, Word{plane_strain, "plane_strain"}};
 }
 
 /// Pore pressure that a mixture starts with: that of still water, or all of the weight.

@@ -181,7 +181,9 @@ struct GrainsSpec {
   Uncertain cohesion_pa{0};
   Uncertain poisson_ratio{0.3};
   LateralPressure earth_pressure = LateralPressure::automatic;  ///< depth_averaged only
-  std::optional<GrainStatesSpec> states;                        ///< absent: every grain is dense
+  FrictionCone friction_cone = FrictionCone::simple_shear;      ///< full_stress only
+  bool pore_pressure_inside = false;  ///< basal.pore_pressure_ratio acts inside; full_stress only
+  std::optional<GrainStatesSpec> states;  ///< absent: every grain is dense
   bool operator==(const GrainsSpec&) const = default;
 };
 

@@ -14,6 +14,7 @@
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
+#include "scenarios/assembly/grains/strength_inside.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/raster_fields.hpp"
@@ -57,9 +58,9 @@ Called bed_called(const Scenario& s, const ScenePlan&) {
 Called walls_called(const Scenario& s, const ScenePlan&) {
   return by_key("domain.walls", !s.domain.walls.empty());
 }
-Called grain_stress_called(const Scenario&, const ScenePlan& plan) {
+Called grain_stress_called(const Scenario& s, const ScenePlan& plan) {
   if (columns(plan)) return {false, "not in depth_averaged"};
-  return {true, "`grains`: elastic + mu(I), 3-D, full stress"};
+  return {true, "`grains`: elastic + mu(I), 3-D, full stress; " + strength_text(s)};
 }
 Called kinetic_theory_called(const Scenario& s, const ScenePlan& plan) {
   const auto* states = states_of(s);

@@ -7,6 +7,7 @@
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
+#include "scenarios/assembly/grains/strength_inside.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/inflow/plan_masses.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
@@ -16,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sturz {
 namespace {
@@ -97,23 +97,6 @@ Domain make_domain(const DomainSpec& spec, const Raster<double>& elevation) {
   return d;
 }
 
-MuIRheology make_law(const GrainsSpec& g) {
-  MuIRheology law;
-  if (g.friction_angle_deg) {
-    law.static_friction = law.dynamic_friction =
-        std::tan(g.friction_angle_deg->value * std::numbers::pi / 180);
-  } else {
-    const FrictionLaw f = g.friction.value_or(FrictionLaw{});
-    law.static_friction = f.static_coefficient.value;
-    law.dynamic_friction = std::max(f.dynamic_coefficient.value, law.static_friction);
-    law.inertial_number_scale = f.inertial_number_scale.value;
-  }
-  law.grain_diameter = g.diameter_m.value;
-  law.grain_density = g.density_kg_m3.value;
-  law.cohesion = g.cohesion_pa.value;
-  return law;
-}
-
 /// The bed of each zone; what a zone does not give is that of the whole bed.
 std::vector<BasalResistance> basal_by_zone(const BasalSpec& spec) {
   BasalResistance all;
@@ -180,7 +163,7 @@ void plan_columns(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan
   c.instruction_set = best_instruction_set();
   c.earth_pressure.assign(bed.size(), EarthPressure{});
   const bool known = s.grains->friction || s.grains->friction_angle_deg;
-  c.internal_friction = known ? make_law(*s.grains).static_friction : 0;
+  c.internal_friction = known ? friction_law(*s.grains).static_friction : 0;
   c.active_passive = s.grains->earth_pressure == LateralPressure::active_passive;
   if (c.active_passive)
     for (std::size_t k = 0; k < bed.size(); ++k)
@@ -243,7 +226,8 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
       reference_speed(plan.bed, plan.release, least_friction, start, plan.end.end_time_s);
 
   GrainStressSettings& stress = plan.stress;
-  stress.law = make_law(*s.grains);
+  stress.law = law_inside(s);
+  stress.friction_cone = s.grains->friction_cone;
   stress.spacing = dx;
   stress.smoothing_length = h;
   stress.reference_density = plan.bulk_density_kg_m3;

@@ -15,10 +15,15 @@ std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged, bool
     if (s.grains && s.grains->friction_angle_deg && !s.grains->states) return {"grains.diameter_m"};
     return {};
   }
-  std::vector<std::string> paths{
-      "grains.cohesion_pa",           "grains.poisson_ratio",          "basal.restitution",
-      "numerics.sound_speed_factor",  "numerics.adaptive_sound_speed", "numerics.density_diffusion",
-      "numerics.artificial_viscosity"};
+  std::vector<std::string> paths{"grains.friction_cone",
+                                 "grains.pore_pressure_inside",
+                                 "grains.cohesion_pa",
+                                 "grains.poisson_ratio",
+                                 "basal.restitution",
+                                 "numerics.sound_speed_factor",
+                                 "numerics.adaptive_sound_speed",
+                                 "numerics.density_diffusion",
+                                 "numerics.artificial_viscosity"};
   const bool two = has_two_phases(s.mixture);
   const bool settles = two && s.mixture->drag_law == PhaseDragLaw::settling;
   if (!settles) paths.emplace_back("grains.diameter_m");

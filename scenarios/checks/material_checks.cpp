@@ -73,6 +73,27 @@ void check_states(const Scenario& s, Problems& problems) {
                             number_text(densest) + ", and 0.62). Raise it or leave it out."});
 }
 
+/// Inside the mass there is one ratio of pore pressure, that of `basal` itself.
+void check_pores_inside(const Scenario& s, Problems& problems) {
+  const char* const path = "grains.pore_pressure_inside";
+  if (!s.grains || !s.grains->pore_pressure_inside || s.formulation == Formulation::depth_averaged)
+    return;
+  const auto refuse = [&](const std::string& why, const std::string& cure) {
+    problems.push_back({path, shown(s, path) + " (" + why + "). " + cure});
+  };
+  if (s.mixture)
+    return refuse("mixture is there too, which computes the pore pressure", "Remove it.");
+  const std::string one = "; inside, one ratio holds for the whole scene";
+  const std::string cure = "Keep one of them; basal.pore_pressure_ratio acts in both places.";
+  if (!s.basal.rasters.pore_pressure_ratio.path.empty())
+    return refuse("basal.rasters.pore_pressure_ratio changes it from place to place" + one, cure);
+  for (std::size_t i = 0; i < s.basal.zones.size(); ++i)
+    if (s.basal.zones[i].pore_pressure_ratio)
+      return refuse("basal.zones[" + std::to_string(i) +
+                        "].pore_pressure_ratio changes it from place to place" + one,
+                    cure);
+}
+
 /// Columns have a drag and a lateral pressure of their own; particles get both from their stress.
 void check_formulation(const Scenario& s, Problems& problems) {
   if (s.formulation != Formulation::full_stress) return;
@@ -205,6 +226,7 @@ void check_drag(const Scenario& s, Problems& problems) {
 void check_material(const Scenario& s, Problems& problems) {
   check_grains(s, problems);
   check_states(s, problems);
+  check_pores_inside(s, problems);
   check_formulation(s, problems);
   check_mixture(s, problems);
   check_phases(s, problems);

@@ -21,6 +21,12 @@ TEST_P(Hard, CohesiveBankOf90PercentOfItsCriticalHeightStands) {
 TEST_P(Hard, CohesiveBankOf120PercentOfItsCriticalHeightFalls) {
   expect_holds(tall_bank_falls(GetParam()));
 }
+TEST_P(Hard, BankInPlaneStrainOf90PercentOfItsCriticalHeightStands) {
+  expect_holds(plane_strain_bank_stands(GetParam()));
+}
+TEST_P(Hard, BankInPlaneStrainOf120PercentOfItsCriticalHeightFalls) {
+  expect_holds(plane_strain_bank_falls(GetParam()));
+}
 TEST_P(Hard, CohesiveBarNeitherClumpsNorCrumblesWhenPulled) {
   expect_holds(stretched_bar(GetParam()));
 }

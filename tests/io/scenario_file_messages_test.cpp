@@ -50,6 +50,19 @@ TEST(ScenarioMessages, UnitMistake) {
                           "Was it an angle in degrees? tan 24 deg = 0.445."));
 }
 
+TEST(ScenarioMessages, StrengthInside) {
+  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  friction_cone: plane_strain\n"
+                             "  pore_pressure_inside: true\n")),
+              ElementsAre());
+  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  friction_cone: plane-strain\n")),
+              ElementsAre("?"));
+  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  pore_pressure_inside: 0.3\n")),
+              ElementsAre("?"));
+  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  pore_pressure_inside: true\n",
+                             "basal: {zones: [{polygon: a.shp, pore_pressure_ratio: 0.4}]}\n")),
+              ElementsAre("?"));
+}
+
 TEST(ScenarioMessages, UnknownKey) {
   EXPECT_THAT(problems(scene() + "basal: {friction_coeficient: 0.3}\n"),
               ElementsAre("scenario.yaml:7:9: basal.friction_coeficient (unknown key). Did you "

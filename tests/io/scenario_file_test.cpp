@@ -34,6 +34,8 @@ grains:
   cohesion_pa: {discrete: {values: [0, 1000], weights: [3, 1]}}
   poisson_ratio: {table: [0.3, 0.2, 0.25]}
   earth_pressure: active_passive
+  friction_cone: plane_strain
+  pore_pressure_inside: true
 basal:
   friction_coefficient: {truncated_normal: {mean: 0.4, sd: 0.1, min: 0.2, max: 0.6}}
   pore_pressure_ratio: {beta: {alpha: 4, beta: 3, min: 0.0, max: 0.6}}
@@ -76,6 +78,8 @@ TEST(ScenarioFile, ReadsEveryBlock) {
   EXPECT_THAT(s.grains->cohesion_pa.distribution->weights, ElementsAre(3, 1));
   EXPECT_EQ(s.basal.friction_coefficient.distribution->kind, Distribution::Kind::normal);
   EXPECT_EQ(s.grains->earth_pressure, LateralPressure::active_passive);
+  EXPECT_EQ(s.grains->friction_cone, FrictionCone::plane_strain);
+  EXPECT_TRUE(s.grains->pore_pressure_inside);
   EXPECT_EQ(s.basal.turbulent_coefficient_m_s2->distribution->max, 1000);
   EXPECT_EQ(s.basal.viscosity_pa_s, Uncertain(50));
   EXPECT_EQ(s.basal.yield_stress_pa->distribution->kind, Distribution::Kind::log_uniform);

@@ -300,8 +300,7 @@ void start_geostatic(MovingSet& p, double gravity, const GrainStressSettings& g,
                      std::span<const double> depth) {
   auto& density_change = p.scalar(fields::density_change);
   auto& stress = p.components(fields::stress);
-  const double mu = g.law.static_friction;
-  const double k0 = 1 - mu / std::sqrt(1 + mu * mu);
+  const double k0 = pressure_ratio_at_rest(g.friction_cone, g.law.static_friction);
   for (std::size_t i = 0; i < depth.size(); ++i) {
     const double vertical = g.reference_density * gravity * depth[i];
     const double mean = vertical * (1 + 2 * k0) / 3;

@@ -5,6 +5,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/effects/kinetic/settings.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
+#include "engine/laws/friction_cone.hpp"
 #include "engine/laws/mu_i_rheology.hpp"
 
 #include <cmath>
@@ -13,11 +14,12 @@
 namespace sturz {
 
 struct GrainStressSettings {
-  MuIRheology law;
-  std::optional<GrainStatesSettings> states;  ///< absent: every grain is dense
-  double spacing = 1;                         ///< initial particle spacing dx [m]
-  double smoothing_length = 1.3;              ///< h [m]
-  double reference_density = 1560;            ///< rho_ref = alpha_init rho_p [kg/m^3]
+  MuIRheology law;                                          ///< as grains yield, see yielding_law()
+  FrictionCone friction_cone = FrictionCone::simple_shear;  ///< that `law` was made for
+  std::optional<GrainStatesSettings> states;                ///< absent: every grain is dense
+  double spacing = 1;                                       ///< initial particle spacing dx [m]
+  double smoothing_length = 1.3;                            ///< h [m]
+  double reference_density = 1560;                          ///< rho_ref = alpha_init rho_p [kg/m^3]
   double sound_speed = 100;  ///< c0 of compressional waves, sqrt((K + 4G/3)/rho) [m/s]
   /// Where c0 may fall to while the mass is slow; equal to `sound_speed`: it stays fixed [m/s].
   double least_sound_speed = 1e300;

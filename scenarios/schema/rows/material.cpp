@@ -51,6 +51,15 @@ void add_grains(std::vector<KeyInfo>& keys) {
   keys.push_back(choice_key(grains, &GrainsSpec::earth_pressure, "grains.earth_pressure",
                             "Lateral earth pressure of depth_averaged flow; auto: active where the "
                             "release is a pile, isotropic where it is a sheet."));
+  keys.push_back(
+      choice_key(grains, &GrainsSpec::friction_cone, "grains.friction_cone",
+                 "Where the internal friction of full_stress holds: in shear along a "
+                 "plane (33 degrees act as 40.5 in plane strain), or in plane strain (33 "
+                 "degrees act as 28.6 along a plane)."));
+  keys.push_back(key(grains, &GrainsSpec::pore_pressure_inside,
+                     {"grains.pore_pressure_inside", flag, "", -no_limit, no_limit,
+                      "Let basal.pore_pressure_ratio weaken the grains of full_stress inside too, "
+                      "not their bed alone."}));
 }
 
 void add_states(std::vector<KeyInfo>& keys) {

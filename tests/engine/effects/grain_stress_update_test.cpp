@@ -199,6 +199,65 @@ TEST(GrainStressUpdate, DragActsOnLoadedGrainsAtRestOnly) {
   EXPECT_EQ(speed_after(1e4, 1.01 * g.rest_speed()), 1.01 * g.rest_speed());
 }
 
+/// Shortened along x, longer along z, nothing along y, at constant volume and mean pressure: the
+/// test of a soil sample between two rigid plates.
+struct Biaxial {
+  double along = 0, between = 0, across = 0;  ///< principal stresses along x, y, z [Pa]
+};
+Biaxial compressed(const GrainStressSettings& g, double pressure) {
+  Matrix3d l = Matrix3d::Zero();
+  l(0, 0) = -0.25, l(2, 2) = 0.25;  // exact in single precision
+  Grain grain;
+  grain.set_stress(g, pressure, Matrix3d::Zero());
+  grain.set_gradient(l);
+  const double strain = 5 * (g.law.cohesion + pressure) / g.shear_modulus();
+  for (int n = 0; n < 1000; ++n) grain.update(g, strain / 0.25 / 1000);
+  return {-grain.stress[0], -grain.stress[1], -grain.stress[2]};
+}
+
+/// Grains without rate dependence.
+GrainStressSettings sand(double angle_deg, FrictionCone cone, double pore_pressure_ratio = 0,
+                         double cohesion = 0) {
+  MuIRheology typed;
+  typed.static_friction = typed.dynamic_friction = std::tan(angle_deg * std::numbers::pi / 180);
+  typed.cohesion = cohesion;
+  GrainStressSettings g;
+  g.law = yielding_law(typed, cone, pore_pressure_ratio);
+  g.friction_cone = cone;
+  return g;
+}
+
+/// sigma_1 = K_p sigma_3 + 2 c sqrt(K_p), K_p = (1 + sin)/(1 - sin): Mohr-Coulomb of the angle that
+/// was given, and of asin(tan) of it on the other cone.
+TEST(GrainStressUpdate, BiaxialCompressionReachesThePassivePressureOfItsCone) {
+  for (const double angle_deg : {25.0, 33.0, 40.0})
+    for (const FrictionCone cone : {FrictionCone::simple_shear, FrictionCone::plane_strain})
+      for (const double cohesion : {0.0, 5000.0}) {
+        const double phi = angle_deg * std::numbers::pi / 180;
+        const bool plane = cone == FrictionCone::plane_strain;
+        const double sine = plane ? std::sin(phi) : std::tan(phi);
+        const double passive = (1 + sine) / (1 - sine);
+        const double c = plane ? cohesion : cohesion / std::sqrt(1 - sine * sine);
+        const Biaxial b = compressed(sand(angle_deg, cone, 0, cohesion), 2e4);
+        const double expected = passive * b.across + 2 * c * std::sqrt(passive);
+        EXPECT_NEAR(b.along, expected, 1e-6 * expected) << angle_deg << " " << plane;
+        EXPECT_NEAR(b.between, 0.5 * (b.along + b.across), 1e-6 * b.along)
+            << "the stress out of the plane is the mean of those in it";
+      }
+  const Biaxial typed = compressed(sand(33, FrictionCone::plane_strain), 2e4);
+  EXPECT_NEAR(typed.along / typed.across, 3.392, 1e-3);
+  const Biaxial today = compressed(sand(33, FrictionCone::simple_shear), 2e4);
+  EXPECT_NEAR(today.along / today.across, 4.705, 1e-3);
+}
+
+/// tau is half the difference of the principal stresses.
+TEST(GrainStressUpdate, PorePressureOfAHalfHalvesTheStrengthInside) {
+  for (const FrictionCone cone : {FrictionCone::simple_shear, FrictionCone::plane_strain}) {
+    const Biaxial dry = compressed(sand(33, cone), 2e4), wet = compressed(sand(33, cone, 0.5), 2e4);
+    EXPECT_NEAR(wet.along - wet.across, 0.5 * (dry.along - dry.across), 1e-6 * dry.along);
+  }
+}
+
 TEST(GrainStressUpdate, StiffnessFollowsTheSoundSpeed) {
   const GrainStressSettings g = settings();
   const double c2 = (g.bulk_modulus() + 4.0 / 3 * g.shear_modulus()) / g.reference_density;

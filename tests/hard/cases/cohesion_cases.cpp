@@ -15,13 +15,17 @@ namespace {
 
 constexpr double cohesion_pa = 5000, friction_deg = 25, density = 1560;
 
-/// 4c/(rho g) tan(45 + phi/2): above it a vertical face cannot stand (Coulomb wedge) [m].
-double critical_height() {
-  return 4 * cohesion_pa / (density * gravity_m_s2) * std::tan((45 + 0.5 * friction_deg) * degree);
+/// Above it a vertical face cannot stand: Coulomb's wedge on the cone tau = C + M p is 4C/(rho g
+/// (1 - M)) [m]. That is 4c/(rho g) tan(45 + phi/2) where the cone is matched in plane strain (2.05
+/// m), and 4c/(rho g (1 - tan phi)) where it is matched along a plane (2.45 m).
+double critical_height(FrictionCone cone) {
+  const double friction = std::tan(friction_deg * degree);
+  return 4 * cone_cohesion(cone, friction, cohesion_pa) /
+         (density * gravity_m_s2 * (1 - cone_slope(cone, friction)));
 }
 
 /// One slice, four particles thick and ten high, of a bank with a vertical face at both ends.
-Scenario bank(double height, double times) {
+Scenario bank(double height, double times, FrictionCone cone) {
   const double dx = height / 10, half = 1.2 * height, runout = 5 * height;
   Scenario s;
   s.formulation = Formulation::full_stress;
@@ -31,6 +35,7 @@ Scenario bank(double height, double times) {
   s.release.thickness_m = Uncertain(height);
   s.grains.emplace().friction_angle_deg = Uncertain(friction_deg);
   s.grains->cohesion_pa = cohesion_pa;
+  s.grains->friction_cone = cone;
   s.grains->diameter_m = 0.01;
   s.basal.friction_coefficient = std::tan(friction_deg * degree);
   s.basal.cohesion_pa = cohesion_pa;
@@ -47,9 +52,11 @@ struct Fall {
   double closest = 1;  ///< pair at any time looked at [dx]
 };
 
+/// \param share  of the critical height
 /// \param times  as many sqrt(height/g)
-Fall let_go(double height, double times, States states) {
-  const Scenario s = with_states(bank(height, times), states);
+Fall let_go(double share, double times, FrictionCone cone, States states) {
+  const double height = share * critical_height(cone);
+  const Scenario s = with_states(bank(height, times, cone), states);
   Simulation simulation = build(s);
   const MovingSet start = simulation.parts().state.grains();
   std::vector<Vec3> at(start.size());
@@ -73,18 +80,29 @@ CaseReport report(const Fall& fall, std::vector<Check> checks) {
   return {std::move(checks), m.n_particles, m.wall_s};
 }
 
-}  // namespace
-
-CaseReport cohesive_bank_stands(States states) {
-  const Fall fall = let_go(0.9 * critical_height(), 30, states);
+CaseReport bank_stands(FrictionCone cone, States states) {
+  const Fall fall = let_go(0.9, 30, cone, states);
   return report(fall, {at_most("farthest particle, heights", fall.moved, 0.1),
                        at_least("closest pair, dx", fall.closest, 0.5)});
 }
 
-CaseReport tall_bank_falls(States states) {
-  const Fall fall = let_go(1.2 * critical_height(), 10, states);
+CaseReport bank_falls(FrictionCone cone, States states) {
+  const Fall fall = let_go(1.2, 10, cone, states);
   return report(fall, {at_least("farthest particle, heights", fall.moved, 0.2),
                        at_least("closest pair, dx", fall.closest, 0.5)});
+}
+
+}  // namespace
+
+CaseReport cohesive_bank_stands(States states) {
+  return bank_stands(FrictionCone::simple_shear, states);
+}
+CaseReport tall_bank_falls(States states) { return bank_falls(FrictionCone::simple_shear, states); }
+CaseReport plane_strain_bank_stands(States states) {
+  return bank_stands(FrictionCone::plane_strain, states);
+}
+CaseReport plane_strain_bank_falls(States states) {
+  return bank_falls(FrictionCone::plane_strain, states);
 }
 
 /// 24 x 6 x 6 particles without weight; the three outermost layers of both ends move apart.
