@@ -4,6 +4,7 @@
 
 #include "scenarios/assets/assets_spec.hpp"
 #include "scenarios/choices.hpp"
+#include "scenarios/grains/discrete_spec.hpp"
 #include "scenarios/observation/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
@@ -182,6 +183,7 @@ struct GrainsSpec {
   Uncertain poisson_ratio{0.3};
   LateralPressure earth_pressure = LateralPressure::automatic;  ///< depth_averaged only
   std::optional<GrainStatesSpec> states;                        ///< absent: every grain is dense
+  std::optional<DiscreteSpec> discrete;  ///< absent: its defaults; formulation: discrete only
   bool operator==(const GrainsSpec&) const = default;
 };
 
