@@ -7,12 +7,13 @@
 
 namespace sturz {
 
-/// How a member is computed; `automatic` decides by the layers that resolve its flow.
-enum class Formulation { automatic, full_stress, depth_averaged };
+/// How a member is computed; `automatic` decides between the first two that follow by the layers
+/// that resolve its flow.
+enum class Formulation { automatic, full_stress, depth_averaged, discrete };
 constexpr auto words_of(Formulation) {
   using enum Formulation;
   return std::array{Word{automatic, "auto"}, Word{full_stress, "full_stress"},
-                    Word{depth_averaged, "depth_averaged"}};
+                    Word{depth_averaged, "depth_averaged"}, Word{discrete, "discrete"}};
 }
 
 /// What the edge of the known ground does to the mass: lets it out or holds it.

@@ -4,6 +4,7 @@
 
 #include "scenarios/assets/assets_spec.hpp"
 #include "scenarios/choices.hpp"
+#include "scenarios/grains/discrete_spec.hpp"
 #include "scenarios/observation/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
@@ -184,6 +185,7 @@ struct GrainsSpec {
   FrictionCone friction_cone = FrictionCone::simple_shear;      ///< full_stress only
   bool pore_pressure_inside = false;  ///< basal.pore_pressure_ratio acts inside; full_stress only
   std::optional<GrainStatesSpec> states;  ///< absent: every grain is dense
+  std::optional<DiscreteSpec> discrete;   ///< absent: its defaults; formulation: discrete only
   bool operator==(const GrainsSpec&) const = default;
 };
 

@@ -14,6 +14,7 @@ struct EffectName {
   static constexpr std::string_view kinetic_theory = "kinetic theory";
   static constexpr std::string_view isolated = "isolated particles";
   static constexpr std::string_view isolated_contacts = "contacts of isolated particles";
+  static constexpr std::string_view grain_contacts = "grain contacts";
   static constexpr std::string_view column_pressure = "lateral pressure of columns";
   static constexpr std::string_view pore_pressure = "pore pressure and dilatancy";
   static constexpr std::string_view phase_drag = "drag between grains and liquid";

@@ -38,6 +38,10 @@ inline constexpr FlagKey steps_alone{"steps_alone", "isolated particles"};
 inline constexpr FlagKey membership{"membership", "isolated particles"};
 inline constexpr FieldKey spin{"spin", 3, "rad s-1", "contacts of isolated particles"};
 
+// Grains one by one (discrete/).
+/// By grain contacts in the last step: of the velocity [m s-2] and of the spin [rad s-2].
+inline constexpr FieldKey grain_acceleration{"grain_acceleration", 6, "mixed", "grain contacts"};
+
 /// Where a particle belongs: to the continuum, or on its own.
 enum class Membership : std::uint8_t {
   listed,     ///< a grain of the continuum

@@ -29,8 +29,10 @@ std::vector<std::string> cheaper_members(const SceneDescription& d, double membe
   const bool columns = d.formulation == to_string(Formulation::depth_averaged);
   const double power = columns ? 3 : 4;
   std::vector<std::string> cheaper;
+  const bool grains = d.formulation == to_string(Formulation::discrete);
   const double wanted = d.spacing_m * std::pow(members_s / long_time_s, 1 / power);
   const double spacing = std::min(wanted, coarsest(d, columns));
+  if (grains) return {"larger grains (grains.discrete.diameter_m), formulation: depth_averaged"};
   if (spacing > 1.1 * d.spacing_m)
     cheaper.push_back(
         fmt::format("numerics.spacing_m: {} ({}{})", short_number(spacing),

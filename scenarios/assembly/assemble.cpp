@@ -10,6 +10,7 @@
 #include "engine/simulation/parts.hpp"
 #include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
+#include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
@@ -151,6 +152,7 @@ double expected_time(const Scenario& s, const SceneInputs& inputs, const ScenePl
 double least_step(const Scenario& s, const ScenePlan& plan) {
   if (plan.formulation.depth_averaged)
     return 1e-6 * std::sqrt(s.numerics.spacing_m / standard_gravity);
+  if (plan.discrete) return 0.01 * grain_time_step(*plan.discrete, 2 * plan.reference_speed_m_s);
   // A hundredth of the acoustic limit at v_ref: below it something has run away.
   return 0.01 * plan.stress.courant * plan.stress.smoothing_length /
          (1.1 * plan.stress.sound_speed);
@@ -236,9 +238,10 @@ std::optional<GaugeSettings> make_gauges(const Scenario& s, const ScenePlan& pla
 
 }  // namespace
 
-Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int64_t member,
+Simulation assemble(const Scenario& given, const SceneInputs& inputs, std::int64_t member,
                     int threads, InstructionSet instruction_set) {
-  require_numbers(numbers);
+  require_numbers(given);
+  const Scenario numbers = with_grain_spacing(given);
   ScenePlan plan = plan_scene(numbers, inputs, member);
   plan.stress.instruction_set = plan.columns.instruction_set = instruction_set;
   State state = make_state(numbers, plan, threads);
@@ -255,8 +258,9 @@ Simulation assemble(const Scenario& numbers, const SceneInputs& inputs, std::int
       make_stop(numbers, plan), std::move(facts), make_gauges(numbers, plan, inputs)}));
 }
 
-SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
-  require_numbers(s);
+SceneDescription describe(const Scenario& given, const SceneInputs& inputs) {
+  require_numbers(given);
+  const Scenario s = with_grain_spacing(given);
   const ScenePlan plan = plan_scene(s, inputs, 0);
   State state = make_state(s, plan, 1);
   Step step;
@@ -284,7 +288,8 @@ SceneDescription describe(const Scenario& s, const SceneInputs& inputs) {
   d.layers = plan.release.x.empty() ? plan.inflow.most_thickness_m / s.numerics.spacing_m
                                     : plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
-  d.sound_speed_m_s = plan.formulation.depth_averaged ? 0 : plan.stress.sound_speed;
+  d.sound_speed_m_s =
+      plan.formulation.depth_averaged || plan.discrete ? 0 : plan.stress.sound_speed;
   state.grains().motion.max_speed = 0.5 * typical_speed(plan);
   state.n_steps = 1;  // the first step is shorter than those that count
   const StepLimit limit = step.limit(state);

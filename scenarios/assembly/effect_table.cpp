@@ -6,6 +6,7 @@
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/discrete/effect.hpp"
 #include "engine/effects/erosion/effect.hpp"
 #include "engine/effects/inflow/effect.hpp"
 #include "engine/effects/isolated/contacts.hpp"
@@ -13,6 +14,7 @@
 #include "engine/effects/kinetic/effect.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
+#include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/grains/strength_inside.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
@@ -60,7 +62,12 @@ Called walls_called(const Scenario& s, const ScenePlan&) {
 }
 Called grain_stress_called(const Scenario& s, const ScenePlan& plan) {
   if (columns(plan)) return {false, "not in depth_averaged"};
+  if (plan.discrete) return {false, "not in discrete"};
   return {true, "`grains`: elastic + mu(I), 3-D, full stress; " + strength_text(s)};
+}
+Called grain_contacts_called(const Scenario& s, const ScenePlan& plan) {
+  if (!plan.discrete) return by_key("formulation: discrete", false);
+  return {true, discrete_text(s, plan)};
 }
 Called kinetic_theory_called(const Scenario& s, const ScenePlan& plan) {
   const auto* states = states_of(s);
@@ -78,7 +85,7 @@ Called contacts_called(const Scenario&, const ScenePlan& plan) {
                       plan.isolated_contacts.has_value());
 }
 Called column_pressure_called(const Scenario& s, const ScenePlan& plan) {
-  if (!columns(plan)) return {false, "not in full_stress"};
+  if (!columns(plan)) return {false, "not in " + plan.formulation.name()};
   if (plan.phases) return {true, "`mixture.phases: two`: of grains and liquid on both, K = 1"};
   if (s.mixture) return {true, "`mixture`: isotropic, K = 1, piles too"};
   const std::string key =
@@ -167,13 +174,22 @@ constexpr std::size_t grains = 0;  // index of the set
 void add_kick(SceneParts& p) {
   if (!columns(p.plan)) add_gravity(p.step, p.state, grains);
 }
+// Grains touch ground and walls as they touch each other, in one pass.
 void add_bed(SceneParts& p) {
-  if (!columns(p.plan)) add_terrain_contact(p.step, grains, p.plan.contact);
+  if (p.plan.discrete)
+    add_ground_lookup(p.step, grains, p.plan.contact);
+  else if (!columns(p.plan))
+    add_terrain_contact(p.step, grains, p.plan.contact);
 }
 void add_walls(SceneParts& p) {
-  if (!columns(p.plan)) add_wall_contact(p.step, grains, p.plan.contact);
+  if (!columns(p.plan) && !p.plan.discrete) add_wall_contact(p.step, grains, p.plan.contact);
 }
+void add_grains(SceneParts& p) { add_discrete_grains(p.step, p.state, grains, *p.plan.discrete); }
 void add_drift(SceneParts& p) {
+  if (p.plan.discrete) {
+    const double d = p.plan.discrete->diameter;
+    return add_motion(p.step, grains, {d, d});
+  }
   const GrainStressSettings& g = p.plan.stress;
   if (!columns(p.plan)) add_motion(p.step, grains, {g.spacing, g.smoothing_length});
 }
@@ -216,6 +232,7 @@ constexpr EffectRow table[] = {
     {EffectName::bed, bed_called, add_bed},
     {EffectName::walls, walls_called, add_walls},
     {EffectName::grain_stress, grain_stress_called, add_stress, grain_stress_bytes_per_particle},
+    {EffectName::grain_contacts, grain_contacts_called, add_grains, discrete_bytes_per_particle},
     {EffectName::kinetic_theory, kinetic_theory_called, add_collisions},
     {EffectName::states, states_called, add_states},
     {EffectName::isolated, isolated_called, add_isolated},

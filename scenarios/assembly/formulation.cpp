@@ -113,6 +113,10 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
   if (s.formulation == Formulation::depth_averaged) {
     c.depth_averaged = true;
     c.reason = "`formulation: depth_averaged`";
+  } else if (s.formulation == Formulation::discrete) {
+    c.discrete = true;
+    c.reason =
+        "`formulation: discrete`, every grain by itself; " + layers_text(c) + " of one grain each";
   } else if (s.formulation == Formulation::full_stress) {
     c.reason = "`formulation: full_stress`; " + layers_text(c);
     // A release without any mass is refused as such where it is filled.
@@ -155,7 +159,8 @@ double typical_friction(const Scenario& s) {
 }
 
 bool has_both_formulations(const Scenario& s) {
-  return s.grains && (s.grains->friction || s.grains->friction_angle_deg) && !s.grains->states &&
+  return s.grains && s.formulation != Formulation::discrete &&
+         (s.grains->friction || s.grains->friction_angle_deg) && !s.grains->states &&
          column_key(s).empty();
 }
 

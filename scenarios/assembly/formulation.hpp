@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which of the two formulations computes a member, and why.
+/// Which formulation computes a member, and why.
 #pragma once
 
 #include "engine/terrain/terrain.hpp"
@@ -11,6 +11,7 @@ namespace sturz {
 
 struct FormulationChoice {
   bool depth_averaged = false;
+  bool discrete = false;  ///< grains one by one; neither of them: full_stress
   std::string reason;
   double layers = 0;          ///< least number of layers that resolve the flow: of the two below
   double release_layers = 0;  ///< volume-weighted median release thickness / spacing
@@ -19,8 +20,9 @@ struct FormulationChoice {
 
   /// The word of the scenario file and of every result.
   std::string name() const {
-    return std::string(
-        to_string(depth_averaged ? Formulation::depth_averaged : Formulation::full_stress));
+    return std::string(to_string(depth_averaged ? Formulation::depth_averaged
+                                 : discrete     ? Formulation::discrete
+                                                : Formulation::full_stress));
   }
 };
 

@@ -20,7 +20,7 @@ using Warnings = std::vector<std::string>;
 /// Four layers or more on the whole, or a reader has to be told what is not resolved.
 void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, Warnings& out) {
   const FormulationChoice& f = plan.formulation;
-  if (f.depth_averaged || f.layers >= resolved_layers) return;
+  if (f.depth_averaged || f.discrete || f.layers >= resolved_layers) return;
   out.push_back("thin flow: " + short_number(f.layers) + " layers of particles resolve the " +
                 (f.release_layers <= f.deposit_layers ? "release" : "expected deposit") +
                 " (fewer than 4). Centre of mass and speed hold, the footprint may be wrong by "
@@ -155,7 +155,7 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
   const double dx = s.numerics.spacing_m;
   warn_of_thin_flow(s, plan, out);
   warn_of_coarse_spacing(s, plan, out);
-  if (!plan.formulation.depth_averaged &&
+  if (!plan.formulation.depth_averaged && !plan.discrete &&
       2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
     out.push_back("coarse grains: the smoothing length of " +
                   short_number(plan.stress.smoothing_length) +

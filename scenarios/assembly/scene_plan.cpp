@@ -4,9 +4,10 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
-#include "engine/simulation/reference_speed.hpp"
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
+#include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
+#include "scenarios/assembly/expected_speed.hpp"
 #include "scenarios/assembly/grains/strength_inside.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/inflow/plan_masses.hpp"
@@ -213,18 +214,7 @@ IsolatedContactSettings plan_isolated_contacts(const Scenario& s, double speed) 
 
 void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed, ScenePlan& plan) {
   const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
-  double least_friction = bed[0].effective_friction();
-  for (const BasalResistance& b : bed) {
-    const double mu = plan.rasters.range(b, BedNumber::friction).first;
-    const double pore_pressure = plan.rasters.range(b, BedNumber::pore_pressure).second;
-    least_friction = std::min(least_friction, mu * (1 - pore_pressure));
-  }
-  const auto& v0 = s.release.velocity_m_s;
-  const double start = std::sqrt(v0[0] * v0[0] + v0[1] * v0[1] + v0[2] * v0[2]);
-  const double deepest = plan.release.max_thickness_m;
-  plan.reference_speed_m_s =
-      reference_speed(plan.bed, plan.release, least_friction, start, plan.end.end_time_s);
-
+  const double start = start_speed(s), deepest = plan.release.max_thickness_m;
   GrainStressSettings& stress = plan.stress;
   stress.law = law_inside(s);
   stress.friction_cone = s.grains->friction_cone;
@@ -347,8 +337,13 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
+  if (formulation.discrete) require_countable_grains(s, thickness);
   plan_masses(
       s, in, thickness, member, [&](double m) { return bulk_density(s, m); }, plan);
+  if (formulation.discrete) {
+    pack_grains(plan.bed, thickness, grain_packing(s, member), plan.release);
+    plan.n_present = plan.release.x.size();
+  }
   plan_end(s, in, plan);
   const Window held = in.held();
   plan.zones = {in.zones, in.whole, held.row0, held.col0};
@@ -359,8 +354,13 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   if (plan.formulation.depth_averaged) {
     plan_columns(s, bed, plan);
     plan_eroded_bed(s, in, bed, plan);
-  } else
-    plan_full_stress(s, bed, plan);
+  } else {
+    plan.reference_speed_m_s = expected_speed(s, bed, plan);
+    if (formulation.discrete)
+      plan_discrete(s, bed, plan);
+    else
+      plan_full_stress(s, bed, plan);
+  }
 
   plan.available_energy_j = available_energy(s, in, plan);
   return plan;

@@ -7,6 +7,7 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/discrete/settings.hpp"
 #include "engine/effects/erosion/settings.hpp"
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/effects/phases/settings.hpp"
@@ -35,6 +36,7 @@ struct ScenePlan {
   GrainStressSettings stress;                                ///< full_stress
   ContactSettings contact;                                   ///< full_stress
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
+  std::optional<DiscreteSettings> discrete;                  ///< grains one by one
   double reference_fraction = 0.6;         ///< solid fraction of the mass as it is set down
   DepthAveragedSettings columns;           ///< depth_averaged
   std::optional<TwoPhaseSettings> phases;  ///< where grains and liquid are two sets of columns
@@ -43,7 +45,7 @@ struct ScenePlan {
   std::size_t n_present = 0;               ///< particles of the release that start at 0
   std::vector<TimedArrival> later;         ///< those that start later
   InflowPlan inflow;                       ///< what enters over time
-  double reference_speed_m_s = 0;  ///< v_ref of the fastest expected mass point; full_stress
+  double reference_speed_m_s = 0;  ///< v_ref of the fastest expected mass point; not of columns
   TimeCap end;                     ///< when it is stopped at the latest
   double available_energy_j = 0;   ///< release mass falling to the lowest ground within runout
 

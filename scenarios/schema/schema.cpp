@@ -32,6 +32,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   std::vector<BlockInfo> blocks;
   schema_rows::add_site_blocks(blocks);
   schema_rows::add_material_blocks(blocks);
+  schema_rows::add_discrete_blocks(blocks);
   schema_rows::add_structure_blocks(blocks);
   schema_rows::add_bed_field_blocks(blocks);
   schema_rows::add_erosion_blocks(blocks);

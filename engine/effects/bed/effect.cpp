@@ -345,8 +345,12 @@ class WallContact final : public Pass {
 
 }  // namespace
 
-void add_terrain_contact(Step& step, std::size_t set, const ContactSettings& settings) {
+void add_ground_lookup(Step& step, std::size_t set, const ContactSettings& settings) {
   step.add(std::make_unique<BoundaryPass>(set, settings));
+}
+
+void add_terrain_contact(Step& step, std::size_t set, const ContactSettings& settings) {
+  add_ground_lookup(step, set, settings);
   step.add(std::make_unique<GroundContact>(set, settings));
 }
 

@@ -32,6 +32,10 @@ Scenario reference_scene(const std::string& formulation) {
   s.formulation = from_word<Formulation>(formulation).value();
   s.numerics.spacing_m = columns ? 0.5 : 1;
   s.numerics.end_time_s = columns ? 8 : 1.5;
+  if (s.formulation == Formulation::discrete) {  // 4600 grains, 1500 steps
+    s.grains->diameter_m = Uncertain(1);
+    s.numerics.end_time_s = 0.5;
+  }
   s.numerics.stop_at_rest = false;
   s.hazard.cell_size_m = 5;
   return s;

@@ -201,13 +201,15 @@ void add_material_keys(std::vector<KeyInfo>& keys) {
       material_names()));
   add_grains(keys);
   add_states(keys);
+  add_discrete_keys(keys);
   add_mixture_keys(keys);
   add_basal(keys);
   keys.push_back(
       choice_key(scene, &Scenario::formulation, "formulation",
                  "auto: full_stress where at least four layers of particles resolve the flow, else "
                  "depth_averaged; full_stress: three-dimensional particles with a full stress "
-                 "tensor; depth_averaged: columns on the terrain."));
+                 "tensor; depth_averaged: columns on the terrain; discrete: every grain by itself, "
+                 "the dearest by far."));
 }
 
 void add_material_blocks(std::vector<BlockInfo>& blocks) {
