@@ -25,16 +25,19 @@ struct MotionBounds {
 
 /// Ground and walls as seen by each particle at x_n; all arrays [n rounded up to whole groups].
 ///
-/// A wall cuts the support of the particles beside it. The missing half is taken as their mirror
-/// image: same stress, same tangential and opposite normal velocity. Momentum then gains
-/// 2 p_n W_plane(d)/rho along n, the velocity gradient 2 W_plane(d) v_n n (x) n, and the moment
-/// matrix 2 d W_plane(d) n (x) n, which keeps linear fields without flow through the wall exact
-/// (shear along the normal is too weak in the last two layers). Force and strain are
-/// adjoint, so a bouncing column neither gains nor loses energy at the wall.
+/// Both cut the support of the particles beside them. The ground mirrors every neighbour: same
+/// stress, same tangential and opposite normal velocity (sweep/image_sums.hpp). A
+/// wall mirrors the particle itself: momentum gains 2 p_n W_plane(d)/rho along n, the velocity
+/// gradient 2 W_plane(d) v_n n (x) n, and the moment matrix 2 d W_plane(d) n (x) n, which keeps
+/// linear fields without flow through the wall exact (shear along the normal is too weak in the
+/// last two layers). Force and strain are adjoint in both, so a bouncing column neither gains nor
+/// loses energy.
 struct BoundarySupport {
   std::vector<float> distance;    ///< to the ground along its normal; beyond 2h no more than it [m]
   std::vector<float> nx, ny, nz;  ///< that normal, up to date within 2h
-  std::vector<float> mirror_weight;  ///< 0..1, from the sweep: how much of the mirrored half acts
+  /// Acceleration by the images in the ground, from the sweep; up to date within 2h [m/s^2].
+  std::vector<float> from_ground[3];
+  std::vector<float> mirror_weight;  ///< 0..1, from the sweep: how much of walls' mirror acts
   std::vector<float> moment[6];  ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
   std::vector<float> gradient[6];  ///< the same order [1/s]
 };

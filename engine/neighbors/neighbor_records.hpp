@@ -42,6 +42,19 @@ struct alignas(16) KineticRecord {
 };
 static_assert(sizeof(KineticRecord) == 48);
 
+/// Where a grain lies against the ground, by record: a neighbour is mirrored at its own distance.
+struct GroundRecord {
+  static constexpr float far = 8;  ///< of `distance` in supports: no image reaches anything
+  float distance;  ///< to the ground, >= 0, in position units; `far` supports from 2h on
+  /// 0..1, of the step before: how much of the grain's image acts, see BoundaryView.
+  float weight;
+};
+
+/// Half the gradient of the density change per position unit, of the step before, by record.
+struct alignas(16) HalfDensityGradient {
+  float x = 0, y = 0, z = 0, spare = 0;
+};
+
 /// Everything a sweep needs to read. Group g holds particles g*16 .. g*16+15 of storage order;
 /// records n_particles .. n_records-1 are periodic images and padding.
 struct NeighborView {
@@ -51,7 +64,8 @@ struct NeighborView {
   /// of `groups_per_block` groups; list_end[g] counts from the start of g's block.
   const std::uint32_t* const* block = nullptr;
   const std::uint32_t* list_end = nullptr;
-  double unit_m = 1;  ///< metres per position unit
+  double unit_m = 1;                                      ///< metres per position unit
+  const HalfDensityGradient* density_gradient = nullptr;  ///< by record
 
   std::size_t list_start(std::size_t g) const { return g % groups_per_block ? list_end[g - 1] : 0; }
   const std::uint32_t* list(std::size_t g) const {
@@ -74,13 +88,15 @@ struct SweepConstants {
   double ratio_floor = 0;          ///< p_c [Pa]; read where the ratio is smoothed
 };
 
-/// Ground and walls at each particle, [n_particles rounded up to whole groups] each. The sweep
-/// takes their mirror contribution with the weight n.M.n / 0.25 (at most 1) of the support that
-/// neighbours give along the normal: a grain with nothing above it has no pressure field to be
-/// mirrored, and would bounce off its own mirror image without loss.
+/// Ground and walls at each particle, [n_particles rounded up to whole groups] each but `ground`.
+///
+/// At the ground all neighbours within the support are mirrored, each with the product of both
+/// grains' weights; at analytic walls the grain alone, in closed form. The weight is n.M.n / 0.25
+/// (at most 1) of the support that neighbours give along the normal: a grain with nothing above it
+/// has no pressure field to be mirrored, and would bounce off its own mirror image without loss.
 struct BoundaryView {
-  const float* distance;      ///< to the ground [m]; 2h and more: no effect
-  const float *nx, *ny, *nz;  ///< the ground's normal, finite everywhere
+  const GroundRecord* ground;  ///< by record
+  const float *nx, *ny, *nz;   ///< the ground's normal, finite everywhere
   /// What analytic walls add, order xx yy zz xy yz zx; null where there are none.
   const float* moment[6];    ///< to the moment matrix [-]
   const float* gradient[6];  ///< to the velocity gradient before correction [1/s]
@@ -116,8 +132,13 @@ struct SweepOutput {
   float* lzx;
   float* lzy;
   float* lzz;
-  float* diffusion;      ///< d(density_change)/dt by delta-SPH [1/s]
-  float* mirror_weight;  ///< 0..1: how much of a wall's mirror contribution acts, see BoundaryView
+  float* diffusion;            ///< d(density_change)/dt by delta-SPH [1/s]
+  float* density_gradient[3];  ///< of the density change, for the next step [1/m]
+  /// Acceleration by the images in the ground [m/s^2]; not written for groups beyond 2h of it.
+  float* from_ground[3];
+  float* ground_weight;  ///< 0..1: how much of the grain's image acts in the next step
+  /// 0..1: how much of the walls' mirror contribution acts; written where there are walls.
+  float* mirror_weight;
   /// Written where a KineticView is given: how full the support is of neighbours and ground (1
   /// inside a dense mass, about a half at its surface), how many neighbours there are, and the
   /// granular energy that is conducted to it per volume of the record [W/m^3].

@@ -56,9 +56,31 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
     const SlowParticle& a = particles[i];
     const double density_a = c.reference_density * (1 + a.density_change);
     Matrix3d gradient = Matrix3d::Zero(), moment = Matrix3d::Zero();
-    Vec3 force(0, 0, 0), grad_sum(0, 0, 0), density_gradient(0, 0, 0);
+    Vec3 force(0, 0, 0), density_gradient(0, 0, 0);
     double laplace = 0;
     SlowRates& rates = out[i];
+    Matrix3d image_gradient = Matrix3d::Zero(), image_moment = Matrix3d::Zero();
+    const Matrix3d reflection =
+        Matrix3d::Identity() - 2 * a.ground_normal * a.ground_normal.transpose();
+    const auto add_image = [&](const SlowParticle& b) {
+      const double da = a.ground_distance, db = b.ground_distance;
+      if (da >= 2 * c.h || db >= 2 * c.h) return;
+      const Vec3 r = a.position - b.position, image = r + 2 * db * a.ground_normal;
+      const double distance =
+          std::sqrt(std::max(r.squaredNorm() + 4 * da * db, (da + db) * (da + db)));
+      if (distance >= 2 * c.h) return;
+      const double both = a.ground_weight * b.ground_weight;
+      const Vec3 grad = both * derivative(distance, c) * image / distance;
+      const Vec3 u = a.velocity - reflection * b.velocity;
+      image_gradient -= b.volume * u * grad.transpose();
+      image_moment -= b.volume * image * grad.transpose();
+      const double share = 0.5 * (a.viscosity_share + b.viscosity_share);
+      const double q = share * c.viscosity * c.sound_speed * c.h * c.reference_density *
+                       u.dot(image) / (distance * distance + 0.01 * c.h * c.h);
+      rates.from_ground +=
+          b.volume / density_a *
+          ((a.stress + reflection * b.stress * reflection + q * Matrix3d::Identity()) * grad);
+    };
     const auto add = [&](const SlowParticle& b) {
       const Vec3 r = a.position - b.position;
       const double distance = r.norm();
@@ -85,13 +107,13 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       ++rates.neighbors;
       const double rise = b.density_change - a.density_change;
       const double weight = -grad.dot(r) / r.squaredNorm();  // F_ij without the 0.01 h^2
-      laplace += b.volume * weight * rise;
+      laplace +=
+          b.volume * weight * (rise + 0.5 * (a.density_gradient + b.density_gradient).dot(r));
       const double conduction = 4 / (1 / a.conductivity + 1 / b.conductivity);
       const double shared = b.volume * a.weight * b.weight / a.dilation_ratio;
       rates.conducted += shared * conduction * weight * (b.theta - a.theta);
       const Matrix3d seen = -shared * u * grad.transpose();
       rates.pair_gradient += 0.5 * (seen + seen.transpose());
-      grad_sum += b.volume * grad;
       density_gradient += b.volume * rise * grad;
       rates.smoothing +=
           b.volume * weight * (pressure_ratio(b.stress, c) - pressure_ratio(a.stress, c));
@@ -99,9 +121,16 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
     for (const SlowParticle& b : particles)
       if (&b != &a) add(b);
     for (const SlowParticle& b : images) add(b);
+    for (const SlowParticle& b : particles) add_image(b);
+    for (const SlowParticle& b : images) add_image(b);
     bool own_corrected = true;
     // n.M.n / 0.25 with n n from the walls' moment: without grains above there is no mirror
     // contribution.
+    rates.density_gradient = correction(moment, own_corrected) * density_gradient;
+    rates.ground_weight =
+        std::clamp(4 * a.dilation_ratio * a.ground_normal.dot(moment * a.ground_normal), 0.0, 1.0);
+    gradient += image_gradient, moment += image_moment;
+    rates.pair_sums = gradient;
     rates.support_completeness = moment.trace() / 3;
     gradient *= a.dilation_ratio;  // neighbours that dilated alike leave too little
     const Matrix3d grown = a.dilation_ratio * moment;
@@ -113,12 +142,8 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                              : correction(mirrored, rates.corrected));
     rates.support_completeness +=
         rates.mirror_weight * a.wall_moment.trace() / (3 * a.dilation_ratio);
-    const Vec3 rise =
-        correction(moment, own_corrected) * density_gradient;  // gradient of the density change
     rates.acceleration = force;
-    // A linear field's share: Sum V F (rise . r_ji) = rise . Sum V grad W.
-    rates.diffusion =
-        2 * c.density_diffusion * c.h * c.sound_speed * (laplace - rise.dot(grad_sum));
+    rates.diffusion = 2 * c.density_diffusion * c.h * c.sound_speed * laplace;
     rates.smoothing *= 2 * c.stress_smoothing * c.h * c.sound_speed;
     rates.smoothing -= rates.smoothing.trace() / 3 * Matrix3d::Identity();
     rates.corrected = rates.corrected && own_corrected;

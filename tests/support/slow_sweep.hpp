@@ -20,9 +20,10 @@ struct SlowParticle {
   double viscosity_share = 1;                             ///< of the artificial viscosity that acts
   Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();  ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
-  double ground_distance =
-      1e9;  ///< for the fast sweep, which makes the ground's mirror contribution itself [m]
+  double ground_distance = 1e9;                             ///< [m]
   Vec3 ground_normal{0, 0, 1};
+  double ground_weight = 1;        ///< of its image, from the step before
+  Vec3 density_gradient{0, 0, 0};  ///< from the step before [1/m]
   // For dispersed grains, see KineticRecord:
   double tension = 0;  ///< artificial pressure [Pa]
   double dilation_ratio = 1, weight = 1, theta = 0, conductivity = 1e-30;
@@ -31,9 +32,13 @@ struct SlowParticle {
 
 struct SlowRates {
   Vec3 acceleration{0, 0, 0};
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  ///< corrected dv_a/dx_b
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();   ///< corrected dv_a/dx_b
+  Eigen::Matrix3d pair_sums = Eigen::Matrix3d::Zero();  ///< the same, not corrected; twin only
+  Vec3 from_ground{0, 0, 0};  ///< acceleration by the images in the ground
+  double ground_weight = 0;   ///< for the next step
   double diffusion = 0;
-  double mirror_weight = 0;  ///< of the mirror contribution
+  Vec3 density_gradient{0, 0, 0};
+  double mirror_weight = 0;  ///< of walls' mirror contribution
   Eigen::Matrix3d smoothing = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d pair_gradient =
       Eigen::Matrix3d::Zero();  ///< symmetric gradient of the kinetic force

@@ -29,14 +29,14 @@ NeighborRecord record_of(const SlowParticle& p, NeighborRecord r) {
 
 /// Room for the sweep's results and inputs of walls, [padded].
 struct Rooms {
-  std::array<std::vector<float>, 29> results;
+  std::array<std::vector<float>, 36> results;
   std::array<std::vector<float>, 12> wall;
-  std::array<std::vector<float>, 4> ground;  // distance and normal
+  std::array<std::vector<float>, 3> normal;
 
   explicit Rooms(std::size_t n) {
     for (auto& r : results) r.assign(n, 0);
     for (auto& w : wall) w.assign(n, 0);
-    for (auto& g : ground) g.assign(n, 0);
+    for (auto& g : normal) g.assign(n, 0);
   }
   SweepOutput output() {
     SweepOutput o{};
@@ -48,10 +48,13 @@ struct Rooms {
     o.support_completeness = results[20].data(), o.neighbors = results[21].data(),
     o.conducted = results[22].data();
     for (int k = 0; k < 6; ++k) o.pair_gradient[k] = results[23 + k].data();
+    for (int k = 0; k < 3; ++k) o.from_ground[k] = results[29 + k].data();
+    for (int k = 0; k < 3; ++k) o.density_gradient[k] = results[32 + k].data();
+    o.ground_weight = results[35].data();
     return o;
   }
-  BoundaryView boundary() const {
-    BoundaryView b{ground[0].data(), ground[1].data(), ground[2].data(), ground[3].data(), {}, {}};
+  BoundaryView boundary(const std::vector<GroundRecord>& ground) const {
+    BoundaryView b{ground.data(), normal[0].data(), normal[1].data(), normal[2].data(), {}, {}};
     for (int k = 0; k < 6; ++k) b.moment[k] = wall[k].data(), b.gradient[k] = wall[6 + k].data();
     return b;
   }
@@ -61,6 +64,11 @@ struct Rooms {
       r.acceleration[k] = results[k][i];
       for (int m = 0; m < 3; ++m) r.gradient(k, m) = results[3 + 3 * k + m][i];
     }
+    for (int k = 0; k < 3; ++k) {
+      r.from_ground[k] = results[29 + k][i];
+      r.density_gradient[k] = results[32 + k][i];
+    }
+    r.ground_weight = results[35][i];
     r.diffusion = results[12][i];
     r.mirror_weight = results[19][i];
     r.support_completeness = results[20][i], r.conducted = results[22][i];
@@ -92,6 +100,8 @@ struct Prepared {
   NeighborLists lists;
   std::optional<Rooms> rooms;
   std::vector<KineticRecord> kinetic;
+  std::vector<GroundRecord> ground;
+  std::vector<HalfDensityGradient> density_gradient;
   std::vector<std::uint8_t> dense_group;
 
   Prepared(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
@@ -108,12 +118,23 @@ struct Prepared {
     rooms.emplace(lists.padded_size());
     kinetic.resize(lists.n_records_rounded());
     dense_group.assign(kinetic.size() / group_size, 1);
-    for (std::size_t i = 0; i < set.size(); ++i) take(particles[set.id[i]], i);
+    const double unit = lists.view().unit_m;
+    ground.assign(kinetic.size(),
+                  {static_cast<float>(GroundRecord::far * 2 * constants.h / unit), 0});
+    density_gradient.resize(kinetic.size());
+    for (std::size_t i = 0; i < set.size(); ++i) take(particles[set.id[i]], i, unit, constants.h);
     lists.copy_images();
     lists.for_each_image([&](std::size_t image, std::size_t source) {
       kinetic[image] = kinetic[source];
+      ground[image] = ground[source], density_gradient[image] = density_gradient[source];
       if (!dense_group[source / group_size]) dense_group[image / group_size] = 0;
     });
+  }
+
+  NeighborView view() const {
+    NeighborView v = lists.view();
+    v.density_gradient = density_gradient.data();
+    return v;
   }
 
   SweepRun results() const {
@@ -126,10 +147,15 @@ struct Prepared {
   }
 
  private:
-  void take(const SlowParticle& p, std::size_t i) {
+  void take(const SlowParticle& p, std::size_t i, double unit, double h) {
     lists.records()[i] = record_of(p, lists.records()[i]);
-    rooms->ground[0][i] = static_cast<float>(p.ground_distance);
-    for (int k = 0; k < 3; ++k) rooms->ground[1 + k][i] = static_cast<float>(p.ground_normal[k]);
+    if (p.ground_distance < 2 * h)
+      ground[i] = {static_cast<float>(p.ground_distance / unit),
+                   static_cast<float>(p.ground_weight)};
+    const Vec3 half = 0.5 * unit * p.density_gradient;
+    density_gradient[i] = {static_cast<float>(half.x()), static_cast<float>(half.y()),
+                           static_cast<float>(half.z()), 0};
+    for (int k = 0; k < 3; ++k) rooms->normal[k][i] = static_cast<float>(p.ground_normal[k]);
     for (int k = 0; k < 6; ++k) {
       rooms->wall[k][i] = static_cast<float>(p.wall_moment(entries[k][0], entries[k][1]));
       rooms->wall[6 + k][i] = static_cast<float>(p.wall_gradient(entries[k][0], entries[k][1]));
@@ -152,7 +178,7 @@ struct Prepared {
 SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
                     InstructionSet isa, const Domain& domain) {
   Prepared p(particles, constants, isa, domain);
-  sweeps(isa).dense(p.lists.view(), constants, p.rooms->boundary(), p.rooms->output(), 0,
+  sweeps(isa).dense(p.view(), constants, p.rooms->boundary(p.ground), p.rooms->output(), 0,
                     p.lists.n_groups());
   return p.results();
 }
@@ -160,8 +186,8 @@ SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConst
 SweepRun kinetic_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
                        InstructionSet isa, const Domain& domain, DispersedClock* clock) {
   Prepared p(particles, constants, isa, domain);
-  sweeps(isa).kinetic(p.lists.view(), {p.kinetic.data(), p.dense_group.data(), clock}, constants,
-                      p.rooms->boundary(), p.rooms->output(), 0, p.lists.n_groups());
+  sweeps(isa).kinetic(p.view(), {p.kinetic.data(), p.dense_group.data(), clock}, constants,
+                      p.rooms->boundary(p.ground), p.rooms->output(), 0, p.lists.n_groups());
   return p.results();
 }
 

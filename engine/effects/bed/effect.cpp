@@ -2,6 +2,7 @@
 #include "engine/effects/bed/effect.hpp"
 
 #include "engine/core/parallel.hpp"
+#include "engine/effects/bed/mirrored.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/laws/contact_impulse.hpp"
 
@@ -37,42 +38,6 @@ double plane_integral(double d, double h) {
   const double y = 1 - std::fmax(d, 0.0) / (2 * h), y2 = y * y, y5 = y2 * y2 * y;
   return y > 0 ? 10.5 / h * y5 * (1 + y * (-1.5 + y * (4.0 / 7.0))) : 0;
 }
-
-/// The mirror contribution to the pressure force: a = 2 p_n W_plane(d) / rho along n. With it
-/// the bottom layers carry the pressure of the column above, and the spring only guards the gap.
-class WallPressure {
- public:
-  WallPressure(const MovingSet& p, const ContactSettings& c) {
-    const Field* stress = p.find(fields::stress);
-    if (!stress) return;
-    for (int k = 0; k < 6; ++k) stress_[k] = stress->component[k].data();
-    if (const Field* kinetic = p.find(fields::kinetic_stress))
-      for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
-    density_change_ = p.scalar(fields::density_change).data();
-    density_ = c.reference_density;
-    mirror_weight_ = p.boundary.mirror_weight.data();
-  }
-  /// \param plane  plane_integral at the particle's distance [1/m]
-  double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
-    if (!density_change_) return 0;
-    double snn = normal(stress_, i, nx, ny, nz);
-    if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
-    if (snn >= 0) return 0;
-    return -2 * snn * plane * mirror_weight_[i] / (density_ * (1 + density_change_[i]));
-  }
-
- private:
-  static double normal(const double* const s[6], std::size_t i, double nx, double ny, double nz) {
-    return nx * nx * s[0][i] + ny * ny * s[1][i] + nz * nz * s[2][i] +
-           2 * (nx * ny * s[3][i] + ny * nz * s[4][i] + nz * nx * s[5][i]);
-  }
-
-  double density_ = 1;
-  const float* mirror_weight_ = nullptr;
-  const double* stress_[6] = {};
-  const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
-  const double* density_change_ = nullptr;
-};
 
 /// Velocities at the start of the step, as the gather pass left them.
 class StartVelocity {
@@ -236,26 +201,11 @@ class GroundContact final : public Pass {
 
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[set_];
-    const BoundarySupport& b = p.boundary;
-    const WallPressure pressure(p, settings_);
-    const StartVelocity start(p);
-    const double support_radius = 2 * settings_.smoothing_length;
-    const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
+    const WallPressure pressure = WallPressure::of_ground(p, settings_);
     const ContactSums sums = ordered_reduce(
         p.size(), s.threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
-          for (std::size_t i = begin; i < end; ++i) {
-            if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
-            const double plane = plane_integral(b.distance[i], settings_.smoothing_length);
-            const double support = pressure.acceleration(i, plane, b.nx[i], b.ny[i], b.nz[i]);
-            const std::size_t zone = zoned ? zone_of(s.domain, p, i) : 0;
-            ContactLaw own;
-            if (rastered) own = law_at(s.domain, p, i, zone);
-            const ContactLaw& law = rastered ? own : laws_[zone];
-            out.add(apply_contact(law, b.distance[i], b.nx[i], b.ny[i], b.nz[i], support, dt,
-                                  start(i).data(), p.vx[i], p.vy[i], p.vz[i]),
-                    p.mass[i]);
-          }
+          press(s, p, pressure, dt, begin, end, out);
         },
         combine);
     account(p, sums);
@@ -263,6 +213,35 @@ class GroundContact final : public Pass {
   }
 
  private:
+  void press(const State& s, MovingSet& p, const WallPressure& collisions, double dt,
+             std::size_t begin, std::size_t end, ContactSums& out) const {
+    const BoundarySupport& b = p.boundary;
+    const StartVelocity start(p);
+    const GroundImages images(p);
+    const double support_radius = 2 * settings_.smoothing_length;
+    const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
+    const double kick = s.n_steps == 0 ? 0.5 * dt : dt;  // as that of the pairs
+    for (std::size_t i = begin; i < end; ++i) {
+      if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
+      const Vec3 n(b.nx[i], b.ny[i], b.nz[i]), push = images(i);
+      double support = std::fmax(0.0, push.dot(n));
+      const Vec3 along = push - push.dot(n) * n;
+      if (collisions.acts())
+        support += collisions.acceleration(
+            i, plane_integral(b.distance[i], settings_.smoothing_length), n.x(), n.y(), n.z());
+      const std::size_t zone = zoned ? zone_of(s.domain, p, i) : 0;
+      ContactLaw own;
+      if (rastered) own = law_at(s.domain, p, i, zone);
+      const ContactLaw& law = rastered ? own : laws_[zone];
+      const Vec3 before = start(i);
+      p.vx[i] += kick * along.x(), p.vy[i] += kick * along.y(), p.vz[i] += kick * along.z();
+      ContactEnergy e = apply_contact(law, b.distance[i], n.x(), n.y(), n.z(), support, dt,
+                                      before.data(), p.vx[i], p.vy[i], p.vz[i]);
+      e.pressure_work += 0.5 * kick * along.dot(before + Vec3(p.vx[i], p.vy[i], p.vz[i]));
+      out.add(e, p.mass[i]);
+    }
+  }
+
   std::size_t zone_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {
     double x = p.x[i], y = p.y[i], z = 0;
     domain.wrap(x, y, z);
@@ -317,7 +296,7 @@ class WallContact final : public Pass {
 
  private:
   void press(MovingSet& p, const Wall& wall, const ContactLaw& law, double dt, int threads) const {
-    const WallPressure pressure(p, settings_);
+    const WallPressure pressure = WallPressure::of_walls(p, settings_);
     const StartVelocity start(p);
     const double support_radius = 2 * settings_.smoothing_length;
     const Vec3 n = wall.normal;
@@ -327,8 +306,10 @@ class WallContact final : public Pass {
           for (std::size_t i = begin; i < end; ++i) {
             const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
             if (d >= support_radius) continue;
-            const double support = pressure.acceleration(
-                i, plane_integral(d, settings_.smoothing_length), n.x(), n.y(), n.z());
+            double support = 0;
+            if (pressure.acts())
+              support = pressure.acceleration(i, plane_integral(d, settings_.smoothing_length),
+                                              n.x(), n.y(), n.z());
             out.add(apply_contact(law, d, n.x(), n.y(), n.z(), support, dt, start(i).data(),
                                   p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);

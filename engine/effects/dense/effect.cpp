@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "engine/core/parallel.hpp"
 #include "engine/effects/arrivals.hpp"
+#include "engine/effects/dense/carried.hpp"
 #include "engine/effects/dense/shared.hpp"
 #include "engine/effects/dense/update.hpp"
 #include "engine/effects/dense/viscous_share.hpp"
@@ -15,6 +16,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 namespace sturz {
 namespace {
@@ -86,6 +88,7 @@ class NeighborPass final : public Pass {
       for (auto& r : shared_->dispersed) r.resize(padded);
     const std::size_t all = std::max(padded, p.size());
     for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.mirror_weight}) a->resize(all);
+    for (auto& a : p.boundary.from_ground) a.resize(all);
   }
 
   std::shared_ptr<GrainStress> shared_;
@@ -142,6 +145,11 @@ class GatherPass final : public Pass {
     lists.copy_images();
     for (std::size_t i = p.n_listed; i < p.size(); ++i)
       before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
+    gather_ground(*shared_, p, s.threads);
+  }
+  std::size_t bytes() const override {
+    return shared_->ground.capacity() * sizeof(GroundRecord) +
+           shared_->density_gradient.capacity() * sizeof(HalfDensityGradient);
   }
 
  private:
@@ -185,9 +193,11 @@ class SweepPass final : public Pass {
                                    g.spacing,
                                    shared_->smoothing_now,
                                    g.ratio_floor()};
-    const NeighborView view = shared_->lists.view();
+    NeighborView view = shared_->lists.view();
+    view.density_gradient = shared_->density_gradient.data();
     SweepOutput out = shared_->output();
     out.ax = p.ax.data(), out.ay = p.ay.data(), out.az = p.az.data();
+    for (int k = 0; k < 3; ++k) out.from_ground[k] = p.boundary.from_ground[k].data();
     out.mirror_weight = p.boundary.mirror_weight.data();
     const BoundaryView wall = boundary_view(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
@@ -199,14 +209,21 @@ class SweepPass final : public Pass {
                         timed_kinetic(view, constants, wall, out, begin, end);
                       else
                         loops.dense(view, constants, wall, out, begin, end);
+                      keep_for_next(out, p, begin * group_size, end * group_size);
                     });
-    for (std::size_t i = p.n_listed; i < p.size(); ++i) p.ax[i] = p.ay[i] = p.az[i] = 0;
+    for (std::size_t i = p.n_listed; i < p.size(); ++i) {
+      p.ax[i] = p.ay[i] = p.az[i] = 0;
+      for (auto& a : p.boundary.from_ground) a[i] = 0;
+    }
   }
   EffectPart part() const override {
     if (!shared_->settings.states) return {};
     return {dispersed_effect(shared_->settings), "dispersed groups", ratio(dispersed_ns_, all_ns_)};
   }
-  std::size_t bytes() const override { return 16 * sizeof(float) * shared_->results[0].size(); }
+  std::size_t bytes() const override {
+    return (std::size(shared_->results) + std::size(shared_->smooth)) * sizeof(float) *
+           shared_->results[0].size();
+  }
 
  private:
   /// The sweep of a mass whose grains may disperse, and which part of its time dispersed groups
@@ -223,9 +240,9 @@ class SweepPass final : public Pass {
     dispersed_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
   }
 
-  static BoundaryView boundary_view(const Domain& domain, const MovingSet& p) {
+  BoundaryView boundary_view(const Domain& domain, const MovingSet& p) const {
     const BoundarySupport& b = p.boundary;
-    BoundaryView view{b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
+    BoundaryView view{shared_->ground.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
     for (int c = 0; c < 6 && !domain.walls.empty(); ++c) {
       view.moment[c] = b.moment[c].data();
       view.gradient[c] = b.gradient[c].data();
@@ -317,7 +334,9 @@ void start_geostatic(MovingSet& p, double gravity, const GrainStressSettings& g,
 
 }  // namespace
 
-std::size_t grain_stress_bytes_per_particle() { return 64 + 13 * 4 + 2 * (250 / 16) * 4 + 32; }
+std::size_t grain_stress_bytes_per_particle() {
+  return 64 + 17 * 4 + 2 * (250 / 16) * 4 + 32 + sizeof(GroundRecord) + sizeof(HalfDensityGradient);
+}
 
 std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::size_t set,
                                               const GrainStressSettings& settings,
@@ -327,6 +346,8 @@ std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::siz
   p.add(fields::density_change);
   p.add(fields::stress);
   p.add(fields::viscous_ratio);
+  p.add(fields::density_gradient);
+  p.add(fields::ground_weight);
   Field& before = p.add(fields::velocity_before);
   before.component[0] = p.vx;
   before.component[1] = p.vy;

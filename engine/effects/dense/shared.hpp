@@ -27,8 +27,11 @@ struct GrainStress {
   std::size_t set;  ///< index in State::sets
   GrainStressSettings settings;
   NeighborLists lists;
-  std::vector<float> results[10];  // velocity gradient, density diffusion
+  /// Velocity gradient, density diffusion, density gradient, weight of the image in the ground.
+  std::vector<float> results[14];
   std::vector<float> smooth[6];
+  std::vector<GroundRecord> ground;  // by record
+  std::vector<HalfDensityGradient> density_gradient;
   // Only where grains may disperse:
   std::vector<float>
       dispersed[9];  // support completeness, neighbours, conduction, pair gradient; see SweepOutput
@@ -43,12 +46,24 @@ struct GrainStress {
         lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
               sweeps(s.instruction_set).tight_list) {}
 
-  /// Without accelerations and mirror weights, which live in the state.
+  /// Without accelerations and the walls' mirror weights, which live in the state.
   SweepOutput output() {
     SweepOutput out{};
-    float** slots[] = {&out.lxx, &out.lxy, &out.lxz, &out.lyx, &out.lyy,
-                       &out.lyz, &out.lzx, &out.lzy, &out.lzz, &out.diffusion};
-    for (int k = 0; k < 10; ++k) *slots[k] = results[k].data();
+    float** slots[] = {&out.lxx,
+                       &out.lxy,
+                       &out.lxz,
+                       &out.lyx,
+                       &out.lyy,
+                       &out.lyz,
+                       &out.lzx,
+                       &out.lzy,
+                       &out.lzz,
+                       &out.diffusion,
+                       &out.density_gradient[0],
+                       &out.density_gradient[1],
+                       &out.density_gradient[2],
+                       &out.ground_weight};
+    for (int k = 0; k < 14; ++k) *slots[k] = results[k].data();
     for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
     out.support_completeness = dispersed[0].data(), out.neighbors = dispersed[1].data(),
     out.conducted = dispersed[2].data();

@@ -7,9 +7,11 @@
 ///   momentum           A += sigma_j d, G += d          B.4, a = -(C/rho)(A + sigma_i G)
 ///   viscosity          A += k (f_i + f_j)/2 q d, q = v_ij.r_ij/(r^2 + 0.01 h^2)   B.4, bilateral,
 ///                      in the shares f that act (dense/viscous_share.hpp)
-///   density diffusion  D += V_j t^3 (e_j - e_i), N += (e_j - e_i) d  B.2; the linear part of the
-///                      density field, N's gradient, is taken out so that a hydrostatic column
-///                      or a sheet on a slope does not diffuse
+///   density diffusion  D += V_j t^3 (e_j - e_i + (g_j.r_ij)/2), then + (g_i.G)/2   B.2: the
+///                      linear part of the density field is taken out by the mean of both grains'
+///                      gradients g (of the step before), so that a hydrostatic column or a sheet
+///                      on a slope does not diffuse and a pair gives and takes the same
+///   its gradient       N += (e_j - e_i) d, g = -M^-1 N for the next step
 #pragma once
 
 #include "engine/core/lanes.hpp"
@@ -27,11 +29,10 @@ struct DenseScale {
   float diffusion;      ///< 2 delta h c0 C
   float density;        ///< rho_ref
   float smoothing;      ///< 2 zeta h c0 C
-  float inv_support;    ///< 1/(2h) [1/m]
   float ratio_floor;    ///< p_c of the smoothed ratio [Pa]
   float laplacian;      ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
   float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
-  float plane;  ///< 2 * 10.5/h: twice the integral of W over a plane through the particle [1/m]
+  float support;        ///< 2h in units
 };
 
 inline DenseScale dense_scale(const SweepConstants& c, double unit) {
@@ -47,11 +48,10 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
   s.smoothing =
       static_cast<float>(2 * c.stress_smoothing * c.h * c.sound_speed * c.gradient_factor);
   s.ratio_floor = static_cast<float>(c.ratio_floor);
-  s.inv_support = static_cast<float>(0.5 / c.h);
   s.laplacian = static_cast<float>(c.gradient_factor);
   const double t = 1 - c.spacing / (2 * c.h);
   s.inv_w_spacing = static_cast<float>(1 / (t * t * t * t * (5 - 4 * t)));
-  s.plane = static_cast<float>(21 / c.h);
+  s.support = static_cast<float>(2 * c.h / unit);
   return s;
 }
 
@@ -94,9 +94,11 @@ struct DenseSums {
   }
 
   /// Adds one neighbour to all lanes. A particle outside the support or the lane itself adds zero.
+  /// \param half_gradient  of the neighbour's density
   /// \param viscosity  DenseScale::viscosity in the share that acts between the pair
   /// \return the weight V_j t^3
-  Lanes add(const DenseSelf& i, const NeighborRecord& j, const DenseScale& k, Lanes viscosity) {
+  Lanes add(const DenseSelf& i, const NeighborRecord& j, const HalfDensityGradient& half_gradient,
+            const DenseScale& k, Lanes viscosity) {
     const Lanes rx = difference(i.x, j.x), ry = difference(i.y, j.y), rz = difference(i.z, j.z);
     const Lanes r2 = fma(rx, rx, fma(ry, ry, rz * rz));
     const Lanes t = max(Lanes::all(0), fnma(sqrt(r2), Lanes::all(k.to_s), Lanes::all(1)));
@@ -121,7 +123,9 @@ struct DenseSums {
     az = fma(szx, dx, fma(syz, dy, fma(Lanes::all(j.szz) + q, dz, az)));
 
     const Lanes e = Lanes::all(j.density_change) - i.density_change;
-    d = fma(w, e, d);
+    const Lanes gx_j = Lanes::all(half_gradient.x), gy_j = Lanes::all(half_gradient.y);
+    const Lanes linear = fma(gx_j, rx, fma(gy_j, ry, Lanes::all(half_gradient.z) * rz));
+    d = fma(w, e + linear, d);
     nx = fma(e, dx, nx), ny = fma(e, dy, ny), nz = fma(e, dz, nz);
     return w;
   }

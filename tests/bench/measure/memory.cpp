@@ -16,6 +16,7 @@ std::size_t state_bytes(const State& s) {
   for (const auto* v :
        {&s.grains().ax, &s.grains().ay, &s.grains().az, &b.distance, &b.nx, &b.ny, &b.nz})
     sum += bytes(*v);
+  for (const auto& v : b.from_ground) sum += bytes(v);
   for (int k = 0; k < 6; ++k) sum += bytes(b.moment[k]) + bytes(b.gradient[k]);
   return sum;
 }

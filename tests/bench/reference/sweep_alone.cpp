@@ -26,7 +26,9 @@ SweepAlone::SweepAlone(const SimulationParts& parts, const ScenePlan& plan, Inst
   gather_records(g);
   for (auto& r : results_) r.assign(lists_.padded_size(), 0);
   zeros_.assign(lists_.padded_size(), 0);
-  far_.assign(lists_.padded_size(), 1e9f);
+  const double far = GroundRecord::far * 2 * g.smoothing_length / lists_.view().unit_m;
+  far_.assign(lists_.n_records_rounded(), {static_cast<float>(far), 0});
+  density_gradient_.assign(lists_.n_records_rounded(), {});
   n_pairs_ = count_pairs();
 }
 
@@ -70,14 +72,16 @@ SweepOutput SweepAlone::output() {
                      &o.lyy, &o.lyz, &o.lzx, &o.lzy, &o.lzz, &o.diffusion};
   for (int k = 0; k < 13; ++k) *slots[k] = results_[k].data();
   for (int k = 0; k < 6; ++k) o.smooth[k] = results_[13 + k].data();
-  o.mirror_weight = results_[19].data();
+  for (int k = 0; k < 3; ++k) o.density_gradient[k] = results_[19 + k].data();
+  o.ground_weight = results_[22].data();
   return o;
 }
 
 double SweepAlone::run() {
   const float* zero = zeros_.data();
   const BoundaryView wall{far_.data(), zero, zero, zero, {}, {}};
-  const NeighborView view = lists_.view();
+  NeighborView view = lists_.view();
+  view.density_gradient = density_gradient_.data();
   const SweepOutput out = output();
   return timed(thread_seconds, [&] {
     sweeps(set_of_instructions_).dense(view, constants_, wall, out, 0, lists_.n_groups());

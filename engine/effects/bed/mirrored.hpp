@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How what ground and walls mirror pushes a particle.
+#pragma once
+
+#include "engine/effects/bed/effect.hpp"
+#include "engine/effects/fields.hpp"
+
+#include <cstddef>
+
+namespace sturz {
+
+/// The mirror contribution of walls to the pressure force: a = 2 p_n W_plane(d) / rho along n. With
+/// it the particles beside a wall carry the pressure, and the spring only guards the gap. The
+/// ground mirrors the stress of contacts in the pair sweep; that of collisions here.
+class WallPressure {
+ public:
+  static WallPressure of_walls(const MovingSet& p, const ContactSettings& c) {
+    WallPressure w(p, c);
+    if (const Field* stress = p.find(fields::stress))
+      for (int k = 0; k < 6; ++k) w.stress_[k] = stress->component[k].data();
+    return w;
+  }
+  static WallPressure of_ground(const MovingSet& p, const ContactSettings& c) {
+    WallPressure w(p, c);
+    if (const Field* weight = p.find(fields::ground_weight))
+      w.ground_weight_ = weight->component[0].data();
+    return w;
+  }
+  bool acts() const { return stress_[0] || kinetic_[0]; }
+  /// \param plane  plane_integral at the particle's distance [1/m]
+  double acceleration(std::size_t i, double plane, double nx, double ny, double nz) const {
+    double snn = 0;
+    if (stress_[0]) snn += normal(stress_, i, nx, ny, nz);
+    if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
+    if (snn >= 0) return 0;
+    const double weight = ground_weight_ ? ground_weight_[i] : mirror_weight_[i];
+    return -2 * snn * plane * weight / (density_ * (1 + density_change_[i]));
+  }
+
+ private:
+  WallPressure(const MovingSet& p, const ContactSettings& c) : density_(c.reference_density) {
+    if (!p.has(fields::stress)) return;
+    if (const Field* kinetic = p.find(fields::kinetic_stress))
+      for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
+    density_change_ = p.scalar(fields::density_change).data();
+    mirror_weight_ = p.boundary.mirror_weight.data();
+  }
+  static double normal(const double* const s[6], std::size_t i, double nx, double ny, double nz) {
+    return nx * nx * s[0][i] + ny * ny * s[1][i] + nz * nz * s[2][i] +
+           2 * (nx * ny * s[3][i] + ny * nz * s[4][i] + nz * nx * s[5][i]);
+  }
+
+  double density_;
+  const float* mirror_weight_ = nullptr;
+  const double* ground_weight_ = nullptr;
+  const double* stress_[6] = {};
+  const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
+  const double* density_change_ = nullptr;
+};
+
+/// What the images in the ground do to a particle: a push along the normal, which is the ground's
+/// reaction and never pulls, and the pull along it, which pairs of particles share without
+/// loss on a plane. It is no force of the pairs where the ground is bent: hence here.
+class GroundImages {
+ public:
+  explicit GroundImages(const MovingSet& p) {
+    if (!p.has(fields::stress)) return;
+    for (int k = 0; k < 3; ++k) a_[k] = p.boundary.from_ground[k].data();
+  }
+  Vec3 operator()(std::size_t i) const {
+    return a_[0] ? Vec3(a_[0][i], a_[1][i], a_[2][i]) : Vec3(0, 0, 0);
+  }
+
+ private:
+  const float* a_[3] = {};
+};
+
+}  // namespace sturz
