@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace sturz::test {
@@ -36,13 +37,13 @@ Scenario one_particle(Scenario s, double spacing_m) {
 /// 10 x 10 x 4 particles that stay a block: cohesion beyond any stress of theirs, and a friction
 /// angle that leaves no lateral stress at the start (K_0 = 1 - sin 89 deg), which would make the
 /// block ring. Sliding friction excites it anyway; then parts of its lowest layer stick, or move
-/// across the slope, and the block as a whole feels less friction than a rigid one. Hence the
-/// viscosity.
-Scenario elastic(Scenario s, double artificial_viscosity = 0.5) {
+/// across the slope, and the block as a whole feels less friction than a rigid one. A viscosity of
+/// 0.5 would cure it; what is asserted is what users get.
+Scenario elastic(Scenario s, std::optional<double> artificial_viscosity = std::nullopt) {
   s.grains->cohesion_pa = 1e7;
   s.grains->friction.reset();
   s.grains->friction_angle_deg = Uncertain(89);
-  s.numerics.artificial_viscosity = artificial_viscosity;
+  if (artificial_viscosity) s.numerics.artificial_viscosity = *artificial_viscosity;
   return s;
 }
 
@@ -77,7 +78,7 @@ void expect_slide(const std::string& name, const Slide& s, double tolerance) {
   expect_within(
       relative(name + ", acceleration", "m/s2", s.acceleration, s.expected_acceleration, tolerance),
       s.finished);
-  expect_conserved(s.finished);
+  expect_conserved(name, s.finished);
 }
 
 class BlockOnSlope : public testing::TestWithParam<double> {};
@@ -100,15 +101,14 @@ TEST_P(BlockOnSlope, ElasticBlockSlidesAsCoulombSays) {
 TEST(BlockOnSlope, WhatTheStepAndTheViscosityCostIsReported) {
   for (const double dx : {2.0, 1.0}) {
     const Slide s = slide(one_particle(block_on_plane(tan25, 0), dx));
-    record(relative(fmt::format("V1 particle, r_u 0, dx {} m", dx), "m in 5 s", s.path,
-                    s.expected_path),
-           s.finished);
-    expect_conserved(s.finished);
+    const std::string name = fmt::format("V1 particle, r_u 0, dx {} m", dx);
+    record(relative(name, "m in 5 s", s.path, s.expected_path), s.finished);
+    expect_conserved(name, s.finished);
   }
-  const Slide s = slide(elastic(block_on_plane(tan25, 0), 0.1));
-  record(relative("V1 elastic block, r_u 0, viscosity 0.1", "m in 5 s", s.path, s.expected_path),
-         s.finished);
-  expect_conserved(s.finished);
+  const Slide s = slide(elastic(block_on_plane(tan25, 0), 0.5));
+  const std::string name = "V1 elastic block, r_u 0, viscosity 0.5";
+  record(relative(name, "m in 5 s", s.path, s.expected_path), s.finished);
+  expect_conserved(name, s.finished);
 }
 
 class StopOnLevelGround : public testing::TestWithParam<bool> {};
@@ -140,7 +140,7 @@ TEST_P(StopOnLevelGround, EndsWhereTheEnergyIsSpent) {
   const std::string name = GetParam() ? "V1b stop, elastic block" : "V1b stop, particle";
   expect_within(relative(name + ", distance", "m", path, 50 / deceleration, 0.005), f);
   expect_within(relative(name + ", time", "s", stopped_at, 10 / deceleration, 0.005), f);
-  expect_conserved(f);
+  expect_conserved(name, f);
 }
 
 /// 20 degrees, friction 25 degrees. The first seconds belong to the contact spring, which takes up
@@ -158,6 +158,7 @@ TEST(StickOnSlope, ParticleHasNoSpeedForAMinute) {
                               fastest = std::max(fastest, mean_motion(p.state.grains()).fastest);
                           }});
   expect_within({"V1b stick, particle", "fastest m/s in 60 s", fastest, 0, fastest, 1e-6}, f);
+  expect_numerical_bounded("V1b stick, particle", f);
 }
 
 class ThinSheet : public testing::TestWithParam<int> {};
@@ -169,10 +170,9 @@ INSTANTIATE_TEST_SUITE_P(Layers, ThinSheet, testing::Values(1, 2, 3, 5),
 /// A normal impulse that did not enter the Coulomb cap would show here first.
 TEST_P(ThinSheet, AcceleratesAsOneParticleDoes) {
   const Slide s = slide(thin_sheet(GetParam()), 2);
-  expect_within(relative(fmt::format("V1 sheet, layers {}", GetParam()), "m/s2", s.acceleration,
-                         s.expected_acceleration, 0.01),
-                s.finished);
-  expect_conserved(s.finished);
+  const std::string name = fmt::format("V1 sheet, layers {}", GetParam());
+  expect_within(relative(name, "m/s2", s.acceleration, s.expected_acceleration, 0.01), s.finished);
+  expect_conserved(name, s.finished);
 }
 
 }  // namespace

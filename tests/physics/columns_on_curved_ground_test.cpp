@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth-averaged flow on curved ground: V2, V21, a frictionless bowl, the ramp against full stress,
-// and the same bits on any number of threads.
+// Depth-averaged flow on curved ground: V2, V21, a frictionless bowl and the
+// same bits on any number of threads.
 #include "scenarios/catalogue.hpp"
 #include "tests/physics/descent.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
 
 namespace sturz::test {
 namespace {
@@ -18,12 +21,12 @@ Scenario columns(Scenario s) {
 /// The single column follows the mass point; the bend presses it on (a regression test too: every
 /// normal impulse counts for friction).
 TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
-  // The bend of 40 m is spread over two spacings of 8 m: there the point of equal energy is 2.1 %
-  // off.
-  for (const double spacing : {4.0, 2.0, 1.0}) {
+  std::vector<double> error;
+  for (const double spacing : {8.0, 4.0, 2.0, 1.0}) {
     const Descent d = descend(columns(ramp_slide(90, spacing)));
     const EnergyLine line(d.s0, true), straight(d.s0, false);
     const std::string name = fmt::format("V2 columns, dx = {:.0f} m", spacing);
+    error.push_back(d.rmse(line));
     expect_within({name + ", angle", "deg", d.angle_deg(), line.angle_deg(),
                    d.angle_deg() - line.angle_deg(), 0.5},
                   d.finished);
@@ -33,6 +36,14 @@ TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
             d.angle_deg() - straight.angle_deg()},
            d.finished);
     expect_conserved(d.finished);
+    if (spacing > 1) continue;
+    // Of first order the error halves with the spacing; of order 0.4 it falls to three quarters.
+    double worst = 0;
+    for (std::size_t i = 1; i < error.size(); ++i)
+      worst = std::max(worst, error[i] / error[i - 1]);
+    expect_within({"V2 columns, energy height, convergence", "largest error / that at twice dx",
+                   worst, 0.5, worst, 0.75},
+                  d.finished);
   }
 }
 
@@ -67,42 +78,6 @@ TEST(ColumnInABowl, KeepsItsEnergy) {
   const double drop = 60.5 * 60.5 / 120;
   expect_within(relative("bowl, energy height at the bottom", "m", most, drop, 0.01), f);
   expect_within(relative("bowl, height after a dozen swings", "m", highest, drop, 0.01), f);
-}
-
-/// A mound that leaves a 35 degree slope for level ground stops where six layers of particles do.
-TEST(RampStop, FrontAgreesWithFullStress) {
-  auto mound = [](Formulation formulation, double spacing) {
-    Scenario s = ramp_slide(90, spacing);
-    s.formulation = formulation;
-    s.terrain.synthetic = SyntheticTerrain{"ramp",
-                                           2,
-                                           {{"slope_deg", 35},
-                                            {"slope_length_m", 120},
-                                            {"transition_m", 40},
-                                            {"level_length_m", 160},
-                                            {"width_m", 100}}};
-    s.release.cylinder.reset();
-    s.release.paraboloid = ReleaseParaboloid{{-70, 0}, {16, 16}};
-    s.release.thickness_m = Uncertain(6);
-    s.basal.friction_coefficient = std::tan(25 * degree);
-    s.grains->friction.reset();
-    s.grains->friction_angle_deg = Uncertain(30);
-    return s;
-  };
-  const Finished full = run(mound(Formulation::full_stress, 1));
-  const double front = full.result.scalars.front_travel_m;
-  for (const double spacing : {4.0, 2.0, 1.0}) {
-    const Finished f = run(mound(Formulation::depth_averaged, spacing));
-    const std::string name = fmt::format("ramp stop, columns of {:.0f} m", spacing);
-    const Line line =
-        relative(name + ", front against six layers", "m", f.result.scalars.front_travel_m, front,
-                 spacing == 1 ? 0.03 : reported_only);
-    spacing == 1 ? expect_within(line, f) : record(line, f);
-    record(relative(name + ", centre of mass", "m", f.result.scalars.com_travel_m,
-                    full.result.scalars.com_travel_m),
-           f);
-    expect_conserved(f);
-  }
 }
 
 TEST(ColumnBits, AreTheSameOnTwoThreadsAndBothInstructionSets) {

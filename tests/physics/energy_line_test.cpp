@@ -31,7 +31,7 @@ TEST(EnergyLine, DiscEndsWhereAMassPointEnds) {
   record({"V2 disc, angle against the straight line", "deg", d.angle_deg(), straight.angle_deg(),
           d.angle_deg() - straight.angle_deg()},
          d.finished);
-  expect_conserved(d.finished);
+  expect_conserved("V2 disc", d.finished);
 }
 
 TEST(EnergyLine, HalfTheViscosityIsReported) {
@@ -40,7 +40,7 @@ TEST(EnergyLine, HalfTheViscosityIsReported) {
   expect_within({"V2 disc, viscosity 0.05, angle", "deg", d.angle_deg(), line.angle_deg(),
                  d.angle_deg() - line.angle_deg(), 0.5},
                 d.finished);
-  expect_conserved(d.finished);
+  expect_conserved("V2 disc, viscosity 0.05", d.finished);
 }
 
 /// Loose grains lose energy among themselves too, so their line is steeper than the bed's.
@@ -50,12 +50,13 @@ TEST(EnergyLine, LooseMassStopsEarlierThanADisc) {
     s.numerics.artificial_viscosity = viscosity;
     const Descent d = descend(s);
     const EnergyLine line(d.s0, true);
-    record({fmt::format("V2 loose mass, viscosity {}, angle", viscosity), "deg", d.angle_deg(),
-            line.angle_deg(), d.angle_deg() - line.angle_deg()},
+    const std::string name = fmt::format("V2 loose mass, viscosity {}", viscosity);
+    record({name + ", angle", "deg", d.angle_deg(), line.angle_deg(),
+            d.angle_deg() - line.angle_deg()},
            d.finished);
     EXPECT_GT(d.angle_deg(), line.angle_deg());
     EXPECT_LT(d.angle_deg(), line.angle_deg() + 2);
-    expect_conserved(d.finished);
+    expect_conserved(name, d.finished);
   }
 }
 
@@ -68,7 +69,7 @@ TEST(RotationInvariance, RunOutDoesNotKnowTheGrid) {
     const std::string name = fmt::format("V21 ramp turned by {:.0f} deg", 90 - azimuth);
     expect_within(relative(name + ", centre of mass", "m", mean, travel, 0.02), d.finished);
     expect_within(relative(name + ", front", "m", farthest, front, 0.02), d.finished);
-    expect_conserved(d.finished);
+    expect_conserved(name, d.finished);
   }
 }
 

@@ -74,15 +74,16 @@ TEST(FreeFlight, IsolatedParticlesFollowParabolas) {
   expect_within({"V19 isolated particles, dx 0.1 m", "range m", 400 / gravity_m_s2 * (1 + error),
                  400 / gravity_m_s2, error, 1e-4},
                 f);
+  expect_numerical_bounded("V19 isolated particles, dx 0.1 m", f);
 }
 
 /// The staggered velocity's first kick decides: its length is of the order of the step.
 TEST(FreeFlight, WhatTheStepCostsIsReported) {
   for (const double dx : {1.0, 0.5}) {
     const auto [f, error] = flight(dx);
-    record({fmt::format("V19 isolated particles, dx {} m", dx), "range m",
-            400 / gravity_m_s2 * (1 + error), 400 / gravity_m_s2, error},
-           f);
+    const std::string name = fmt::format("V19 isolated particles, dx {} m", dx);
+    record({name, "range m", 400 / gravity_m_s2 * (1 + error), 400 / gravity_m_s2, error}, f);
+    expect_numerical_bounded(name, f);
     EXPECT_LT(error, 1e-3);
   }
 }
@@ -114,7 +115,7 @@ TEST(FreeFlight, PairForcesDoNotMoveTheWhole) {
       std::hypot(after.vx - before.vx, after.vy - before.vy, after.vz - before.vz) / before.speed;
   expect_within(
       {"V20 momentum of a spinning block", "relative drift in 2 s", drift, 0, drift, 1e-7}, f);
-  expect_conserved(f);
+  expect_conserved("V20 spinning block", f);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ void expect_tight(const std::string& name, const Scenario& s) {
   const double below = std::max(0.0, -least);
   expect_within({name, "lowest centre, dx above ground", least, 0, below, 0.1}, f);
   EXPECT_EQ(f.simulation.parts().state.grains().ledger.leaked_mass, 0);
-  expect_conserved(f);
+  expect_conserved(name, f);
 }
 
 TEST(Leak, NoneOverACliffOf60Degrees) { expect_tight("I3 cliff 60 deg", cliff(1)); }

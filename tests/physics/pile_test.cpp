@@ -69,7 +69,7 @@ void rests(double spacing_m) {
   expect_within({name + ", centre of mass", "dx in 10 s", centre, 0, centre, 0.01}, f);
   expect_within({name + ", front", "dx in 10 s", edge, 0, edge, 0.01}, f);
   record({name + ", 99 % of the particles", "dx in 10 s", most, 0, most}, f);
-  expect_conserved(f);
+  expect_conserved(name, f);
 }
 
 TEST(PileAtRest, StaysWhereItIs) { rests(1); }
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Angles, SteepPile, testing::Values(25, 35),
                          [](const auto& i) { return fmt::format("Friction{:.0f}Deg", i.param); });
 
 /// 8 m high over a radius of 8 m, up to 63 degrees steep.
-TEST_P(SteepPile, ComesDownToASlopeBelowItsFrictionAngle) {
+TEST_P(SteepPile, ComesDownToItsFrictionAngle) {
   const double dx = 0.8;
   Scenario s = pile(dx);
   s.release.paraboloid = ReleaseParaboloid{{0, 0}, {8, 8}};
@@ -119,16 +119,14 @@ TEST_P(SteepPile, ComesDownToASlopeBelowItsFrictionAngle) {
   const double seconds = f.result.scalars.end_time_s - from;
   const double slope = slope_deg(p, dx);
   const std::string name = fmt::format("V9 steep pile, friction {} deg", GetParam());
-  record({name + ", slope", "deg", slope, GetParam(), std::max(0.0, slope - GetParam()), 2}, f);
-  EXPECT_GT(slope, 0.5 * GetParam());
-  EXPECT_LE(slope, GetParam() + 2);
+  expect_within({name + ", slope", "deg", slope, GetParam(), slope - GetParam(), 2}, f);
   const double centre = centre_moved(end, before) / dx / seconds;
   const double edge = (end.edge_99 - before.edge_99) / dx / seconds;
   const double most = moved_99(end, before) / dx / seconds;
   expect_within({name + ", creep of the centre", "dx/s", centre, 0, centre, 0.01}, f);
-  record({name + ", creep of the edge", "dx/s", edge, 0, edge, 0.01}, f);
-  record({name + ", creep of 99 % of the particles", "dx/s", most, 0, most, 0.01}, f);
-  expect_conserved(f);
+  expect_within({name + ", creep of the edge", "dx/s", edge, 0, edge, 0.01}, f);
+  expect_within({name + ", creep of 99 % of the particles", "dx/s", most, 0, most, 0.01}, f);
+  expect_conserved(name, f);
 }
 
 /// Six layers without end on a rough bed: the steepest slope that stands is the friction angle.
@@ -148,13 +146,14 @@ TEST(EndlessSlope, StandsTwoDegreesBelowTheFrictionAngle) {
                                                if (t > 9 && t < 14)
                                                  at_10 = mean_motion(p.state.grains()).speed;
                                              }});
-  expect_within(
-      {"V9 endless slope 28 deg, friction 30", "mean speed dx/s at 10 s", at_10, 0, at_10, 0.01},
-      f);
+  const std::string name = "V9 endless slope 28 deg, friction 30";
+  expect_within({name, "mean speed dx/s at 10 s", at_10, 0, at_10, 0.01}, f);
+  expect_conserved(name, f);
 }
 
-/// Slower than a mass that slides on one plane (g (sin - mu cos) t), for the artificial viscosity
-/// spreads the shear over the six layers, but it flows.
+/// One friction at all rates: whatever the shear's profile, g (sin - mu cos) is left over for the
+/// mean. With viscosity the shear is spread over the six layers; the bed, which holds the lowest
+/// ones, gives them no more than that friction.
 TEST(EndlessSlope, FlowsTwoDegreesAboveTheFrictionAngle) {
   const double sliding =
       15 * gravity_m_s2 * (std::sin(32 * degree) - std::tan(30 * degree) * std::cos(32 * degree));
@@ -163,12 +162,10 @@ TEST(EndlessSlope, FlowsTwoDegreesAboveTheFrictionAngle) {
     s.numerics.artificial_viscosity = viscosity;
     const Finished f = run(s);
     const double speed = mean_motion(f.simulation.parts().state.grains()).speed;
-    record(relative(fmt::format("V9 endless slope 32 deg, friction 30, viscosity {}", viscosity),
-                    "mean speed m/s at 15 s", speed, sliding),
-           f);
-    EXPECT_GT(speed, 0.1 * sliding);
-    EXPECT_LT(speed, 1.05 * sliding);
-    expect_conserved(f);
+    const std::string name =
+        fmt::format("V9 endless slope 32 deg, friction 30, viscosity {}", viscosity);
+    expect_within(relative(name, "mean speed m/s at 15 s", speed, sliding, 0.05), f);
+    expect_conserved(name, f);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/physics/results_file.hpp"
+#include "tests/physics/results/results_file.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
