@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Strength inside the mass, full stress: both friction cones, and pore pressure inside or at the bed alone.
 
-usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|slope|s1000 ...]   (needs gdal_translate)
+usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|pile_fine|slope|s1000|s1000_fine ...]   (needs gdal_translate)
 `collapse`: V8b, the slice of a column beside its run-out laws. `pile`: a heap steeper than its friction angle, the slope that it comes down to. `slope`: six layers without end on a rough bed around their
 friction angle. `s1000`: the landslide of 2021 beside its DEM of difference; DATA_FOLDER/s1000_sthelens holds
 pre_runout_DEM.asc, landslide_depth.asc and DEM_of_Difference.asc. Prints tables.
@@ -107,15 +107,14 @@ def collapses(sturz, _, out):
                 print(f"| {name} | {aspect} | {along} | {cone} | {contour:.2f} | {far(aspect):.2f} | {top:.2f} | {law} |", flush=True)
 
 
-def piles(sturz, _, out):
+def piles(sturz, _, out, spacing=0.8):
     print("| friction | cone | spacing m | height m | slope deg | front travel m |\n|---|---|---|---|---|---|")
     for angle in (25, 35):
         for cone in CONES:
-            for spacing in (0.8, 0.5):
-                folder = run(sturz, out / f"pile_{angle}_{cone}_{spacing}", PILE.format(angle=angle, cone=cone, spacing=spacing))
-                cells, cell = layer(folder, "deposit_thickness")
-                m = member(folder)
-                print(f"| {angle} | {cone} | {spacing} | {float(m['max_deposit_m']):.2f} | {pile_slope(cells, cell):.1f} | {float(m['front_travel_m']):.1f} |", flush=True)
+            folder = run(sturz, out / f"pile_{angle}_{cone}_{spacing}", PILE.format(angle=angle, cone=cone, spacing=spacing))
+            cells, cell = layer(folder, "deposit_thickness")
+            m = member(folder)
+            print(f"| {angle} | {cone} | {spacing} | {float(m['max_deposit_m']):.2f} | {pile_slope(cells, cell):.1f} | {float(m['front_travel_m']):.1f} |", flush=True)
 
 
 def slopes(sturz, _, out):
@@ -131,7 +130,7 @@ def slopes(sturz, _, out):
             print(f"| {slope} | {viscosity} | {cone} | {float(member(folder)['com_travel_m']):.2f} | {block(a, math.tan(math.pi / 6)):.1f} | {block(a, 0.5):.1f} |", flush=True)
 
 
-def s1000(sturz, data, out):
+def s1000(sturz, data, out, spacing=2.25):
     data = pathlib.Path(data).resolve() / "s1000_sthelens"
     depth, cell = read_grid(data / "landslide_depth.asc")
     # Cells of the raster lie where its decimals put them: match them by rounding.
@@ -154,12 +153,11 @@ def s1000(sturz, data, out):
     line("measured | | | | | ", observed, 1 - stayed / volume)
     # One bed of 0.265 throughout: dry, and as the tangent of the angle inside weakened by its pore pressure.
     wet = {angle: 1 - 0.265 / math.tan(math.radians(angle)) for angle in (32, 25)}
-    cases = [("depth_averaged", 2.25, 32, 0, None, False)]
-    for spacing in (2.25, 1.5):
-        for angle in (32, 25):
-            cases += [("full_stress", spacing, angle, 0, cone, False) for cone in CONES]
-            cases += [("full_stress", spacing, angle, wet[angle], cone, True) for cone in CONES]
-    for formulation, spacing, angle, ratio, cone, inside in cases:
+    cases = [("depth_averaged", 32, 0, None, False)]
+    for angle in (32, 25):
+        cases += [("full_stress", angle, 0, cone, False) for cone in CONES]
+        cases += [("full_stress", angle, wet[angle], cone, True) for cone in CONES]
+    for formulation, angle, ratio, cone, inside in cases:
         grains = f", friction_cone: {cone}, pore_pressure_inside: {str(inside).lower()}" if cone else ""
         text = S1000.format(data=data, angle=angle, grains=grains, friction=round(0.265 / (1 - ratio), 4), ratio=round(ratio, 4), formulation=formulation, spacing=spacing)
         folder = run(sturz, out / f"s1000_{formulation}_{spacing}_{angle}_{cone}_{inside}", text)
@@ -171,9 +169,12 @@ def s1000(sturz, data, out):
 
 def main(sturz, data, out, *parts):
     out = pathlib.Path(out)
-    for part in parts or ("collapse", "pile", "slope", "s1000"):
+    finer = {"pile": 0.5, "s1000": 1.5}
+    for part in parts or ("collapse", "pile", "pile_fine", "slope", "s1000", "s1000_fine"):
         print(f"\n{part}")
-        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[part](sturz, data, out)
+        name = part.removesuffix("_fine")
+        spacing = (finer[name],) if part != name else ()
+        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[name](sturz, data, out, *spacing)
 
 
 if __name__ == "__main__":
