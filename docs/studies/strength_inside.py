@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Strength inside the mass, full stress: both friction cones, and pore pressure inside or at the bed alone.
 
-usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|pile_fine|slope|s1000|s1000_fine ...]   (needs gdal_translate)
+usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|slope|s1000[:SPACING_M] ...]   (needs gdal_translate)
 `collapse`: V8b, the slice of a column beside its run-out laws. `pile`: a heap steeper than its friction angle, the slope that it comes down to. `slope`: six layers without end on a rough bed around their
 friction angle. `s1000`: the landslide of 2021 beside its DEM of difference; DATA_FOLDER/s1000_sthelens holds
 pre_runout_DEM.asc, landslide_depth.asc and DEM_of_Difference.asc. Prints tables.
@@ -175,12 +175,10 @@ def s1000(sturz, data, out, spacing=2.25):
 
 def main(sturz, data, out, *parts):
     out = pathlib.Path(out)
-    finer = {"pile": 0.5, "s1000": 1.5}
-    for part in parts or ("collapse", "pile", "pile_fine", "slope", "s1000", "s1000_fine"):
+    for part in parts or ("collapse", "pile", "slope", "s1000:4.5", "s1000:2.25"):
         print(f"\n{part}")
-        name = part.removesuffix("_fine")
-        spacing = (finer[name],) if part != name else ()
-        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[name](sturz, data, out, *spacing)
+        name, _, spacing = part.partition(":")
+        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[name](sturz, data, out, *([float(spacing)] if spacing else []))
 
 
 if __name__ == "__main__":
