@@ -1,17 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Strength inside the mass, full stress: both friction cones, and pore pressure inside or at the bed alone.
 
-usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|slope|s1000 ...]   (needs gdal_translate)
+usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|slope|s1000[:SPACING_M] ...]   (needs gdal_translate)
 `collapse`: V8b, the slice of a column beside its run-out laws. `pile`: a heap steeper than its friction angle, the slope that it comes down to. `slope`: six layers without end on a rough bed around their
 friction angle. `s1000`: the landslide of 2021 beside its DEM of difference; DATA_FOLDER/s1000_sthelens holds
 pre_runout_DEM.asc, landslide_depth.asc and DEM_of_Difference.asc. Prints tables.
 """
-import csv
+import json
 import math
 import pathlib
+import subprocess
 import sys
 
-from erosion_s1000 import centre, layer, read_grid, run
+from erosion_s1000 import centre, layer, read_grid
 
 CONES = ("simple_shear", "plane_strain")
 
@@ -66,9 +67,13 @@ hazard: {{cell_size_m: 10}}
 """
 
 
-def member(folder):
-    with open(folder / "members.csv", encoding="utf-8") as file:
-        return next(csv.DictReader(file))
+def run(sturz, folder, text):
+    """Folder and numbers of one member."""
+    folder.mkdir(parents=True, exist_ok=True)
+    scene = folder / "scene.yaml"
+    scene.write_text(text)
+    done = subprocess.run([sturz, "run", scene, "-o", folder / "out", "--replace", "--json"], capture_output=True, text=True, check=True)
+    return folder / "out", json.loads(done.stdout.splitlines()[-1])["scalars"]
 
 
 def pile_slope(cells, cell):
@@ -93,7 +98,8 @@ def collapses(sturz, _, out):
                 runout = 2 * dx * math.ceil((1.5 + 3 * aspect) / (2 * dx))
                 text = COLLAPSE.format(cell=2 * dx, length=2 * runout, width=4 * dx, half=2 * dx, aspect=aspect, friction=friction, cone=cone,
                                        bed=math.tan(math.radians(bed)), dx=dx, end=8 * math.sqrt(aspect / 9.80665))
-                cells, _ = layer(run(sturz, out / f"collapse_{name}_{aspect}_{cone}", text), "deposit_thickness")
+                folder, _ = run(sturz, out / f"collapse_{name}_{aspect}_{cone}", text)
+                cells, _ = layer(folder, "deposit_thickness")
                 strips = {}
                 for (x, _), h in cells.items():
                     strips.setdefault(round(x / dx - 0.5), []).append(h)
@@ -107,15 +113,13 @@ def collapses(sturz, _, out):
                 print(f"| {name} | {aspect} | {along} | {cone} | {contour:.2f} | {far(aspect):.2f} | {top:.2f} | {law} |", flush=True)
 
 
-def piles(sturz, _, out):
+def piles(sturz, _, out, spacing=0.8):
     print("| friction | cone | spacing m | height m | slope deg | front travel m |\n|---|---|---|---|---|---|")
     for angle in (25, 35):
         for cone in CONES:
-            for spacing in (0.8, 0.5):
-                folder = run(sturz, out / f"pile_{angle}_{cone}_{spacing}", PILE.format(angle=angle, cone=cone, spacing=spacing))
-                cells, cell = layer(folder, "deposit_thickness")
-                m = member(folder)
-                print(f"| {angle} | {cone} | {spacing} | {float(m['max_deposit_m']):.2f} | {pile_slope(cells, cell):.1f} | {float(m['front_travel_m']):.1f} |", flush=True)
+            folder, m = run(sturz, out / f"pile_{angle}_{cone}_{spacing}", PILE.format(angle=angle, cone=cone, spacing=spacing))
+            cells, cell = layer(folder, "deposit_thickness")
+            print(f"| {angle} | {cone} | {spacing} | {m['max_deposit_m']:.2f} | {pile_slope(cells, cell):.1f} | {m['front_travel_m']:.1f} |", flush=True)
 
 
 def slopes(sturz, _, out):
@@ -126,12 +130,12 @@ def slopes(sturz, _, out):
     print("| slope deg | viscosity | cone | way of the centre m | block of tan 30 m | block of sin 30 m |\n|---|---|---|---|---|---|")
     for slope, viscosity in ((26, 0.1), (28, 0.1), (29, 0.1), (32, 0.1), (32, 0.05)):
         for cone in CONES:
-            folder = run(sturz, out / f"slope_{slope}_{viscosity}_{cone}", SLOPE.format(slope=slope, viscosity=viscosity, cone=cone))
+            _, m = run(sturz, out / f"slope_{slope}_{viscosity}_{cone}", SLOPE.format(slope=slope, viscosity=viscosity, cone=cone))
             a = math.radians(slope)
-            print(f"| {slope} | {viscosity} | {cone} | {float(member(folder)['com_travel_m']):.2f} | {block(a, math.tan(math.pi / 6)):.1f} | {block(a, 0.5):.1f} |", flush=True)
+            print(f"| {slope} | {viscosity} | {cone} | {m['com_travel_m']:.2f} | {block(a, math.tan(math.pi / 6)):.1f} | {block(a, 0.5):.1f} |", flush=True)
 
 
-def s1000(sturz, data, out):
+def s1000(sturz, data, out, spacing=2.25):
     data = pathlib.Path(data).resolve() / "s1000_sthelens"
     depth, cell = read_grid(data / "landslide_depth.asc")
     # Cells of the raster lie where its decimals put them: match them by rounding.
@@ -154,15 +158,15 @@ def s1000(sturz, data, out):
     line("measured | | | | | ", observed, 1 - stayed / volume)
     # One bed of 0.265 throughout: dry, and as the tangent of the angle inside weakened by its pore pressure.
     wet = {angle: 1 - 0.265 / math.tan(math.radians(angle)) for angle in (32, 25)}
-    cases = [("depth_averaged", 2.25, 32, 0, None, False)]
-    for spacing in (2.25, 1.5):
-        for angle in (32, 25):
-            cases += [("full_stress", spacing, angle, 0, cone, False) for cone in CONES]
-            cases += [("full_stress", spacing, angle, wet[angle], cone, True) for cone in CONES]
-    for formulation, spacing, angle, ratio, cone, inside in cases:
+    cases = [("depth_averaged", 32, 0, None, False)]
+    for angle in (32, 25):
+        cases += [("full_stress", angle, 0, cone, False) for cone in CONES]
+        cases += [("full_stress", angle, wet[angle], cone, True) for cone in CONES]
+    cases.append(("full_stress", 1, 0, "simple_shear", False))  # next to no strength inside: what the bed alone holds
+    for formulation, angle, ratio, cone, inside in cases:
         grains = f", friction_cone: {cone}, pore_pressure_inside: {str(inside).lower()}" if cone else ""
         text = S1000.format(data=data, angle=angle, grains=grains, friction=round(0.265 / (1 - ratio), 4), ratio=round(ratio, 4), formulation=formulation, spacing=spacing)
-        folder = run(sturz, out / f"s1000_{formulation}_{spacing}_{angle}_{cone}_{inside}", text)
+        folder, _ = run(sturz, out / f"s1000_{formulation}_{spacing}_{angle}_{cone}_{inside}", text)
         deposit, size = layer(folder, "deposit_thickness")
         deposit = {(round(x), round(y)): v for (x, y), v in deposit.items()}
         kept = sum(deposit.get(at, 0.0) for at in source) / sum(deposit.values())
@@ -171,9 +175,10 @@ def s1000(sturz, data, out):
 
 def main(sturz, data, out, *parts):
     out = pathlib.Path(out)
-    for part in parts or ("collapse", "pile", "slope", "s1000"):
+    for part in parts or ("collapse", "pile", "slope", "s1000:4.5", "s1000:2.25"):
         print(f"\n{part}")
-        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[part](sturz, data, out)
+        name, _, spacing = part.partition(":")
+        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[name](sturz, data, out, *([float(spacing)] if spacing else []))
 
 
 if __name__ == "__main__":

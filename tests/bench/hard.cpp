@@ -95,7 +95,8 @@ Report hard(const Options& options) {
       "Scenes that want to blow up, each figure beside its bound, and random members from the "
       "corners and the inside of the priors. Every line is asserted by `tests/hard`, of the "
       "members "
-      "a part.";
+      "a part, but banks of 0.9 of their critical height, and with all states that of 1.2 in plane "
+      "strain.";
   Table cases = cases_table();
   for (const test::HardCase& hard : test::hard_cases())
     for (const test::States states : states_of(options))

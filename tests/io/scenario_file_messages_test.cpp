@@ -54,13 +54,22 @@ TEST(ScenarioMessages, StrengthInside) {
   EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  friction_cone: plane_strain\n"
                              "  pore_pressure_inside: true\n")),
               ElementsAre());
-  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  friction_cone: plane-strain\n")),
-              ElementsAre("?"));
-  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  pore_pressure_inside: 0.3\n")),
-              ElementsAre("?"));
-  EXPECT_THAT(problems(scene("  friction_angle_deg: 24\n  pore_pressure_inside: true\n",
-                             "basal: {zones: [{polygon: a.shp, pore_pressure_ratio: 0.4}]}\n")),
-              ElementsAre("?"));
+  EXPECT_THAT(
+      problems(scene("  friction_angle_deg: 24\n  friction_cone: plane-strain\n")),
+      ElementsAre(
+          "scenario.yaml:7:18: grains.friction_cone = plane-strain (must be one of simple_shear, "
+          "plane_strain). Did you mean plane_strain?"));
+  EXPECT_THAT(
+      problems(scene("  friction_angle_deg: 24\n  pore_pressure_inside: 0.3\n")),
+      ElementsAre(
+          "scenario.yaml:7:25: grains.pore_pressure_inside = 0.3 (must be true or false)."));
+  EXPECT_THAT(
+      problems(scene("  friction_angle_deg: 24\n  pore_pressure_inside: true\n",
+                     "basal: {zones: [{polygon: a.shp, pore_pressure_ratio: 0.4}]}\n")),
+      ElementsAre("scenario.yaml:7:25: grains.pore_pressure_inside = true "
+                  "(basal.zones[0].pore_pressure_ratio changes it from place to place; inside, "
+                  "one ratio holds for the whole scene). Keep one of them; "
+                  "basal.pore_pressure_ratio acts in both places."));
 }
 
 TEST(ScenarioMessages, UnknownKey) {

@@ -80,8 +80,8 @@ CaseReport report(const Fall& fall, std::vector<Check> checks) {
   return {std::move(checks), m.n_particles, m.wall_s};
 }
 
-CaseReport bank_stands(FrictionCone cone, States states) {
-  const Fall fall = let_go(0.9, 30, cone, states);
+CaseReport bank_stands(double share, FrictionCone cone, States states) {
+  const Fall fall = let_go(share, 30, cone, states);
   return report(fall, {at_most("farthest particle, heights", fall.moved, 0.1),
                        at_least("closest pair, dx", fall.closest, 0.5)});
 }
@@ -95,11 +95,14 @@ CaseReport bank_falls(FrictionCone cone, States states) {
 }  // namespace
 
 CaseReport cohesive_bank_stands(States states) {
-  return bank_stands(FrictionCone::simple_shear, states);
+  return bank_stands(0.75, FrictionCone::simple_shear, states);
+}
+CaseReport bank_near_its_height(States states) {
+  return bank_stands(0.9, FrictionCone::simple_shear, states);
 }
 CaseReport tall_bank_falls(States states) { return bank_falls(FrictionCone::simple_shear, states); }
-CaseReport plane_strain_bank_stands(States states) {
-  return bank_stands(FrictionCone::plane_strain, states);
+CaseReport plane_strain_bank_near_its_height(States states) {
+  return bank_stands(0.9, FrictionCone::plane_strain, states);
 }
 CaseReport plane_strain_bank_falls(States states) {
   return bank_falls(FrictionCone::plane_strain, states);
