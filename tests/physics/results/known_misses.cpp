@@ -70,6 +70,11 @@ const std::vector<KnownMiss>& known_misses() {
   return list;
 }
 
+bool listed(const std::vector<KnownMiss>& list, const std::string& name) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](const KnownMiss& m) { return m.name == name; });
+}
+
 std::string objection(const std::vector<KnownMiss>& list, const std::string& name, double error,
                       double tolerance) {
   const bool within = std::abs(error) <= tolerance;
