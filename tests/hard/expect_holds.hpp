@@ -24,10 +24,11 @@ inline void expect_holds(const std::string& name, const std::vector<Check>& chec
     const double used = std::max(0.0, c.used());
     const bool is_listed = listed(known_misses(), key);
     if (!c.holds() || is_listed)
-      keep_line(key, fmt::format("\"{}\",,,,,,,\"share of the bound {}{:.4g}\",{:.8g},{:.8g},{:.4g},"
-                                 "1,{}",
-                                 key, c.sense == Check::Sense::at_least ? ">= " : "<= ", c.bound,
-                                 c.measured, c.bound, used, c.holds() ? "met" : "missed"));
+      keep_line(key,
+                fmt::format("\"{}\",,,,,,,\"share of the bound {}{:.4g}\",{:.8g},{:.8g},{:.4g},"
+                            "1,{}",
+                            key, c.sense == Check::Sense::at_least ? ">= " : "<= ", c.bound,
+                            c.measured, c.bound, used, c.holds() ? "met" : "missed"));
     EXPECT_EQ(objection(known_misses(), key, c.holds() ? std::min(used, 1.0) : used, 1), "")
         << fmt::format("{:.4g}, bound {}{:.4g}", c.measured,
                        c.sense == Check::Sense::at_least ? ">= " : "<= ", c.bound);

@@ -37,8 +37,8 @@ struct Survival {
   /// Energy that is there (kinetic, stored, in springs, gone with mass) or known to be spent
   /// (yielding, friction, damping, collisions) beyond what start and gravity gave, over the same:
   /// the most at any time. What friction takes does not pay for what a wrong force makes. Left out:
-  /// what density diffusion and changes of the sound speed are known to add (Ledger::diffusion where
-  /// positive).
+  /// what density diffusion and changes of the sound speed are known to add (Ledger::diffusion
+  /// where positive).
   double created_energy = 0;
   /// Growth of the kinetic energy in the last tenth of the time less what gravity gave, over the
   /// peak: a mass may still fall at the end, but nothing else may speed it up.

@@ -115,9 +115,9 @@ std::pair<Finished, Rest> settle(Simulation simulation) {
 
 /// The cone tau <= k p of the stress law, k = tan(phi), says how far the lateral stress may be from
 /// the vertical one. With the same in both directions, p = (1 + 2 K)/3 and tau = |1 - K|/sqrt(3) of
-/// the vertical stress, so K lies between the two below: 0.4 and 4 for 30 degrees. (In plane strain,
-/// where the other horizontal stress is the mean, (1-k)/(1+k) and its inverse: 0.27 and 3.73; by
-/// the angle 0.33 and 3.)
+/// the vertical stress, so K lies between the two below: 0.4 and 4 for 30 degrees. (In plane
+/// strain, where the other horizontal stress is the mean, (1-k)/(1+k) and its inverse: 0.27
+/// and 3.73; by the angle 0.33 and 3.)
 const double cone = std::sqrt(3) * std::tan(friction_angle_deg * degree);
 const double least_ratio = (3 - cone) / (3 + 2 * cone);
 const double largest_ratio = (3 + cone) / (3 - 2 * cone);
@@ -153,7 +153,8 @@ void expect_border(const std::string& name, double border, double start) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const double weight = -stress[2][i];
     const double before = -(stress[0][i] + stress[1][i] + stress[2][i]) / 3;
-    const double pressure = weight * (1 + 2 * border) / 3, vertical = 3 * pressure / (1 + 2 * start);
+    const double pressure = weight * (1 + 2 * border) / 3,
+                 vertical = 3 * pressure / (1 + 2 * start);
     p.scalar(fields::density_change)[i] *= pressure / before;  // the elastic law is linear
     stress[0][i] = stress[1][i] = -start * vertical;
     stress[2][i] = -vertical;

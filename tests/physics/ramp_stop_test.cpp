@@ -122,9 +122,9 @@ void compare(const std::string& name, Formulation formulation, double spacing, i
   std::vector<std::pair<double, double>> along;
   for (std::size_t i = 0; i < p.size(); ++i) along.emplace_back(p.x[i], p.mass[i]);
   const double path = solution().mean_x() - centre;
-  expect_within(relative(name + ", front", "m", front_99(along) - centre,
-                         solution().x99() - centre, 0.03),
-                f);
+  expect_within(
+      relative(name + ", front", "m", front_99(along) - centre, solution().x99() - centre, 0.03),
+      f);
   expect_within(relative(name + ", centre of mass", "m", mean_motion(p).x - centre, path, 0.03), f);
   expect_conserved(name, f);
 }
@@ -132,7 +132,8 @@ void compare(const std::string& name, Formulation formulation, double spacing, i
 TEST(RampStop, ElementsConverge) {
   Elements coarse(50);
   coarse.run_to_rest(40);
-  EXPECT_NEAR(coarse.x99() - centre, solution().x99() - centre, 0.005 * (solution().x99() - centre));
+  EXPECT_NEAR(coarse.x99() - centre, solution().x99() - centre,
+              0.005 * (solution().x99() - centre));
   EXPECT_NEAR(coarse.mean_x(), solution().mean_x(), 0.002 * (solution().mean_x() - centre));
 }
 

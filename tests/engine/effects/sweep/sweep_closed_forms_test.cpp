@@ -154,10 +154,9 @@ std::vector<Plain> plain_sums(const std::vector<SlowParticle>& cloud, const Swee
 
 class WorkIsPower : public testing::TestWithParam<double> {};
 
-INSTANTIATE_TEST_SUITE_P(Jitters, WorkIsPower, testing::Values(0.0, 0.1, 0.25),
-                         [](const auto& i) {
-                           return "Percent" + std::to_string(std::lround(100 * i.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(Jitters, WorkIsPower, testing::Values(0.0, 0.1, 0.25), [](const auto& i) {
+  return "Percent" + std::to_string(std::lround(100 * i.param));
+});
 
 /// What the pair forces do to the motion is minus the power of the stress on the gradient that is
 /// their adjoint, Sum V sigma : Sum V_j (v_j - v_i) grad W: to rounding, whatever velocities,
