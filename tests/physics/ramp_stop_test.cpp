@@ -45,11 +45,12 @@ class Elements {
       sum += volume_[e] * 0.5 * (x_[e] + x_[e + 1]), volume += volume_[e];
     return sum / volume;
   }
+  /// Linear within the element.
   double x99() const {
-    std::vector<std::pair<double, double>> along;
-    for (std::size_t e = 0; e < volume_.size(); ++e)
-      along.emplace_back(0.5 * (x_[e] + x_[e + 1]), volume_[e]);
-    return front_99(along);
+    double left = 0.99 * (under(centre + half_length) - under(centre - half_length));
+    std::size_t e = 0;
+    for (; e + 1 < volume_.size() && left > volume_[e]; ++e) left -= volume_[e];
+    return x_[e] + (x_[e + 1] - x_[e]) * left / volume_[e];
   }
 
  private:
