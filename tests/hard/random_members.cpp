@@ -101,4 +101,17 @@ std::vector<int> spread(int n) {
   return rows;
 }
 
+std::vector<int> drawn(int n, int set) {
+  if (n > 16) return spread(n);
+  std::vector<int> rows;
+  for (int run = set; run < 16; run += 4) {
+    const int a = run & 1, b = run >> 1 & 1, c = run >> 2 & 1, d = run >> 3 & 1;
+    rows.push_back(run | (a ^ b ^ c) << 4 | (b ^ c ^ d) << 5);
+  }
+  rows.resize(std::min<std::size_t>(rows.size(), static_cast<std::size_t>(n)));
+  for (int k = 0, left = n - 4; k < left; ++k)
+    rows.push_back(n_corners + (4 * k + set) * n_random / (4 * left));
+  return rows;
+}
+
 }  // namespace sturz::test

@@ -41,5 +41,9 @@ class RandomMembers {
 
 /// `n` of the rows 0..n_points-1, evenly spread.
 std::vector<int> spread(int n);
+/// Rows of one of four sets: four corners, different ones in every set, and `n` - 4 random points.
+/// The sixteen corners of all sets are a quarter of the 64 in which every three of the six numbers
+/// meet in every combination (a 2^(6-2) design, e = a b c, f = b c d). More than 16: spread(n).
+std::vector<int> drawn(int n, int set);
 
 }  // namespace sturz::test

@@ -36,6 +36,7 @@ class Witness {
     if (s.n_steps > 1) least_dt_ = std::min(least_dt_, s.previous_dt);
     const Ledger& l = s.grains().ledger;
     history_.push_back({s.time, l.kinetic, l.gravity_work});
+    most_created_ = std::max(most_created_, created(l));
     most_released_ = std::max(most_released_, l.released_energy());
   }
 
@@ -54,11 +55,18 @@ class Witness {
     const Ledger& l = parts_.state.grains().ledger;
     out.energy_residual = std::abs(l.residual()) / most_released_;
     out.numerical_share = l.numerical() / most_released_;
-    const double given = l.kinetic_0 + l.elastic_0 + l.gravity_work;
-    const double stored = l.elastic + l.frictional + l.granular + l.rotational + l.isolated_elastic;
+    out.created_energy = most_created_ / most_released_;
+  }
+
+  /// What is there and what is known to be spent, beyond what was given [J].
+  static double created(const Ledger& l) {
+    const double given = l.kinetic_0 + l.elastic_0 + l.spring_0 + l.gravity_work;
+    const double stored =
+        l.elastic + l.frictional + l.granular + l.rotational + l.isolated_elastic + l.spring;
     const double kept = l.kinetic + stored + l.lost_energy + l.granular_lost;
-    const double known = std::max(0.0, l.diffusion);
-    out.created_energy = std::max(0.0, kept - known - given) / most_released_;
+    const double spent = l.plastic + l.friction + l.rest_damping + l.damping() + l.collisions +
+                         l.isolated_dissipated();
+    return kept + spent - std::max(0.0, l.diffusion) - given;
   }
 
   void write_end(Survival& out) const {
@@ -75,7 +83,7 @@ class Witness {
 
   const SimulationParts& parts_;
   double lowest_z_ = 1e300, lowest_ = 1e300, fastest_ = 0, least_dt_ = 1e300;
-  double cold_ = 0, most_released_ = 0;
+  double cold_ = 0, most_released_ = 0, most_created_ = 0;
   std::vector<Instant> history_;
 };
 

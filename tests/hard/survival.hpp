@@ -34,9 +34,11 @@ struct Survival {
   double speed_ratio = 0;   ///< fastest particle / sqrt(v0^2 + 2 g drop)
   double mean_dt_ratio = 0, least_dt_ratio = 0;  ///< over the estimate before the run
   double kinetic_ratio = 0;                      ///< kinetic energy at the end / at its peak
-  /// Kinetic and stored energy at the end beyond what start and gravity gave, over the same. Left
-  /// out: what density diffusion and changes of the sound speed are known to add (Ledger::diffusion
-  /// where positive), and the ground's springs, pressed at the start by the release's jitter.
+  /// Energy that is there (kinetic, stored, in springs, gone with mass) or known to be spent
+  /// (yielding, friction, damping, collisions) beyond what start and gravity gave, over the same:
+  /// the most at any time. What friction takes does not pay for what a wrong force makes. Left out:
+  /// what density diffusion and changes of the sound speed are known to add (Ledger::diffusion
+  /// where positive).
   double created_energy = 0;
   /// Growth of the kinetic energy in the last tenth of the time less what gravity gave, over the
   /// peak: a mass may still fall at the end, but nothing else may speed it up.

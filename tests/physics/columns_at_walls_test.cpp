@@ -99,6 +99,8 @@ INSTANTIATE_TEST_SUITE_P(Walls, PileAtWall, testing::Values(60.0, 70.0, 80.0),
 TEST_P(PileAtWall, RisesAndRestsAsGrainsDo) {
   const Finished full = run(pile_at_wall(GetParam(), 11, Formulation::full_stress));
   const MemberScalars& asked = full.result.scalars;
+  expect_numerical_bounded(fmt::format("pile at a wall of {:.0f} deg, full stress", GetParam()),
+                           full);
   for (const double spacing : {16.0, 8.0, 5.0}) {
     const Scenario s = pile_at_wall(GetParam(), spacing, Formulation::depth_averaged);
     const Finished f = run(s);

@@ -39,8 +39,7 @@ TEST(ColumnEnergyLine, MassEndsWhereAMassPointEnds) {
     if (spacing > 1) continue;
     // Of first order the error halves with the spacing; of order 0.4 it falls to three quarters.
     double worst = 0;
-    for (std::size_t i = 1; i < error.size(); ++i)
-      worst = std::max(worst, error[i] / error[i - 1]);
+    for (std::size_t i = 1; i < error.size(); ++i) worst = std::max(worst, error[i] / error[i - 1]);
     expect_within({"V2 columns, energy height, convergence", "largest error / that at twice dx",
                    worst, 0.5, worst, 0.75},
                   d.finished);

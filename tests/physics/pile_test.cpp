@@ -76,14 +76,8 @@ TEST(PileAtRest, StaysWhereItIs) { rests(1); }
 
 TEST(PileAtRest, FinerPileStaysToo) { rests(0.8); }
 
-/// Mean slope of the surface: the highest particles of rings, between a quarter and three quarters
-/// of the height.
-double slope_deg(const ParticleSet& p, double spacing_m) {
-  std::vector<double> top(200, 0);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const auto ring = static_cast<std::size_t>(std::hypot(p.x[i], p.y[i]) / spacing_m);
-    if (ring < top.size()) top[ring] = std::max(top[ring], p.z[i] + 0.5 * spacing_m);
-  }
+/// Mean slope of the tops of rings or slices, between a quarter and three quarters of the height.
+double slope_of_tops(const std::vector<double>& top, double spacing_m) {
   const double height = *std::max_element(top.begin(), top.end());
   std::vector<double> r, z;
   for (std::size_t k = 0; k < top.size(); ++k)
@@ -92,6 +86,16 @@ double slope_deg(const ParticleSet& p, double spacing_m) {
       z.push_back(top[k]);
     }
   return std::atan(-slope_of(r, z)) / degree;
+}
+
+/// Of the highest particles of rings.
+double slope_deg(const ParticleSet& p, double spacing_m) {
+  std::vector<double> top(200, 0);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto ring = static_cast<std::size_t>(std::hypot(p.x[i], p.y[i]) / spacing_m);
+    if (ring < top.size()) top[ring] = std::max(top[ring], p.z[i] + 0.5 * spacing_m);
+  }
+  return slope_of_tops(top, spacing_m);
 }
 
 class SteepPile : public testing::TestWithParam<double> {};
@@ -126,6 +130,59 @@ TEST_P(SteepPile, ComesDownToItsFrictionAngle) {
   expect_within({name + ", creep of the centre", "dx/s", centre, 0, centre, 0.01}, f);
   expect_within({name + ", creep of the edge", "dx/s", edge, 0, edge, 0.01}, f);
   expect_within({name + ", creep of 99 % of the particles", "dx/s", most, 0, most, 0.01}, f);
+  expect_conserved(name, f);
+}
+
+class DrainedPile : public testing::TestWithParam<double> {};
+
+INSTANTIATE_TEST_SUITE_P(Angles, DrainedPile, testing::Values(25, 35),
+                         [](const auto& i) { return fmt::format("Friction{:.0f}Deg", i.param); });
+
+/// A slice of grains between a smooth wall and the edge of the terrain, over which they leave: what
+/// stays is a wedge at its angle of repose, down to which it drains from above, the bed as rough as
+/// it is.
+TEST_P(DrainedPile, KeepsItsFrictionAngle) {
+  const int slices = 20;
+  const double dx = 0.5, length = slices * dx, wide = 4 * dx;
+  Scenario s = pile(dx);
+  s.terrain.synthetic = SyntheticTerrain{
+      "plane", dx, {{"slope_deg", 0}, {"length_m", 2 * length}, {"width_m", wide}}};
+  s.release.paraboloid.reset();
+  s.release.box = ReleaseBox{{0, length}, {-wide / 2, wide / 2}};
+  s.release.thickness_m =
+      Uncertain(std::ceil(length / dx * std::tan(GetParam() * degree) + 3) * dx);
+  s.grains->friction_angle_deg = Uncertain(GetParam());
+  s.basal.friction_coefficient = std::tan(GetParam() * degree);
+  s.domain.periodic = {"y"};
+  s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt}};
+  s.numerics.end_time_s = 12;
+  Simulation simulation = build(s);
+  std::vector<double> before_x(simulation.parts().state.n_particles()), before_z = before_x;
+  double from = 0;
+  const Finished f = run(std::move(simulation), {1, [&](double t, const SimulationParts& parts) {
+                                                   if (t < 9 || from > 0) return;
+                                                   const ParticleSet& now = parts.state.grains();
+                                                   for (std::size_t i = 0; i < now.size(); ++i)
+                                                     before_x[now.id[i]] = now.x[i],
+                                                     before_z[now.id[i]] = now.z[i];
+                                                   from = t;
+                                                 }});
+  const ParticleSet& p = f.simulation.parts().state.grains();
+  std::vector<double> top(slices, 0);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const auto slice = static_cast<std::size_t>(std::max(0.0, p.x[i]) / dx);
+    if (slice < top.size()) top[slice] = std::max(top[slice], p.z[i] + 0.5 * dx);
+  }
+  const double slope = slope_of_tops(top, dx);
+  const std::string name = fmt::format("V9 drained pile, friction {} deg", GetParam());
+  expect_within({name + ", slope", "deg", slope, GetParam(), slope - GetParam(), 2}, f);
+  double x = 0, z = 0;  // of those that are still there
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    x += (p.x[i] - before_x[p.id[i]]) / p.size();
+    z += (p.z[i] - before_z[p.id[i]]) / p.size();
+  }
+  const double creep = std::hypot(x, z) / dx / (f.result.scalars.end_time_s - from);
+  expect_within({name + ", creep of the centre", "dx/s", creep, 0, creep, 0.01}, f);
   expect_conserved(name, f);
 }
 

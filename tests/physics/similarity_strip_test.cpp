@@ -19,19 +19,19 @@ namespace {
 constexpr double half_length = 80, depth = 4, end_time = 10, start = -120;
 const double cos35 = std::cos(35 * degree), sin35 = std::sin(35 * degree);
 
-/// A ridge that stretches is everywhere at its active limit. tau <= k p, k = tan(angle), is in plane
-/// strain a Mohr circle of radius k p around the mean p of the two stresses in the plane. Shear
-/// along the bed is tan(bed) of the normal stress at every depth, because a plug's acceleration is
-/// the same at every depth. With normal stress 1 the circle gives K = 2 p - 1 with the smaller p of
-/// (1 - p)^2 + tan^2(bed) = k^2 p^2 (Savage & Hutter 1989 with sin(phi) = k): (1-k)/(1+k) over a
-/// bed without friction, 1 where the bed is as rough as the grains.
+/// A ridge that stretches is everywhere at its active limit. tau <= k p, k = tan(angle), is in
+/// plane strain a Mohr circle of radius k p around the mean p of the two stresses in the plane.
+/// Shear along the bed is tan(bed) of the normal stress at every depth, because a plug's
+/// acceleration is the same at every depth. With normal stress 1 the circle gives K = 2 p - 1 with
+/// the smaller p of (1 - p)^2 + tan^2(bed) = k^2 p^2 (Savage & Hutter 1989 with sin(phi) = k):
+/// (1-k)/(1+k) over a bed without friction, 1 where the bed is as rough as the grains.
 double active_thrust(double angle_deg, double bed_deg) {
   const double k = std::tan(angle_deg * degree), t = std::tan(bed_deg * degree), c = 1 - k * k;
   return 2 * (1 - std::sqrt(std::max(0.0, 1 - c * (1 + t * t)))) / c - 1;
 }
 
-/// Half-length at the end: a'' = 2 K g cos h_c / a with h_c = h_0 a_0 / a (Savage & Hutter 1989), by
-/// small steps.
+/// Half-length at the end: a'' = 2 K g cos h_c / a with h_c = h_0 a_0 / a (Savage & Hutter 1989),
+/// by small steps.
 double spread(double thrust) {
   double a = half_length, rate = 0;
   const double dt = 1e-4;
@@ -92,7 +92,7 @@ struct Compared {
 };
 
 Compared compare(const std::string& name, Simulation simulation, double bed_deg, double thrust,
-               double half_tolerance, double front_tolerance) {
+                 double half_tolerance, double front_tolerance) {
   Finished f = run(std::move(simulation));
   const Ridge ridge(f.simulation.parts().state.grains());
   const double travel =
@@ -113,14 +113,13 @@ TEST(SimilarityStrip, FullStressSpreadsByItsOwnThrust) {
   for (const Material& m : {Material{25, 25}, Material{30, 25}, Material{25, 0}}) {
     const std::string name = fmt::format("V18 strip, 4 layers, {:.0f} deg inside, bed {:.0f} deg",
                                          m.inside_deg, m.bed_deg);
-    const Compared c =
-        compare(name, ridge(Formulation::full_stress, depth / 4, 6, m), m.bed_deg,
-                active_thrust(m.inside_deg, m.bed_deg), 0.10, 0.06);
+    const Compared c = compare(name, ridge(Formulation::full_stress, depth / 4, 6, m), m.bed_deg,
+                               active_thrust(m.inside_deg, m.bed_deg), 0.10, 0.06);
     if (m.inside_deg == 25 && m.bed_deg == 25) coarse = c.error;
   }
-  const Compared fine = compare("V18 strip, 5 layers, 25 deg inside, bed 25 deg",
-                              ridge(Formulation::full_stress, depth / 5, 6), 25,
-                              active_thrust(25, 25), 0.10, 0.06);
+  const Compared fine =
+      compare("V18 strip, 5 layers, 25 deg inside, bed 25 deg",
+              ridge(Formulation::full_stress, depth / 5, 6), 25, active_thrust(25, 25), 0.10, 0.06);
   const double ratio = std::abs(fine.error / coarse);
   expect_within({"V18 strip, 25 deg inside, refinement", "half-length's error, 5 layers / 4", ratio,
                  0.8, ratio, 1},

@@ -139,10 +139,11 @@ TEST(ColumnCollapse, ViscosityIsReported) {
     Scenario s = sand(1, 14);
     s.numerics.artificial_viscosity = viscosity;
     const Finished f = run(s);
-    const std::string name = fmt::format("V8b collapse, sand, a 1, 14 along, viscosity {}", viscosity);
-    record(relative(name, "run-out / L0", deposit_of(f.simulation.parts()).run_out,
-                    sand_run_out(1)),
-           f);
+    const std::string name =
+        fmt::format("V8b collapse, sand, a 1, 14 along, viscosity {}", viscosity);
+    record(
+        relative(name, "run-out / L0", deposit_of(f.simulation.parts()).run_out, sand_run_out(1)),
+        f);
     expect_conserved(name, f);
   }
 }

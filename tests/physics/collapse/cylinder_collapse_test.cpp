@@ -126,10 +126,9 @@ void compare(const std::string& name, const Material& m, double a, const Collaps
 void report_orders(double aspect, const std::map<int, Collapse>& all) {
   for (auto a = all.begin(); std::distance(a, all.end()) >= 3; ++a) {
     const auto b = std::next(a), e = std::next(b);
-    const Convergence o =
-        observed_convergence({1.0 / a->first, 1.0 / b->first, 1.0 / e->first},
-                             {a->second.deposit.run_out, b->second.deposit.run_out,
-                              e->second.deposit.run_out});
+    const Convergence o = observed_convergence(
+        {1.0 / a->first, 1.0 / b->first, 1.0 / e->first},
+        {a->second.deposit.run_out, b->second.deposit.run_out, e->second.deposit.run_out});
     fmt::print("V8 collapse, a {}, {}-{}-{}: observed order {:.2f}, Richardson limit {:.3f}\n",
                aspect, a->first, b->first, e->first, o.order, o.limit);
     testing::Test::RecordProperty(fmt::format("observed_order_to_{}", e->first),

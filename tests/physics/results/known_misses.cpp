@@ -70,6 +70,10 @@ const std::vector<KnownMiss>& known_misses() {
   return list;
 }
 
+bool listed(const std::vector<KnownMiss>& list, const std::string& name) {
+  return std::any_of(list.begin(), list.end(), [&](const KnownMiss& m) { return m.name == name; });
+}
+
 std::string objection(const std::vector<KnownMiss>& list, const std::string& name, double error,
                       double tolerance) {
   const bool within = std::abs(error) <= tolerance;
@@ -77,9 +81,10 @@ std::string objection(const std::vector<KnownMiss>& list, const std::string& nam
       std::find_if(list.begin(), list.end(), [&](const KnownMiss& m) { return m.name == name; });
   if (listed == list.end())
     return within ? ""
-                  : fmt::format("{}: error {:.4g} of {:.4g}, and tests/physics/results/known_misses.csv "
-                                "does not list it",
-                                name, error, tolerance);
+                  : fmt::format(
+                        "{}: error {:.4g} of {:.4g}, and tests/physics/results/known_misses.csv "
+                        "does not list it",
+                        name, error, tolerance);
   if (within)
     return fmt::format("{}: no longer missed ({:.4g} of {:.4g}): take it off the list", name, error,
                        tolerance);
