@@ -63,10 +63,11 @@ class Bend:
 class Flow:
     """\\param mu, bed_mu  friction inside (tau <= mu p) and of the bed; period: along x, or None"""
 
-    def __init__(self, x, z, dx, dz, bed, mu, bed_mu, c0, period=None, alpha=0.1, viscosity="central"):
+    def __init__(self, x, z, dx, dz, bed, mu, bed_mu, c0, period=None, alpha=0.1, viscosity="central",
+                 bonded=False):
         self.x, self.z, self.dx, self.dz, self.bed = x.astype(float), z.astype(float), dx, dz, bed
         self.hx, self.hz, self.mu, self.bed_mu, self.c0 = 1.3 * dx, 1.3 * dz, mu, bed_mu, c0
-        self.period, self.alpha, self.kind = period, alpha, viscosity
+        self.period, self.alpha, self.kind, self.bonded = period, alpha, viscosity, bonded
         n = self.n = len(x)
         self.v0, self.mass = dx * dz, RHO * dx * dz
         self.vx, self.vz, self.px, self.pz = np.zeros((4, n))
@@ -185,6 +186,10 @@ class Flow:
         t = np.maximum(0, 1 - 0.5 * np.sqrt(rx * ax + rz * az))
         return rx, rz, ax, az, t * t * t * self.all_v[nb] * scale
 
+    def pressure(self):
+        """Of grains that only press, or of a bonded solid that also pulls."""
+        return self.bulk * (self.e if self.bonded else np.maximum(0, self.e))
+
     def mirrored(self, f):
         return np.concatenate([f, f, [0.0]])
 
@@ -194,7 +199,7 @@ class Flow:
         vn = vx * nx + vz * nz
         self.all_vx = np.concatenate([vx, vx - 2 * vn * nx, zero])
         self.all_vz = np.concatenate([vz, vz - 2 * vn * nz, zero])
-        p, left = self.bulk * np.maximum(0, self.e), 1 - self.carried
+        p, left = self.pressure(), 1 - self.carried
         s = self.force_stress = left * self.sxx - p, left * self.szz - p, left * self.sxz
         cc, ss = nz * nz - nx * nx, -2 * nx * nz  # reflection: [[cc, ss], [ss, -cc]]
         gxx = cc * cc * s[0] + 2 * cc * ss * s[2] + ss * ss * s[1]
@@ -299,9 +304,8 @@ class Flow:
         """Density and stress to the next level. \\return stress power times dt [J]"""
         dt, lxx, lxz, lzx, lzz = self.dt, *gradient
         trace, old = lxx + lzz, self.force_stress
-        p0 = self.bulk * np.maximum(0, self.e)
         self.e = np.maximum(self.e + dt * (diffusion - (1 + self.e) * trace), -0.2)
-        p = self.bulk * np.maximum(0, self.e)
+        p = self.pressure()
         turn = dt * (lxz - lzx)  # twice the angle of the spin, exact rotation
         mean, half = 0.5 * (self.sxx + self.szz), 0.5 * (self.sxx - self.szz)
         c, s = np.cos(turn), np.sin(turn)
@@ -310,7 +314,7 @@ class Flow:
         txx, tzz = mean + half + g2 * (lxx - third), mean - half + g2 * (lzz - third)
         tyy, txz = self.syy - g2 * third, sxz + 0.5 * g2 * (lxz + lzx)
         trial = np.sqrt(0.5 * (txx**2 + tzz**2 + tyy**2) + txz**2)
-        tau = np.where(self.e > -0.02, np.minimum(trial, self.mu * p), 0)
+        tau = trial if self.bonded else np.where(self.e > -0.02, np.minimum(trial, self.mu * p), 0)
         scale = tau / np.maximum(trial, 1e-30)
         eta = np.where(self.e < 0, 0, self.eta / (self.shear * dt))
         ratio = eta * (trial - tau) / (tau + 1e-6)
