@@ -61,7 +61,7 @@ class Bend:
 
 
 class Flow:
-    """\\param mu, bed_mu  friction inside (tau <= mu p) and of the bed; period: along x, or None"""
+    """mu, bed_mu: friction inside (tau <= mu p) and of the bed; period: along x, or None"""
 
     def __init__(self, x, z, dx, dz, bed, mu, bed_mu, c0, period=None, alpha=0.1, viscosity="central",
                  bonded=False):
@@ -301,7 +301,7 @@ class Flow:
         return keep * tx + vn2 * nx, keep * tz + vn2 * nz
 
     def update(self, gradient, diffusion):
-        """Density and stress to the next level. \\return stress power times dt [J]"""
+        """Density and stress to the next level. Returns the stress power times dt [J]"""
         dt, lxx, lxz, lzx, lzz = self.dt, *gradient
         trace, old = lxx + lzz, self.force_stress
         self.e = np.maximum(self.e + dt * (diffusion - (1 + self.e) * trace), -0.2)
