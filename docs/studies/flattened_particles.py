@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Does it pay to flatten particles and smoothing kernel along the bed's normal?
 
-usage: flattened_particles.py CASE [OUT.jsonl [LAYERS,...]]   CASE: lattice sheet block cap column bend swing steps
+usage: flattened_particles.py CASE [OUT.jsonl [LAYERS,...]]   CASE: lattice sheet cap column bend swing steps
 A row per run, printed and appended to OUT as JSON. Needs numpy; scheme in flattened_scheme.py.
 `ratio` is dx/dz, `layers` those of dz in the greatest thickness.
 """
@@ -145,23 +145,6 @@ def sheet():
             rate = (f.vx.mean() - before) / ((f.steps - steps) * f.dt)
             row(case="sheet", viscosity=kind, ratio=ratio, layers=layers, error=float(rate / exact - 1),
                 **books(f, start - f.potential()))
-
-
-def block():
-    """A block of 6 x 1 m with free ends, rough inside (45 degrees of cone): sliding, not spreading."""
-    slope = np.radians(30)
-    exact = G9 * (0.5 - tan(25) * np.cos(slope))
-    for ratio, kind in KINDS:
-        for layers in chosen((4, 8)):
-            dz = 1.0 / layers
-            x, z = fill(6, lambda x: 1 + 0 * x, ratio * dz, dz, 0)
-            f = Flow(x, z, ratio * dz, dz, Plane(30), 2.0, tan(25), 31.0, viscosity=kind)
-            f.load(RHO * G9 * np.cos(slope) * (1 - z), 0, 0.3, 0)
-            start, at = f.potential(), x.mean()
-            f.run(3)
-            time = f.steps * f.dt
-            row(case="block", viscosity=kind, ratio=ratio, layers=layers, error=float((f.x.mean() - at) / (0.5 * exact * time**2) - 1),
-                length=float(np.ptp(f.x) + f.dx) / 6 - 1, **books(f, start - f.potential()))
 
 
 # (c) ---------------------------------------------------------------------------------------------
