@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Does it pay to flatten particles and smoothing kernel along the bed's normal?
 
-usage: flattened_particles.py CASE [OUT.jsonl [LAYERS,...]]   CASE: lattice sheet cap column bend swing steps
+usage: flattened_particles.py CASE [OUT.jsonl [LAYERS,...]]
+CASE: lattice sheet load cap column bend swing steps
 A row per run, printed and appended to OUT as JSON. Needs numpy; scheme in flattened_scheme.py.
 `ratio` is dx/dz, `layers` those of dz in the greatest thickness.
 """
@@ -61,7 +62,8 @@ def lattice():
                 pressure_gradient_low=low, pressure_gradient_high=high)
         for layers in (4, 8):
             for radius in (2, 4):
-                row(case="arc", ratio=ratio, layers=layers, radius=radius, **arc_at_rest(ratio, layers, radius))
+                row(case="arc", ratio=ratio, layers=layers, radius=radius,
+                    **arc_at_rest(ratio, layers, radius))
 
 
 def static_flow(ratio, layers, width=24, turned=0):
@@ -163,25 +165,50 @@ def similarity(a, mass, k, end, slope):
     return a
 
 
-def cap_run(ratio, layers, angle=30.0, end=10.0, speed=None, **options):
-    slope, bed_mu, mu = np.radians(35), tan(25), tan(angle)
+def cap_flow(ratio, layers, angle=30.0, speed=None, **options):
+    """The parabola at rest, at active yield. Returns flow, half-length, K."""
+    bed_mu, mu = tan(25), tan(angle)
     dz, dx, start = 4.0 / layers, 4.0 / layers * ratio, 80.0
     height = lambda x: 4 * (1 - (x / start)**2)
     x, z = fill(2 * np.ceil(start / dx) * dx, height, dx, dz, -np.ceil(start / dx) * dx)
     f = Flow(x, z, dx, dz, Plane(35), mu, bed_mu, speed or 10 * np.sqrt(4 * G9), **options)
     k = earth_pressure(mu, bed_mu)
-    f.load(RHO * G9 * np.cos(slope) * np.maximum(0, height(x) - z), k, 0.5 * (1 + k), bed_mu)
-    released = f.potential()
-    first = float(np.sqrt(5 * (np.var(x) + dx * dx / 12)))
+    weight = RHO * G9 * np.cos(np.radians(35)) * np.maximum(0, height(x) - z)
+    f.load(weight, k, 0.5 * (1 + k), bed_mu)
+    return f, float(np.sqrt(5 * (np.var(x) + dx * dx / 12))), k
+
+
+def load():
+    """The bed's load over the weight above it, against the slope of the surface; seconds 1 to 5."""
+    f, half, _ = cap_flow(1, 5, 25.0)
+    f.run(1)
+    total, steps = np.zeros(f.n), 0
+    while f.steps * f.dt < 5:
+        f.step()
+        total, steps = total + f.load_of_bed, steps + 1
+        if f.steps * f.dt < 3:
+            place = f.x - f.x.mean()
+    edges = np.linspace(-70, 70, 15)
+    pressed, count = np.histogram(place, edges, weights=total / steps)[0], np.histogram(place, edges)[0]
+    inner = slice(1, -1)
+    slope = -8 * 0.5 * (edges[1:] + edges[:-1]) / half**2
+    fit = np.polyfit(slope[inner], (pressed / (count * G9 * np.cos(np.radians(35))))[inner], 1)
+    row(case="load", by_slope=float(fit[0]), expected=-tan(25), even=float(fit[1]))
+
+
+def cap_run(ratio, layers, angle=30.0, end=10.0, speed=None, **options):
+    f, first, k = cap_flow(ratio, layers, angle, speed, **options)
+    slope, bed_mu, dx, released = np.radians(35), tan(25), f.dx, f.potential()
     f.run(end)
     spread = float(np.sqrt(5 * (np.var(f.x) + dx * dx / 12)))
     exact = float(similarity(first, f.n * f.mass, k, end, slope))
     travel = 0.5 * G9 * (np.sin(slope) - bed_mu * np.cos(slope)) * end**2
-    centre, share = float(f.x.mean()), 0.91765  # 99 % of a parabola lie behind
+    centre, share = float(f.x.mean()), 0.8822  # 99 % of a parabola lie behind
     front = float(np.quantile(f.x, 0.99))
     row(case="cap", angle=angle, ratio=ratio, layers=layers, k=float(k), half=spread / exact - 1,
         growth=(spread - first) / (exact - first), x99=front / (travel + share * exact) - 1,
-        front=float(f.x.max() + dx / 2 - centre) / exact - 1, tail=float(centre - f.x.min() + dx / 2) / exact - 1,
+        front=float(f.x.max() + dx / 2 - centre) / exact - 1,
+        tail=float(centre - f.x.min() + dx / 2) / exact - 1,
         centre=centre / travel - 1, **options, c0=float(f.c0), **books(f, released - f.potential()))
 
 
@@ -209,7 +236,8 @@ def column_run(aspect, ratio, layers, **options):
     middle = np.abs(f.x) < 0.1 + dx / 2
     row(case="column", **options, aspect=aspect, ratio=ratio, layers=layers, width=x0, rms=float(rms) / x0,
         x99=float(np.quantile(np.abs(f.x), 0.99)) / x0, front=float(np.max(np.abs(f.x)) + dx / 2) / x0,
-        height=float(f.z[middle].max() + dz / 2), centre=float(f.z.mean()), speed=float(np.sqrt(2 * f.kinetic() / f.mass / f.n)),
+        height=float(f.z[middle].max() + dz / 2), centre=float(f.z.mean()),
+        speed=float(np.sqrt(2 * f.kinetic() / f.mass / f.n)),
         **books(f, released - f.potential()))
 
 
@@ -244,15 +272,18 @@ def bend_run(turn, radius, ratio, layers, turning=True, **options):
     if hollow:  # the stress of the slope's frame, turned
         b = np.radians(30)
         mean, half = 0.5 * (f.sxx + f.szz), 0.5 * (f.sxx - f.szz)
-        f.sxx, f.szz, f.sxz = mean + half * np.cos(2 * b), mean - half * np.cos(2 * b), -half * np.sin(2 * b)
+        f.sxx, f.szz = mean + half * np.cos(2 * b), mean - half * np.cos(2 * b)
+        f.sxz = -half * np.sin(2 * b)
     start, moving = f.potential(), f.kinetic()
     f.run(2.5)
     released = start - f.potential() + moving
     _, nx, nz = bed.at(f.x, f.z)
     near, fx = f.d, f.x
     row(case="bend", turn=turn, radius=radius, ratio=ratio, layers=layers, turning=turning, **options,
-        centre=float(fx.mean()), fall=float(-f.z.mean()), rms=float(fx.std()), speed=float(np.mean(np.hypot(f.vx, f.vz))),
-        thickness=float(np.quantile(near, 0.95) + dz / 2), lost=float(f.work["bed"] / released), **books(f, released))
+        centre=float(fx.mean()), fall=float(-f.z.mean()), rms=float(fx.std()),
+        speed=float(np.mean(np.hypot(f.vx, f.vz))),
+        thickness=float(np.quantile(near, 0.95) + dz / 2),
+        lost=float(f.work["bed"] / released), **books(f, released))
 
 
 def bend():

@@ -236,7 +236,8 @@ class Flow:
         least = half - np.sqrt(np.maximum(0, half * half - det))
         good = (det > 0.15) & (least > 0.2)
         inv = 1 / np.where(good, det, 1)
-        return [np.where(good, a, b) for a, b in ((zz * inv, 1), (-xz * inv, 0), (-zx * inv, 0), (xx * inv, 1))]
+        whole = (zz * inv, 1), (-xz * inv, 0), (-zx * inv, 0), (xx * inv, 1)
+        return [np.where(good, a, b) for a, b in whole]
 
     @staticmethod
     def times(g, b):
@@ -290,8 +291,10 @@ class Flow:
         dt, nx, nz = self.dt, self.nx, self.nz
         vn = vx * nx + vz * nz
         overlap = np.maximum(0, 0.5 * self.dz - self.d)
-        push = np.where(overlap > 0, np.maximum(0, self.spring * overlap - 0.6 * np.sqrt(self.spring) * vn), 0)
-        impulse = dt * np.maximum(0, push + wall[0] * nx + wall[1] * nz)
+        push = np.maximum(0, self.spring * overlap - 0.6 * np.sqrt(self.spring) * vn)
+        push = np.where(overlap > 0, push, 0)
+        self.load_of_bed = np.maximum(0, push + wall[0] * nx + wall[1] * nz)  # per mass
+        impulse = dt * self.load_of_bed
         vn2 = vn + dt * push
         tx, tz = vx - vn * nx, vz - vn * nz
         speed = np.hypot(tx, tz)
