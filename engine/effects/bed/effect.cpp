@@ -218,7 +218,9 @@ class GroundContact final : public Pass {
     const BoundarySupport& b = p.boundary;
     const StartVelocity start(p);
     const GroundImages images(p);
-    const double support_radius = 2 * settings_.smoothing_length;
+    // As the sweep has it: distances beyond are that number itself, and the images' push is stale
+    // there.
+    const auto support_radius = static_cast<float>(2 * settings_.smoothing_length);
     const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
     const double kick = s.n_steps == 0 ? 0.5 * dt : dt;  // as that of the pairs
     for (std::size_t i = begin; i < end; ++i) {
