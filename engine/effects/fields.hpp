@@ -19,7 +19,7 @@ inline constexpr FieldKey density_change{"density_change", 1, "1", "grain stress
 inline constexpr FieldKey stress{"stress", 6, "Pa", "grain stress"};
 /// Artificial viscosity over the friction that acts, see dense/viscous_share.hpp.
 inline constexpr FieldKey viscous_ratio{"viscous_ratio", 1, "1", "grain stress"};
-/// Gradient of the density change, of the last pair sweep.
+/// Gradient of the density change, of the pair sweeps over 10 h/c0.
 inline constexpr FieldKey density_gradient{"density_gradient", 3, "m-1", "grain stress"};
 /// 0..1: how much of a grain's image in the ground acts, of the last pair sweep.
 inline constexpr FieldKey ground_weight{"ground_weight", 1, "1", "grain stress", 1.0};

@@ -40,16 +40,27 @@ inline void gather_ground(GrainStress& shared, const MovingSet& p, int threads) 
   });
 }
 
-/// In fields, which are sorted with the particles.
-inline void keep_for_next(const SweepOutput& out, MovingSet& p, std::size_t begin,
-                          std::size_t end) {
+/// How much of a sweep's density gradient enters that of the next: all at the start, then over
+/// 10 h/c0, forty steps or so.
+inline double gradient_share(const State& s, const GrainStressSettings& g, double dt) {
+  const double relaxed = dt * g.sound_speed / (10 * g.smoothing_length);
+  return s.n_steps == 0 ? 1 : std::min(1.0, relaxed);
+}
+
+/// In fields, which are sorted with the particles. The density gradient follows the sweep's slowly:
+/// what diffusion takes off shall be that of weight and slope, not that of sound and of grains that
+/// pass each other, which diffusion is there for.
+/// \param share  of the new gradient
+inline void keep_for_next(const SweepOutput& out, MovingSet& p, std::size_t begin, std::size_t end,
+                          double share) {
   end = std::min(end, p.n_listed);
   double* weight = p.scalar(fields::ground_weight).data();
   auto& gradient = p.components(fields::density_gradient);
   std::copy(out.ground_weight + begin, out.ground_weight + end, weight + begin);
-  for (int k = 0; k < 3; ++k)
-    std::copy(out.density_gradient[k] + begin, out.density_gradient[k] + end,
-              gradient[k].data() + begin);
+  for (int k = 0; k < 3; ++k) {
+    double* g = gradient[k].data();
+    for (std::size_t i = begin; i < end; ++i) g[i] += share * (out.density_gradient[k][i] - g[i]);
+  }
 }
 
 }  // namespace sturz

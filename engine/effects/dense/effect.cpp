@@ -177,9 +177,10 @@ class SweepPass final : public Pass {
                                    (g.sound_speed + s.sets[shared_->set].motion.max_speed)});
   }
 
-  void apply(State& s, double) override {
+  void apply(State& s, double dt) override {
     MovingSet& p = s.sets[shared_->set];
     const GrainStressSettings& g = shared_->settings;
+    const double kept = gradient_share(s, g, dt);
     const bool smooth = s.n_steps % GrainStressSettings::smoothing_interval == 0;
     shared_->smoothing_now =
         smooth ? g.stress_smoothing * GrainStressSettings::smoothing_interval : 0;
@@ -209,7 +210,7 @@ class SweepPass final : public Pass {
                         timed_kinetic(view, constants, wall, out, begin, end);
                       else
                         loops.dense(view, constants, wall, out, begin, end);
-                      keep_for_next(out, p, begin * group_size, end * group_size);
+                      keep_for_next(out, p, begin * group_size, end * group_size, kept);
                     });
     for (std::size_t i = p.n_listed; i < p.size(); ++i) {
       p.ax[i] = p.ay[i] = p.az[i] = 0;

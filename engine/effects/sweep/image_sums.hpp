@@ -138,9 +138,11 @@ inline Lanes ground_weight(const DenseSums& s, Lanes scale, const BoundaryView& 
 /// The images of all neighbours of a group's lanes.
 /// \param viscosity  of record j: the share of the artificial viscosity that acts
 template <class Viscosity>
-inline ImageSums image_sums(const NeighborView& view, std::size_t group, const GroupRows& rows,
-                            const GroundRows& ground, int lane, const DenseScale& k,
-                            const BoundaryView& wall, Lanes own_viscosity, Viscosity viscosity) {
+[[gnu::noinline]] inline ImageSums image_sums(const NeighborView& view, std::size_t group,
+                                              const GroupRows& rows, const GroundRows& ground,
+                                              int lane, const DenseScale& k,
+                                              const BoundaryView& wall, Lanes own_viscosity,
+                                              Viscosity viscosity) {
   const MirroredSelf self(self_of(rows, lane), ground, wall, lane, group * group_size + lane);
   ImageSums images;
   images.clear();
