@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The same slide in columns, in full stress at 3, 6 and 12 layers, and grain by grain.
+
+usage: who_is_right.py STURZ OUT [--case zhangjiawan|flume] [--rows columns,full_3,full_6,full_12,discrete]
+                       [--seed N] [--overlap X]
+OUT takes the runs; a run that is there is not made again. Prints one line of a table per row. Nothing is fitted: all rows
+have the friction of the paper (0.24 on the bed, 24 degrees inside; no pore pressure).
+"""
+import argparse
+import json
+import pathlib
+import subprocess
+
+THICKNESS = 30  # of the release, about: layers of full stress are counted on it [m]
+ZHANGJIAWAN = """
+title: Zhangjiawan-like, {row}
+terrain: {{synthetic: {{zhangjiawan: {{cell_size_m: 5}}}}}}
+release: {{volume_m3: 491000}}
+grains: {{density_kg_m3: 2400, diameter_m: 3, solid_fraction: 0.70{inside}}}
+basal: {{friction_coefficient: 0.24}}
+formulation: {formulation}
+numerics: {{spacing_m: {spacing}, end_time_s: 120, accept_unresolved: true}}
+ensemble: {{seed: {seed}}}
+hazard: {{cell_size_m: 10}}
+"""
+# The dry tenth of the flume of the U.S. Geological Survey: its mass as stones of 10 cm, without water.
+FLUME = """
+title: Debris-flow flume, dry, {row}
+terrain: {{synthetic: {{debris_flume: {{cell_size_m: 0.1}}}}}}
+release: {{volume_m3: 10}}
+grains: {{density_kg_m3: 2700, diameter_m: 0.1, solid_fraction: 0.61{inside}}}
+basal: {{friction_coefficient: 0.45}}
+formulation: {formulation}
+numerics: {{spacing_m: {spacing}, end_time_s: 30, accept_unresolved: true}}
+ensemble: {{seed: {seed}}}
+hazard: {{cell_size_m: 0.5}}
+"""
+ANGLE = {"zhangjiawan": 24, "flume": 32}
+TEXT = {"zhangjiawan": ZHANGJIAWAN, "flume": FLUME}
+DEPTH = {"zhangjiawan": THICKNESS, "flume": 1.2}
+COLUMN_SPACING = {"zhangjiawan": 4, "flume": 0.1}
+
+
+def scene(case, row, seed, overlap):
+    inside = f", friction_angle_deg: {ANGLE[case]}"
+    formulation, spacing = "depth_averaged", COLUMN_SPACING[case]
+    if row.startswith("full_"):
+        formulation, spacing = "full_stress", DEPTH[case] / int(row.removeprefix("full_"))
+    if row == "discrete":
+        formulation, inside = "discrete", f", discrete: {{greatest_overlap: {overlap}}}"
+    return TEXT[case].format(row=row, inside=inside, formulation=formulation, spacing=spacing, seed=seed)
+
+
+def run(sturz, folder, text):
+    folder.mkdir(parents=True, exist_ok=True)
+    kept = folder / "done.json"
+    if kept.exists() and (folder / "scene.yaml").read_text() == text:
+        return json.loads(kept.read_text())
+    (folder / "scene.yaml").write_text(text)
+    lines = subprocess.run([sturz, "run", folder / "scene.yaml", "-o", folder / "out", "--replace",
+                            "--threads", "1", "--json"], check=True, capture_output=True,
+                           text=True).stdout.splitlines()
+    done = [json.loads(line) for line in lines if '"done"' in line][-1]
+    kept.write_text(json.dumps(done))
+    return done
+
+
+def line(row, done):
+    s = done["scalars"]
+    # Until rest all that the centre of mass fell is dissipated; per metre of its way that is a friction.
+    cells = [row, f"{s['n_particles']:,.0f}", f"{s['release_layers']:.1f}", f"{s['front_travel_m']:.1f}",
+             f"{s['runout_m']:.1f}", f"{s['com_travel_m']:.1f}", f"{9.80665 * s['com_drop_m']:.0f}",
+             f"{s['com_ratio']:.3f}", f"{s['max_speed_m_s']:.0f}", f"{s['deposit_area_m2'] / 1e4:.2f}",
+             f"{s['max_deposit_m']:.1f}", f"{s['end_time_s']:.0f} ({done.get('outcome', '')})",
+             f"{s['n_steps']:,.0f}", f"{s['cpu_s']:.1f}"]
+    return "| " + " | ".join(cells) + " |"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("sturz")
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("--case", choices=TEXT, default="zhangjiawan")
+    parser.add_argument("--rows", default="columns,full_3,full_6,full_12,discrete")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--overlap", type=float, default=0.1)
+    given = parser.parse_args()
+    print("| row | particles | layers, release | front m | run-out m | centre of mass m | dissipated J/kg |"
+          " friction of the whole | largest speed m/s | deposit ha | largest deposit m | end s | steps | CPU s |")
+    print("|" + "---|" * 14, flush=True)
+    for row in given.rows.split(","):
+        name = row if row != "discrete" else f"discrete_{given.overlap:g}_{given.seed}"
+        text = scene(given.case, row, given.seed, given.overlap)
+        print(line(name, run(given.sturz, given.out / given.case / name, text)), flush=True)
+
+
+if __name__ == "__main__":
+    main()
