@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The same slide in columns, in full stress at 3, 6 and 12 layers, and grain by grain.
 
-usage: who_is_right.py STURZ OUT [--case zhangjiawan|flume] [--rows columns,full_3,full_6,full_12,discrete]
+usage: who_is_right.py ENERGY_OF OUT [--case zhangjiawan|flume] [--rows columns,full_3,full_6,full_12,discrete]
                        [--seed N] [--overlap X]
-OUT takes the runs; a run that is there is not made again. Prints one line of a table per row. Nothing is fitted: all rows
+ENERGY_OF is the target `energy_of` (build/release/tests/tools). OUT takes the runs; a run that is there is not made again. Prints one line of a table per row. Nothing is fitted: all rows
 have the friction of the paper (0.24 on the bed, 24 degrees inside; no pore pressure).
 """
 import argparse
@@ -51,47 +51,45 @@ def scene(case, row, seed, overlap):
     return TEXT[case].format(row=row, inside=inside, formulation=formulation, spacing=spacing, seed=seed)
 
 
-def run(sturz, folder, text):
+def run(tool, folder, text):
     folder.mkdir(parents=True, exist_ok=True)
     kept = folder / "done.json"
     if kept.exists() and (folder / "scene.yaml").read_text() == text:
         return json.loads(kept.read_text())
     (folder / "scene.yaml").write_text(text)
-    lines = subprocess.run([sturz, "run", folder / "scene.yaml", "-o", folder / "out", "--replace",
-                            "--threads", "1", "--json"], check=True, capture_output=True,
-                           text=True).stdout.splitlines()
-    done = [json.loads(line) for line in lines if '"done"' in line][-1]
+    done = json.loads(subprocess.run([tool, folder / "scene.yaml"], check=True, capture_output=True,
+                                     text=True).stdout)
     kept.write_text(json.dumps(done))
     return done
 
 
-def line(row, done):
-    s = done["scalars"]
-    # Until rest all that the centre of mass fell is dissipated; per metre of its way that is a friction.
-    cells = [row, f"{s['n_particles']:,.0f}", f"{s['release_layers']:.1f}", f"{s['front_travel_m']:.1f}",
-             f"{s['runout_m']:.1f}", f"{s['com_travel_m']:.1f}", f"{9.80665 * s['com_drop_m']:.0f}",
-             f"{s['com_ratio']:.3f}", f"{s['max_speed_m_s']:.0f}", f"{s['deposit_area_m2'] / 1e4:.2f}",
-             f"{s['max_deposit_m']:.1f}", f"{s['end_time_s']:.0f} ({done.get('outcome', '')})",
-             f"{s['n_steps']:,.0f}", f"{s['cpu_s']:.1f}"]
+def line(row, d):
+    def share(*parts):
+        return f"{100 * sum(d[part] for part in parts) / d['released_j']:.1f}"
+    cells = [row, f"{d['n_particles']:,.0f}", f"{d['layers']:.1f}", f"{d['front_m']:.0f}", f"{d['runout_m']:.0f}",
+             f"{d['com_m']:.0f}", f"{d['com_drop_m']:.1f}", f"{d['com_ratio']:.3f}", share("bed_j"),
+             share("inside_j"), share("impacts_j"), share("numerical_j"), f"{d['speed_m_s']:.1f}",
+             f"{d['deposit_m2'] / 1e4:.2f}", f"{d['max_deposit_m']:.1f}", f"{d['end_s']:.0f} {d['outcome']}",
+             f"{d['n_steps']:,.0f}", f"{d['cpu_s']:.1f}"]
     return "| " + " | ".join(cells) + " |"
 
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("sturz")
+    parser.add_argument("tool")
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--case", choices=TEXT, default="zhangjiawan")
     parser.add_argument("--rows", default="columns,full_3,full_6,full_12,discrete")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--overlap", type=float, default=0.1)
     given = parser.parse_args()
-    print("| row | particles | layers, release | front m | run-out m | centre of mass m | dissipated J/kg |"
-          " friction of the whole | largest speed m/s | deposit ha | largest deposit m | end s | steps | CPU s |")
-    print("|" + "---|" * 14, flush=True)
+    print("| row | particles | layers | front m | run-out m | centre of mass m | its fall m | fall / way | bed % |"
+          " inside % | impacts % | numerical % | speed m/s | deposit ha | largest deposit m | end s | steps | CPU s |")
+    print("|" + "---|" * 18, flush=True)
     for row in given.rows.split(","):
         name = row if row != "discrete" else f"discrete_{given.overlap:g}_{given.seed}"
         text = scene(given.case, row, given.seed, given.overlap)
-        print(line(name, run(given.sturz, given.out / given.case / name, text)), flush=True)
+        print(line(name, run(given.tool, given.out / given.case / name, text)), flush=True)
 
 
 if __name__ == "__main__":

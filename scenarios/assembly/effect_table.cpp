@@ -183,9 +183,7 @@ void add_bed(SceneParts& p) {
 void add_walls(SceneParts& p) {
   if (!columns(p.plan) && !p.plan.discrete) add_wall_contact(p.step, grains, p.plan.contact);
 }
-void add_grains(SceneParts& p) {
-  add_discrete_grains(p.step, p.state, grains, *p.plan.discrete);
-}
+void add_grains(SceneParts& p) { add_discrete_grains(p.step, p.state, grains, *p.plan.discrete); }
 void add_drift(SceneParts& p) {
   if (p.plan.discrete) {
     const double d = p.plan.discrete->diameter;

@@ -115,8 +115,8 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
     c.reason = "`formulation: depth_averaged`";
   } else if (s.formulation == Formulation::discrete) {
     c.discrete = true;
-    c.reason = "`formulation: discrete`, every grain by itself; " + layers_text(c) +
-               " of one grain each";
+    c.reason =
+        "`formulation: discrete`, every grain by itself; " + layers_text(c) + " of one grain each";
   } else if (s.formulation == Formulation::full_stress) {
     c.reason = "`formulation: full_stress`; " + layers_text(c);
     // A release without any mass is refused as such where it is filled.
@@ -159,7 +159,8 @@ double typical_friction(const Scenario& s) {
 }
 
 bool has_both_formulations(const Scenario& s) {
-  return s.grains && s.formulation != Formulation::discrete && (s.grains->friction || s.grains->friction_angle_deg) && !s.grains->states &&
+  return s.grains && s.formulation != Formulation::discrete &&
+         (s.grains->friction || s.grains->friction_angle_deg) && !s.grains->states &&
          column_key(s).empty();
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// formulation: discrete: what it asks for, what it refuses, where its grains lie.
-#include "scenarios/assembly/discrete/discrete_plan.hpp"
-
 #include "engine/core/error.hpp"
 #include "scenarios/assembly/assemble.hpp"
+#include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/formulation.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/checks/idle_keys.hpp"
@@ -54,7 +53,7 @@ SceneInputs inputs() {
       const double x = grid.x_center(c), y = grid.y_center(r);
       if (x > 30 && x < 70 && y > 30 && y < 70) pattern.at(r, c) = 1;
     }
-  in.release_pattern = std::make_shared<const Raster<double>>(pattern);
+  in.release = std::make_shared<const Raster<double>>(pattern);
   in.hazard_grid = grid;
   return in;
 }
@@ -170,8 +169,7 @@ TEST(Discrete, GrainsHoldTheMassLieAboveTheBedAndAreAsManyAsTheVolumeHolds) {
   for (std::size_t i = 0; i < 300; ++i)
     for (std::size_t j = 0; j < r.x.size(); ++j)
       if (i != j)
-        nearest = std::min(
-            nearest, Vec3(r.x[i] - r.x[j], r.y[i] - r.y[j], r.z[i] - r.z[j]).norm());
+        nearest = std::min(nearest, Vec3(r.x[i] - r.x[j], r.y[i] - r.y[j], r.z[i] - r.z[j]).norm());
   EXPECT_GT(nearest, 2 * 1.0727 * (1 - 2 * 0.05 * std::sqrt(3.0)) - 1e-3);
 }
 

@@ -3,8 +3,8 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "scenarios/assembly/expected_speed.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
+#include "scenarios/assembly/speed/expected_speed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -52,11 +52,11 @@ void require_countable_grains(const Scenario& s, const Raster<double>& thickness
     if (h > 0) sum += h;
   const double volume = sum * thickness.grid.cell_m * thickness.grid.cell_m;
   const double n = grains_in(volume, grain_packing(s, 0));
-  require(n <= most_grains,
-          "grains.discrete.diameter_m = " + short_number(diameter(s)) + " (the release holds " +
-              short_number(n) + " such grains, more than 1e7). Use larger grains, " +
-              short_number(diameter(s) * std::cbrt(n / 1e5)) +
-              " m for a hundred thousand, or formulation: depth_averaged.");
+  require(n <= most_grains, "grains.discrete.diameter_m = " + short_number(diameter(s)) +
+                                " (the release holds " + short_number(n) +
+                                " such grains, more than 1e7). Use larger grains, " +
+                                short_number(diameter(s) * std::cbrt(n / 1e5)) +
+                                " m for a hundred thousand, or formulation: depth_averaged.");
 }
 
 void plan_discrete(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan& plan) {
@@ -67,8 +67,7 @@ void plan_discrete(const Scenario& s, std::vector<BasalResistance> bed, ScenePla
   rock.youngs_modulus = spec.youngs_modulus_pa;
   rock.poisson_ratio = s.grains->poisson_ratio.value;
   rock.density = s.grains->density_kg_m3.value;
-  const double load =
-      plan.bulk_density_kg_m3 * standard_gravity * plan.release.max_thickness_m;
+  const double load = plan.bulk_density_kg_m3 * standard_gravity * plan.release.max_thickness_m;
   c.material = softened_grains(rock, std::max(plan.reference_speed_m_s, start_speed(s)), load,
                                spec.greatest_overlap);
   c.restitution = spec.restitution.value;

@@ -33,9 +33,9 @@ double restitution_error(double restitution, int n) {
   constexpr int phases = 8;
   for (int k = 0; k < phases; ++k) {
     const double gap = 0.05 + 2 * v * dt * k / phases;
-    GrainRun run({{{0, 0, 10}, {v, 0, 0}, {0, 0, 0}, 0.5},
-                  {{1 + gap, 0, 10}, {-v, 0, 0}, {0, 0, 0}, 0.5}},
-                 scene);
+    GrainRun run(
+        {{{0, 0, 10}, {v, 0, 0}, {0, 0, 0}, 0.5}, {{1 + gap, 0, 10}, {-v, 0, 0}, {0, 0, 0}, 0.5}},
+        scene);
     run.run(0.05 / (2 * v) + 6 * tc, dt);
     EXPECT_GT((run.position(1) - run.position(0)).norm(), 1);
     const double e = (run.velocity(1).x() - run.velocity(0).x()) / (2 * v);
@@ -49,28 +49,30 @@ TEST(GrainContacts, TwoGrainsPartWithTheRestitutionThatWasSet) {
     const double coarse = restitution_error(e, 20), middle = restitution_error(e, 40),
                  fine = restitution_error(e, 80);
     EXPECT_LT(coarse, 0.01) << e;  // at the step of the effect itself
-    EXPECT_LT(fine, 0.001) << e;
     const double order = 0.5 * std::log2(coarse / fine);
     RecordProperty("order_of_restitution_" + std::to_string(static_cast<int>(10 * e)),
                    std::to_string(order));
-    EXPECT_GT(order, 1.3) << e << ": " << coarse << " " << middle << " " << fine;
+    // The damper sets in with (v t)^(1/4) somewhere within a step: order 5/4, not 2.
+    EXPECT_GT(order, 1) << e << ": " << coarse << " " << middle << " " << fine;
   }
 }
 
-/// Where a grain of this radius lies still on an even slope, seen along z.
-double resting_height(const GrainScene& scene, double radius) {
+/// What the weight of a grain of this radius presses it into the slope, along the normal.
+double pressed(const GrainScene& scene, double radius) {
   const GrainMaterial& m = scene.grains.material;
   const double cosine = 1 / std::sqrt(1 + scene.slope * scene.slope);
   const double mass = 4.0 / 3 * std::numbers::pi * m.density * std::pow(radius, 3);
-  const double overlap = std::pow(
-      mass * g * cosine / (4.0 / 3 * contact_modulus(m, m) * std::sqrt(radius)), 2.0 / 3);
-  return (radius - overlap) / cosine;
+  return std::pow(mass * g * cosine / (4.0 / 3 * contact_modulus(m, m) * std::sqrt(radius)),
+                  2.0 / 3);
 }
+
+/// Radius over the arm at which a pressed grain rolls: its centre is nearer to the ground.
+double radius_over_arm(const GrainScene& scene) { return 0.5 / (0.5 - pressed(scene, 0.5)); }
 
 /// Acceleration down a slope over two seconds from rest, by the way that was made.
 double acceleration(const GrainScene& scene, double dt) {
-  const double x = -20, z = 1e-9 - scene.slope * x + resting_height(scene, 0.5);
-  // The ground's own nodes stand for a plane; the grain starts pressed as it will be.
+  // It starts as it just touches.
+  const double x = -20, z = -scene.slope * x + 0.5 * std::sqrt(1 + scene.slope * scene.slope);
   GrainRun run({{{x, 0, z}}}, scene);
   run.run(0.5, dt);
   const Vec3 v0 = run.velocity(0);
@@ -78,7 +80,7 @@ double acceleration(const GrainScene& scene, double dt) {
   return (run.velocity(0) - v0).norm() / 1.5;
 }
 
-TEST(GrainContacts, AGrainSlidesDownAsteepSlopeAsCoulombHasIt) {
+TEST(GrainContacts, AGrainSlidesDownASteepSlopeAsCoulombHasIt) {
   GrainScene scene;
   scene.slope = std::tan(std::numbers::pi / 6);
   const double friction = 0.1;  // under 2/7 tan: it does not roll
@@ -99,7 +101,8 @@ TEST(GrainContacts, ARoughSlopeMakesItRoll) {
   scene.grains.bed[0].friction_coefficient = 0.6;
   for (const double rolling : {0.0, 0.2}) {
     scene.grains.bed_rolling_friction = rolling;
-    const double wanted = g * (0.5 - rolling * std::sqrt(3.0) / 2) / 1.4;
+    const double r = radius_over_arm(scene);
+    const double wanted = g * (0.5 - r * rolling * std::sqrt(3.0) / 2) / (1 + 0.4 * r * r);
     for (const double dt : {4e-3, 2e-3, 1e-3})
       EXPECT_NEAR(acceleration(scene, dt) / wanted, 1, 2e-3) << rolling << " " << dt;
   }
@@ -121,16 +124,18 @@ TEST(GrainContacts, RollingFrictionHoldsItWhereTheSlopeIsGentler) {
 TEST(GrainContacts, AThrownGrainEndsWithFiveSeventhsOfItsSpeed) {
   GrainScene scene;
   scene.grains.bed[0].friction_coefficient = 0.3;
-  const double v0 = 3, slides = 2 * v0 / (7 * 0.3 * g);
+  const double r = radius_over_arm(scene), v0 = 3, rolls = v0 / (1 + 0.4 * r * r);
+  EXPECT_NEAR(rolls, 5 * v0 / 7, 0.01 * v0);
+  const double slides = (v0 - rolls) / (0.3 * g);
   for (const double dt : {4e-3, 2e-3, 1e-3}) {
-    GrainRun run({{{-10, 0, resting_height(scene, 0.5)}, {v0, 0, 0}}}, scene);
+    GrainRun run({{{-10, 0, 0.5}, {v0, 0, 0}}}, scene);
     run.run(0.5 * slides, dt);
-    EXPECT_NEAR(run.velocity(0).x(), v0 - 0.3 * g * 0.5 * slides, 0.02 * v0) << dt;
+    EXPECT_NEAR(run.velocity(0).x(), 0.5 * (v0 + rolls), 0.02 * v0) << dt;
     run.run(2 * slides, dt);
-    EXPECT_NEAR(run.velocity(0).x(), 5 * v0 / 7, 2e-3 * v0) << dt;
-    EXPECT_NEAR(run.spin(0).y() * 0.5, 5 * v0 / 7, 1e-2 * v0) << dt;
-    const double lost = 0.5 * run.grains().mass[0] * v0 * v0 * 2 / 7;
-    EXPECT_NEAR(run.ledger().friction, lost, 0.02 * lost) << dt;
+    EXPECT_NEAR(run.velocity(0).x(), rolls, 1e-3 * v0) << dt;
+    EXPECT_NEAR(run.spin(0).y() * 0.5 / r, rolls, 2e-3 * v0) << dt;
+    const double lost = 0.5 * run.grains().mass[0] * v0 * (v0 - rolls);
+    EXPECT_NEAR(run.ledger().friction, lost, 0.01 * lost) << dt;
   }
 }
 

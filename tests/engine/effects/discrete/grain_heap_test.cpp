@@ -154,8 +154,7 @@ TEST(GrainPairs, HoldEveryPairThatTouchesAsTheGrainsMove) {
     pairs.update(scene.domain, p, radius, 1);
     std::set<std::pair<std::uint32_t, std::uint32_t>> listed;
     for (const GrainPair& pair : pairs.pairs()) {
-      const double gap =
-          (run.position(pair.a) - run.position(pair.b) - pair.image).norm();
+      const double gap = (run.position(pair.a) - run.position(pair.b) - pair.image).norm();
       if (gap < radius[pair.a] + radius[pair.b]) listed.insert({pair.a, pair.b});
     }
     std::set<std::pair<std::uint32_t, std::uint32_t>> touching;
