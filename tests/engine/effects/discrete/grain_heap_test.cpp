@@ -138,6 +138,32 @@ TEST(GrainHeap, APeriodJoinsTheTwoEndsOfABox) {
   EXPECT_NEAR(run.momentum().x(), -2 * run.grains().mass[0], 1e-9 * run.grains().mass[0]);
 }
 
+/// Slope of the cone with the same mean height and mean distance from its axis [degrees].
+double repose_angle(double rolling) {
+  GrainScene scene;
+  scene.grains.rolling_friction = rolling;
+  scene.grains.bed[0].friction_coefficient = 0.8;
+  scene.grains.bed_rolling_friction.reset();
+  GrainRun run(heap(8, 1.02, 0.05, 0.1), scene);
+  run.run(8, 3e-3);
+  EXPECT_LT(run.ledger().kinetic, 1e-3 * run.ledger().released_energy());
+  double height = 0, distance = 0;
+  for (std::size_t i = 0; i < run.grains().size(); ++i) {
+    height += run.position(i).z();
+    distance += std::hypot(run.position(i).x(), run.position(i).y());
+  }
+  return std::atan(2 * height / distance) * 180 / std::numbers::pi;
+}
+
+TEST(GrainHeap, AHeapStandsAtAPlausibleAngle) {
+  const double smooth = repose_angle(0), rough = repose_angle(0.4);
+  RecordProperty("angle_without_rolling_friction", std::to_string(smooth));
+  RecordProperty("angle_with_rolling_friction", std::to_string(rough));
+  EXPECT_GT(smooth, 10) << rough;
+  EXPECT_GT(rough, smooth);
+  EXPECT_LT(rough, 50) << smooth;
+}
+
 TEST(GrainPairs, HoldEveryPairThatTouchesAsTheGrainsMove) {
   std::vector<SetDown> grains = heap(6, 1.1, 0.3, 0.2);
   GrainScene scene = weightless();
