@@ -145,6 +145,16 @@ TEST(Discrete, ItsSpacingIsThatOfItsGrains) {
   EXPECT_EQ(with_grain_spacing(columns).numerics.spacing_m, 4);
 }
 
+TEST(Discrete, ACoarserTwinHasLargerGrains) {
+  Scenario s = scene();
+  scale_grains(s, 1.5);
+  EXPECT_NEAR(with_grain_spacing(s).numerics.spacing_m,
+              1.5 * with_grain_spacing(scene()).numerics.spacing_m, 1e-12);
+  s.formulation = Formulation::full_stress;
+  scale_grains(s, 2);
+  EXPECT_EQ(s.grains->discrete->diameter_m->value, 3);
+}
+
 TEST(Discrete, GrainsHoldTheMassLieAboveTheBedAndAreAsManyAsTheVolumeHolds) {
   const SceneInputs in = inputs();
   const Scenario s = with_grain_spacing(scene());

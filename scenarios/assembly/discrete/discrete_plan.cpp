@@ -34,6 +34,13 @@ Scenario with_grain_spacing(const Scenario& numbers) {
   return s;
 }
 
+void scale_grains(Scenario& numbers, double factor) {
+  if (numbers.formulation != Formulation::discrete || !numbers.grains) return;
+  const double scaled = factor * diameter(numbers);
+  numbers.grains->discrete = spec_of(numbers);
+  numbers.grains->discrete->diameter_m = Uncertain(scaled);
+}
+
 GrainPacking grain_packing(const Scenario& s, std::int64_t member) {
   GrainPacking packing;
   packing.diameter_m = diameter(s);
