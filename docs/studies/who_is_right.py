@@ -2,7 +2,7 @@
 """The same slide in columns, in full stress at 3, 6 and 12 layers, and grain by grain.
 
 usage: who_is_right.py ENERGY_OF OUT [--case zhangjiawan|flume] [--rows columns,full_3,full_6,full_12,discrete]
-                       [--seed N] [--overlap X]
+                       [--seed N] [--overlap X] [--diameter D]
 ENERGY_OF is the target `energy_of` (build/release/tests/tools). OUT takes the runs; a run that is there is not made again. Prints one line of a table per row. Nothing is fitted: all rows
 have the friction of the paper (0.24 on the bed, 24 degrees inside; no pore pressure).
 """
@@ -36,18 +36,19 @@ ensemble: {{seed: {seed}}}
 hazard: {{cell_size_m: 0.5}}
 """
 ANGLE = {"zhangjiawan": 24, "flume": 32}
+GRAIN = {"zhangjiawan": 3, "flume": 0.1}
 TEXT = {"zhangjiawan": ZHANGJIAWAN, "flume": FLUME}
 DEPTH = {"zhangjiawan": THICKNESS, "flume": 1.2}
 COLUMN_SPACING = {"zhangjiawan": 4, "flume": 0.1}
 
 
-def scene(case, row, seed, overlap):
+def scene(case, row, seed, overlap, diameter):
     inside = f", friction_angle_deg: {ANGLE[case]}"
     formulation, spacing = "depth_averaged", COLUMN_SPACING[case]
     if row.startswith("full_"):
         formulation, spacing = "full_stress", DEPTH[case] / int(row.removeprefix("full_"))
     if row == "discrete":
-        formulation, inside = "discrete", f", discrete: {{greatest_overlap: {overlap}}}"
+        formulation, inside = "discrete", f", discrete: {{greatest_overlap: {overlap}, diameter_m: {diameter:g}}}"
     return TEXT[case].format(row=row, inside=inside, formulation=formulation, spacing=spacing, seed=seed)
 
 
@@ -82,13 +83,15 @@ def main():
     parser.add_argument("--rows", default="columns,full_3,full_6,full_12,discrete")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--overlap", type=float, default=0.1)
+    parser.add_argument("--diameter", type=float, help="of the grains [m]; 3, in the flume 0.1")
     given = parser.parse_args()
+    diameter = given.diameter or GRAIN[given.case]
     print("| row | particles | layers | front m | run-out m | centre of mass m | its fall m | fall / way | bed % |"
           " inside % | impacts % | numerical % | speed m/s | deposit ha | largest deposit m | end s | steps | CPU s |")
     print("|" + "---|" * 18, flush=True)
     for row in given.rows.split(","):
-        name = row if row != "discrete" else f"discrete_{given.overlap:g}_{given.seed}"
-        text = scene(given.case, row, given.seed, given.overlap)
+        name = row if row != "discrete" else f"discrete_{diameter:g}_{given.overlap:g}_{given.seed}"
+        text = scene(given.case, row, given.seed, given.overlap, diameter)
         print(line(name, run(given.tool, given.out / given.case / name, text)), flush=True)
 
 
