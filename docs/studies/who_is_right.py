@@ -3,6 +3,7 @@
 
 usage: who_is_right.py ENERGY_OF OUT [--case zhangjiawan|flume] [--rows columns,full_3,full_6,full_12,discrete]
                        [--seed N] [--overlap X] [--diameter D]
+                       [--more "bed_rolling_friction: 0"]
 ENERGY_OF is the target `energy_of` (build/release/tests/tools). OUT takes the runs; a run that is there is not made again. Prints one line of a table per row. Nothing is fitted: all rows
 have the friction of the paper (0.24 on the bed, 24 degrees inside; no pore pressure).
 """
@@ -42,13 +43,13 @@ DEPTH = {"zhangjiawan": THICKNESS, "flume": 1.2}
 COLUMN_SPACING = {"zhangjiawan": 4, "flume": 0.1}
 
 
-def scene(case, row, seed, overlap, diameter):
+def scene(case, row, seed, overlap, diameter, more):
     inside = f", friction_angle_deg: {ANGLE[case]}"
     formulation, spacing = "depth_averaged", COLUMN_SPACING[case]
     if row.startswith("full_"):
         formulation, spacing = "full_stress", DEPTH[case] / int(row.removeprefix("full_"))
     if row == "discrete":
-        formulation, inside = "discrete", f", discrete: {{greatest_overlap: {overlap}, diameter_m: {diameter:g}}}"
+        formulation, inside = "discrete", f", discrete: {{greatest_overlap: {overlap}, diameter_m: {diameter:g}{more}}}"
     return TEXT[case].format(row=row, inside=inside, formulation=formulation, spacing=spacing, seed=seed)
 
 
@@ -84,15 +85,17 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--overlap", type=float, default=0.1)
     parser.add_argument("--diameter", type=float, help="of the grains [m]; 3, in the flume 0.1")
+    parser.add_argument("--more", default="", help="further keys of grains.discrete")
     given = parser.parse_args()
+    more = f", {given.more}" if given.more else ""
     diameter = given.diameter or GRAIN[given.case]
     print("| row | particles | layers | front m | run-out m | centre of mass m | its fall m | fall / way | bed % |"
           " inside % | impacts % | numerical % | speed m/s | deposit ha | largest deposit m | end s | steps | CPU s |")
     print("|" + "---|" * 18, flush=True)
     for row in given.rows.split(","):
-        name = row if row != "discrete" else f"discrete_{diameter:g}_{given.overlap:g}_{given.seed}"
-        text = scene(given.case, row, given.seed, given.overlap, diameter)
-        print(line(name, run(given.tool, given.out / given.case / name, text)), flush=True)
+        name = row if row != "discrete" else f"discrete_{diameter:g}_{given.overlap:g}_{given.seed}{more}"
+        text = scene(given.case, row, given.seed, given.overlap, diameter, more)
+        print(line(name, run(given.tool, given.out / given.case / name.replace(" ", "").replace(":", "="), text)), flush=True)
 
 
 if __name__ == "__main__":
