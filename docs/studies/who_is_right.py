@@ -4,7 +4,8 @@
 usage: who_is_right.py ENERGY_OF OUT [--case zhangjiawan|flume] [--rows columns,full_3,full_6,full_12,discrete]
                        [--seed N] [--overlap X] [--diameter D]
                        [--more "bed_rolling_friction: 0"]
-ENERGY_OF is the target `energy_of` (build/release/tests/tools). OUT takes the runs; a run that is there is not made again. Prints one line of a table per row. Nothing is fitted: all rows
+ENERGY_OF is the target `energy_of` (build/release/tests/tools). OUT takes the runs; one that is there is not made
+again. Prints one line of a table per row. Nothing is fitted: all rows
 have the friction of the paper (0.24 on the bed, 24 degrees inside; no pore pressure).
 """
 import argparse
@@ -95,7 +96,8 @@ def main():
     for row in given.rows.split(","):
         name = row if row != "discrete" else f"discrete_{diameter:g}_{given.overlap:g}_{given.seed}{more}"
         text = scene(given.case, row, given.seed, given.overlap, diameter, more)
-        print(line(name, run(given.tool, given.out / given.case / name.replace(" ", "").replace(":", "="), text)), flush=True)
+        folder = given.out / given.case / name.replace(" ", "").replace(":", "=")
+        print(line(name, run(given.tool, folder, text)), flush=True)
 
 
 if __name__ == "__main__":
