@@ -101,7 +101,7 @@ TEST(GrainHeap, GivesTheSameBitsAtOneAndTwoThreads) {
   scene.grains.rolling_friction = 0.1;
   scene.grains.bed_rolling_friction.reset();
   GrainRun one(heap(12, 1.02), scene, 1), two(heap(12, 1.02), scene, 2);
-  for (GrainRun* run : {&one, &two}) run->run(0.6, 2e-3);
+  for (GrainRun* run : {&one, &two}) run->run(0.3, 2e-3);
   ASSERT_EQ(one.grains().x, two.grains().x);
   ASSERT_EQ(one.grains().z, two.grains().z);
   ASSERT_EQ(one.grains().vy, two.grains().vy);
@@ -144,8 +144,8 @@ double repose_angle(double rolling) {
   scene.grains.rolling_friction = rolling;
   scene.grains.bed[0].friction_coefficient = 0.8;
   scene.grains.bed_rolling_friction.reset();
-  GrainRun run(heap(8, 1.02, 0.05, 0.1), scene);
-  run.run(8, 3e-3);
+  GrainRun run(heap(7, 1.02, 0.05, 0.1), scene);
+  run.run(6, 3e-3);
   EXPECT_LT(run.ledger().kinetic, 1e-3 * run.ledger().released_energy());
   double height = 0, distance = 0;
   for (std::size_t i = 0; i < run.grains().size(); ++i) {
