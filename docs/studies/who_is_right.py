@@ -13,7 +13,7 @@ import json
 import pathlib
 import subprocess
 
-THICKNESS = 30  # of the release, about: layers of full stress are counted on it [m]
+THICKNESS = 42  # of the release, median: layers of full stress are counted on it [m]
 ZHANGJIAWAN = """
 title: Zhangjiawan-like, {row}
 terrain: {{synthetic: {{zhangjiawan: {{cell_size_m: 5}}}}}}
