@@ -42,9 +42,8 @@ class Lattice {
     a_ = std::cbrt(std::numbers::sqrt2 * d3 / fill_);
     swelling_ = packing.solid_fraction / fill_;
     radius_ = 0.5 * packing.diameter_m;
-    const RandomWords w = random_words(
-        packing.seed, {0xffffffffU, 0xffffffffU, 0xffffffffU,
-                       static_cast<std::uint32_t>(packing.member)});
+    const RandomWords w = random_words(packing.seed, {0xffffffffU, 0xffffffffU, 0xffffffffU,
+                                                      static_cast<std::uint32_t>(packing.member)});
     phase_ = {a_ * unit_from(w[0]), a_ * unit_from(w[1]), a_ * unit_from(w[2])};
     // Where the release lies: the lattice need not cover the whole raster.
     const Grid& g = thickness.grid;
@@ -90,8 +89,8 @@ class Lattice {
       const double above = at.z() - lowest;
       if (above > level * swollen) return;
       if (bed.distance(at, radius_).distance < radius_) continue;
-      out.push_back({above / swollen, row, col, layer, at,
-                     std::max(0.0, s.z + swollen - at.z()), h});
+      out.push_back(
+          {above / swollen, row, col, layer, at, std::max(0.0, s.z + swollen - at.z()), h});
     }
   }
 
@@ -106,10 +105,9 @@ std::vector<Place> lowest_places(const Terrain& bed, const Lattice& lattice, std
   std::vector<Place> all;
   for (double level = 1.5; level < 50 && all.size() < n; level *= 2)
     all = lattice.places(bed, level);
-  require(all.size() >= n,
-          "release: its " + std::to_string(n) +
-              " grains find no place (it is thinner than a grain). Use a smaller "
-              "grains.discrete.diameter_m.");
+  require(all.size() >= n, "release: its " + std::to_string(n) +
+                               " grains find no place (it is thinner than a grain). Use a smaller "
+                               "grains.discrete.diameter_m.");
   const auto lower = [](const Place& p, const Place& q) {
     return p.level != q.level ? p.level < q.level : p.order() < q.order();
   };
@@ -160,8 +158,7 @@ void pack_grains(const Terrain& bed, const Raster<double>& thickness, const Grai
     out.thickness.push_back(p.thickness);
     out.covered.push_back(1);
   }
-  const double each =
-      packing.density_kg_m3 * packing.solid_fraction * out.volume_m3 / sum.value();
+  const double each = packing.density_kg_m3 * packing.solid_fraction * out.volume_m3 / sum.value();
   for (double& m : out.mass) m *= each;
   out.dropped_fraction = 0;
 }

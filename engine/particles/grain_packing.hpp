@@ -8,13 +8,13 @@
 namespace sturz {
 
 struct GrainPacking {
-  double diameter_m = 1;           ///< of the mean volume
-  double density_kg_m3 = 2600;     ///< of the grain material
-  double solid_fraction = 0.6;     ///< of the release, as its mass follows from its volume
-  double size_spread = 0.1;        ///< diameters lie evenly within 1 +- this
-  double jitter = 0.05;            ///< of the lattice, in its own spacings, each direction
-  std::uint64_t seed = 1;          ///< Philox key
-  std::int64_t member = 0;         ///< Philox counter, with the place on the lattice
+  double diameter_m = 1;        ///< of the mean volume
+  double density_kg_m3 = 2600;  ///< of the grain material
+  double solid_fraction = 0.6;  ///< of the release, as its mass follows from its volume
+  double size_spread = 0.1;     ///< diameters lie evenly within 1 +- this
+  double jitter = 0.05;         ///< of the lattice, in its own spacings, each direction
+  std::uint64_t seed = 1;       ///< Philox key
+  std::int64_t member = 0;      ///< Philox counter, with the place on the lattice
 };
 
 /// The densest fill that grains are set down at: that of a random packing, spheres of 1 +- 0.1.

@@ -7,12 +7,12 @@
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
-#include "scenarios/assembly/expected_speed.hpp"
 #include "scenarios/assembly/grains/strength_inside.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/inflow/plan_masses.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
+#include "scenarios/assembly/speed/expected_speed.hpp"
 #include "scenarios/assembly/start_checks.hpp"
 #include "scenarios/schema/number_text.hpp"
 

@@ -10,13 +10,17 @@ namespace {
 
 std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged, bool friction_inside) {
   if (s.formulation == Formulation::discrete) {
-    std::vector<std::string> paths{
-        "grains.friction.static",        "grains.friction.dynamic",
-        "grains.friction.inertial_number_scale", "grains.friction_angle_deg",
-        "grains.cohesion_pa",            "numerics.sound_speed_factor",
-        "numerics.adaptive_sound_speed", "numerics.density_diffusion",
-        "numerics.artificial_viscosity", "numerics.courant",
-        "numerics.spacing_m"};
+    std::vector<std::string> paths{"grains.friction.static",
+                                   "grains.friction.dynamic",
+                                   "grains.friction.inertial_number_scale",
+                                   "grains.friction_angle_deg",
+                                   "grains.cohesion_pa",
+                                   "numerics.sound_speed_factor",
+                                   "numerics.adaptive_sound_speed",
+                                   "numerics.density_diffusion",
+                                   "numerics.artificial_viscosity",
+                                   "numerics.courant",
+                                   "numerics.spacing_m"};
     if (s.grains && s.grains->discrete && s.grains->discrete->diameter_m)
       paths.emplace_back("grains.diameter_m");
     return paths;

@@ -207,7 +207,7 @@ TEST(Schema, AZonesNumbersShareTheRowsOfTheBed) {
 TEST(Schema, TheFormulationIsChosenByTheProgramUnlessSaid) {
   const KeyInfo* key = find_key("formulation");
   EXPECT_EQ(key->get(Scenario{}), KeyValue{std::string("auto")});
-  EXPECT_THAT(key->choices, ElementsAre("auto", "full_stress", "depth_averaged"));
+  EXPECT_THAT(key->choices, ElementsAre("auto", "full_stress", "depth_averaged", "discrete"));
   EXPECT_TRUE(key->later_choices.empty());
 }
 

@@ -254,7 +254,8 @@ TEST(Validate, UnknownWordsAreNamedAndChangeNothing) {
       refusal("grains.states.stress_mode", "seed"),
       "grains.states.stress_mode = seed (has a new name in this version). Write paper_switch.");
   EXPECT_EQ(refusal("formulation", "depth_average"),
-            "formulation = depth_average (must be one of auto, full_stress, depth_averaged). Did "
+            "formulation = depth_average (must be one of auto, full_stress, depth_averaged, "
+            "discrete). Did "
             "you mean depth_averaged?");
   EXPECT_EQ(
       refusal("grains.earth_pressure", "passive"),

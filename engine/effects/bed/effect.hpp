@@ -30,8 +30,8 @@ struct ContactSettings {
 /// Adds the look-up of ground and walls and the ground's contact. Reads the fields of grain stress
 /// where the set has them (an isolated particle has no pressure).
 void add_terrain_contact(Step&, std::size_t set, const ContactSettings&);
-/// Adds the look-up of the ground alone, for particles that bring their own contact with it: closest
-/// points count within half a `spacing`, distances are up to date within 2 h.
+/// Adds the look-up of the ground alone, for particles that bring their own contact with it:
+/// closest points count within half a `spacing`, distances are up to date within 2 h.
 void add_ground_lookup(Step&, std::size_t set, const ContactSettings&);
 /// Adds the contact of the domain's analytic walls, each until it is removed. After
 /// add_terrain_contact.

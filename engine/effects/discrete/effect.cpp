@@ -226,8 +226,8 @@ class GrainContacts final : public Pass {
     out.rotational += 0.5 * inertia * spin.squaredNorm();
   }
 
-  /// See add_discrete_grains. What went into spins is booked as work of isolated particles is: it
-  /// stands in `rotational` as long as it is there.
+  /// See add_discrete_grains. What went into spins is accounted for as work of isolated particles
+  /// is: it stands in `rotational` as long as it is there.
   static void account(Ledger& ledger, const Account& a) {
     ledger.stress_work += a.work + a.spin_work + a.bed_sliding;
     ledger.contact_work -= a.spin_work;

@@ -208,8 +208,8 @@ std::size_t GrainPairs::bytes() const {
   std::size_t total = (pairs_.capacity() + old_.capacity()) * sizeof(GrainPair) +
                       (sources_.capacity() + sorted_.capacity()) * sizeof(Source) +
                       listed_at_.capacity() * sizeof(Vec3);
-  for (const auto* v : {&cell_begin_, &cell_, &n_found_, &new_of_id_, &begin_, &of_grain_, &fill_,
-                        &id_})
+  for (const auto* v :
+       {&cell_begin_, &cell_, &n_found_, &new_of_id_, &begin_, &of_grain_, &fill_, &id_})
     total += v->capacity() * sizeof(std::uint32_t);
   for (const auto& found : found_) total += found.capacity() * sizeof(Found);
   return total;

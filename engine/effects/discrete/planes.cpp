@@ -66,8 +66,7 @@ void GrainPlanes::press_on(const ContactPair& clean, const Roughness& rough, con
                            const GrainMotion& g, double since, Kept& kept, PlaneForce& out) {
   TouchMemory& memory = kept.touch;
   const double overlap = g.radius - plane.height, before = memory.overlap;
-  const double room =
-      1e-3 * g.radius + 1.5 * since * std::max(0.0, -g.velocity.dot(plane.normal));
+  const double room = 1e-3 * g.radius + 1.5 * since * std::max(0.0, -g.velocity.dot(plane.normal));
   memory.close_to(overlap);
   if (!kept.known)
     memory.unloaded = overlap;

@@ -62,8 +62,8 @@ class GrainPlanes {
   };
 
   Roughness ground(const Domain&, const MovingSet&, std::size_t i) const;
-  static void press_on(const ContactPair& clean, const Roughness&, const Plane&,
-                       const GrainMotion&, double since, Kept&, PlaneForce& out);
+  static void press_on(const ContactPair& clean, const Roughness&, const Plane&, const GrainMotion&,
+                       double since, Kept&, PlaneForce& out);
 
   DiscreteSettings settings_;
   ContactPair law_;

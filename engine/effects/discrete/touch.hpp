@@ -98,29 +98,28 @@ inline TouchForce press_grains(const ContactPair& pair, const RollingLaw& rollin
   const double normal_stiffness = 2 * pair.modulus * root;
   const double shear = 8 * pair.shear_modulus * root;
   const double reduced = rolling.coefficient * pair.radius;
-  const double bend = 2.25 * normal_stiffness * reduced * reduced;
+  const double turning = 2.25 * normal_stiffness * reduced * reduced;
   const double spring = 2.0 / 3 * normal_stiffness * loaded, pressed = 0.4 * spring * loaded;
   // Of the springs along the surface, as they were left.
   const double softer = memory.loaded > 0 ? std::sqrt(memory.loaded / loaded) : 1;
-  const double shear_0 = softer * shear, bend_0 = softer * bend;
+  const double shear_0 = softer * shear, turning_0 = softer * turning;
   const double stored_0 =
-      0.5 * (shear_0 * memory.slip.squaredNorm() + bend_0 * memory.roll.squaredNorm());
-  const Vec3 force_0 = shear_0 * memory.slip, moment_0 = bend_0 * memory.roll;
+      0.5 * (shear_0 * memory.slip.squaredNorm() + turning_0 * memory.roll.squaredNorm());
+  const Vec3 force_0 = shear_0 * memory.slip, moment_0 = turning_0 * memory.roll;
   if (softer < 1) memory.slip *= softer, memory.roll *= softer;
 
-  const ContactForce f =
-      press_contact(pair, loaded, normal, m.velocity, m.slip, memory.slip);
+  const ContactForce f = press_contact(pair, loaded, normal, m.velocity, m.slip, memory.slip);
   out.force = f.force;
   const double vn = m.velocity.dot(normal);
   const Vec3 tangential = f.force - f.normal * normal;
   const Vec3 sprung = -shear * memory.slip;
   out.damping = (spring - f.normal) * vn + (sprung - tangential).dot(m.velocity);
-  double bent = 0;
+  double turned = 0;
   if (reduced > 0)
-    bent = press_rolling(pair, rolling, bend, f.normal, normal, m, memory.roll, out);
-  const double stored = f.stored - pressed + bent;
+    turned = press_rolling(pair, rolling, turning, f.normal, normal, m, memory.roll, out);
+  const double stored = f.stored - pressed + turned;
   const double given = 0.5 * ((force_0 + shear * memory.slip).dot(m.slip) +
-                              (moment_0 + bend * memory.roll).dot(m.roll));
+                              (moment_0 + turning * memory.roll).dot(m.roll));
   out.sliding = given - (stored - stored_0);
   memory.loaded = loaded;
   memory.stored = pressed + stored;

@@ -8,6 +8,7 @@
 #include "io/files/io_error.hpp"
 #include "io/members/member_file.hpp"
 #include "io/site/hazard_grid.hpp"
+#include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
 
 #include <algorithm>
@@ -95,6 +96,7 @@ class Twin {
     numbers.formulation =
         from_word<Formulation>(own_description(numbers).formulation).value_or(numbers.formulation);
     numbers.numerics.spacing_m *= coarser_;
+    scale_grains(numbers, coarser_);
     numbers.numerics.accept_unresolved = true;
     return numbers;
   }

@@ -3,8 +3,8 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "scenarios/assembly/expected_speed.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
+#include "scenarios/assembly/speed/expected_speed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -34,6 +34,13 @@ Scenario with_grain_spacing(const Scenario& numbers) {
   return s;
 }
 
+void scale_grains(Scenario& numbers, double factor) {
+  if (numbers.formulation != Formulation::discrete || !numbers.grains) return;
+  const double scaled = factor * diameter(numbers);
+  numbers.grains->discrete = spec_of(numbers);
+  numbers.grains->discrete->diameter_m = Uncertain(scaled);
+}
+
 GrainPacking grain_packing(const Scenario& s, std::int64_t member) {
   GrainPacking packing;
   packing.diameter_m = diameter(s);
@@ -52,11 +59,11 @@ void require_countable_grains(const Scenario& s, const Raster<double>& thickness
     if (h > 0) sum += h;
   const double volume = sum * thickness.grid.cell_m * thickness.grid.cell_m;
   const double n = grains_in(volume, grain_packing(s, 0));
-  require(n <= most_grains,
-          "grains.discrete.diameter_m = " + short_number(diameter(s)) + " (the release holds " +
-              short_number(n) + " such grains, more than 1e7). Use larger grains, " +
-              short_number(diameter(s) * std::cbrt(n / 1e5)) +
-              " m for a hundred thousand, or formulation: depth_averaged.");
+  require(n <= most_grains, "grains.discrete.diameter_m = " + short_number(diameter(s)) +
+                                " (the release holds " + short_number(n) +
+                                " such grains, more than 1e7). Use larger grains, " +
+                                short_number(diameter(s) * std::cbrt(n / 1e5)) +
+                                " m for a hundred thousand, or formulation: depth_averaged.");
 }
 
 void plan_discrete(const Scenario& s, std::vector<BasalResistance> bed, ScenePlan& plan) {
@@ -67,8 +74,7 @@ void plan_discrete(const Scenario& s, std::vector<BasalResistance> bed, ScenePla
   rock.youngs_modulus = spec.youngs_modulus_pa;
   rock.poisson_ratio = s.grains->poisson_ratio.value;
   rock.density = s.grains->density_kg_m3.value;
-  const double load =
-      plan.bulk_density_kg_m3 * standard_gravity * plan.release.max_thickness_m;
+  const double load = plan.bulk_density_kg_m3 * standard_gravity * plan.release.max_thickness_m;
   c.material = softened_grains(rock, std::max(plan.reference_speed_m_s, start_speed(s)), load,
                                spec.greatest_overlap);
   c.restitution = spec.restitution.value;

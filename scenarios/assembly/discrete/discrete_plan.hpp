@@ -18,6 +18,9 @@ struct ScenePlan;
 /// numerics.spacing_m. As it is in every other formulation.
 Scenario with_grain_spacing(const Scenario& numbers);
 
+/// Makes the grains of a discrete scene larger, as a longer spacing makes particles; others stay.
+void scale_grains(Scenario& numbers, double factor);
+
 /// \pre formulation: discrete
 GrainPacking grain_packing(const Scenario& numbers, std::int64_t member);
 

@@ -163,7 +163,7 @@ BlockInfo optional_block(const char* path, const char* help, const Block<Owner>&
 // The table's parts, in file order; schema.cpp joins them.
 void add_site_keys(std::vector<KeyInfo>&);         ///< title, terrain, release
 void add_material_keys(std::vector<KeyInfo>&);     ///< grains, basal, formulation
-void add_discrete_keys(std::vector<KeyInfo>&);      ///< grains.discrete: within grains
+void add_discrete_keys(std::vector<KeyInfo>&);     ///< grains.discrete: within grains
 void add_structure_keys(std::vector<KeyInfo>&);    ///< terrain.dams, .buildings: within terrain
 void add_bed_field_keys(std::vector<KeyInfo>&);    ///< basal.samosat, basal.rasters: within basal
 void add_erosion_keys(std::vector<KeyInfo>&);      ///< erosion

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scenarios/assembly/expected_speed.hpp"
+#include "scenarios/assembly/speed/expected_speed.hpp"
 
 #include "engine/simulation/reference_speed.hpp"
 
