@@ -37,8 +37,6 @@ struct BoundarySupport {
   std::vector<float> nx, ny, nz;  ///< that normal, up to date within 2h
   /// Acceleration by the images in the ground, from the sweep; up to date within 2h [m/s^2].
   std::vector<float> from_ground[3];
-  std::vector<float>
-      borne;  ///< the part of its normal push that friction acts by, the same [m/s^2]
   std::vector<float> mirror_weight;  ///< 0..1, from the sweep: how much of walls' mirror acts
   std::vector<float> moment[6];  ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
   std::vector<float> gradient[6];  ///< the same order [1/s]

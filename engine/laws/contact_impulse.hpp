@@ -30,24 +30,19 @@ struct ContactEnergy {
   double pressure_work = 0, contact_work = 0, friction = 0, spring = 0;
 };
 
-/// Mirrored pressure of ground or wall, as accelerations along its normal, >= 0 [m/s^2].
-struct MirroredPush {
-  double pressure = 0;  ///< what pushes the particle
-  double borne = 0;     ///< what its friction is by: the push of what lies on it counts, too
-};
-
 /// Applies one contact to a velocity.
 /// \param distance  to the surface along its normal, may be negative      [m]
 /// \param nx,ny,nz  unit normal into the free side
+/// \param pressure_acceleration  mirrored pressure of the wall, >= 0 [m/s^2]
 /// \param before    velocity at the start of the step                      [m/s]
 /// \param vx,vy,vz  in and out                                             [m/s]
 inline ContactEnergy apply_contact(const ContactLaw& law, double distance, double nx, double ny,
-                                   double nz, const MirroredPush& push, double dt,
+                                   double nz, double pressure_acceleration, double dt,
                                    const double before[3], double& vx, double& vy, double& vz) {
   ContactEnergy energy;
   double vn = vx * nx + vy * ny + vz * nz;
   const double vn_before = vn;
-  const double from_pressure = push.pressure * dt;
+  const double from_pressure = pressure_acceleration * dt;
   vn += from_pressure;
   double impulse = 0;
   const double overlap = law.contact_distance - distance;
@@ -58,7 +53,8 @@ inline ContactEnergy apply_contact(const ContactLaw& law, double distance, doubl
     if (distance < 0) impulse = std::fmax(impulse, -vn);
     vn += impulse;
   }
-  double cap = law.friction * (push.borne * dt + impulse);  // every normal impulse enters it
+  const double normal_impulse = from_pressure + impulse;  // every one enters the Coulomb cap
+  double cap = law.friction * normal_impulse;
   if (distance < law.cohesion_distance) cap += law.cohesion_rate * dt;
   const double tx = vx - vn_before * nx, ty = vy - vn_before * ny, tz = vz - vn_before * nz;
   const double speed2 = tx * tx + ty * ty + tz * tz;

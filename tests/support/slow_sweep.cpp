@@ -77,12 +77,9 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       const double share = 0.5 * (a.viscosity_share + b.viscosity_share);
       const double q = share * c.viscosity * c.sound_speed * c.h * c.reference_density *
                        u.dot(image) / (distance * distance + 0.01 * c.h * c.h);
-      const Vec3 push =
+      rates.from_ground +=
           b.volume / density_a *
           ((a.stress + reflection * b.stress * reflection + q * Matrix3d::Identity()) * grad);
-      rates.from_ground += push;
-      const double lower = std::clamp(0.5 + (db - da) / c.spacing, 0.0, 1.0);
-      rates.borne_by_ground += 2 * lower * push.dot(a.ground_normal);
     };
     const auto add = [&](const SlowParticle& b) {
       const Vec3 r = a.position - b.position;
@@ -145,8 +142,7 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                              : correction(mirrored, rates.corrected));
     rates.support_completeness +=
         rates.mirror_weight * a.wall_moment.trace() / (3 * a.dilation_ratio);
-    const Vec3& n = a.ground_normal;
-    rates.acceleration = force + rates.from_ground - rates.from_ground.dot(n) * n;
+    rates.acceleration = force;
     rates.diffusion = 2 * c.density_diffusion * c.h * c.sound_speed * laplace;
     rates.smoothing *= 2 * c.stress_smoothing * c.h * c.sound_speed;
     rates.smoothing -= rates.smoothing.trace() / 3 * Matrix3d::Identity();

@@ -34,9 +34,8 @@ struct SlowRates {
   Vec3 acceleration{0, 0, 0};
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();   ///< corrected dv_a/dx_b
   Eigen::Matrix3d pair_sums = Eigen::Matrix3d::Zero();  ///< the same, not corrected; twin only
-  Vec3 from_ground{0, 0, 0};   ///< acceleration by the images in the ground
-  double borne_by_ground = 0;  ///< normal push whose friction it bears [m/s^2]
-  double ground_weight = 0;    ///< for the next step
+  Vec3 from_ground{0, 0, 0};  ///< acceleration by the images in the ground
+  double ground_weight = 0;   ///< for the next step
   double diffusion = 0;
   Vec3 density_gradient{0, 0, 0};
   double mirror_weight = 0;  ///< of walls' mirror contribution

@@ -29,7 +29,7 @@ NeighborRecord record_of(const SlowParticle& p, NeighborRecord r) {
 
 /// Room for the sweep's results and inputs of walls, [padded].
 struct Rooms {
-  std::array<std::vector<float>, 37> results;
+  std::array<std::vector<float>, 36> results;
   std::array<std::vector<float>, 12> wall;
   std::array<std::vector<float>, 3> normal;
 
@@ -51,7 +51,6 @@ struct Rooms {
     for (int k = 0; k < 3; ++k) o.from_ground[k] = results[29 + k].data();
     for (int k = 0; k < 3; ++k) o.density_gradient[k] = results[32 + k].data();
     o.ground_weight = results[35].data();
-    o.borne_by_ground = results[36].data();
     return o;
   }
   BoundaryView boundary(const std::vector<GroundRecord>& ground) const {
@@ -70,7 +69,6 @@ struct Rooms {
       r.density_gradient[k] = results[32 + k][i];
     }
     r.ground_weight = results[35][i];
-    r.borne_by_ground = results[36][i];
     r.diffusion = results[12][i];
     r.mirror_weight = results[19][i];
     r.support_completeness = results[20][i], r.conducted = results[22][i];

@@ -16,7 +16,6 @@ namespace {
 
 struct ContactSums {
   double pressure_work = 0, contact_work = 0, friction = 0, spring = 0;
-  Vec3 along{0, 0, 0};  ///< impulse of the images along the ground, which the pairs' forces hold
 
   void add(const ContactEnergy& e, double mass) {
     pressure_work += mass * e.pressure_work;
@@ -31,7 +30,6 @@ void combine(ContactSums& total, const ContactSums& block) {
   total.contact_work += block.contact_work;
   total.friction += block.friction;
   total.spring += block.spring;
-  total.along += block.along;
 }
 
 /// Integral of the smoothing kernel over a plane at distance d (SmoothingKernel::plane_integral),
@@ -212,7 +210,6 @@ class GroundContact final : public Pass {
         combine);
     account(p, sums);
     p.ledger.spring = sums.spring;
-    p.ledger.stress_impulse -= sums.along;
   }
 
  private:
@@ -225,23 +222,25 @@ class GroundContact final : public Pass {
     // there.
     const auto support_radius = static_cast<float>(2 * settings_.smoothing_length);
     const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
+    const double kick = s.n_steps == 0 ? 0.5 * dt : dt;  // as that of the pairs
     for (std::size_t i = begin; i < end; ++i) {
       if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
       const Vec3 n(b.nx[i], b.ny[i], b.nz[i]), push = images(i);
-      double support = std::fmax(0.0, push.dot(n)), borne = images.borne(i);
-      out.along += p.mass[i] * dt * (push - push.dot(n) * n);
-      if (collisions.acts()) {
-        const double more = collisions.acceleration(
+      double support = std::fmax(0.0, push.dot(n));
+      const Vec3 along = push - push.dot(n) * n;
+      if (collisions.acts())
+        support += collisions.acceleration(
             i, plane_integral(b.distance[i], settings_.smoothing_length), n.x(), n.y(), n.z());
-        support += more, borne += more;
-      }
       const std::size_t zone = zoned ? zone_of(s.domain, p, i) : 0;
       ContactLaw own;
       if (rastered) own = law_at(s.domain, p, i, zone);
       const ContactLaw& law = rastered ? own : laws_[zone];
-      out.add(apply_contact(law, b.distance[i], n.x(), n.y(), n.z(), {support, borne}, dt,
-                            start(i).data(), p.vx[i], p.vy[i], p.vz[i]),
-              p.mass[i]);
+      const Vec3 before = start(i);
+      p.vx[i] += kick * along.x(), p.vy[i] += kick * along.y(), p.vz[i] += kick * along.z();
+      ContactEnergy e = apply_contact(law, b.distance[i], n.x(), n.y(), n.z(), support, dt,
+                                      before.data(), p.vx[i], p.vy[i], p.vz[i]);
+      e.pressure_work += 0.5 * kick * along.dot(before + Vec3(p.vx[i], p.vy[i], p.vz[i]));
+      out.add(e, p.mass[i]);
     }
   }
 
@@ -313,8 +312,8 @@ class WallContact final : public Pass {
             if (pressure.acts())
               support = pressure.acceleration(i, plane_integral(d, settings_.smoothing_length),
                                               n.x(), n.y(), n.z());
-            out.add(apply_contact(law, d, n.x(), n.y(), n.z(), {support, support}, dt,
-                                  start(i).data(), p.vx[i], p.vy[i], p.vz[i]),
+            out.add(apply_contact(law, d, n.x(), n.y(), n.z(), support, dt, start(i).data(),
+                                  p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);
           }
         },

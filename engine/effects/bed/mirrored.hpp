@@ -5,7 +5,6 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/fields.hpp"
 
-#include <cmath>
 #include <cstddef>
 
 namespace sturz {
@@ -61,23 +60,19 @@ class WallPressure {
 
 /// What the images in the ground do to a particle: a push along the normal, which is the ground's
 /// reaction and never pulls, and the pull along it, which pairs of particles share without
-/// loss on a plane. Where the ground is bent it is no force of the pairs.
+/// loss on a plane. It is no force of the pairs where the ground is bent: hence here.
 class GroundImages {
  public:
   explicit GroundImages(const MovingSet& p) {
     if (!p.has(fields::stress)) return;
     for (int k = 0; k < 3; ++k) a_[k] = p.boundary.from_ground[k].data();
-    borne_ = p.boundary.borne.data();
   }
   Vec3 operator()(std::size_t i) const {
     return a_[0] ? Vec3(a_[0][i], a_[1][i], a_[2][i]) : Vec3(0, 0, 0);
   }
-  /// What friction acts by, never pulling [m/s^2].
-  double borne(std::size_t i) const { return borne_ ? std::fmax(0.0, borne_[i]) : 0; }
 
  private:
   const float* a_[3] = {};
-  const float* borne_ = nullptr;
 };
 
 }  // namespace sturz

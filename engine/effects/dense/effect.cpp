@@ -87,8 +87,7 @@ class NeighborPass final : public Pass {
     if (shared_->settings.states)
       for (auto& r : shared_->dispersed) r.resize(padded);
     const std::size_t all = std::max(padded, p.size());
-    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.mirror_weight, &p.boundary.borne})
-      a->resize(all);
+    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.mirror_weight}) a->resize(all);
     for (auto& a : p.boundary.from_ground) a.resize(all);
   }
 
@@ -200,7 +199,6 @@ class SweepPass final : public Pass {
     SweepOutput out = shared_->output();
     out.ax = p.ax.data(), out.ay = p.ay.data(), out.az = p.az.data();
     for (int k = 0; k < 3; ++k) out.from_ground[k] = p.boundary.from_ground[k].data();
-    out.borne_by_ground = p.boundary.borne.data();
     out.mirror_weight = p.boundary.mirror_weight.data();
     const BoundaryView wall = boundary_view(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
@@ -217,7 +215,6 @@ class SweepPass final : public Pass {
     for (std::size_t i = p.n_listed; i < p.size(); ++i) {
       p.ax[i] = p.ay[i] = p.az[i] = 0;
       for (auto& a : p.boundary.from_ground) a[i] = 0;
-      p.boundary.borne[i] = 0;
     }
   }
   EffectPart part() const override {

@@ -33,7 +33,6 @@ struct DenseScale {
   float laplacian;      ///< C unit-free: sums of V t^3 (f_j - f_i) -> half the Laplacian
   float inv_w_spacing;  ///< 1/(t^4 (5 - 4t)) one spacing away
   float support;        ///< 2h in units
-  float inv_spacing;    ///< 1/dx per unit
 };
 
 inline DenseScale dense_scale(const SweepConstants& c, double unit) {
@@ -53,7 +52,6 @@ inline DenseScale dense_scale(const SweepConstants& c, double unit) {
   const double t = 1 - c.spacing / (2 * c.h);
   s.inv_w_spacing = static_cast<float>(1 / (t * t * t * t * (5 - 4 * t)));
   s.support = static_cast<float>(2 * c.h / unit);
-  s.inv_spacing = static_cast<float>(unit / c.spacing);
   return s;
 }
 

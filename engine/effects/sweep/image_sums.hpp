@@ -61,14 +61,12 @@ struct ImageSums {
   Lanes mxx, myy, mzz, mxy, myz, mzx;
   Lanes gx, gy, gz;
   Lanes ax, ay, az;
-  Lanes borne, bx, by, bz;  ///< n.A and G again, each pair in the share of borne_share
 
   void clear() {
     const Lanes o = Lanes::all(0);
     lxx = lxy = lxz = lyx = lyy = lyz = lzx = lzy = lzz = o;
     mxx = myy = mzz = mxy = myz = mzx = o;
     gx = gy = gz = ax = ay = az = o;
-    borne = bx = by = bz = o;
   }
 
   /// Adds one neighbour, as it is in the mirror. One beyond the reach of all lanes adds zero.
@@ -97,35 +95,18 @@ struct ImageSums {
     const Lanes ur = fma(ux, rx, fma(uy, ry, uz * rz));
     const Lanes q = ur * viscosity / (r2 + Lanes::all(k.eta2));
     const Lanes sxy = Lanes::all(j.sxy), syz = Lanes::all(j.syz), szx = Lanes::all(j.szx);
-    const Lanes fx = fma(Lanes::all(j.sxx) + q, dx, fma(sxy, dy, szx * dz));
-    const Lanes fy = fma(sxy, dx, fma(Lanes::all(j.syy) + q, dy, syz * dz));
-    const Lanes fz = fma(szx, dx, fma(syz, dy, (Lanes::all(j.szz) + q) * dz));
-    ax = ax + fx, ay = ay + fy, az = az + fz;
-    const Lanes share = borne_share(i.distance, d, k);
-    borne = fma(share, fma(i.n[0], fx, fma(i.n[1], fy, i.n[2] * fz)), borne);
-    bx = fma(share, dx, bx), by = fma(share, dy, by), bz = fma(share, dz, bz);
-  }
-
-  /// Of the push along the normal between a pair and its images, the part whose friction the grain
-  /// at distance d_i bears: all of it where the other lies a spacing higher, none where it lies a
-  /// spacing lower, 0..2. The bed rubs on what lies on it; what lies above it is held by what lies
-  /// between.
-  static Lanes borne_share(Lanes d_i, Lanes d_j, const DenseScale& k) {
-    const Lanes two = Lanes::all(2);
-    const Lanes share = fma(d_j - d_i, Lanes::all(2 * k.inv_spacing), Lanes::all(1));
-    return select_less(share, two, max(share, Lanes::all(0)), two);
+    ax = fma(Lanes::all(j.sxx) + q, dx, fma(sxy, dy, fma(szx, dz, ax)));
+    ay = fma(sxy, dx, fma(Lanes::all(j.syy) + q, dy, fma(syz, dz, ay)));
+    az = fma(szx, dx, fma(syz, dy, fma(Lanes::all(j.szz) + q, dz, az)));
   }
 
   /// Turns the sums out of the mirror, in the weight of the lanes.
   void finish(const MirroredSelf& i, Lanes weight) {
-    Lanes* const all[] = {&lxx, &lxy, &lxz, &lyx,   &lyy, &lyz, &lzx, &lzy, &lzz,
-                          &mxx, &myy, &mzz, &mxy,   &myz, &mzx, &gx,  &gy,  &gz,
-                          &ax,  &ay,  &az,  &borne, &bx,  &by,  &bz};
+    Lanes* const all[] = {&lxx, &lxy, &lxz, &lyx, &lyy, &lyz, &lzx, &lzy, &lzz, &mxx, &myy,
+                          &mzz, &mxy, &myz, &mzx, &gx,  &gy,  &gz,  &ax,  &ay,  &az};
     for (Lanes* c : all) *c = weight * *c;
     reflect(i.n, gx, gy, gz);
     reflect(i.n, ax, ay, az);
-    reflect(i.n, bx, by, bz);
-    borne = Lanes::all(0) - borne;
     reflect(i.n, lxx, lyx, lzx), reflect(i.n, lxy, lyy, lzy), reflect(i.n, lxz, lyz, lzz);
     reflect(i.n, lxx, lxy, lxz), reflect(i.n, lyx, lyy, lyz), reflect(i.n, lzx, lzy, lzz);
     Lanes myx = mxy, mzy = myz, mxz = mzx;

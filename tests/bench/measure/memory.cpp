@@ -17,7 +17,6 @@ std::size_t state_bytes(const State& s) {
        {&s.grains().ax, &s.grains().ay, &s.grains().az, &b.distance, &b.nx, &b.ny, &b.nz})
     sum += bytes(*v);
   for (const auto& v : b.from_ground) sum += bytes(v);
-  sum += bytes(b.borne);
   for (int k = 0; k < 6; ++k) sum += bytes(b.moment[k]) + bytes(b.gradient[k]);
   return sum;
 }

@@ -24,8 +24,8 @@ struct Touch {
   ContactEnergy energy;
 
   Vec3 apply() {
-    energy = apply_contact(law, distance, normal.x(), normal.y(), normal.z(), {pressure, pressure},
-                           dt, before.data(), velocity.x(), velocity.y(), velocity.z());
+    energy = apply_contact(law, distance, normal.x(), normal.y(), normal.z(), pressure, dt,
+                           before.data(), velocity.x(), velocity.y(), velocity.z());
     return velocity;
   }
 };

@@ -62,7 +62,6 @@ const std::vector<Part> parts{
     {"acceleration", [](const SlowRates& r) -> Eigen::MatrixXd { return r.acceleration; }},
     {"from ground", [](const SlowRates& r) -> Eigen::MatrixXd { return r.from_ground; }},
     {"gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; }},
-    {"borne", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.borne_by_ground, 0, 0); }},
     {"ground weight",
      [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.ground_weight, 0, 0); }},
     {"density gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.density_gradient; }},
@@ -145,7 +144,8 @@ double thrust(int layers, bool mirrored) {
   const auto rates = test::fast_sweep(cloud, constants, fastest(), domain).rates;
   double force = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (cloud[i].position.x() > 0) force += mass(cloud[i], constants) * rates[i].acceleration.x();
+    if (cloud[i].position.x() > 0)
+      force += mass(cloud[i], constants) * (rates[i].acceleration + rates[i].from_ground).x();
   return force / (6 * dx) / (0.5 * layers * dx * layers * dx);
 }
 
@@ -194,23 +194,6 @@ TEST(GroundImages, PushAwayFromThePlaneAndNotAlongIt) {
   const Vec3 local = tilted_frame() * force;
   EXPECT_LT(std::hypot(local.x(), local.y()), 1e-6 * scale);
   EXPECT_GT(local.z(), 0.1 * scale);
-}
-
-/// The friction of the second layer's share of the load is the first layer's.
-TEST(GroundImages, LetTheLowestGrainsBearTheFrictionOfAllThatTheyPushOn) {
-  const auto constants = test::usual_constants(dx);
-  const auto cloud = rough_block();
-  const auto fast = test::fast_sweep(cloud, constants, fastest()).rates;
-  double pushed = 0, borne = 0, second = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const double m = mass(cloud[i], constants);
-    pushed += m * fast[i].from_ground.dot(cloud[i].ground_normal);
-    borne += m * fast[i].borne_by_ground;
-    if (cloud[i].ground_distance > 1.8 * dx) second += m * std::abs(fast[i].borne_by_ground);
-  }
-  EXPECT_GT(pushed, 0);
-  EXPECT_NEAR(borne, pushed, 1e-6 * pushed);
-  EXPECT_LT(second, 0.01 * pushed);
 }
 
 TEST(GroundImages, LinearVelocityAlongTheGroundGivesTheExactGradient) {
