@@ -255,6 +255,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
   contact.stiffness =
       std::max(10 * standard_gravity * std::max(deepest, dx) / (dx * dx), impact * impact);
   contact.restitution = s.basal.restitution.value;
+  contact.internal_friction = stress.law.static_friction;
   contact.zones = plan.zones;
   contact.rasters = plan.rasters;
   contact.bed.clear();

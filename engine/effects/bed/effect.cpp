@@ -218,6 +218,7 @@ class GroundContact final : public Pass {
     const BoundarySupport& b = p.boundary;
     const StartVelocity start(p);
     const GroundImages images(p);
+    const HandedOn handed_on(p, settings_);
     // As the sweep has it: distances beyond are that number itself, and the images' push is stale
     // there.
     const auto support_radius = static_cast<float>(2 * settings_.smoothing_length);
@@ -235,9 +236,8 @@ class GroundContact final : public Pass {
         support += collisions.acceleration(
             i, plane_integral(b.distance[i], settings_.smoothing_length), n.x(), n.y(), n.z());
       const std::size_t zone = zoned ? zone_of(s.domain, p, i) : 0;
-      ContactLaw own;
-      if (rastered) own = law_at(s.domain, p, i, zone);
-      const ContactLaw& law = rastered ? own : laws_[zone];
+      ContactLaw law = rastered ? law_at(s.domain, p, i, zone) : laws_[zone];
+      law.friction = handed_on(i, b.distance[i], law.friction);
       const Vec3 before = start(i);
       p.vx[i] += kick * along.x(), p.vy[i] += kick * along.y(), p.vz[i] += kick * along.z();
       images.acted(i, kick / dt * along);

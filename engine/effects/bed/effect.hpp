@@ -17,11 +17,14 @@ struct GroundFriction {
 };
 
 struct ContactSettings {
-  double spacing = 1;                  ///< initial particle spacing dx [m]
-  double smoothing_length = 1.3;       ///< h [m]; its support radius is 2h
-  double reference_density = 1500;     ///< rho_ref [kg/m^3]
-  double stiffness = 1;                ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
-  double restitution = 0.2;            ///< e_b [-]
+  double spacing = 1;               ///< initial particle spacing dx [m]
+  double smoothing_length = 1.3;    ///< h [m]; its support radius is 2h
+  double reference_density = 1500;  ///< rho_ref [kg/m^3]
+  double stiffness = 1;             ///< k [1/s^2]: max(10 g H/dx^2, (v_ref/(dx/2))^2)
+  double restitution = 0.2;         ///< e_b [-]
+  /// mu_s of the grains inside; the bed's friction on those that do not lie on it is no more than
+  /// they hand on [-].
+  double internal_friction = 1e300;
   std::vector<GroundFriction> bed{1};  ///< by zone, [0] where there is none
   ZoneMap zones;
   BedRasters rasters;  ///< over the ground of the zones

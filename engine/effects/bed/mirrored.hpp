@@ -5,6 +5,7 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/fields.hpp"
 
+#include <cmath>
 #include <cstddef>
 
 namespace sturz {
@@ -56,6 +57,38 @@ class WallPressure {
   const double* stress_[6] = {};
   const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
   const double* density_change_ = nullptr;
+};
+
+/// The bed's friction on a particle above those that lie on it: what lies between hands on no more
+/// than it bears itself. With the whole friction of a very rough bed the second layer would be held
+/// as fast as the first.
+class HandedOn {
+ public:
+  HandedOn(const MovingSet& p, const ContactSettings& c)
+      : least_(c.internal_friction), inv_spacing_(1 / c.spacing) {
+    if (const Field* stress = p.find(fields::stress))
+      for (int k = 0; k < 6; ++k) s_[k] = stress->component[k].data();
+  }
+  /// \param distance  to the ground [m]; \param friction  of the bed, mu_b (1 - r_u)
+  double operator()(std::size_t i, double distance, double friction) const {
+    const double above = std::fmin(1.0, 2 * (distance * inv_spacing_ - 0.75));
+    if (!s_[0] || above <= 0 || friction <= least_) return friction;
+    const double inside = std::fmin(friction, std::fmax(least_, stress_ratio(i)));
+    return friction + above * (inside - friction);
+  }
+
+ private:
+  /// sqrt(J2) / p, 0 without pressure: mu(I) where the grains yield.
+  double stress_ratio(std::size_t i) const {
+    const double p = -(s_[0][i] + s_[1][i] + s_[2][i]) / 3;
+    if (p <= 0) return 0;
+    const double x = s_[0][i] + p, y = s_[1][i] + p, z = s_[2][i] + p;
+    const double shear = s_[3][i] * s_[3][i] + s_[4][i] * s_[4][i] + s_[5][i] * s_[5][i];
+    return std::sqrt(0.5 * (x * x + y * y + z * z) + shear) / p;
+  }
+
+  const double* s_[6] = {};
+  double least_, inv_spacing_;
 };
 
 /// What the images in the ground do to a particle: a push along the normal, which is the ground's
