@@ -35,8 +35,7 @@ struct MotionBounds {
 struct BoundarySupport {
   std::vector<float> distance;    ///< to the ground along its normal; beyond 2h no more than it [m]
   std::vector<float> nx, ny, nz;  ///< that normal, up to date within 2h
-  /// Acceleration by the images in the ground, from the sweep; up to date within 2h. After the
-  /// contact what of it acted along the ground, zero elsewhere [m/s^2].
+  /// Acceleration by the images in the ground, from the sweep; up to date within 2h [m/s^2].
   std::vector<float> from_ground[3];
   std::vector<float> mirror_weight;  ///< 0..1, from the sweep: how much of walls' mirror acts
   std::vector<float> moment[6];  ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls

@@ -225,10 +225,7 @@ class GroundContact final : public Pass {
     const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
     const double kick = s.n_steps == 0 ? 0.5 * dt : dt;  // as that of the pairs
     for (std::size_t i = begin; i < end; ++i) {
-      if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) {
-        images.acted(i, {0, 0, 0});
-        continue;
-      }
+      if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
       const Vec3 n(b.nx[i], b.ny[i], b.nz[i]), push = images(i);
       double support = std::fmax(0.0, push.dot(n));
       const Vec3 along = push - push.dot(n) * n;
@@ -240,10 +237,10 @@ class GroundContact final : public Pass {
       law.friction = handed_on(i, b.distance[i], law.friction);
       const Vec3 before = start(i);
       p.vx[i] += kick * along.x(), p.vy[i] += kick * along.y(), p.vz[i] += kick * along.z();
-      images.acted(i, kick / dt * along);
-      out.add(apply_contact(law, b.distance[i], n.x(), n.y(), n.z(), support, dt, before.data(),
-                            p.vx[i], p.vy[i], p.vz[i]),
-              p.mass[i]);
+      ContactEnergy e = apply_contact(law, b.distance[i], n.x(), n.y(), n.z(), support, dt,
+                                      before.data(), p.vx[i], p.vy[i], p.vz[i]);
+      e.pressure_work += 0.5 * kick * along.dot(before + Vec3(p.vx[i], p.vy[i], p.vz[i]));
+      out.add(e, p.mass[i]);
     }
   }
 

@@ -96,21 +96,16 @@ class HandedOn {
 /// loss on a plane. It is no force of the pairs where the ground is bent: hence here.
 class GroundImages {
  public:
-  explicit GroundImages(MovingSet& p) {
+  explicit GroundImages(const MovingSet& p) {
     if (!p.has(fields::stress)) return;
     for (int k = 0; k < 3; ++k) a_[k] = p.boundary.from_ground[k].data();
   }
   Vec3 operator()(std::size_t i) const {
     return a_[0] ? Vec3(a_[0][i], a_[1][i], a_[2][i]) : Vec3(0, 0, 0);
   }
-  /// Leaves what acted along the ground, for the account of its work with the velocities at the
-  /// end of the step.
-  void acted(std::size_t i, const Vec3& along) const {
-    for (int k = 0; a_[0] && k < 3; ++k) a_[k][i] = static_cast<float>(along[k]);
-  }
 
  private:
-  float* a_[3] = {};
+  const float* a_[3] = {};
 };
 
 }  // namespace sturz

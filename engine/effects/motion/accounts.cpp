@@ -44,11 +44,6 @@ void account_step(const MovingSet& p, double gravity, const double* const before
   out.stress_work += m * (ax * mx + ay * my + az * mz);
   out.impulse += m * Vec3(ax, ay, az);
   out.scale += m * std::sqrt(ax * ax + ay * ay + az * az);
-  const auto& ground = p.boundary.from_ground;
-  if (ground[0].size() < p.size()) return;
-  // What the images in the ground did along it: walls that come after may have taken it back.
-  out.stress_work +=
-      m * (double{ground[0][i]} * mx + double{ground[1][i]} * my + double{ground[2][i]} * mz);
 }
 
 }  // namespace

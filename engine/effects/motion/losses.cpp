@@ -49,9 +49,7 @@ void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& kee
     (taken ? p.ledger.taken_energy : p.ledger.lost_energy) += energy;
   }
   if (n_kept == p.size()) return;
-  auto& ground = p.boundary.from_ground;
-  for (auto* a : {&p.ax, &p.ay, &p.az, &ground[0], &ground[1], &ground[2]}) {
-    if (a->empty()) continue;
+  for (auto* a : {&p.ax, &p.ay, &p.az}) {
     std::size_t n = 0;
     for (std::size_t i = 0; i < keep.size(); ++i)
       if (keep[i]) (*a)[n++] = (*a)[i];
