@@ -21,7 +21,8 @@ enum class Stage {
   gather,     ///< neighbour records for the pair sweep
   force,      ///< accelerations, velocity gradients at x_n
   kick,       ///< v_{n-1/2} -> v_{n+1/2} by acceleration
-  contact,    ///< impulses of ground and walls, friction last
+  walls,      ///< impulses of analytic walls: what they stop the ground does not rub
+  contact,    ///< impulses of the ground, friction last
   stress,     ///< stress and density n -> n+1
   move,       ///< x_n -> x_{n+1}, losses, bounds
 };

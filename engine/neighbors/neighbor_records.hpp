@@ -134,7 +134,8 @@ struct SweepOutput {
   float* lzz;
   float* diffusion;            ///< d(density_change)/dt by delta-SPH [1/s]
   float* density_gradient[3];  ///< of the density change, for the next step [1/m]
-  /// Acceleration by the images in the ground [m/s^2]; not written for groups beyond 2h of it.
+  /// Acceleration by the images in the ground [m/s^2]; its part along the ground is in ax, ay, az,
+  /// too. Not written for groups beyond 2h of it.
   float* from_ground[3];
   float* ground_weight;  ///< 0..1: how much of the grain's image acts in the next step
   /// 0..1: how much of the walls' mirror contribution acts; written where there are walls.

@@ -142,7 +142,8 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                              : correction(mirrored, rates.corrected));
     rates.support_completeness +=
         rates.mirror_weight * a.wall_moment.trace() / (3 * a.dilation_ratio);
-    rates.acceleration = force;
+    const Vec3& n = a.ground_normal;
+    rates.acceleration = force + rates.from_ground - rates.from_ground.dot(n) * n;
     rates.diffusion = 2 * c.density_diffusion * c.h * c.sound_speed * laplace;
     rates.smoothing *= 2 * c.stress_smoothing * c.h * c.sound_speed;
     rates.smoothing -= rates.smoothing.trace() / 3 * Matrix3d::Identity();

@@ -16,6 +16,7 @@ namespace {
 
 struct ContactSums {
   double pressure_work = 0, contact_work = 0, friction = 0, spring = 0;
+  Vec3 along{0, 0, 0};  ///< impulse of the ground's images along it, which the kick holds
 
   void add(const ContactEnergy& e, double mass) {
     pressure_work += mass * e.pressure_work;
@@ -30,6 +31,7 @@ void combine(ContactSums& total, const ContactSums& block) {
   total.contact_work += block.contact_work;
   total.friction += block.friction;
   total.spring += block.spring;
+  total.along += block.along;
 }
 
 /// Integral of the smoothing kernel over a plane at distance d (SmoothingKernel::plane_integral),
@@ -209,7 +211,9 @@ class GroundContact final : public Pass {
         },
         combine);
     account(p, sums);
-    p.ledger.spring = sums.spring;
+    // Of walls, which come first, it holds theirs already.
+    p.ledger.spring = (s.domain.walls.empty() ? 0 : p.ledger.spring) + sums.spring;
+    p.ledger.stress_impulse -= sums.along;  // that of pairs alone
   }
 
  private:
@@ -223,25 +227,35 @@ class GroundContact final : public Pass {
     // there.
     const auto support_radius = static_cast<float>(2 * settings_.smoothing_length);
     const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
-    const double kick = s.n_steps == 0 ? 0.5 * dt : dt;  // as that of the pairs
+    const bool walled = !s.domain.walls.empty();
     for (std::size_t i = begin; i < end; ++i) {
       if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
       const Vec3 n(b.nx[i], b.ny[i], b.nz[i]), push = images(i);
       double support = std::fmax(0.0, push.dot(n));
-      const Vec3 along = push - push.dot(n) * n;
+      out.along += p.mass[i] * dt * (push - push.dot(n) * n);
       if (collisions.acts())
         support += collisions.acceleration(
             i, plane_integral(b.distance[i], settings_.smoothing_length), n.x(), n.y(), n.z());
       const std::size_t zone = zoned ? zone_of(s.domain, p, i) : 0;
       ContactLaw law = rastered ? law_at(s.domain, p, i, zone) : laws_[zone];
       law.friction = handed_on(i, b.distance[i], law.friction);
-      const Vec3 before = start(i);
-      p.vx[i] += kick * along.x(), p.vy[i] += kick * along.y(), p.vz[i] += kick * along.z();
-      ContactEnergy e = apply_contact(law, b.distance[i], n.x(), n.y(), n.z(), support, dt,
-                                      before.data(), p.vx[i], p.vy[i], p.vz[i]);
-      e.pressure_work += 0.5 * kick * along.dot(before + Vec3(p.vx[i], p.vy[i], p.vz[i]));
-      out.add(e, p.mass[i]);
+      const Vec3 before = start(i), found(p.vx[i], p.vy[i], p.vz[i]);
+      out.add(apply_contact(law, b.distance[i], n.x(), n.y(), n.z(), support, dt, before.data(),
+                            p.vx[i], p.vy[i], p.vz[i]),
+              p.mass[i]);
+      if (walled)
+        out.contact_work +=
+            0.5 * p.mass[i] *
+            by_walls(s, p, i, found - before, dt).dot(Vec3(p.vx[i], p.vy[i], p.vz[i]) - found);
     }
+  }
+
+  /// What walls gave of a change of velocity before the ground's contact. They booked its work with
+  /// the velocity that they left; it is that at the end of the step that counts.
+  static Vec3 by_walls(const State& s, const MovingSet& p, std::size_t i, const Vec3& change,
+                       double dt) {
+    const double kick = s.n_steps == 0 ? 0.5 * dt : dt;
+    return change - kick * Vec3(p.ax[i], p.ay[i], p.az[i] - s.gravity);
   }
 
   std::size_t zone_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {
@@ -281,9 +295,10 @@ class WallContact final : public Pass {
   WallContact(std::size_t set, ContactSettings c) : set_(set), settings_(std::move(c)) {}
   std::string_view name() const override { return "wall contact"; }
   std::string_view effect() const override { return EffectName::walls; }
-  Stage stage() const override { return Stage::contact; }
+  Stage stage() const override { return Stage::walls; }
 
   void apply(State& s, double dt) override {
+    s.sets[set_].ledger.spring = 0;
     for (const Wall& wall : s.domain.walls) {
       if (s.time >= wall.remove_at_s) continue;
       ContactLaw law;

@@ -95,7 +95,7 @@ class HandedOn {
 
 /// What the images in the ground do to a particle: a push along the normal, which is the ground's
 /// reaction and never pulls, and the pull along it, which pairs of particles share without
-/// loss on a plane. It is no force of the pairs where the ground is bent: hence here.
+/// loss on a plane. Where the ground is bent it is no force of the pairs.
 class GroundImages {
  public:
   explicit GroundImages(const MovingSet& p) {

@@ -55,6 +55,19 @@ inline void finish_density(const DenseSums& s, const DenseScale& k, const HalfDe
   (Lanes::all(k.diffusion) * (s.d + linear)).store(out.diffusion + at);
 }
 
+/// The part of the images' push along the ground joins the pairs' acceleration: walls and contacts
+/// of the same step see it.
+inline void push_along_ground(const BoundaryView& wall, const SweepOutput& out, std::size_t at) {
+  const Lanes n[3] = {Lanes::load(wall.nx + at), Lanes::load(wall.ny + at),
+                      Lanes::load(wall.nz + at)};
+  Lanes push[3];
+  for (int k = 0; k < 3; ++k) push[k] = Lanes::load(out.from_ground[k] + at);
+  const Lanes normal = fma(n[0], push[0], fma(n[1], push[1], n[2] * push[2]));
+  float* const acceleration[3] = {out.ax + at, out.ay + at, out.az + at};
+  for (int k = 0; k < 3; ++k)
+    (Lanes::load(acceleration[k]) + fnma(normal, n[k], push[k])).store(acceleration[k]);
+}
+
 /// Turns sums into acceleration, corrected velocity gradient and diffusion rate.
 /// \param s        the images in the ground are added to its gradient and moment
 /// \param images   null: no grain of the group is near the ground
@@ -83,6 +96,7 @@ inline Lanes finish_dense(DenseSums& s, const ImageSums* images, const GroupRows
   const Lanes moment = Lanes::all(k.moment) * dilation_ratio;
   if (images) {
     push(*images, out.from_ground[0], out.from_ground[1], out.from_ground[2]);
+    push_along_ground(wall, out, at);
     ground_weight(s, moment, wall, at).store(out.ground_weight + at);
     images->add_to(s);
   } else {

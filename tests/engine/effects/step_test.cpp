@@ -148,7 +148,7 @@ TEST(Step, WhatASceneDoesNotCallForIsNotThere) {
   Domain walled;
   walled.walls.push_back({{0, 0, 0}, {1, 0, 0}, 0, 1});
   const auto made = test::particles_on(even_ground(16), {{1, 0, 5}}, {0, 0, 0}, walled);
-  EXPECT_THAT(made.step.pass_names(), testing::Contains("contact: wall contact"));
+  EXPECT_THAT(made.step.pass_names(), testing::Contains("walls: wall contact"));
 }
 
 TEST(Step, FreeFlightFollowsTheParabola) {

@@ -144,8 +144,7 @@ double thrust(int layers, bool mirrored) {
   const auto rates = test::fast_sweep(cloud, constants, fastest(), domain).rates;
   double force = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (cloud[i].position.x() > 0)
-      force += mass(cloud[i], constants) * (rates[i].acceleration + rates[i].from_ground).x();
+    if (cloud[i].position.x() > 0) force += mass(cloud[i], constants) * rates[i].acceleration.x();
   return force / (6 * dx) / (0.5 * layers * dx * layers * dx);
 }
 
