@@ -74,8 +74,11 @@ TEST(GrainStates, AFallOverACliffClosesItsLedger) {
   EXPECT_LT(std::abs(result.scalars.mass_error), 1e-12);
   EXPECT_EQ(state.grains().ledger.leaked_mass, 0);
   EXPECT_GT(state.grains().ledger.collisions, 0);
-  // What viscosity and discretisation take is a loss, never a gain.
-  EXPECT_GT(state.grains().ledger.numerical(), 0);
+  // What viscosity and discretisation take: a loss but for the images over the edge, which are not
+  // adjoint where the ground is bent (decision 0037).
+  const double released = state.grains().ledger.released_energy();
+  EXPECT_GT(state.grains().ledger.numerical(), -0.02 * released);
+  EXPECT_LT(state.grains().ledger.numerical(), 0.1 * released);
   EXPECT_LT(result.scalars.max_speed_m_s, std::sqrt(2 * 9.81 * result.scalars.drop_m));
 }
 

@@ -179,7 +179,10 @@ TEST(Footprint, OfParticlesThatHardlyMovedToo) {
   s.formulation = Formulation::full_stress;
   s.numerics.end_time_s = 1;
   const MemberResult r = run(s);
-  EXPECT_NEAR(r.scalars.deposit_area_m2, 1225, 0.15 * 1225) << "its edge slumps by a little";
+  // Its upright sides of 3 m slump, at the most to the friction inside (mu_s 0.38): then the same
+  // mass reaches 3/(2 * 0.38) m farther on each side.
+  EXPECT_GE(r.scalars.deposit_area_m2, 0.98 * 1225);
+  EXPECT_LE(r.scalars.deposit_area_m2, std::pow(35 + 3 / 0.38, 2));
 }
 
 TEST(Footprint, KeepsItsVolumeInTheDepositLayer) {
