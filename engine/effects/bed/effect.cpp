@@ -250,8 +250,8 @@ class GroundContact final : public Pass {
     }
   }
 
-  /// What walls gave of a change of velocity before the ground's contact. They booked its work with
-  /// the velocity that they left; it is that at the end of the step that counts.
+  /// What walls gave of a change of velocity before the ground's contact. Its work was accounted for
+  /// with the velocity that they left; it is that at the end of the step that counts.
   static Vec3 by_walls(const State& s, const MovingSet& p, std::size_t i, const Vec3& change,
                        double dt) {
     const double kick = s.n_steps == 0 ? 0.5 * dt : dt;
