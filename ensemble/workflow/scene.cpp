@@ -188,7 +188,7 @@ Manifest manifest_of(const Scene& scene, const std::string& kind, const std::str
   m.description = description_lines(scene);
   m.notes = scene.inputs.notes;
   m.warnings = scene.description.warnings;
-  m.spacing_m = scene.scenario.numerics.spacing_m;
+  m.spacing_m = scene.description.spacing_m;
   return m;
 }
 

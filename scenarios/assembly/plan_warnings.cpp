@@ -41,14 +41,18 @@ void warn_of_coarse_spacing(const Scenario& s, const ScenePlan& plan, Warnings& 
   if (!s.domain.periodic.empty() || !(side > 0) || side >= (1 - 1e-9) * resolved_across * dx)
     return;
   out.push_back("unresolved release: " + std::to_string(plan.release.x.size()) +
-                (plan.formulation.depth_averaged ? " columns, " : " particles, ") +
+                (plan.formulation.depth_averaged ? " columns, "
+                 : plan.discrete                 ? " grains, "
+                                                 : " particles, ") +
                 short_number(side / dx) + " spacings of " + short_number(dx) +
                 " m across its narrow side of " + short_number(side) + " m" +
                 (side < dx ? " (it is narrower than one)" : "") + " and " +
                 short_number(plan.release.layers) +
                 " spacings thick. With fewer than 10 across, areas are too large by tens of per "
-                "cents to several times and thicknesses too small. Use a numerics.spacing_m of " +
-                rounded_down(side / resolved_across) + " m or less");
+                "cents to several times and thicknesses too small. Use " +
+                (plan.discrete ? "smaller grains: grains.discrete.diameter_m"
+                               : "a numerics.spacing_m of " + rounded_down(side / resolved_across) +
+                                     " m or less"));
 }
 
 /// Ground in the way at the lower end of the release. Under a tenth of the drive it is no matter.

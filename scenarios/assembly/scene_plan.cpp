@@ -80,7 +80,9 @@ void require_room(const Period& p, const char* direction, double spacing) {
   require(!p.active || p.length() >= 3 * spacing,
           std::string("domain.periodic = ") + direction + " (the terrain repeats after " +
               short_number(p.length()) + " m, less than three spacings of " +
-              short_number(spacing) + " m). Use a longer terrain or a finer spacing_m.");
+              short_number(spacing) +
+              " m). Use a longer terrain, or a finer numerics.spacing_m (in formulation: discrete "
+              "smaller grains).");
 }
 
 Domain make_domain(const DomainSpec& spec, const Raster<double>& elevation) {

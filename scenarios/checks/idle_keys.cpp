@@ -10,7 +10,9 @@ namespace {
 
 std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged, bool friction_inside) {
   if (s.formulation == Formulation::discrete) {
-    std::vector<std::string> paths{"grains.friction.static",
+    std::vector<std::string> paths{"grains.friction_cone",
+                                   "grains.pore_pressure_inside",
+                                   "grains.friction.static",
                                    "grains.friction.dynamic",
                                    "grains.friction.inertial_number_scale",
                                    "grains.friction_angle_deg",

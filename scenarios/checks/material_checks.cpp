@@ -76,7 +76,8 @@ void check_states(const Scenario& s, Problems& problems) {
 /// Inside the mass there is one ratio of pore pressure, that of `basal` itself.
 void check_pores_inside(const Scenario& s, Problems& problems) {
   const char* const path = "grains.pore_pressure_inside";
-  if (!s.grains || !s.grains->pore_pressure_inside || s.formulation == Formulation::depth_averaged)
+  if (!s.grains || !s.grains->pore_pressure_inside ||
+      s.formulation == Formulation::depth_averaged || s.formulation == Formulation::discrete)
     return;
   const auto refuse = [&](const std::string& why, const std::string& cure) {
     problems.push_back({path, shown(s, path) + " (" + why + "). " + cure});

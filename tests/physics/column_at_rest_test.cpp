@@ -183,9 +183,8 @@ TEST(ColumnFromOutsideTheCone, YieldsToItsPassiveBorder) {
   expect_border("V3 column from K = 12", largest_ratio, 12);
 }
 
-/// Beside smooth walls the stress misses its tolerance (docs/studies/verification.md): where ground
-/// and wall meet, friction on the ground acts before the wall has pushed, and the mirrored half of
-/// a wall carries no share of the weight along it.
+/// Beside smooth walls the stress misses its tolerance (docs/studies/verification.md): the mirrored
+/// half of a wall carries no share of the weight along it.
 TEST_P(ColumnAtRest, ComesToRestBetweenWalls) {
   const auto [f, r] = settle(build(box(GetParam())));
   const std::string name = fmt::format("V3 box, layers {}", GetParam());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// formulation: discrete: what it asks for, what it refuses, where its grains lie.
 #include "engine/core/error.hpp"
+#include "engine/simulation/parts.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/formulation.hpp"
@@ -241,6 +242,10 @@ TEST(Discrete, ASlideRunsAndItsAccountsClose) {
   EXPECT_NE(result.outcome, Outcome::diverged) << result.reason;
   EXPECT_LT(std::abs(result.scalars.energy_residual), 0.02);
   EXPECT_NEAR(result.scalars.mass_error, 0, 1e-12);
+  // What a wrong force would leave: the residual holds it and cannot see it.
+  const Ledger ledger = run.parts().state.ledger();
+  EXPECT_GT(ledger.numerical(), -0.02 * ledger.released_energy());
+  EXPECT_LT(ledger.numerical(), 0.1 * ledger.released_energy());
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace {
 struct ContactSums {
   double pressure_work = 0, contact_work = 0, friction = 0, spring = 0;
   Vec3 along{0, 0, 0};  ///< impulse of the ground's images along it, which the kick holds
+  double pushed = 0;    ///< that of all their pushes, whatever their directions
 
   void add(const ContactEnergy& e, double mass) {
     pressure_work += mass * e.pressure_work;
@@ -32,6 +33,7 @@ void combine(ContactSums& total, const ContactSums& block) {
   total.friction += block.friction;
   total.spring += block.spring;
   total.along += block.along;
+  total.pushed += block.pushed;
 }
 
 /// Integral of the smoothing kernel over a plane at distance d (SmoothingKernel::plane_integral),
@@ -213,7 +215,8 @@ class GroundContact final : public Pass {
     account(p, sums);
     // Of walls, which come first, it holds theirs already.
     p.ledger.spring = (s.domain.walls.empty() ? 0 : p.ledger.spring) + sums.spring;
-    p.ledger.stress_impulse -= sums.along;  // that of pairs alone
+    p.ledger.stress_impulse -= sums.along;  // that of pairs alone, to the rounding of both
+    p.ledger.stress_impulse_scale += sums.pushed;
   }
 
  private:
@@ -227,12 +230,13 @@ class GroundContact final : public Pass {
     // there.
     const auto support_radius = static_cast<float>(2 * settings_.smoothing_length);
     const bool zoned = settings_.zones.any(), rastered = settings_.rasters.any();
-    const bool walled = !s.domain.walls.empty();
+    const bool walled = !s.domain.walls.empty() && p.has(fields::velocity_before);
     for (std::size_t i = begin; i < end; ++i) {
       if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
       const Vec3 n(b.nx[i], b.ny[i], b.nz[i]), push = images(i);
       double support = std::fmax(0.0, push.dot(n));
       out.along += p.mass[i] * dt * (push - push.dot(n) * n);
+      out.pushed += p.mass[i] * dt * push.norm();
       if (collisions.acts())
         support += collisions.acceleration(
             i, plane_integral(b.distance[i], settings_.smoothing_length), n.x(), n.y(), n.z());
@@ -250,8 +254,8 @@ class GroundContact final : public Pass {
     }
   }
 
-  /// What walls gave of a change of velocity before the ground's contact. Its work was accounted for
-  /// with the velocity that they left; it is that at the end of the step that counts.
+  /// What walls gave of a change of velocity before the ground's contact. Its work was accounted
+  /// for with the velocity that they left; it is that at the end of the step that counts.
   static Vec3 by_walls(const State& s, const MovingSet& p, std::size_t i, const Vec3& change,
                        double dt) {
     const double kick = s.n_steps == 0 ? 0.5 * dt : dt;

@@ -37,7 +37,7 @@ class ColumnMotion final : public Pass {
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[flow_->set];
     if (s.terrain.n_changes() != ground_changes_) follow_ground(s, p);
-    if (p.any_leaving) remove_outside(s, p, keep_);
+    if (p.any_leaving) remove_outside(s, p, keep_, dt);
     refresh_motion(s, p, kick_interval(s, dt));
     advance(s, p, dt);
   }

@@ -33,7 +33,7 @@ class Motion final : public Pass {
 
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[set_];
-    if (p.any_leaving) remove_outside(s, p, keep_);
+    if (p.any_leaving) remove_outside(s, p, keep_, dt);
     drift(s, p, dt);
     refresh_motion(s, p, dt);
   }

@@ -30,7 +30,7 @@ Departure departure(const State& s, const MovingSet& p, std::size_t i) {
 
 }  // namespace
 
-void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& keep) {
+void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& keep, double dt) {
   keep.resize(p.size());
   std::size_t n_kept = 0, n_listed = 0;
   const Field *solids = p.find(fields::solids_volume), *water = p.find(fields::water_volume);
@@ -43,6 +43,9 @@ void remove_outside(const State& s, MovingSet& p, std::vector<std::uint8_t>& kee
     const bool taken = p.fate[i] == Fate::taken;
     if (p.fate[i] == Fate::off_terrain) p.departures.push_back(departure(s, p, i));
     const double energy = 0.5 * p.mass[i] * start_velocity(p, i).squaredNorm();
+    const Vec3 last = p.mass[i] * dt * Vec3(p.ax[i], p.ay[i], p.az[i]);  // its partners have theirs
+    p.ledger.stress_impulse += last;
+    p.ledger.stress_impulse_scale += last.norm();
     (taken ? p.ledger.taken_mass : p.ledger.lost_mass) += p.mass[i];
     if (solids) p.ledger.lost_solids += solids->component[0][i];
     if (water) p.ledger.lost_water += water->component[0][i];

@@ -10,8 +10,9 @@ namespace sturz {
 
 /// Takes out the particles that State::leaves names, with the kinetic energy they had at the start
 /// of the step: the works of this step are accounted for those that stay.
-/// \param keep  scratch
-void remove_outside(const State&, MovingSet&, std::vector<std::uint8_t>& keep);
+/// \param keep  scratch; \param dt  of the step, whose force on them counts among those of the
+/// pairs
+void remove_outside(const State&, MovingSet&, std::vector<std::uint8_t>& keep, double dt);
 
 /// A domain boundary that is a wall takes the velocity component that would lead particle i off the
 /// known ground within dt. \return kinetic energy per mass that the boundary took, with the mean

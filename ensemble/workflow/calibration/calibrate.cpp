@@ -174,7 +174,7 @@ std::vector<KeySummary> key_summaries(const Scenario& scenario, const Calibrated
 }
 
 FoundAt found_at(const Scene& scene) {
-  return {scene.description.formulation, scene.scenario.numerics.spacing_m,
+  return {scene.description.formulation, scene.description.spacing_m,
           scene.description.release_volume_m3, scene.scenario.ensemble.members};
 }
 

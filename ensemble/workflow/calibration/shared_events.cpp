@@ -64,8 +64,7 @@ Event read_event(const fs::path& folder, std::string name, Observer& observer, C
   require_drawn(folder, scenario);
   event.comparison = score_members(event.input.store, inputs.event, cancel).comparison;
   const SceneDescription d = describe(median_scenario(scenario), inputs);
-  event.at = {d.formulation, scenario.numerics.spacing_m, d.release_volume_m3,
-              scenario.ensemble.members};
+  event.at = {d.formulation, d.spacing_m, d.release_volume_m3, scenario.ensemble.members};
   return event;
 }
 

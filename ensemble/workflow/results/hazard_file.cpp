@@ -12,7 +12,7 @@ namespace sturz::workflow {
 HazardContext hazard_context(const Manifest& manifest, const Scenario& scenario,
                              const DesignTable& design) {
   HazardContext context;
-  context.spacing_m = scenario.numerics.spacing_m;
+  context.spacing_m = manifest.spacing_m;
   context.n_planned = design.n_members();
   context.attributes = {{"title", scenario.title.empty() ? "Landslide hazard" : scenario.title},
                         {"source", fmt::format("sturz {} ({})", version, git_commit)},

@@ -88,7 +88,8 @@ std::string objection(const std::vector<KnownMiss>& list, const std::string& nam
   if (within)
     return fmt::format("{}: no longer missed ({:.4g} of {:.4g}): take it off the list", name, error,
                        tolerance);
-  if (std::abs(error) < worse_by * std::abs(listed->error)) return "";
+  const bool as_listed = (error < 0) == (listed->error < 0);  // a loss is no excuse for a gain
+  if (as_listed && std::abs(error) < worse_by * std::abs(listed->error)) return "";
   return fmt::format("{}: a known miss of {:.4g} has become {:.4g}", name, listed->error, error);
 }
 
