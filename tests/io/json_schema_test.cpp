@@ -50,7 +50,8 @@ TEST(JsonSchema, CarriesLimitsChoicesAndDistributions) {
 
 TEST(JsonSchema, KnowsTheShapeOfZones) {
   const Json j = Json::parse(json_schema());
-  EXPECT_EQ(at_path(j, "formulation").at("enum"), Json({"auto", "full_stress", "depth_averaged"}));
+  EXPECT_EQ(at_path(j, "formulation").at("enum"),
+            Json({"auto", "full_stress", "depth_averaged", "discrete"}));
   const Json zones = at_path(j, "basal.zones");
   EXPECT_EQ(zones.at("maxItems"), 255);
   const Json zone = zones.at("items");
