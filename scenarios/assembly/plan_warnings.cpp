@@ -21,11 +21,12 @@ using Warnings = std::vector<std::string>;
 void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, Warnings& out) {
   const FormulationChoice& f = plan.formulation;
   if (f.depth_averaged || f.discrete || f.layers >= resolved_layers) return;
-  out.push_back("thin flow: " + short_number(f.layers) + " layers of particles resolve the " +
-                (f.release_layers <= f.deposit_layers ? "release" : "expected deposit") +
-                " (fewer than 4). Centre of mass and speed hold, the footprint may be wrong by "
-                "15-100 %. Use formulation: auto or a spacing below " +
-                short_number(s.numerics.spacing_m * f.layers / resolved_layers) + " m");
+  out.push_back(
+      "thin flow: " + short_number(f.layers) + " layers of particles resolve the " +
+      (f.release_layers <= f.deposit_layers ? "release" : "expected deposit") +
+      " (fewer than 4). The way of the centre of mass may be wrong by 10 %, the footprint by "
+      "15-100 %. Use formulation: auto or a spacing below " +
+      short_number(s.numerics.spacing_m * f.layers / resolved_layers) + " m");
 }
 
 /// Two digits, never more than `v`.
