@@ -6,6 +6,7 @@ OUT takes the runs. The ground is drawn from published heights and lengths, not 
 Gao et al. (2024) figures are those of their text, figures 7-9 and table 6. Every figure of full stress is that of its finest run; what
 stands behind +- is its change from the run before, which has 2 to 3 times fewer particles.
 """
+import csv
 import json
 import math
 import pathlib
@@ -45,15 +46,14 @@ def raster(path, name):
 
 def probes(path):
     """Largest speed at each gauge and when it came, from gauge_series.csv."""
-    rows = [line.split(",") for line in path.read_text().splitlines() if not line.startswith("#")]
-    head, found = rows[0], {}
-    column = {name: k for k, name in enumerate(head)}
-    for row in rows[1:]:
-        name = row[column["gauge"]]
-        speed = next((float(row[column[k]]) for k in column if k.startswith("speed") and row[column[k]]), math.nan)
-        time = float(row[column["time_s"]])
-        if not math.isnan(speed) and speed > found.get(name, (0, 0))[0]:
-            found[name] = (speed, time)
+    found = {}
+    with open(path, newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            if row["quantity"] != "speed" or not row["value"]:
+                continue
+            speed = float(row["value"])
+            if speed > found.get(row["gauge"], (0, 0))[0]:
+                found[row["gauge"]] = (speed, float(row["time_s"]))
     return found
 
 
