@@ -124,6 +124,7 @@ TEST_P(SteepPile, ComesDownToItsFrictionAngle) {
   const double slope = slope_deg(p, dx);
   const std::string name = fmt::format("V9 steep pile, friction {} deg", GetParam());
   expect_within({name + ", slope", "deg", slope, GetParam(), slope - GetParam(), 2}, f);
+  EXPECT_GT(slope, 0.5 * GetParam());  // a listed miss does not get that far
   const double centre = centre_moved(end, before) / dx / seconds;
   const double edge = (end.edge_99 - before.edge_99) / dx / seconds;
   const double most = moved_99(end, before) / dx / seconds;
