@@ -18,6 +18,8 @@ struct EffectName {
   static constexpr std::string_view column_pressure = "lateral pressure of columns";
   static constexpr std::string_view pore_pressure = "pore pressure and dilatancy";
   static constexpr std::string_view phase_drag = "drag between grains and liquid";
+  static constexpr std::string_view liquid = "liquid";
+  static constexpr std::string_view coupling = "grains in liquid";
   static constexpr std::string_view erosion = "erosion of the bed";
   static constexpr std::string_view inflow = "inflow";
   static constexpr std::string_view later_release = "later releases";

@@ -53,6 +53,13 @@ enum class Membership : std::uint8_t {
   landed,     ///< isolated, and come to rest: taken back at the next sorting
 };
 
+// Liquid among grains (coupling/).
+/// X: volume of grains per volume of liquid where a liquid particle is; the grains' share of the
+/// space is X/(1 + X).
+inline constexpr FieldKey grain_share{"grain_share", 1, "1", "grains in liquid"};
+/// Divergence of the grains' flux past the liquid, div(alpha_p (v_p - v_f)).
+inline constexpr FieldKey slip_divergence{"slip_divergence", 1, "s-1", "grains in liquid"};
+
 // Depth-averaged columns (columns/).
 /// Normal to the ground.
 inline constexpr FieldKey thickness{"thickness", 1, "m", "column pressure"};
