@@ -105,6 +105,13 @@ constexpr auto words_of(PhaseDragLaw) {
   return std::array{Word{permeability, "permeability"}, Word{settling, "settling"}};
 }
 
+/// Drag and buoyancy between grains and liquid in three dimensions, or the paper's drag alone.
+enum class CouplingScheme { physical, paper };
+constexpr auto words_of(CouplingScheme) {
+  using enum CouplingScheme;
+  return std::array{Word{physical, "physical"}, Word{paper, "paper"}};
+}
+
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
 enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {
