@@ -50,8 +50,14 @@ const GrainStatesSpec* states_of(const Scenario& s) {
   return s.grains && s.grains->states ? &*s.grains->states : nullptr;
 }
 
-Called bed_called(const Scenario& s, const ScenePlan&) {
-  if (is_liquid_alone(s)) return {true, "always: holds the liquid, which slips on it"};
+Called bed_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.liquid) {
+    const std::string liquid = liquid_bed_text(s, plan.formulation);
+    return {true, s.grains
+                      ? "always: friction_coefficient, cohesion_pa of `basal` for the grains, " +
+                            liquid + " for the liquid"
+                      : "always: " + liquid};
+  }
   if (has_two_phases(s.mixture))
     return {true,
             "always: friction_coefficient on what buoyancy leaves and cohesion_pa of `basal` for "

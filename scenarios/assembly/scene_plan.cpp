@@ -282,7 +282,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
   plan_contact(s, bed, plan);
   if (!s.fluid) return;
   plan.liquid = plan_liquid(s, plan);
-  plan.liquid_contact = liquid_contact(s, plan.contact);
+  plan.liquid_contact = liquid_contact(s, plan);
   if (s.grains) plan.coupling = plan_coupling(s);
 }
 

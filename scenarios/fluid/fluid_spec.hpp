@@ -19,7 +19,8 @@ struct FluidSpec {
   std::optional<Uncertain> consistency_pa_sn;  ///< K of tau = tau_y + K rate^n
   std::optional<Uncertain> index;              ///< n of it
   Uncertain saturation{1};                     ///< share of the grains' pores that it fills
-  double artificial_viscosity = 0.02;          ///< alpha_v of B.4, of the liquid
+  FluidBed bed = FluidBed::automatic;
+  double artificial_viscosity = 0.02;  ///< alpha_v of B.4, of the liquid
   bool operator==(const FluidSpec&) const = default;
 };
 

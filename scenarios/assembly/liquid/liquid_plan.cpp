@@ -101,8 +101,13 @@ CouplingSettings plan_coupling(const Scenario& s) {
   return c;
 }
 
-ContactSettings liquid_contact(const Scenario& s, const ContactSettings& of_grains) {
-  ContactSettings c = of_grains;
+FluidBed liquid_bed(const Scenario& s, const FormulationChoice& formulation) {
+  if (s.fluid->bed != FluidBed::automatic) return s.fluid->bed;
+  return formulation.layers >= resolved_layers ? FluidBed::no_slip : FluidBed::film;
+}
+
+ContactSettings liquid_contact(const Scenario& s, const ScenePlan& plan) {
+  ContactSettings c = plan.contact;
   c.reference_density = s.fluid->density_kg_m3.value;
   c.internal_friction = ContactSettings{}.internal_friction;
   c.bed = {GroundFriction{0, 0, 0}};

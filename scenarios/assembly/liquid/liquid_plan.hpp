@@ -6,6 +6,7 @@
 #include "engine/effects/coupling/settings.hpp"
 #include "engine/effects/liquid/settings.hpp"
 #include "engine/effects/state.hpp"
+#include "scenarios/assembly/formulation.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <cstddef>
@@ -44,8 +45,12 @@ HerschelBulkley liquid_law(const FluidSpec&);
 /// Of a plan whose release, expected speed and contact are known.
 LiquidSettings plan_liquid(const Scenario& numbers, const ScenePlan&);
 CouplingSettings plan_coupling(const Scenario& numbers);
+/// What the bed does to the liquid, decided where the scene leaves it to the program.
+FluidBed liquid_bed(const Scenario& numbers, const FormulationChoice&);
 /// The ground as the liquid meets it: no friction of grains.
-ContactSettings liquid_contact(const Scenario& numbers, const ContactSettings& of_grains);
+ContactSettings liquid_contact(const Scenario& numbers, const ScenePlan&);
+/// For `describe`: "no_slip (auto: 12 layers)".
+std::string liquid_bed_text(const Scenario& numbers, const FormulationChoice&);
 
 /// Makes the released mass that of the liquid, or splits it into set 0, the grains, and set 1, the
 /// liquid at the same places.

@@ -62,6 +62,12 @@ std::string liquid_text(const Scenario& s, const ScenePlan& plan) {
   return text;
 }
 
+std::string liquid_bed_text(const Scenario& s, const FormulationChoice& formulation) {
+  const std::string bed(to_string(liquid_bed(s, formulation)));
+  if (s.fluid->bed != FluidBed::automatic) return "`fluid.bed: " + bed + "`";
+  return "`fluid.bed: auto`: " + bed + ", " + short_number(formulation.layers) + " layers";
+}
+
 std::string coupling_text(const Scenario& s, const ScenePlan& plan) {
   const CouplingSettings& c = *plan.coupling;
   const double h = c.smoothing_length, d = s.grains->diameter_m.value;

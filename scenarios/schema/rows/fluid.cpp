@@ -35,6 +35,11 @@ void add_liquid(std::vector<KeyInfo>& keys) {
       {"fluid.saturation", uncertain, "1", 0.05, 1,
        "Share of the grains' pores that the liquid fills at the start. More liquid than pores is a "
        "lower grains.solid_fraction."});
+  keys.push_back(choice_key(
+      fluid, &FluidSpec::bed, "fluid.bed",
+      "no_slip: the bed holds the liquid, whose shear beside it is resolved; film: drag of a flow "
+      "too thin for that, by its depth; slip: no drag; auto: no_slip where at least four layers "
+      "resolve release and expected deposit, else film."));
   add(&FluidSpec::artificial_viscosity,
       {"fluid.artificial_viscosity", number, "1", 0, 1,
        "Strength of the artificial viscosity of the liquid, which stops ringing; the rest of "
