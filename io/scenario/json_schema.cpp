@@ -239,7 +239,10 @@ std::string json_schema() {
             {"title", "sturz scenario"}};
   const Json top = block_of("");
   for (const auto& [name, value] : top.items()) j[name] = value;
-  j["required"] = {"terrain", "grains", "numerics"};
+  j["required"] = {"terrain", "numerics"};
+  j["anyOf"] = Json::array();  // something that moves
+  for (const char* block : {"grains", "fluid", "material"})
+    j["anyOf"].push_back({{"required", Json::array({block})}});
   j["properties"]["terrain"]["oneOf"] = {{{"required", {"raster"}}}, {{"required", {"synthetic"}}}};
   j["$defs"] = {{"distribution", distribution()}};
   return j.dump(2) + "\n";

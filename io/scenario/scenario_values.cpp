@@ -43,7 +43,8 @@ std::optional<double> read_fixed_number(const std::string& path, const YamlNode&
 KeyValue read_plain_number(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
   const auto number = read_fixed_number(
       key.path, node,
-      "Only numbers of release, inflow, grains, basal, mixture, erosion and dams can be uncertain.",
+      "Only numbers of release, inflow, grains, basal, mixture, fluid, coupling, erosion and dams "
+      "can be uncertain.",
       problems);
   return number ? KeyValue{*number} : KeyValue{};
 }

@@ -255,8 +255,8 @@ std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& sou
     const bool any = parser.HandleNextDocument(builder);
     if (!any) {
       problems.push_back({whole,
-                          "is empty (a scenario needs terrain, release, grains and "
-                          "numerics). Start from a shipped case."});
+                          "is empty (a scenario needs terrain, release, grains or "
+                          "a fluid, and numerics). Start from a shipped case."});
       return std::nullopt;
     }
     parser.HandleNextDocument(builder);  // a second one is refused

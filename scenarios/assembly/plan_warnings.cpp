@@ -27,7 +27,8 @@ void warn_of_thin_flow(const Scenario& s, const ScenePlan& plan, Warnings& out) 
       "thin flow: " + short_number(f.layers) + " layers of particles resolve the " +
       (f.release_layers <= f.deposit_layers ? "release" : "expected deposit") +
       " (fewer than 4). The way of the centre of mass may be wrong by 10 %, the footprint by "
-      "15-100 %. Use formulation: auto or a spacing below " +
+      "15-100 %. Use " +
+      (s.fluid ? "" : "formulation: auto or ") + "a spacing below " +
       short_number(s.numerics.spacing_m * f.layers / resolved_layers) + " m");
 }
 

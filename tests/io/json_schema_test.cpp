@@ -41,7 +41,10 @@ TEST(JsonSchema, CarriesLimitsChoicesAndDistributions) {
   EXPECT_EQ(at_path(j, "release.box.x_m").at("maxItems"), 2);
   EXPECT_EQ(at_path(j, "numerics").at("required"), Json::array({"spacing_m"}));
   EXPECT_EQ(j.at("$defs").at("distribution").at("properties").size(), 9u);
-  EXPECT_EQ(j.at("required"), Json({"terrain", "grains", "numerics"}));
+  EXPECT_EQ(j.at("required"), Json({"terrain", "numerics"}));
+  ASSERT_EQ(j.at("anyOf").size(), 3u);
+  EXPECT_EQ(j.at("anyOf").at(0).at("required"), Json::array({"grains"}));
+  EXPECT_EQ(j.at("anyOf").at(1).at("required"), Json::array({"fluid"}));
   EXPECT_FALSE(j.at("additionalProperties").get<bool>());
   const Json plane = at_path(j, "terrain.synthetic").at("properties").at("plane");
   EXPECT_EQ(plane.at("required"), Json::array({"cell_size_m"}));
@@ -74,6 +77,7 @@ TEST(JsonSchema, KnowsTheKeysOfTheShippedCases) {
     for (const auto& [path, position] : file.positions) EXPECT_NO_THROW(at_path(j, path)) << path;
     for (const auto& required : j.at("required"))
       EXPECT_EQ(file.positions.count(required.get<std::string>()), 1u) << name;
+    EXPECT_GE(file.positions.count("grains") + file.positions.count("fluid"), 1u) << name;
   }
 }
 

@@ -153,7 +153,7 @@ TEST(ScenarioMessages, WrongType) {
   EXPECT_THAT(problems(scene() + "hazard: {cell_size_m: {uniform: [1, 2]}}\n"),
               ElementsAre("scenario.yaml:7:23: hazard.cell_size_m = {uniform: [1, 2]} (must be a "
                           "plain number). Only numbers of release, inflow, grains, basal, "
-                          "mixture, erosion and dams can be uncertain."));
+                          "mixture, fluid, coupling, erosion and dams can be uncertain."));
 }
 
 TEST(ScenarioMessages, NumbersAreStrict) {

@@ -25,10 +25,11 @@ void add_liquid(std::vector<KeyInfo>& keys) {
   add(&FluidSpec::yield_stress_pa,
       {"fluid.yield_stress_pa", uncertain, "Pa", 0, 1e6,
        "Shear stress that the liquid bears at rest, with viscosity_pa_s or consistency_pa_sn."});
-  add_positive(&FluidSpec::consistency_pa_sn, {"fluid.consistency_pa_sn", uncertain, "Pa s", 0, 1e6,
-                                               "K of Herschel and Bulkley's law, shear stress = "
-                                               "yield_stress_pa + K rate^index in SI units, "
-                                               "in the place of viscosity_pa_s."});
+  add_positive(&FluidSpec::consistency_pa_sn,
+               {"fluid.consistency_pa_sn", uncertain, "Pa s^n", 0, 1e6,
+                "K of Herschel and Bulkley's law, shear stress = "
+                "yield_stress_pa + K rate^index, "
+                "in the place of viscosity_pa_s."});
   add(&FluidSpec::index, {"fluid.index", uncertain, "1", 0.1, 1,
                           "n of Herschel and Bulkley's law; below 1 the liquid thins with shear."});
   add(&FluidSpec::saturation,
