@@ -63,6 +63,8 @@ enum class Membership : std::uint8_t {
 inline constexpr FieldKey grain_share{"grain_share", 1, "1", "grains in liquid"};
 /// Divergence of the grains' flux past the liquid, div(alpha_p (v_p - v_f)).
 inline constexpr FieldKey slip_divergence{"slip_divergence", 1, "s-1", "grains in liquid"};
+/// What the liquid gave of a grain's change of velocity in this step.
+inline constexpr FieldKey exchange_velocity{"exchange_velocity", 3, "m s-1", "grains in liquid"};
 
 // Depth-averaged columns (columns/).
 /// Normal to the ground.

@@ -259,7 +259,11 @@ class GroundContact final : public Pass {
   static Vec3 by_walls(const State& s, const MovingSet& p, std::size_t i, const Vec3& change,
                        double dt) {
     const double kick = s.n_steps == 0 ? 0.5 * dt : dt;
-    return change - kick * Vec3(p.ax[i], p.ay[i], p.az[i] - s.gravity);
+    const Vec3 kicked = kick * Vec3(p.ax[i], p.ay[i], p.az[i] - s.gravity);
+    const Field* exchange = p.find(fields::exchange_velocity);
+    if (!exchange) return change - kicked;
+    const auto& liquid = exchange->component;  // accounts for itself
+    return change - kicked - Vec3(liquid[0][i], liquid[1][i], liquid[2][i]);
   }
 
   std::size_t zone_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the passes between grains and liquid hold together, in the order of the pairs' rows.
+///
+/// With W_ij the kernel between grain i (mass m_i, bulk volume V_i = m_i/(rho_p alpha_i)) and
+/// liquid j (mass m_j, density rho_j = rho_0 (1 + e_j), which counts the air in pores that it does
+/// not fill):
+///   share of j's mass that i meets   mu_ij = V_i q_j W_ij, q_j = m_j/max(1, sum_i V_i W_ij)
+///   all that i meets                 M_i = sum_j mu_ij, weights b_ij = mu_ij/M_i
+///   how wet i is                     omega_i = min(1, sum_j (m_j/rho_j) W_ij/(wet (1 - alpha_i)))
+///   grains' volume in j's            X_j = (rho_j/m_j) sum_i omega_i b_ij m_i/rho_p
+/// sum_i mu_ij <= m_j, so that grains that take momentum of a liquid particle one by one cannot
+/// take more than it has; sum_j (m_j/rho_j) X_j is the wet grains' volume.
+#pragma once
+
+#include "engine/effects/coupling/settings.hpp"
+#include "engine/effects/step.hpp"
+#include "engine/neighbors/cross_pairs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace sturz {
+
+/// A grain of the last gather, by row.
+struct MetLiquid {
+  double volume = 0;  ///< V_i [m^3]
+  double met = 0;     ///< M_i/V_i: liquid's mass per volume at the grain [kg/m^3]; 0: dry
+  double wet = 0;     ///< omega_i
+};
+
+struct Coupling {
+  static constexpr int grain_side = 0, liquid_side = 1;
+
+  CouplingSettings settings;
+  std::size_t grains, liquid;  ///< indices in State::sets
+  CrossPairs pairs;
+  double largest_share = 0;      ///< of X_j now
+  std::vector<MetLiquid> met;    ///< [grains' rows]
+  std::vector<double> take;      ///< q_j [liquid's rows, kg]
+  std::vector<double> share;     ///< X_j, not cut [liquid's rows]
+  std::vector<Vec3> lift, drag;  ///< changes of a grain's velocity in this step [grains' rows]
+  std::vector<Vec3> drawn;       ///< of a liquid particle's, by drag [liquid's rows]
+  // What sums over neighbours read, by source.
+  std::vector<double> volume;
+  std::vector<std::array<double, 5>> liquid_start;
+  std::vector<std::array<double, 4>> grain_flux;
+  std::vector<std::array<double, 11>> liquid_now;
+  std::vector<std::array<double, 3>> impulse;
+
+  Coupling(std::size_t grain_set, std::size_t liquid_set, const CouplingSettings& c)
+      : settings(c),
+        grains(grain_set),
+        liquid(liquid_set),
+        pairs(c.smoothing_length, c.skin * c.smoothing_length, liquid_side) {}
+  const PairSide& of_grains() const { return pairs.side(grain_side); }
+  const PairSide& of_liquid() const { return pairs.side(liquid_side); }
+};
+
+/// Sum of W times what a row's sources have.
+template <std::size_t n>
+std::array<double, n> gather(const PairSide& side, std::size_t row,
+                             const std::vector<std::array<double, n>>& values) {
+  std::array<double, n> sum{};
+  side.for_each(row, [&](std::uint32_t source, float weight) {
+    const double w = weight;
+    const std::array<double, n>& value = values[source];
+    for (std::size_t c = 0; c < n; ++c) sum[c] += w * value[c];
+  });
+  return sum;
+}
+
+/// rho_j/rho_0 of a liquid particle; one that has thinned out counts no less than a fiftieth.
+inline double relative_density(const Field* density_change, std::size_t j) {
+  return density_change ? std::max(0.02, 1 + density_change->component[0][j]) : 1;
+}
+
+/// Passes that find what grains and liquid are to each other at x_n.
+void add_shares(Step&, const std::shared_ptr<Coupling>&);
+/// Passes that let them act on each other.
+void add_exchange(Step&, const std::shared_ptr<Coupling>&);
+
+}  // namespace sturz
