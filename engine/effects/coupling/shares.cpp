@@ -122,15 +122,16 @@ class SharesPass final : public Pass {
   void measure_grains(const State& s) {
     Coupling& c = *shared_;
     const MovingSet& p = s.sets[c.grains];
-    const Field* change = p.find(fields::density_change);
+    const Field *change = p.find(fields::density_change), *packing = p.find(fields::packing_change);
     parallel_ranges(
         c.met.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
           for (std::size_t r = begin; r < end; ++r) {
             const std::uint32_t i = c.of_grains().index(r);
-            const double e = change ? change->component[0][i] : 0;
+            const double pressed = change ? 1 + change->component[0][i] : 1;
+            const double packed = packing ? 1 + packing->component[0][i] : 1;
             const double fraction =
-                std::clamp(p.reference_fraction * (1 + e), CouplingSettings::least_fraction,
-                           CouplingSettings::most_fraction);
+                std::clamp(p.reference_fraction * packed * pressed,
+                           CouplingSettings::least_fraction, CouplingSettings::most_fraction);
             c.met[r] = {p.mass[i] / (c.settings.grain_density * fraction), 0, 1 - fraction};
             c.volume[r] = c.met[r].volume;
           }
