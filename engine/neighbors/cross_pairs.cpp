@@ -239,6 +239,87 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
   });
 }
 
+/// Distances to ground and walls, and which way they point.
+void CrossPairs::mirror(PairSide& side, const Set& set, const Domain& domain, double time) const {
+  std::size_t n = set.ground.distance ? 1 : 0;
+  for (const Wall& wall : domain.walls) n += time < wall.remove_at_s;
+  side.mirrors_.resize(n);
+  const auto far = static_cast<float>(support_ / unit_);
+  const auto prepare = [&](PairSide::Mirror& m) {
+    m.gap.resize(side.n_sources());
+    for (auto* c : {&m.nx, &m.ny, &m.nz}) c->resize(side.n_rows());
+  };
+  const auto finish = [&](PairSide::Mirror& m) {
+    for (std::size_t k = 0; k < side.image_row_.size(); ++k)
+      m.gap[side.n_rows() + k] = m.gap[side.image_row_[k]];
+  };
+  const auto in_units = [&](double distance) {
+    return std::min(far, static_cast<float>(std::max(0.0, distance) / unit_));
+  };
+  std::size_t at = 0;
+  if (set.ground.distance) {
+    PairSide::Mirror& m = side.mirrors_[at++];
+    prepare(m);
+    for (std::size_t r = 0; r < side.n_rows(); ++r) {
+      const std::uint32_t i = side.index_[r];
+      m.gap[r] = in_units(set.ground.distance[i]);
+      m.nx[r] = set.ground.nx[i], m.ny[r] = set.ground.ny[i], m.nz[r] = set.ground.nz[i];
+    }
+    finish(m);
+  }
+  for (const Wall& wall : domain.walls) {
+    if (time >= wall.remove_at_s) continue;
+    PairSide::Mirror& m = side.mirrors_[at++];
+    prepare(m);
+    const ParticleSet& p = set.particles;
+    for (std::size_t r = 0; r < side.n_rows(); ++r) {
+      const std::uint32_t i = side.index_[r];
+      m.gap[r] = in_units((Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(wall.normal));
+    }
+    std::fill(m.nx.begin(), m.nx.end(), static_cast<float>(wall.normal.x()));
+    std::fill(m.ny.begin(), m.ny.end(), static_cast<float>(wall.normal.y()));
+    std::fill(m.nz.begin(), m.nz.end(), static_cast<float>(wall.normal.z()));
+    finish(m);
+  }
+}
+
+/// Adds to the weights of a block what images in ground and walls give: |r'|^2 = |r|^2 + 4 d_i d_j
+/// over a plane, as in the pair sweep (image_sums.hpp).
+void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients,
+                              std::size_t block) const {
+  PairSide::Block& b = from.blocks_[block];
+  const std::size_t first = block * PairSide::block;
+  const std::size_t last = std::min(from.n_rows(), first + PairSide::block);
+  const SmoothingKernel kernel{h_};
+  const auto to_s = static_cast<float>(unit_ / support_), reach = 1 / to_s;
+  const auto norm = static_cast<float>(kernel.value(0));
+  const auto slope = static_cast<float>(kernel.discrete_gradient_factor() * unit_);
+  b.mirrored.resize(from.mirrors_.size());
+  for (std::size_t m = 0; m < from.mirrors_.size(); ++m) {
+    std::vector<float>& mirrored = b.mirrored[m];
+    mirrored.assign(gradients ? b.source.size() : 0, 0.0f);
+    const std::vector<float>& gap = to.mirrors_[m].gap;
+    for (std::size_t r = first; r < last; ++r) {
+      const float own = from.mirrors_[m].gap[r];
+      if (own >= reach) continue;
+      for (std::uint32_t k = from.runs_[r].begin; k < from.runs_[r].end; ++k) {
+        const std::uint32_t s = b.source[k];
+        const float other = gap[s], sum = own + other;
+        if (sum >= reach) continue;
+        const auto dx = static_cast<float>(to.x_[s] - from.x_[r]);
+        const auto dy = static_cast<float>(to.y_[s] - from.y_[r]);
+        const auto dz = static_cast<float>(to.z_[s] - from.z_[r]);
+        const float r2 = std::max(dx * dx + dy * dy + dz * dz + 4 * own * other, sum * sum);
+        const float t = 1 - std::sqrt(r2) * to_s;
+        if (!(t > 0)) continue;
+        const float t3 = t * t * t;
+        b.weight[k] += norm * t3 * t * (5 - 4 * t);
+        if (gradients) mirrored[k] = slope * t3;
+      }
+    }
+  }
+}
+
 void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int threads) const {
   constexpr std::size_t block = PairSide::block;
   const SmoothingKernel kernel{h_};
@@ -273,6 +354,7 @@ void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int t
           weight[k] = norm * t3 * t * (5 - 4 * t);
         }
     }
+    add_mirrored(from, to, gradients, begin / block);
   });
 }
 
@@ -301,7 +383,7 @@ void CrossPairs::rebuild(const Set (&sets)[2], const Domain& domain, int threads
   ++n_rebuilds_;
 }
 
-void CrossPairs::update(const Set& a, const Set& b, const Domain& domain, double ahead,
+void CrossPairs::update(const Set& a, const Set& b, const Domain& domain, double ahead, double time,
                         int threads) {
   const Set sets[2] = {a, b};
   moved_ += ahead;
@@ -320,7 +402,10 @@ void CrossPairs::update(const Set& a, const Set& b, const Domain& domain, double
       }
       place(side, p, domain, threads);
     }
-  for (int k : {0, 1}) sides_[k].n_sorts_ = sets[k].n_sorts;
+  for (int k : {0, 1}) {
+    sides_[k].n_sorts_ = sets[k].n_sorts;
+    mirror(sides_[k], sets[k], domain, time);
+  }
   weigh(sides_[0], sides_[1], gradients_ == 0, threads);
   weigh(sides_[1], sides_[0], gradients_ == 1, threads);
 }

@@ -38,16 +38,20 @@ class PairSide {
       visit(b.source[k], b.weight[k]);
   }
   /// visit(source, gradient[3]) with the kernel's gradient at the row's particle, C t^3 (x_source -
-  /// x_row) [1/m^4]; `to` is the side whose rows the sources are.
+  /// x_row) [1/m^4]; `to` is the side whose rows the sources are. The images in ground and walls
+  /// are in it as far as a vector of the source turns with them: their part is R (x_image - x_row).
   template <class Visit>
   void for_each_gradient(std::size_t row, const PairSide& to, Visit&& visit) const {
     const Block& b = blocks_[row / block];
     for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k) {
       const std::uint32_t s = b.source[k];
       const float g = b.slope[k];
-      const float gradient[3] = {g * static_cast<float>(to.x_[s] - x_[row]),
-                                 g * static_cast<float>(to.y_[s] - y_[row]),
-                                 g * static_cast<float>(to.z_[s] - z_[row])};
+      const float r[3] = {static_cast<float>(to.x_[s] - x_[row]),
+                          static_cast<float>(to.y_[s] - y_[row]),
+                          static_cast<float>(to.z_[s] - z_[row])};
+      float gradient[3] = {g * r[0], g * r[1], g * r[2]};
+      for (std::size_t plane = 0; plane < mirrors_.size(); ++plane)
+        add_image(gradient, r, plane, row, s, to, b.mirrored[plane][k]);
       visit(s, gradient);
     }
   }
@@ -65,7 +69,24 @@ class PairSide {
     std::vector<std::uint32_t> source;
     std::vector<float> weight;  ///< W [1/m^3]
     std::vector<float> slope;   ///< C t^3 in position units, only where gradients are wanted
+    std::vector<std::vector<float>> mirrored;  ///< [mirror][entry] the same of images
   };
+  /// A plane near which sources have images: the ground under each particle, or a wall.
+  struct Mirror {
+    std::vector<float> gap;         ///< [sources] distance in position units; `far` beyond 2h
+    std::vector<float> nx, ny, nz;  ///< [rows] normal
+  };
+  /// R (x_image - x_row) = r + 2 (gap - n.r) n, with the plane of the row.
+  void add_image(float (&gradient)[3], const float (&r)[3], std::size_t plane, std::size_t row,
+                 std::uint32_t source, const PairSide& to, float slope) const {
+    if (slope == 0) return;
+    const Mirror& m = mirrors_[plane];
+    const float n[3] = {m.nx[row], m.ny[row], m.nz[row]};
+    const float along = n[0] * r[0] + n[1] * r[1] + n[2] * r[2];
+    const float out = 2 * (to.mirrors_[plane].gap[source] - along);
+    for (int c = 0; c < 3; ++c) gradient[c] += slope * (r[c] + out * n[c]);
+  }
+
   struct Key {
     std::uint64_t cell = 0;
     std::uint32_t id = 0, index = 0;
@@ -82,6 +103,7 @@ class PairSide {
   std::vector<std::uint32_t> index_, image_row_;
   std::vector<std::uint64_t> cell_;      ///< [sources] of the last rebuild
   std::vector<std::int32_t> x_, y_, z_;  ///< [sources] in position units
+  std::vector<Mirror> mirrors_;
   std::vector<Run> runs_;
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> index_of_;  ///< by id
@@ -97,14 +119,24 @@ class CrossPairs {
   /// \param gradients  which side wants them
   CrossPairs(double smoothing_length, double skin, int gradients);
 
+  /// The ground under each particle, [particles] each; null: none.
+  struct Ground {
+    const float* distance = nullptr;  ///< along the normal; 2h or more: none [m]
+    const float *nx = nullptr, *ny = nullptr, *nz = nullptr;
+  };
   /// A set and how often it was sorted (MovingSet::n_sorts).
   struct Set {
     const ParticleSet& particles;
     std::size_t n_sorts;
+    Ground ground = {};
   };
   /// Brings lists, positions and weights up to date. \param ahead  longest way that two particles
   /// of the sets may have gone relative to each other since the last call [m]
-  void update(const Set& a, const Set& b, const Domain&, double ahead, int threads);
+  /// \param time  walls count until they are removed [s]
+  ///
+  /// A kernel that ground or a wall cuts is completed by the images of the sources: what lies at
+  /// its foot is as full of grains as what lies above it.
+  void update(const Set& a, const Set& b, const Domain&, double ahead, double time, int threads);
 
   const PairSide& side(int k) const { return sides_[k]; }
   std::size_t n_rebuilds() const { return n_rebuilds_; }
@@ -118,7 +150,9 @@ class CrossPairs {
   void add_images(PairSide&, const Period&, bool along_x) const;
   void sort_images(PairSide&) const;
   void place(PairSide&, const ParticleSet&, const Domain&, int threads) const;
+  void mirror(PairSide& side, const Set& set, const Domain& domain, double time) const;
   void list(PairSide& from, const PairSide& to, int threads) const;
+  void add_mirrored(PairSide& from, const PairSide& to, bool gradients, std::size_t block) const;
   void weigh(PairSide& from, const PairSide& to, bool gradients, int threads) const;
   std::uint64_t cell_of(std::int32_t x, std::int32_t y, std::int32_t z, int dx, int dy,
                         int dz) const;

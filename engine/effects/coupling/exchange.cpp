@@ -81,6 +81,17 @@ class ExchangePass final : public Pass {
     c.of_liquid().copy_images(c.liquid_now);
   }
 
+  /// What the ground's images will push a grain off with [m/s^2]. Its contact follows the drag, for
+  /// friction has the last word; but grains that seem to fall through the bed until then would drag
+  /// the liquid along, and a film of it would grow under them.
+  static Vec3 ground_push(const MovingSet& p, std::size_t i) {
+    const BoundarySupport& b = p.boundary;
+    if (i >= b.from_ground[0].size() || i >= b.distance.size()) return Vec3::Zero();
+    const Vec3 n(b.nx[i], b.ny[i], b.nz[i]);
+    const Vec3 push(b.from_ground[0][i], b.from_ground[1][i], b.from_ground[2][i]);
+    return std::max(0.0, push.dot(n)) * n;
+  }
+
   Surroundings surroundings(std::size_t row) const {
     const Coupling& c = *shared_;
     const auto sum = gather(c.of_grains(), row, c.liquid_now);
@@ -94,21 +105,21 @@ class ExchangePass final : public Pass {
     MovingSet& p = s.sets[c.grains];
     const Components& before = p.components(fields::velocity_before);
     Components& exchange = p.components(fields::exchange_velocity);
-    parallel_ranges(c.met.size(), reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t r = begin; r < end; ++r) {
-                        const std::uint32_t i = c.of_grains().index(r);
-                        c.lift[r] = c.drag[r] = Vec3::Zero();
-                        c.impulse[r] = {};
-                        if (c.met[r].met > 0 && !(p.any_leaving && s.leaves(p, i)))
-                          move(r, p.mass[i], at(before, i), velocity(p, i), kick);
-                        const Vec3 gained = c.lift[r] + c.drag[r];
-                        exchange[0][i] = gained.x();
-                        exchange[1][i] = gained.y();
-                        exchange[2][i] = gained.z();
-                        p.vx[i] += gained.x(), p.vy[i] += gained.y(), p.vz[i] += gained.z();
-                      }
-                    });
+    parallel_ranges(
+        c.met.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t r = begin; r < end; ++r) {
+            const std::uint32_t i = c.of_grains().index(r);
+            c.lift[r] = c.drag[r] = Vec3::Zero();
+            c.impulse[r] = {};
+            if (c.met[r].met > 0 && !(p.any_leaving && s.leaves(p, i)))
+              move(r, p.mass[i], at(before, i), velocity(p, i) + kick * ground_push(p, i), kick);
+            const Vec3 gained = c.lift[r] + c.drag[r];
+            exchange[0][i] = gained.x();
+            exchange[1][i] = gained.y();
+            exchange[2][i] = gained.z();
+            p.vx[i] += gained.x(), p.vy[i] += gained.y(), p.vz[i] += gained.z();
+          }
+        });
     c.of_grains().copy_images(c.impulse);
   }
 

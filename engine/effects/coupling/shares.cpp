@@ -43,12 +43,19 @@ class ListsAcross final : public Pass {
     VelocityBox box = velocities(grains, s.threads);
     box.add(velocities(liquid, s.threads));
     const bool both = grains.size() > 0 && liquid.size() > 0;
-    shared_->pairs.update({grains, grains.n_sorts}, {liquid, liquid.n_sorts}, s.domain,
-                          both ? box.width() * s.previous_dt : 0, s.threads);
+    shared_->pairs.update({grains, grains.n_sorts, ground_of(grains)},
+                          {liquid, liquid.n_sorts, ground_of(liquid)}, s.domain,
+                          both ? box.width() * s.previous_dt : 0, s.time, s.threads);
   }
   std::size_t bytes() const override { return shared_->pairs.bytes(); }
 
  private:
+  static CrossPairs::Ground ground_of(const MovingSet& p) {
+    const BoundarySupport& b = p.boundary;
+    if (b.distance.size() < p.size()) return {};  // nobody looks up the ground of this set
+    return {b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data()};
+  }
+
   std::shared_ptr<Coupling> shared_;
 };
 
