@@ -294,28 +294,39 @@ void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients
   const auto to_s = static_cast<float>(unit_ / support_), reach = 1 / to_s;
   const auto norm = static_cast<float>(kernel.value(0));
   const auto slope = static_cast<float>(kernel.discrete_gradient_factor() * unit_);
+  const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
+  const std::uint32_t* source = b.source.data();
+  expect(from.mirrors_.size() == to.mirrors_.size(), "both sets know of the ground, or none");
   b.mirrored.resize(from.mirrors_.size());
   for (std::size_t m = 0; m < from.mirrors_.size(); ++m) {
     std::vector<float>& mirrored = b.mirrored[m];
     mirrored.assign(gradients ? b.source.size() : 0, 0.0f);
-    const std::vector<float>& gap = to.mirrors_[m].gap;
+    const float* gap = to.mirrors_[m].gap.data();
+    float *weight = b.weight.data(), *slopes = gradients ? mirrored.data() : nullptr;
     for (std::size_t r = first; r < last; ++r) {
       const float own = from.mirrors_[m].gap[r];
       if (own >= reach) continue;
-      for (std::uint32_t k = from.runs_[r].begin; k < from.runs_[r].end; ++k) {
-        const std::uint32_t s = b.source[k];
+      const std::int32_t x = from.x_[r], y = from.y_[r], z = from.z_[r];
+      const auto image = [&](std::uint32_t s) {  // without a branch: four pairs side by side
+        const auto dx = static_cast<float>(to_x[s] - x), dy = static_cast<float>(to_y[s] - y),
+                   dz = static_cast<float>(to_z[s] - z);
         const float other = gap[s], sum = own + other;
-        if (sum >= reach) continue;
-        const auto dx = static_cast<float>(to.x_[s] - from.x_[r]);
-        const auto dy = static_cast<float>(to.y_[s] - from.y_[r]);
-        const auto dz = static_cast<float>(to.z_[s] - from.z_[r]);
-        const float r2 = std::max(dx * dx + dy * dy + dz * dz + 4 * own * other, sum * sum);
-        const float t = 1 - std::sqrt(r2) * to_s;
-        if (!(t > 0)) continue;
-        const float t3 = t * t * t;
-        b.weight[k] += norm * t3 * t * (5 - 4 * t);
-        if (gradients) mirrored[k] = slope * t3;
-      }
+        const float apart = dx * dx + dy * dy + dz * dz + 4 * own * other;
+        const float left = 1 - std::sqrt(apart > sum * sum ? apart : sum * sum) * to_s;
+        return left > 0 ? left : 0.0f;
+      };
+      const std::uint32_t end = from.runs_[r].end;
+      if (gradients)
+        for (std::uint32_t k = from.runs_[r].begin; k < end; ++k) {
+          const float t = image(source[k]), t3 = t * t * t;
+          weight[k] += norm * t3 * t * (5 - 4 * t);
+          slopes[k] = slope * t3;
+        }
+      else
+        for (std::uint32_t k = from.runs_[r].begin; k < end; ++k) {
+          const float t = image(source[k]), t3 = t * t * t;
+          weight[k] += norm * t3 * t * (5 - 4 * t);
+        }
     }
   }
 }

@@ -36,7 +36,7 @@ class ListsAcross final : public Pass {
   explicit ListsAcross(std::shared_ptr<Coupling> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "lists across sets"; }
   std::string_view effect() const override { return EffectName::coupling; }
-  Stage stage() const override { return Stage::boundary; }
+  Stage stage() const override { return Stage::across; }
 
   void apply(State& s, double) override {
     const MovingSet &grains = s.sets[shared_->grains], &liquid = s.sets[shared_->liquid];
@@ -80,7 +80,7 @@ class SharesPass final : public Pass {
   explicit SharesPass(std::shared_ptr<Coupling> shared) : shared_(std::move(shared)) {}
   std::string_view name() const override { return "shares and slip"; }
   std::string_view effect() const override { return EffectName::coupling; }
-  Stage stage() const override { return Stage::boundary; }
+  Stage stage() const override { return Stage::across; }
 
   void limits(const State& s, std::vector<StepLimit>& out) const override {
     const CouplingSettings& c = shared_->settings;
