@@ -296,37 +296,41 @@ void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients
   const auto slope = static_cast<float>(kernel.discrete_gradient_factor() * unit_);
   const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
   const std::uint32_t* source = b.source.data();
+  constexpr std::uint32_t chunk = 64;
   expect(from.mirrors_.size() == to.mirrors_.size(), "both sets know of the ground, or none");
   b.mirrored.resize(from.mirrors_.size());
   for (std::size_t m = 0; m < from.mirrors_.size(); ++m) {
     std::vector<float>& mirrored = b.mirrored[m];
     mirrored.assign(gradients ? b.source.size() : 0, 0.0f);
-    const float* gap = to.mirrors_[m].gap.data();
-    float *weight = b.weight.data(), *slopes = gradients ? mirrored.data() : nullptr;
+    const float* __restrict gap = to.mirrors_[m].gap.data();
+    float* __restrict weight = b.weight.data();
+    float* __restrict slopes = gradients ? mirrored.data() : nullptr;
     for (std::size_t r = first; r < last; ++r) {
       const float own = from.mirrors_[m].gap[r];
       if (own >= reach) continue;
       const std::int32_t x = from.x_[r], y = from.y_[r], z = from.z_[r];
-      const auto image = [&](std::uint32_t s) {  // without a branch: four pairs side by side
-        const auto dx = static_cast<float>(to_x[s] - x), dy = static_cast<float>(to_y[s] - y),
-                   dz = static_cast<float>(to_z[s] - z);
-        const float other = gap[s], sum = own + other;
-        const float apart = dx * dx + dy * dy + dz * dz + 4 * own * other;
-        const float left = 1 - std::sqrt(apart > sum * sum ? apart : sum * sum) * to_s;
-        return left > 0 ? left : 0.0f;
-      };
       const std::uint32_t end = from.runs_[r].end;
-      if (gradients)
-        for (std::uint32_t k = from.runs_[r].begin; k < end; ++k) {
-          const float t = image(source[k]), t3 = t * t * t;
-          weight[k] += norm * t3 * t * (5 - 4 * t);
-          slopes[k] = slope * t3;
+      for (std::uint32_t k = from.runs_[r].begin; k < end; k += chunk) {
+        const std::uint32_t n = std::min(chunk, end - k);
+        float apart[chunk], sum[chunk];  // so that the arithmetic runs over plain arrays
+        for (std::uint32_t c = 0; c < n; ++c) {
+          const std::uint32_t s = source[k + c];
+          const auto dx = static_cast<float>(to_x[s] - x), dy = static_cast<float>(to_y[s] - y),
+                     dz = static_cast<float>(to_z[s] - z);
+          apart[c] = dx * dx + dy * dy + dz * dz + 4 * own * gap[s];
+          sum[c] = own + gap[s];
         }
-      else
-        for (std::uint32_t k = from.runs_[r].begin; k < end; ++k) {
-          const float t = image(source[k]), t3 = t * t * t;
-          weight[k] += norm * t3 * t * (5 - 4 * t);
+        float value[chunk], steep[chunk];
+        for (std::uint32_t c = 0; c < n; ++c) {
+          const float least = sum[c] * sum[c], r2 = apart[c] > least ? apart[c] : least;
+          const float left = 1 - std::sqrt(r2) * to_s, t = left > 0 ? left : 0;
+          const float t3 = t * t * t;
+          value[c] = norm * t3 * t * (5 - 4 * t);
+          steep[c] = slope * t3;
         }
+        for (std::uint32_t c = 0; c < n; ++c) weight[k + c] += value[c];
+        if (gradients) std::copy(steep, steep + n, slopes + k);
+      }
     }
   }
 }
@@ -394,27 +398,33 @@ void CrossPairs::rebuild(const Set (&sets)[2], const Domain& domain, int threads
   ++n_rebuilds_;
 }
 
+void CrossPairs::follow_sorting(PairSide& side, const Set& set) const {
+  if (side.n_sorts_ == set.n_sorts) return;
+  const ParticleSet& p = set.particles;
+  side.index_of_.resize(p.n_created());
+  for (std::uint32_t i = 0; i < p.size(); ++i) side.index_of_[p.id[i]] = i;
+  for (std::size_t r = 0; r < side.n_rows(); ++r) side.index_[r] = side.index_of_[side.keys_[r].id];
+}
+
 void CrossPairs::update(const Set& a, const Set& b, const Domain& domain, double ahead, double time,
                         int threads) {
   const Set sets[2] = {a, b};
   moved_ += ahead;
-  if (stale_ || !(moved_ < skin_) || !current(sides_[0], a, domain) ||
-      !current(sides_[1], b, domain))
+  unweighed_ += ahead;
+  std::size_t walls = 0;
+  for (const Wall& wall : domain.walls) walls += time < wall.remove_at_s;
+  const bool anew = stale_ || !(moved_ < skin_) || !current(sides_[0], a, domain) ||
+                    !current(sides_[1], b, domain);
+  if (anew)
     rebuild(sets, domain, threads);
   else
-    for (int k : {0, 1}) {
-      PairSide& side = sides_[k];
-      const ParticleSet& p = sets[k].particles;
-      if (side.n_sorts_ != sets[k].n_sorts) {
-        side.index_of_.resize(p.n_created());
-        for (std::uint32_t i = 0; i < p.size(); ++i) side.index_of_[p.id[i]] = i;
-        for (std::size_t r = 0; r < side.n_rows(); ++r)
-          side.index_[r] = side.index_of_[side.keys_[r].id];
-      }
-      place(side, p, domain, threads);
-    }
+    for (int k : {0, 1}) follow_sorting(sides_[k], sets[k]);
+  for (int k : {0, 1}) sides_[k].n_sorts_ = sets[k].n_sorts;
+  if (!anew && unweighed_ < weighed_for * h_ && walls == n_walls_) return;
+  n_walls_ = walls;
+  unweighed_ = 0;
   for (int k : {0, 1}) {
-    sides_[k].n_sorts_ = sets[k].n_sorts;
+    if (!anew) place(sides_[k], sets[k].particles, domain, threads);
     mirror(sides_[k], sets[k], domain, time);
   }
   weigh(sides_[0], sides_[1], gradients_ == 0, threads);

@@ -130,9 +130,9 @@ class CrossPairs {
     std::size_t n_sorts;
     Ground ground = {};
   };
-  /// Brings lists, positions and weights up to date. \param ahead  longest way that two particles
-  /// of the sets may have gone relative to each other since the last call [m]
-  /// \param time  walls count until they are removed [s]
+  /// Brings lists, and weights that moved on by more than `weighed_for`, up to date. \param ahead
+  /// longest way that two particles of the sets may have gone relative to each other since the last
+  /// call [m] \param time  walls count until they are removed [s]
   ///
   /// A kernel that ground or a wall cuts is completed by the images of the sources: what lies at
   /// its foot is as full of grains as what lies above it.
@@ -143,6 +143,7 @@ class CrossPairs {
   std::size_t bytes() const { return sides_[0].bytes() + sides_[1].bytes(); }
 
  private:
+  void follow_sorting(PairSide&, const Set&) const;
   bool current(const PairSide&, const Set&, const Domain&) const;
   void rebuild(const Set (&)[2], const Domain&, int threads);
   void choose_frame(const ParticleSet&, const ParticleSet&, const Domain&);
@@ -161,7 +162,11 @@ class CrossPairs {
 
   double h_, support_, skin_;
   int gradients_;
-  double moved_ = 0;
+  /// In smoothing lengths: as long as nothing moved further, weights stay. They are the same from
+  /// both sides all the while, so that what is exchanged is exact.
+  static constexpr double weighed_for = 0.02;
+  double moved_ = 0, unweighed_ = 0;
+  std::size_t n_walls_ = 0;
   bool stale_ = true;
   std::size_t n_rebuilds_ = 0;
   double origin_[3] = {0, 0, 0};  ///< of the position units [m]
