@@ -153,8 +153,8 @@ void CrossPairs::sort_images(PairSide& side) const {
   std::sort(side.images_.begin(), side.images_.end(), [](const auto& a, const auto& b) {
     return std::tie(a.cell, a.row, a.dx, a.dy) < std::tie(b.cell, b.row, b.dx, b.dy);
   });
-  side.image_row_.resize(side.images_.size());
-  side.cell_.resize(side.n_rows() + side.images_.size());
+  fit(side.image_row_, side.images_.size());
+  fit(side.cell_, side.n_rows() + side.images_.size());
   for (std::size_t r = 0; r < side.n_rows(); ++r) side.cell_[r] = side.keys_[r].cell;
   for (std::size_t k = 0; k < side.images_.size(); ++k) {
     side.image_row_[k] = side.images_[k].row;
@@ -165,7 +165,7 @@ void CrossPairs::sort_images(PairSide& side) const {
 void CrossPairs::place(PairSide& side, const ParticleSet& p, const Domain& domain,
                        int threads) const {
   const std::size_t n = side.n_rows();
-  for (auto* column : {&side.x_, &side.y_, &side.z_}) column->resize(n + side.images_.size());
+  for (auto* column : {&side.x_, &side.y_, &side.z_}) fit(*column, n + side.images_.size());
   const bool periodic = domain.x.active || domain.y.active;
   parallel_ranges(n, reduction_block, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
@@ -227,7 +227,7 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
             const auto dz = static_cast<float>(to.z_[s + k] - z);
             distance2[k] = dx * dx + dy * dy + dz * dz;
           }
-          if (out.size() < n + chunk) out.resize(n + 8 * chunk);
+          if (out.size() < n + chunk) fit(out, n + 8 * chunk);
           for (std::size_t k = 0; k < m; ++k) {
             out[n] = static_cast<std::uint32_t>(s + k);
             n += distance2[k] < reach2;
@@ -241,15 +241,15 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
 
 void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int threads) const {
   constexpr std::size_t block = PairSide::block;
-  const SmoothingKernel kernel{h_};
+  const SmoothingKernel smoothing{h_};
   const auto to_s = static_cast<float>(unit_ / support_);
-  const auto norm = static_cast<float>(kernel.value(0));
-  const auto slope = static_cast<float>(kernel.discrete_gradient_factor() * unit_);
+  const auto norm = static_cast<float>(smoothing.value(0));
+  const auto slope = static_cast<float>(smoothing.discrete_gradient_factor() * unit_);
   const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
   parallel_ranges(from.n_rows(), block, threads, [&](std::size_t begin, std::size_t end) {
     PairSide::Block& b = from.blocks_[begin / block];
-    b.weight.resize(b.source.size());
-    if (gradients) b.slope.resize(b.source.size());
+    fit(b.weight, b.source.size());
+    if (gradients) fit(b.slope, b.source.size());
     const std::uint32_t* source = b.source.data();
     float *weight = b.weight.data(), *slopes = gradients ? b.slope.data() : b.weight.data();
     for (std::size_t r = begin; r < end; ++r) {
@@ -276,7 +276,7 @@ void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int t
   });
 }
 
-/// Whether the lists still hold for this set: nobody came or went. Periodic positions jump when
+/// Whether the lists still hold for this set: none came or went. Periodic positions jump when
 /// their set is sorted.
 bool CrossPairs::current(const PairSide& side, const Set& set, const Domain& domain) const {
   const bool sorted = side.n_sorts_ != set.n_sorts;

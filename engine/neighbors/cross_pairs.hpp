@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Pairs across two particle sets with their kernel values, listed from both sides, for sums that
-/// are taken several times a step.
+/// Pairs across two particle sets with their smoothing weights, listed from both sides, for sums
+/// that are taken several times a step.
 #pragma once
 
 #include "engine/core/domain.hpp"
@@ -12,6 +12,13 @@
 #include <vector>
 
 namespace sturz {
+
+/// New size of a vector that grows and shrinks by little: it asks for memory with some to spare.
+template <class Value>
+void fit(std::vector<Value>& values, std::size_t size) {
+  if (size > values.capacity()) values.reserve(size + size / 4);
+  values.resize(size);
+}
 
 /// The particles of one set in an order of their own, by cell and then by id, so that sums over
 /// them have the same bits whatever the storage order; and, per particle, its neighbours in the
@@ -29,15 +36,15 @@ class PairSide {
     for (std::size_t k = 0; k < image_row_.size(); ++k)
       values[n_rows() + k] = values[image_row_[k]];
   }
-  /// visit(source, weight) with the kernel W [1/m^3], in a fixed order; weight 0 for those of the
-  /// skin. A pair has the same weight from both sides, to the last bit.
+  /// visit(source, weight) with the weight W [1/m^3] of the smoothing kernel, in a fixed order;
+  /// weight 0 for those of the skin. A pair has the same weight from both sides, to the last bit.
   template <class Visit>
   void for_each(std::size_t row, Visit&& visit) const {
     const Block& b = blocks_[row / block];
     for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
       visit(b.source[k], b.weight[k]);
   }
-  /// visit(source, gradient[3]) with the kernel's gradient at the row's particle, C t^3 (x_source -
+  /// visit(source, gradient[3]) with the gradient of W at the row's particle, C t^3 (x_source -
   /// x_row) [1/m^4]; `to` is the side whose rows the sources are.
   template <class Visit>
   void for_each_gradient(std::size_t row, const PairSide& to, Visit&& visit) const {
@@ -93,7 +100,7 @@ class PairSide {
 /// keeps its lists.
 class CrossPairs {
  public:
-  /// \param smoothing_length h of the Wendland kernel [m], support 2h; \param skin [m]
+  /// \param smoothing_length h of the smoothing kernel [m], support 2h; \param skin [m]
   /// \param gradients  which side wants them
   CrossPairs(double smoothing_length, double skin, int gradients);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the passes between grains and liquid hold together, in the order of the pairs' rows.
 ///
-/// With W_ij the kernel between grain i (mass m_i, bulk volume V_i = m_i/(rho_p alpha_i)) and
-/// liquid j (mass m_j, density rho_j = rho_0 (1 + e_j), which counts the air in pores that it does
-/// not fill):
+/// With W_ij the smoothing kernel between grain i (mass m_i, bulk volume V_i = m_i/(rho_p alpha_i))
+/// and liquid j (mass m_j, density rho_j = rho_0 (1 + e_j), which counts the air in pores that it
+/// does not fill):
 ///   share of j's mass that i meets   mu_ij = V_i q_j W_ij, q_j = m_j/max(1, sum_i V_i W_ij)
 ///   all that i meets                 M_i = sum_j mu_ij, weights b_ij = mu_ij/M_i
 ///   how wet i is                     omega_i = min(1, sum_j (m_j/rho_j) W_ij/(wet (1 - alpha_i)))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is near whom, how much of the liquid each grain meets, and how much room grains take there.
+// Which pairs there are, how much of the liquid each grain meets, and how much room grains take
+// there.
 #include "engine/core/parallel.hpp"
 #include "engine/effects/coupling/shared.hpp"
 #include "engine/effects/fields.hpp"
@@ -79,7 +80,7 @@ class SharesPass final : public Pass {
     const CouplingSettings& c = shared_->settings;
     const MovingSet& liquid = s.sets[shared_->liquid];
     if (!(liquid.sound_speed > 0)) return;
-    // Before the first step nobody has looked: as if the grains lay as they were set down.
+    // Before the first step no share is known: as if the grains lay as they were set down.
     const double packed = s.sets[shared_->grains].reference_fraction;
     const double share = s.n_steps > 0  ? shared_->largest_share
                          : packed < 0.9 ? packed / (1 - packed)
@@ -110,12 +111,12 @@ class SharesPass final : public Pass {
     for (auto* v : {&c.lift, &c.drag}) v->resize(c.of_grains().n_rows());
     c.drawn.resize(c.of_liquid().n_rows());
     c.share.resize(c.of_liquid().n_rows());
-    c.volume.resize(c.of_grains().n_sources());
-    c.grain_flux.resize(c.of_grains().n_sources());
-    c.impulse.resize(c.of_grains().n_sources());
+    fit(c.volume, c.of_grains().n_sources());
+    fit(c.grain_flux, c.of_grains().n_sources());
+    fit(c.impulse, c.of_grains().n_sources());
     c.take.resize(c.of_liquid().n_rows());
-    c.liquid_start.resize(c.of_liquid().n_sources());
-    c.liquid_now.resize(c.of_liquid().n_sources());
+    fit(c.liquid_start, c.of_liquid().n_sources());
+    fit(c.liquid_now, c.of_liquid().n_sources());
   }
 
   /// The volumes that grains fill, pores included.
