@@ -244,7 +244,7 @@ void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int t
   const SmoothingKernel smoothing{h_};
   const auto to_s = static_cast<float>(unit_ / support_);
   const auto norm = static_cast<float>(smoothing.value(0));
-  const auto slope = static_cast<float>(smoothing.discrete_gradient_factor() * unit_);
+  const auto slope = static_cast<float>(smoothing.discrete_gradient_factor());
   const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
   parallel_ranges(from.n_rows(), block, threads, [&](std::size_t begin, std::size_t end) {
     PairSide::Block& b = from.blocks_[begin / block];

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/core/domain.hpp"
+#include "engine/core/vec.hpp"
 #include "engine/particles/particle_set.hpp"
 
 #include <cstddef>
@@ -44,19 +45,17 @@ class PairSide {
     for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
       visit(b.source[k], b.weight[k]);
   }
-  /// visit(source, gradient[3]) with the gradient of W at the row's particle, C t^3 (x_source -
-  /// x_row) [1/m^4]; `to` is the side whose rows the sources are.
+  /// visit(source, weight, slope) with the slope C t^3 [1/m^5] of the smoothing kernel, whose
+  /// gradient at the row's particle is slope (x_source - x_row).
   template <class Visit>
-  void for_each_gradient(std::size_t row, const PairSide& to, Visit&& visit) const {
+  void for_each_slope(std::size_t row, Visit&& visit) const {
     const Block& b = blocks_[row / block];
-    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k) {
-      const std::uint32_t s = b.source[k];
-      const float g = b.slope[k];
-      const float gradient[3] = {g * static_cast<float>(to.x_[s] - x_[row]),
-                                 g * static_cast<float>(to.y_[s] - y_[row]),
-                                 g * static_cast<float>(to.z_[s] - z_[row])};
-      visit(s, gradient);
-    }
+    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
+      visit(b.source[k], b.weight[k], b.slope[k]);
+  }
+  /// Where a source lies, in the frame of CrossPairs::unit [units].
+  Vec3 place(std::size_t source) const {
+    return {1.0 * x_[source], 1.0 * y_[source], 1.0 * z_[source]};
   }
   std::size_t n_entries() const;
   std::size_t bytes() const;
@@ -71,7 +70,7 @@ class PairSide {
   struct Block {
     std::vector<std::uint32_t> source;
     std::vector<float> weight;  ///< W [1/m^3]
-    std::vector<float> slope;   ///< C t^3 in position units, only where gradients are wanted
+    std::vector<float> slope;   ///< C t^3 [1/m^5], only where gradients are wanted
   };
   struct Key {
     std::uint64_t cell = 0;
@@ -114,6 +113,8 @@ class CrossPairs {
   void update(const Set& a, const Set& b, const Domain&, double ahead, int threads);
 
   const PairSide& side(int k) const { return sides_[k]; }
+  /// Of PairSide::place [m].
+  double unit() const { return unit_; }
   std::size_t n_rebuilds() const { return n_rebuilds_; }
   std::size_t bytes() const { return sides_[0].bytes() + sides_[1].bytes(); }
 

@@ -17,18 +17,28 @@
 #include "engine/neighbors/cross_pairs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
 namespace sturz {
 
+/// Four doubles that are summed side by side.
+using Quad = double __attribute__((vector_size(32)));
+
+template <int n>
+struct Quads {
+  Quad quad[n] = {};
+  double operator[](int k) const { return quad[k / 4][k % 4]; }
+  Vec3 vector(int first) const { return {(*this)[first], (*this)[first + 1], (*this)[first + 2]}; }
+};
+
 /// A grain of the last gather, by row.
 struct MetLiquid {
-  double volume = 0;  ///< V_i [m^3]
-  double met = 0;     ///< M_i/V_i: liquid's mass per volume at the grain [kg/m^3]; 0: dry
-  double wet = 0;     ///< omega_i
+  double volume = 0;       ///< V_i [m^3]
+  double met = 0;          ///< M_i/V_i: liquid's mass per volume at the grain [kg/m^3]; 0: dry
+  double wet = 0;          ///< omega_i
+  Vec3 velocity{0, 0, 0};  ///< mean of the liquid it meets, at n-1/2 [m/s]
 };
 
 struct Coupling {
@@ -44,11 +54,12 @@ struct Coupling {
   std::vector<Vec3> lift, drag;  ///< changes of a grain's velocity in this step [grains' rows]
   std::vector<Vec3> drawn;       ///< of a liquid particle's, by drag [liquid's rows]
   // What sums over neighbours read, by source.
-  std::vector<double> volume;
-  std::vector<std::array<double, 5>> liquid_start;
-  std::vector<std::array<double, 4>> grain_flux;
-  std::vector<std::array<double, 11>> liquid_now;
-  std::vector<std::array<double, 3>> impulse;
+  std::vector<double> volume;          ///< V_i
+  std::vector<Quads<2>> liquid_start;  ///< q, q v at n-1/2, pore volume, q v at n+1/2
+  std::vector<double> room;            ///< omega_i m_i/(rho_p sum W q)
+  std::vector<Quads<1>> flux;          ///< f = omega_i m_i/rho_p times slip, f.x
+  std::vector<Quads<2>> liquid_now;    ///< q v, q/(1 + X), q kappa rho a, q S
+  std::vector<Quads<1>> impulse;       ///< of drag on the grain, over met
 
   Coupling(std::size_t grain_set, std::size_t liquid_set, const CouplingSettings& c)
       : settings(c),
@@ -60,14 +71,13 @@ struct Coupling {
 };
 
 /// Sum of W times what a row's sources have.
-template <std::size_t n>
-std::array<double, n> gather(const PairSide& side, std::size_t row,
-                             const std::vector<std::array<double, n>>& values) {
-  std::array<double, n> sum{};
+template <int n>
+Quads<n> gather(const PairSide& side, std::size_t row, const std::vector<Quads<n>>& values) {
+  Quads<n> sum;
+  const Quads<n>* value = values.data();
   side.for_each(row, [&](std::uint32_t source, float weight) {
     const double w = weight;
-    const std::array<double, n>& value = values[source];
-    for (std::size_t c = 0; c < n; ++c) sum[c] += w * value[c];
+    for (int c = 0; c < n; ++c) sum.quad[c] += w * value[source].quad[c];
   });
   return sum;
 }

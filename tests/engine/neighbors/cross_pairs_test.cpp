@@ -166,8 +166,9 @@ TEST(CrossPairs, GradientIsTheDerivativeOfTheWeight) {
     std::vector<double> sum(b.size(), 0);
     for (std::size_t r = 0; r < side.n_rows(); ++r) {
       side.for_each(r, [&](std::uint32_t, float w) { sum[side.index(r)] += w; });
-      side.for_each_gradient(r, pairs.side(0), [&](std::uint32_t, const float(&g)[3]) {
-        if (gradient) (*gradient)[side.index(r)] += g[1];
+      side.for_each_slope(r, [&](std::uint32_t s, float, float slope) {
+        const Vec3 apart = pairs.unit() * (pairs.side(0).place(s) - side.place(r));
+        if (gradient) (*gradient)[side.index(r)] += slope * apart.y();
       });
     }
     return sum;
