@@ -153,8 +153,8 @@ void CrossPairs::sort_images(PairSide& side) const {
   std::sort(side.images_.begin(), side.images_.end(), [](const auto& a, const auto& b) {
     return std::tie(a.cell, a.row, a.dx, a.dy) < std::tie(b.cell, b.row, b.dx, b.dy);
   });
-  side.image_row_.resize(side.images_.size());
-  side.cell_.resize(side.n_rows() + side.images_.size());
+  fit(side.image_row_, side.images_.size());
+  fit(side.cell_, side.n_rows() + side.images_.size());
   for (std::size_t r = 0; r < side.n_rows(); ++r) side.cell_[r] = side.keys_[r].cell;
   for (std::size_t k = 0; k < side.images_.size(); ++k) {
     side.image_row_[k] = side.images_[k].row;
@@ -165,7 +165,7 @@ void CrossPairs::sort_images(PairSide& side) const {
 void CrossPairs::place(PairSide& side, const ParticleSet& p, const Domain& domain,
                        int threads) const {
   const std::size_t n = side.n_rows();
-  for (auto* column : {&side.x_, &side.y_, &side.z_}) column->resize(n + side.images_.size());
+  for (auto* column : {&side.x_, &side.y_, &side.z_}) fit(*column, n + side.images_.size());
   const bool periodic = domain.x.active || domain.y.active;
   parallel_ranges(n, reduction_block, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
@@ -227,7 +227,7 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
             const auto dz = static_cast<float>(to.z_[s + k] - z);
             distance2[k] = dx * dx + dy * dy + dz * dz;
           }
-          if (out.size() < n + chunk) out.resize(n + 8 * chunk);
+          if (out.size() < n + chunk) fit(out, n + 8 * chunk);
           for (std::size_t k = 0; k < m; ++k) {
             out[n] = static_cast<std::uint32_t>(s + k);
             n += distance2[k] < reach2;
@@ -248,8 +248,10 @@ void CrossPairs::mirror(PairSide& side, const Set& set, const Domain& domain, do
   const auto prepare = [&](PairSide::Mirror& m) {
     m.gap.resize(side.n_sources());
     for (auto* c : {&m.nx, &m.ny, &m.nz}) c->resize(side.n_rows());
+    m.near.resize(side.n_rows());
   };
   const auto finish = [&](PairSide::Mirror& m) {
+    for (std::size_t r = 0; r < side.n_rows(); ++r) m.near[r] = m.gap[r] < far;
     for (std::size_t k = 0; k < side.image_row_.size(); ++k)
       m.gap[side.n_rows() + k] = m.gap[side.image_row_[k]];
   };
@@ -291,23 +293,23 @@ void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients
   const std::size_t first = block * PairSide::block;
   const std::size_t last = std::min(from.n_rows(), first + PairSide::block);
   const SmoothingKernel kernel{h_};
-  const auto to_s = static_cast<float>(unit_ / support_), reach = 1 / to_s;
+  const auto to_s = static_cast<float>(unit_ / support_);
   const auto norm = static_cast<float>(kernel.value(0));
-  const auto slope = static_cast<float>(kernel.discrete_gradient_factor() * unit_);
+  const auto slope = static_cast<float>(kernel.discrete_gradient_factor());
   const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
   const std::uint32_t* source = b.source.data();
   constexpr std::uint32_t chunk = 64;
   expect(from.mirrors_.size() == to.mirrors_.size(), "both sets know of the ground, or none");
-  b.mirrored.resize(from.mirrors_.size());
+  b.images.resize(from.mirrors_.size());
   for (std::size_t m = 0; m < from.mirrors_.size(); ++m) {
-    std::vector<float>& mirrored = b.mirrored[m];
-    mirrored.assign(gradients ? b.source.size() : 0, 0.0f);
+    PairSide::ImageBlock& images = b.images[m];
+    images.weight.resize(b.source.size());
+    images.slope.resize(gradients ? b.source.size() : 0);
     const float* __restrict gap = to.mirrors_[m].gap.data();
     float* __restrict weight = b.weight.data();
-    float* __restrict slopes = gradients ? mirrored.data() : nullptr;
     for (std::size_t r = first; r < last; ++r) {
+      if (!from.near(r, m)) continue;
       const float own = from.mirrors_[m].gap[r];
-      if (own >= reach) continue;
       const std::int32_t x = from.x_[r], y = from.y_[r], z = from.z_[r];
       const std::uint32_t end = from.runs_[r].end;
       for (std::uint32_t k = from.runs_[r].begin; k < end; k += chunk) {
@@ -329,7 +331,8 @@ void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients
           steep[c] = slope * t3;
         }
         for (std::uint32_t c = 0; c < n; ++c) weight[k + c] += value[c];
-        if (gradients) std::copy(steep, steep + n, slopes + k);
+        std::copy(value, value + n, images.weight.begin() + k);
+        if (gradients) std::copy(steep, steep + n, images.slope.begin() + k);
       }
     }
   }
@@ -337,15 +340,15 @@ void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients
 
 void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int threads) const {
   constexpr std::size_t block = PairSide::block;
-  const SmoothingKernel kernel{h_};
+  const SmoothingKernel smoothing{h_};
   const auto to_s = static_cast<float>(unit_ / support_);
-  const auto norm = static_cast<float>(kernel.value(0));
-  const auto slope = static_cast<float>(kernel.discrete_gradient_factor() * unit_);
+  const auto norm = static_cast<float>(smoothing.value(0));
+  const auto slope = static_cast<float>(smoothing.discrete_gradient_factor());
   const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
   parallel_ranges(from.n_rows(), block, threads, [&](std::size_t begin, std::size_t end) {
     PairSide::Block& b = from.blocks_[begin / block];
-    b.weight.resize(b.source.size());
-    if (gradients) b.slope.resize(b.source.size());
+    fit(b.weight, b.source.size());
+    if (gradients) fit(b.slope, b.source.size());
     const std::uint32_t* source = b.source.data();
     float *weight = b.weight.data(), *slopes = gradients ? b.slope.data() : b.weight.data();
     for (std::size_t r = begin; r < end; ++r) {
@@ -373,7 +376,7 @@ void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int t
   });
 }
 
-/// Whether the lists still hold for this set: nobody came or went. Periodic positions jump when
+/// Whether the lists still hold for this set: none came or went. Periodic positions jump when
 /// their set is sorted.
 bool CrossPairs::current(const PairSide& side, const Set& set, const Domain& domain) const {
   const bool sorted = side.n_sorts_ != set.n_sorts;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Pairs across two particle sets with their kernel values, listed from both sides, for sums that
-/// are taken several times a step.
+/// Pairs across two particle sets with their smoothing weights, listed from both sides, for sums
+/// that are taken several times a step.
 #pragma once
 
 #include "engine/core/domain.hpp"
+#include "engine/core/vec.hpp"
 #include "engine/particles/particle_set.hpp"
 
 #include <cstddef>
@@ -12,6 +13,13 @@
 #include <vector>
 
 namespace sturz {
+
+/// New size of a vector that grows and shrinks by little: it asks for memory with some to spare.
+template <class Value>
+void fit(std::vector<Value>& values, std::size_t size) {
+  if (size > values.capacity()) values.reserve(size + size / 4);
+  values.resize(size);
+}
 
 /// The particles of one set in an order of their own, by cell and then by id, so that sums over
 /// them have the same bits whatever the storage order; and, per particle, its neighbours in the
@@ -29,31 +37,43 @@ class PairSide {
     for (std::size_t k = 0; k < image_row_.size(); ++k)
       values[n_rows() + k] = values[image_row_[k]];
   }
-  /// visit(source, weight) with the kernel W [1/m^3], in a fixed order; weight 0 for those of the
-  /// skin. A pair has the same weight from both sides, to the last bit.
+  /// visit(source, weight) with the weight W [1/m^3] of the smoothing kernel, in a fixed order;
+  /// weight 0 for those of the skin. A pair has the same weight from both sides, to the last bit.
   template <class Visit>
   void for_each(std::size_t row, Visit&& visit) const {
     const Block& b = blocks_[row / block];
     for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
       visit(b.source[k], b.weight[k]);
   }
-  /// visit(source, gradient[3]) with the kernel's gradient at the row's particle, C t^3 (x_source -
-  /// x_row) [1/m^4]; `to` is the side whose rows the sources are. The images in ground and walls
-  /// are in it as far as a vector of the source turns with them: their part is R (x_image - x_row).
+  /// visit(source, weight, slope) with the slope C t^3 [1/m^5] of the smoothing kernel, whose
+  /// gradient at the row's particle is slope (x_source - x_row).
   template <class Visit>
-  void for_each_gradient(std::size_t row, const PairSide& to, Visit&& visit) const {
+  void for_each_slope(std::size_t row, Visit&& visit) const {
     const Block& b = blocks_[row / block];
-    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k) {
-      const std::uint32_t s = b.source[k];
-      const float g = b.slope[k];
-      const float r[3] = {static_cast<float>(to.x_[s] - x_[row]),
-                          static_cast<float>(to.y_[s] - y_[row]),
-                          static_cast<float>(to.z_[s] - z_[row])};
-      float gradient[3] = {g * r[0], g * r[1], g * r[2]};
-      for (std::size_t plane = 0; plane < mirrors_.size(); ++plane)
-        add_image(gradient, r, plane, row, s, to, b.mirrored[plane][k]);
-      visit(s, gradient);
-    }
+    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
+      visit(b.source[k], b.weight[k], b.slope[k]);
+  }
+  /// Where a source lies, in the frame of CrossPairs::unit [units].
+  Vec3 place(std::size_t source) const {
+    return {1.0 * x_[source], 1.0 * y_[source], 1.0 * z_[source]};
+  }
+  /// Ground and walls that may complete kernels.
+  std::size_t n_mirrors() const { return mirrors_.size(); }
+  /// Whether sources have images in mirror m near a row; its normal and the distance to it [units].
+  bool near(std::size_t row, std::size_t m) const { return mirrors_[m].near[row] != 0; }
+  Vec3 normal(std::size_t row, std::size_t m) const {
+    const Mirror& p = mirrors_[m];
+    return {p.nx[row], p.ny[row], p.nz[row]};
+  }
+  float gap(std::size_t source, std::size_t m) const { return mirrors_[m].gap[source]; }
+  /// visit(source, weight, slope) of the images in mirror m, for rows near it. The weights of
+  /// for_each hold them already, the slopes of for_each_slope do not.
+  template <class Visit>
+  void for_each_image(std::size_t row, std::size_t m, Visit&& visit) const {
+    const Block& b = blocks_[row / block];
+    const ImageBlock& images = b.images[m];
+    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
+      visit(b.source[k], images.weight[k], images.slope.empty() ? 0 : images.slope[k]);
   }
   std::size_t n_entries() const;
   std::size_t bytes() const;
@@ -65,28 +85,21 @@ class PairSide {
   struct Run {
     std::uint32_t begin = 0, end = 0;  ///< entries of a row in its block
   };
+  struct ImageBlock {
+    std::vector<float> weight, slope;  ///< as of sources themselves; read for rows near a mirror
+  };
   struct Block {
     std::vector<std::uint32_t> source;
-    std::vector<float> weight;  ///< W [1/m^3]
-    std::vector<float> slope;   ///< C t^3 in position units, only where gradients are wanted
-    std::vector<std::vector<float>> mirrored;  ///< [mirror][entry] the same of images
+    std::vector<float> weight;       ///< W [1/m^3]
+    std::vector<float> slope;        ///< C t^3 [1/m^5], only where gradients are wanted
+    std::vector<ImageBlock> images;  ///< [mirror]
   };
   /// A plane near which sources have images: the ground under each particle, or a wall.
   struct Mirror {
-    std::vector<float> gap;         ///< [sources] distance in position units; `far` beyond 2h
-    std::vector<float> nx, ny, nz;  ///< [rows] normal
+    std::vector<float> gap;          ///< [sources] distance in position units, at most 2h
+    std::vector<float> nx, ny, nz;   ///< [rows] normal
+    std::vector<std::uint8_t> near;  ///< [rows] 1 where the gap is less than 2h
   };
-  /// R (x_image - x_row) = r + 2 (gap - n.r) n, with the plane of the row.
-  void add_image(float (&gradient)[3], const float (&r)[3], std::size_t plane, std::size_t row,
-                 std::uint32_t source, const PairSide& to, float slope) const {
-    if (slope == 0) return;
-    const Mirror& m = mirrors_[plane];
-    const float n[3] = {m.nx[row], m.ny[row], m.nz[row]};
-    const float along = n[0] * r[0] + n[1] * r[1] + n[2] * r[2];
-    const float out = 2 * (to.mirrors_[plane].gap[source] - along);
-    for (int c = 0; c < 3; ++c) gradient[c] += slope * (r[c] + out * n[c]);
-  }
-
   struct Key {
     std::uint64_t cell = 0;
     std::uint32_t id = 0, index = 0;
@@ -115,7 +128,7 @@ class PairSide {
 /// keeps its lists.
 class CrossPairs {
  public:
-  /// \param smoothing_length h of the Wendland kernel [m], support 2h; \param skin [m]
+  /// \param smoothing_length h of the smoothing kernel [m], support 2h; \param skin [m]
   /// \param gradients  which side wants them
   CrossPairs(double smoothing_length, double skin, int gradients);
 
@@ -139,6 +152,8 @@ class CrossPairs {
   void update(const Set& a, const Set& b, const Domain&, double ahead, double time, int threads);
 
   const PairSide& side(int k) const { return sides_[k]; }
+  /// Of PairSide::place [m].
+  double unit() const { return unit_; }
   std::size_t n_rebuilds() const { return n_rebuilds_; }
   std::size_t bytes() const { return sides_[0].bytes() + sides_[1].bytes(); }
 

@@ -16,9 +16,7 @@ using Components = std::vector<std::vector<double>>;
 
 Vec3 at(const Components& v, std::size_t i) { return {v[0][i], v[1][i], v[2][i]}; }
 Vec3 velocity(const ParticleSet& p, std::size_t i) { return {p.vx[i], p.vy[i], p.vz[i]}; }
-Vec3 triple(const std::array<double, 11>& v, int first) {
-  return {v[first], v[first + 1], v[first + 2]};
-}
+constexpr std::size_t rows = 256;  // of a range of threads' work
 
 /// The liquid around a grain, means with the weights b_ij.
 struct Surroundings {
@@ -53,31 +51,19 @@ class ExchangePass final : public Pass {
     const Components& before = p.components(fields::velocity_before);
     const Field* change = p.find(fields::density_change);
     const Vec3 gravity(0, 0, -s.gravity);
-    parallel_ranges(c.of_liquid().n_rows(), reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t r = begin; r < end; ++r) {
-                        const std::uint32_t j = c.of_liquid().index(r);
-                        const double q = c.take[r], x = c.share[r];
-                        const double kept = std::min(x, CouplingSettings::largest_share);
-                        const double relative = relative_density(change, j);
-                        const Vec3 now = velocity(p, j), start = at(before, j);
-                        const double dense = x > 0 ? kept / x * c.settings.liquid_density * relative
-                                                   : c.settings.liquid_density * relative;
-                        const Vec3 push = q * dense * ((now - start) / kick - gravity);
-                        const Vec3 v = q * now, v0 = q * start;
-                        c.liquid_now[r] = {v0.x(),
-                                           v0.y(),
-                                           v0.z(),
-                                           v.x(),
-                                           v.y(),
-                                           v.z(),
-                                           push.x(),
-                                           push.y(),
-                                           push.z(),
-                                           q / (1 + kept),
-                                           q * std::min(1.0, relative)};
-                      }
-                    });
+    parallel_ranges(c.take.size(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r) {
+        const std::uint32_t j = c.of_liquid().index(r);
+        const double q = c.take[r], x = c.share[r];
+        const double kept = std::min(x, CouplingSettings::largest_share);
+        const double relative = relative_density(change, j);
+        const double kappa = x > 0 ? kept / x : 1;
+        const Vec3 now = velocity(p, j), a = (now - at(before, j)) / kick - gravity;
+        const Vec3 push = q * kappa * c.settings.liquid_density * relative * a, v = q * now;
+        c.liquid_now[r].quad[0] = Quad{v.x(), v.y(), v.z(), q / (1 + kept)};
+        c.liquid_now[r].quad[1] = Quad{push.x(), push.y(), push.z(), q * std::min(1.0, relative)};
+      }
+    });
     c.of_liquid().copy_images(c.liquid_now);
   }
 
@@ -94,10 +80,11 @@ class ExchangePass final : public Pass {
 
   Surroundings surroundings(std::size_t row) const {
     const Coupling& c = *shared_;
-    const auto sum = gather(c.of_grains(), row, c.liquid_now);
+    Quads<2> sum = gather(c.of_grains(), row, c.liquid_now);
+    turn_images(c.of_grains(), row, c.liquid_now, {0}, sum);  // the push goes on beyond the ground
     const double inverse = 1 / c.met[row].met;
-    return {inverse * triple(sum, 0), inverse * triple(sum, 3), inverse * triple(sum, 6),
-            inverse * sum[9], inverse * sum[10]};
+    return {c.met[row].velocity, inverse * sum.vector(0), inverse * sum.vector(4), inverse * sum[3],
+            inverse * sum[7]};
   }
 
   void move_grains(State& s, double kick) {
@@ -105,21 +92,20 @@ class ExchangePass final : public Pass {
     MovingSet& p = s.sets[c.grains];
     const Components& before = p.components(fields::velocity_before);
     Components& exchange = p.components(fields::exchange_velocity);
-    parallel_ranges(
-        c.met.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t r = begin; r < end; ++r) {
-            const std::uint32_t i = c.of_grains().index(r);
-            c.lift[r] = c.drag[r] = Vec3::Zero();
-            c.impulse[r] = {};
-            if (c.met[r].met > 0 && !(p.any_leaving && s.leaves(p, i)))
-              move(r, p.mass[i], at(before, i), velocity(p, i) + kick * ground_push(p, i), kick);
-            const Vec3 gained = c.lift[r] + c.drag[r];
-            exchange[0][i] = gained.x();
-            exchange[1][i] = gained.y();
-            exchange[2][i] = gained.z();
-            p.vx[i] += gained.x(), p.vy[i] += gained.y(), p.vz[i] += gained.z();
-          }
-        });
+    parallel_ranges(c.met.size(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r) {
+        const std::uint32_t i = c.of_grains().index(r);
+        c.lift[r] = c.drag[r] = Vec3::Zero();
+        c.impulse[r] = {};
+        if (c.met[r].met > 0 && !(p.any_leaving && s.leaves(p, i)))
+          move(r, p.mass[i], at(before, i), velocity(p, i) + kick * ground_push(p, i), kick);
+        const Vec3 gained = c.lift[r] + c.drag[r];
+        exchange[0][i] = gained.x();
+        exchange[1][i] = gained.y();
+        exchange[2][i] = gained.z();
+        p.vx[i] += gained.x(), p.vy[i] += gained.y(), p.vz[i] += gained.z();
+      }
+    });
     c.of_grains().copy_images(c.impulse);
   }
 
@@ -142,23 +128,23 @@ class ExchangePass final : public Pass {
         -reduced * slip_taken(slip0, slip, force * law_.per_grain_volume(solids, mean));
     c.drag[row] = impulse / mass;
     const Vec3 given = impulse / met.met;
-    c.impulse[row] = {given.x(), given.y(), given.z()};
+    c.impulse[row].quad[0] = Quad{given.x(), given.y(), given.z(), 0};
   }
 
   void move_liquid(State& s) {
     Coupling& c = *shared_;
     MovingSet& p = s.sets[c.liquid];
     const PairSide& side = c.of_liquid();
-    parallel_ranges(side.n_rows(), reduction_block, s.threads,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t r = begin; r < end; ++r) {
-                        const std::uint32_t j = side.index(r);
-                        const auto sum = gather(side, r, c.impulse);
-                        const Vec3 v = -c.take[r] / p.mass[j] * Vec3(sum[0], sum[1], sum[2]);
-                        c.drawn[r] = v;
-                        p.vx[j] += v.x(), p.vy[j] += v.y(), p.vz[j] += v.z();
-                      }
-                    });
+    parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r) {
+        const std::uint32_t j = side.index(r);
+        Quads<1> sum = gather(side, r, c.impulse);
+        turn_images(side, r, c.impulse, {0}, sum);
+        const Vec3 v = -c.take[r] / p.mass[j] * sum.vector(0);
+        c.drawn[r] = v;
+        p.vx[j] += v.x(), p.vy[j] += v.y(), p.vz[j] += v.z();
+      }
+    });
   }
 
   std::shared_ptr<Coupling> shared_;

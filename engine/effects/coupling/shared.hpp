@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the passes between grains and liquid hold together, in the order of the pairs' rows.
 ///
-/// With W_ij the kernel between grain i (mass m_i, bulk volume V_i = m_i/(rho_p alpha_i)) and
-/// liquid j (mass m_j, density rho_j = rho_0 (1 + e_j), which counts the air in pores that it does
-/// not fill):
+/// With W_ij the smoothing kernel between grain i (mass m_i, bulk volume V_i = m_i/(rho_p alpha_i))
+/// and liquid j (mass m_j, density rho_j = rho_0 (1 + e_j), which counts the air in pores that it
+/// does not fill):
 ///   share of j's mass that i meets   mu_ij = V_i q_j W_ij, q_j = m_j/max(1, sum_i V_i W_ij)
 ///   all that i meets                 M_i = sum_j mu_ij, weights b_ij = mu_ij/M_i
 ///   how wet i is                     omega_i = min(1, sum_j (m_j/rho_j) W_ij/(wet (1 - alpha_i)))
@@ -17,18 +17,32 @@
 #include "engine/neighbors/cross_pairs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <vector>
 
 namespace sturz {
 
+/// Four doubles that are summed side by side.
+using Quad = double __attribute__((vector_size(32)));
+
+template <int n>
+struct Quads {
+  Quad quad[n] = {};
+  double operator[](int k) const { return quad[k / 4][k % 4]; }
+  Vec3 vector(int first) const { return {(*this)[first], (*this)[first + 1], (*this)[first + 2]}; }
+  void add(int first, const Vec3& v) {
+    for (int k = 0; k < 3; ++k) quad[(first + k) / 4][(first + k) % 4] += v[k];
+  }
+};
+
 /// A grain of the last gather, by row.
 struct MetLiquid {
-  double volume = 0;  ///< V_i [m^3]
-  double met = 0;     ///< M_i/V_i: liquid's mass per volume at the grain [kg/m^3]; 0: dry
-  double wet = 0;     ///< omega_i
+  double volume = 0;       ///< V_i [m^3]
+  double met = 0;          ///< M_i/V_i: liquid's mass per volume at the grain [kg/m^3]; 0: dry
+  double wet = 0;          ///< omega_i
+  Vec3 velocity{0, 0, 0};  ///< mean of the liquid it meets, at n-1/2 [m/s]
 };
 
 struct Coupling {
@@ -44,11 +58,12 @@ struct Coupling {
   std::vector<Vec3> lift, drag;  ///< changes of a grain's velocity in this step [grains' rows]
   std::vector<Vec3> drawn;       ///< of a liquid particle's, by drag [liquid's rows]
   // What sums over neighbours read, by source.
-  std::vector<double> volume;
-  std::vector<std::array<double, 5>> liquid_start;
-  std::vector<std::array<double, 4>> grain_flux;
-  std::vector<std::array<double, 11>> liquid_now;
-  std::vector<std::array<double, 3>> impulse;
+  std::vector<double> volume;          ///< V_i
+  std::vector<Quads<2>> liquid_start;  ///< q, q v at n-1/2, pore volume, q v at n+1/2
+  std::vector<double> room;            ///< omega_i m_i/(rho_p sum W q)
+  std::vector<Quads<1>> flux;          ///< f = omega_i m_i/rho_p times slip, f.x
+  std::vector<Quads<2>> liquid_now;    ///< q v, q/(1 + X), q kappa rho a, q S
+  std::vector<Quads<1>> impulse;       ///< of drag on the grain, over met
 
   Coupling(std::size_t grain_set, std::size_t liquid_set, const CouplingSettings& c)
       : settings(c),
@@ -60,16 +75,32 @@ struct Coupling {
 };
 
 /// Sum of W times what a row's sources have.
-template <std::size_t n>
-std::array<double, n> gather(const PairSide& side, std::size_t row,
-                             const std::vector<std::array<double, n>>& values) {
-  std::array<double, n> sum{};
+template <int n>
+Quads<n> gather(const PairSide& side, std::size_t row, const std::vector<Quads<n>>& values) {
+  Quads<n> sum;
+  const Quads<n>* value = values.data();
   side.for_each(row, [&](std::uint32_t source, float weight) {
     const double w = weight;
-    const std::array<double, n>& value = values[source];
-    for (std::size_t c = 0; c < n; ++c) sum[c] += w * value[c];
+    for (int c = 0; c < n; ++c) sum.quad[c] += w * value[source].quad[c];
   });
   return sum;
+}
+
+/// Images move as in a mirror: what a sum over all sources has of their vectors is turned, so that
+/// nothing seems to go through ground or walls. \param firsts  where the vectors start
+template <int n>
+void turn_images(const PairSide& side, std::size_t row, const std::vector<Quads<n>>& values,
+                 std::initializer_list<int> firsts, Quads<n>& sum) {
+  for (std::size_t m = 0; m < side.n_mirrors(); ++m) {
+    if (!side.near(row, m)) continue;
+    Quads<n> images;
+    side.for_each_image(row, m, [&](std::uint32_t source, float weight, float) {
+      const double w = weight;
+      for (int c = 0; c < n; ++c) images.quad[c] += w * values[source].quad[c];
+    });
+    const Vec3 normal = side.normal(row, m);
+    for (const int first : firsts) sum.add(first, -2 * normal.dot(images.vector(first)) * normal);
+  }
 }
 
 /// rho_j/rho_0 of a liquid particle; one that has thinned out counts no less than a fiftieth.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/coupled_sets.hpp"
+#include "tests/engine/effects/coupling/coupled_sets.hpp"
 
 #include "engine/effects/arrivals.hpp"
 #include "engine/effects/fields.hpp"
