@@ -4,6 +4,7 @@
 
 #include "scenarios/assets/assets_spec.hpp"
 #include "scenarios/choices.hpp"
+#include "scenarios/fluid/fluid_spec.hpp"
 #include "scenarios/grains/discrete_spec.hpp"
 #include "scenarios/observation/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
@@ -353,6 +354,8 @@ struct Scenario {
   std::vector<InflowSpec> inflow;
   std::optional<GrainsSpec> grains;
   std::optional<MixtureSpec> mixture;  ///< absent: dry, or with basal.pore_pressure_ratio
+  std::optional<FluidSpec> fluid;      ///< without `grains`: a liquid alone
+  std::optional<CouplingSpec> coupling;
   BasalSpec basal;
   std::optional<ErosionSpec> erosion;
   Formulation formulation = Formulation::automatic;

@@ -75,8 +75,10 @@ struct MovingSet : ParticleSet {
   std::string name = "grains";
   double spacing = 1;             ///< initial particle spacing dx [m]
   double bulk_density = 1;        ///< of the mass as it was released [kg/m^3]
-  double reference_fraction = 1;  ///< volume fraction of that bulk [-]
-  double sound_speed = 0;         ///< numerical c0 at present; 0: nothing sounds [m/s]
+  double reference_fraction = 1;  ///< volume fraction of that bulk; 0 of a liquid, no grains [-]
+  /// Share of that bulk that is its own volume on maps; less than 1 where another set has the rest.
+  double filled_share = 1;
+  double sound_speed = 0;  ///< numerical c0 at present; 0: nothing sounds [m/s]
 
   std::vector<float> ax, ay, az;  ///< acceleration of the force stage, at least [n] [m/s^2]
   std::vector<Fate> fate;         ///< [n] what the ground said; see State::leaves

@@ -27,6 +27,12 @@ ParticleFrame FrameBuffers::frame(const State& s, std::size_t set) {
           -(stress->component[0][i] + stress->component[1][i] + stress->component[2][i]) / 3;
     }
   }
+  // Of a liquid: the grains around it.
+  if (const Field* grains = p.find(fields::grain_share))
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const double x = grains->component[0][i];
+      solid_fraction_[i] = x / (1 + x);
+    }
   ParticleFrame f{s.time, p.x,    p.y,      p.z,       p.vx, p.vy,
                   p.vz,   p.mass, density_, pressure_, p.id, solid_fraction_,
                   {},     {}};

@@ -55,7 +55,7 @@ PeakMaps::Width PeakMaps::width_of(const MovingSet& p) const {
   const Field* area_share = p.find(fields::area_share);
   w.area_share = area_share ? area_share->component[0].data() : nullptr;
   w.spacing = p.spacing;
-  w.volume_per_mass = 1 / p.bulk_density;
+  w.volume_per_mass = p.filled_share / p.bulk_density;
   double width_m = p.spacing;
   if (support_radius && p.size() > 0) {
     const auto& all = support_radius->component[0];
@@ -162,7 +162,7 @@ void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
   const Grid& g = settings_.grid;
   const Width& widest = widths_[set];
   const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
-  const double volume_per_mass = 1 / p.bulk_density, in_first = set == 0 ? 1 : 0;
+  const double volume_per_mass = p.filled_share / p.bulk_density, in_first = set == 0 ? 1 : 0;
   const double half_width = std::max(0.5, own_share * p.spacing * per_cell);
   double width = widest.cells;
   for (std::size_t i = 0; i < p.size(); ++i) {

@@ -40,7 +40,8 @@ void add_set(const MovingSet& set, Masses& sums, StateShares& out) {
 StateShares state_shares(std::span<const MovingSet> sets) {
   StateShares out;
   Masses sums;
-  for (const MovingSet& set : sets) add_set(set, sums, out);
+  for (const MovingSet& set : sets)
+    if (set.reference_fraction > 0) add_set(set, sums, out);
   out.dilated = sums.has_density_change ? 0 : nan_d;
   if (sums.all == 0) return out;
   if (sums.has_density_change) out.dilated = sums.dilated / sums.all;

@@ -14,7 +14,8 @@ struct MemberScalars;
 /// packing does. The same as GrainStressSettings::separation_threshold.
 inline constexpr double dilated_density_change = -0.02;
 
-/// Shares of the mass present [1]; NaN and zeros where the scene has no such field.
+/// Shares of the mass of grains that is present [1]; NaN and zeros where the scene has no such
+/// field.
 struct StateShares {
   double dilated = 0;                                             ///< NaN without a density change
   double dense = 0, transition = 0, dilute = 0, ultradilute = 0;  ///< sum 1, or all 0

@@ -93,12 +93,20 @@ std::string end_line(const Scene& scene) {
 
 /// "bulk density: 1 560 kg/m3 (grains of 2600 kg/m3, solid fraction 0.6)".
 std::string bulk_density_line(const Scene& scene) {
+  const auto& fluid = scene.medians.fluid;
+  if (!scene.medians.grains)
+    return fmt::format("bulk density: {:.0f} kg/m3 (liquid alone)",
+                       scene.description.bulk_density_kg_m3);
   const GrainsSpec& g = *scene.medians.grains;
   std::string line = fmt::format("bulk density: {:.0f} kg/m3 (grains of {:.6g} kg/m3",
                                  scene.description.bulk_density_kg_m3, g.density_kg_m3.value);
   if (scene.medians.mixture)
     line += fmt::format(", solid fraction {:.4g}, fluid of {:.6g} kg/m3", g.solid_fraction.value,
                         scene.medians.mixture->fluid_density_kg_m3.value);
+  else if (fluid)
+    line += fmt::format(", solid fraction {:.4g}, fluid of {:.6g} kg/m3 in {:.4g} % of the pores",
+                        g.solid_fraction.value, fluid->density_kg_m3.value,
+                        100 * fluid->saturation.value);
   else
     line += fmt::format(", solid fraction {:.4g}",
                         scene.description.bulk_density_kg_m3 / g.density_kg_m3.value);

@@ -13,6 +13,7 @@
 #include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/effect_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
@@ -20,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -47,6 +49,7 @@ State make_state(const Scenario& s, const ScenePlan& plan, int threads) {
   for (double m : p.mass) released.add(m);
   p.ledger.released_mass = released.value();
   if (plan.phases) split_phases(state, *plan.phases, s.grains->solid_fraction.value);
+  if (plan.liquid) lay_liquid(state, s, plan);
   return state;
 }
 
@@ -114,7 +117,7 @@ std::string joined(const std::vector<std::string>& parts) {
 
 PeakMaps make_peaks(const Scenario& s, const ScenePlan& plan, const Grid& grid) {
   PeakMapSettings settings{grid, runout_limit(plan, s.numerics.spacing_m)};
-  settings.by_set = plan.phases.has_value();
+  settings.by_set = plan.phases || plan.coupling;
   return PeakMaps(settings);
 }
 
@@ -149,13 +152,20 @@ double expected_time(const Scenario& s, const SceneInputs& inputs, const ScenePl
   return std::min(plan.end.end_time_s, last + settling * (moving + spreading));
 }
 
+/// The largest c0 of grains and liquid; 0 where nothing sounds.
+double sound_speed(const Scenario& s, const ScenePlan& plan) {
+  if (plan.formulation.depth_averaged || plan.discrete) return 0;
+  return std::max(s.grains ? plan.stress.sound_speed : 0,
+                  plan.liquid ? plan.liquid->sound_speed : 0);
+}
+
 double least_step(const Scenario& s, const ScenePlan& plan) {
   if (plan.formulation.depth_averaged)
     return 1e-6 * std::sqrt(s.numerics.spacing_m / standard_gravity);
   if (plan.discrete) return 0.01 * grain_time_step(*plan.discrete, 2 * plan.reference_speed_m_s);
   // A hundredth of the acoustic limit at v_ref: below it something has run away.
-  return 0.01 * plan.stress.courant * plan.stress.smoothing_length /
-         (1.1 * plan.stress.sound_speed);
+  return 0.01 * s.numerics.courant * smoothing_ratio * s.numerics.spacing_m /
+         (1.1 * sound_speed(s, plan));
 }
 
 /// Where mass only enters over time, the source of that counts as the release.
@@ -198,6 +208,28 @@ double other_cost(const Scenario& s, const SceneInputs& inputs, const ScenePlan&
                                          : cost.depth_averaged / cost.full_stress;
 }
 
+/// Adds an effect and notes what it brings; memory is the mean over the particles of all sets.
+void add_measured(const EffectRow& row, SceneParts& parts, EffectNote& note) {
+  std::vector<MovingSet>& sets = parts.state.sets;
+  std::vector<std::pair<std::size_t, std::size_t>> before;  // fields, bytes
+  for (const MovingSet& set : sets)
+    before.emplace_back(set.field_names().size(), set.bytes_per_particle());
+  add_effect(row, parts);
+  const std::size_t own = row.bytes_per_particle ? row.bytes_per_particle() : 0;
+  std::size_t bytes = 0, n = 0;
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    const auto names = sets[k].field_names();
+    const std::size_t grown = sets[k].bytes_per_particle() - before[k].second;
+    if (note.fields.empty())
+      note.fields.assign(names.begin() + static_cast<std::ptrdiff_t>(before[k].first), names.end());
+    // A set without a new field is not that effect's, unless it brings none at all.
+    const bool belongs = grown > 0 || sets.size() == 1 || row.of_all_sets;
+    bytes += (grown + (belongs ? own : 0)) * std::max<std::size_t>(1, sets[k].size());
+    n += std::max<std::size_t>(1, sets[k].size());
+  }
+  note.bytes_per_particle = bytes / n;
+}
+
 /// Which effects there are and why, and what each brings: its row is added to a scene of its own
 /// only where the scene calls for it.
 std::vector<EffectNote> effect_notes(const Scenario& s, SceneParts& parts) {
@@ -209,13 +241,7 @@ std::vector<EffectNote> effect_notes(const Scenario& s, SceneParts& parts) {
     note.active = called.active;
     note.reason = called.reason;
     if (!called.active || !row.add) continue;
-    const MovingSet& set = parts.state.grains();
-    const std::size_t n_fields = set.field_names().size(), before = set.bytes_per_particle();
-    add_effect(row, parts);
-    const auto names = set.field_names();
-    note.fields.assign(names.begin() + static_cast<std::ptrdiff_t>(n_fields), names.end());
-    note.bytes_per_particle = set.bytes_per_particle() - before;
-    if (row.bytes_per_particle) note.bytes_per_particle += row.bytes_per_particle();
+    add_measured(row, parts, note);
   }
   return notes;
 }
@@ -244,6 +270,7 @@ Simulation assemble(const Scenario& given, const SceneInputs& inputs, std::int64
   const Scenario numbers = with_grain_spacing(given);
   ScenePlan plan = plan_scene(numbers, inputs, member);
   plan.stress.instruction_set = plan.columns.instruction_set = instruction_set;
+  if (plan.liquid) plan.liquid->instruction_set = instruction_set;
   State state = make_state(numbers, plan, threads);
   Step step = make_step(numbers, plan, state);
   RunFacts facts{.member = member,
@@ -288,8 +315,7 @@ SceneDescription describe(const Scenario& given, const SceneInputs& inputs) {
   d.layers = plan.release.x.empty() ? plan.inflow.most_thickness_m / s.numerics.spacing_m
                                     : plan.release.layers;
   d.reference_speed_m_s = plan.reference_speed_m_s;
-  d.sound_speed_m_s =
-      plan.formulation.depth_averaged || plan.discrete ? 0 : plan.stress.sound_speed;
+  d.sound_speed_m_s = sound_speed(s, plan);
   state.grains().motion.max_speed = 0.5 * typical_speed(plan);
   state.n_steps = 1;  // the first step is shorter than those that count
   const StepLimit limit = step.limit(state);

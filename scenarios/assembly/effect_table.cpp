@@ -5,6 +5,7 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/columns/mixture.hpp"
+#include "engine/effects/coupling/effect.hpp"
 #include "engine/effects/dense/effect.hpp"
 #include "engine/effects/discrete/effect.hpp"
 #include "engine/effects/erosion/effect.hpp"
@@ -12,11 +13,13 @@
 #include "engine/effects/isolated/contacts.hpp"
 #include "engine/effects/isolated/effect.hpp"
 #include "engine/effects/kinetic/effect.hpp"
+#include "engine/effects/liquid/effect.hpp"
 #include "engine/effects/motion/effect.hpp"
 #include "engine/effects/motion/gravity.hpp"
 #include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/grains/strength_inside.hpp"
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 #include "scenarios/schema/raster_fields.hpp"
@@ -44,10 +47,17 @@ Called by_grain_key(const ScenePlan& plan, const char* key, bool given) {
 }
 
 const GrainStatesSpec* states_of(const Scenario& s) {
-  return s.grains->states ? &*s.grains->states : nullptr;
+  return s.grains && s.grains->states ? &*s.grains->states : nullptr;
 }
 
-Called bed_called(const Scenario& s, const ScenePlan&) {
+Called bed_called(const Scenario& s, const ScenePlan& plan) {
+  if (plan.liquid) {
+    const std::string liquid = liquid_bed_text(s, plan.formulation);
+    return {true, s.grains
+                      ? "always: friction_coefficient, cohesion_pa of `basal` for the grains, " +
+                            liquid + " for the liquid"
+                      : "always: " + liquid};
+  }
   if (has_two_phases(s.mixture))
     return {true,
             "always: friction_coefficient on what buoyancy leaves and cohesion_pa of `basal` for "
@@ -63,7 +73,16 @@ Called walls_called(const Scenario& s, const ScenePlan&) {
 Called grain_stress_called(const Scenario& s, const ScenePlan& plan) {
   if (columns(plan)) return {false, "not in depth_averaged"};
   if (plan.discrete) return {false, "not in discrete"};
+  if (!s.grains) return by_key("grains", false);
   return {true, "`grains`: elastic + mu(I), 3-D, full stress; " + strength_text(s)};
+}
+Called liquid_called(const Scenario& s, const ScenePlan& plan) {
+  if (!plan.liquid) return by_key("fluid", false);
+  return {true, liquid_text(s, plan)};
+}
+Called coupling_called(const Scenario& s, const ScenePlan& plan) {
+  if (!plan.coupling) return {false, s.fluid ? "no `grains`" : "no `fluid`"};
+  return {true, coupling_text(s, plan)};
 }
 Called grain_contacts_called(const Scenario& s, const ScenePlan& plan) {
   if (!plan.discrete) return by_key("formulation: discrete", false);
@@ -172,17 +191,19 @@ constexpr std::size_t grains = 0;  // index of the set
 
 // Columns bring gravity, bed, walls and motion in passes of their own.
 void add_kick(SceneParts& p) {
-  if (!columns(p.plan)) add_gravity(p.step, p.state, grains);
+  for (std::size_t set = 0; set < p.state.sets.size() && !columns(p.plan); ++set)
+    add_gravity(p.step, p.state, set);
 }
 // Grains touch ground and walls as they touch each other, in one pass.
 void add_bed(SceneParts& p) {
   if (p.plan.discrete)
     add_ground_lookup(p.step, grains, p.plan.contact);
-  else if (!columns(p.plan))
+  else if (!columns(p.plan) && p.scenario.grains)
     add_terrain_contact(p.step, grains, p.plan.contact);
 }
 void add_walls(SceneParts& p) {
-  if (!columns(p.plan) && !p.plan.discrete) add_wall_contact(p.step, grains, p.plan.contact);
+  if (!columns(p.plan) && !p.plan.discrete && p.scenario.grains)
+    add_wall_contact(p.step, grains, p.plan.contact);
 }
 void add_grains(SceneParts& p) { add_discrete_grains(p.step, p.state, grains, *p.plan.discrete); }
 void add_drift(SceneParts& p) {
@@ -190,11 +211,17 @@ void add_drift(SceneParts& p) {
     const double d = p.plan.discrete->diameter;
     return add_motion(p.step, grains, {d, d});
   }
-  const GrainStressSettings& g = p.plan.stress;
-  if (!columns(p.plan)) add_motion(p.step, grains, {g.spacing, g.smoothing_length});
+  const double dx = p.scenario.numerics.spacing_m;
+  for (std::size_t set = 0; set < p.state.sets.size() && !columns(p.plan); ++set)
+    add_motion(p.step, set, {dx, smoothing_ratio * dx});
 }
 void add_stress(SceneParts& p) {
-  p.grain_stress = add_grain_stress(p.step, p.state, grains, p.plan.stress, p.plan.release.depth);
+  const std::vector<double>& depth = p.plan.release.depth;
+  p.grain_stress = add_grain_stress(p.step, p.state, grains, p.plan.stress,
+                                    p.plan.coupling ? depth_on_contacts(p.scenario, depth) : depth);
+}
+void add_couplings(SceneParts& p) {
+  add_coupling(p.step, p.state, grains, liquid_set(p.scenario), *p.plan.coupling);
 }
 void add_collisions(SceneParts& p) { add_kinetic_theory(p.step, p.state, p.grain_stress); }
 void add_states(SceneParts& p) { add_grain_states(p.step, p.state, p.grain_stress); }
@@ -229,9 +256,13 @@ void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.pla
 
 constexpr EffectRow table[] = {
     {EffectName::gravity, always, add_kick},
+    {EffectName::grain_stress, grain_stress_called, add_stress, grain_stress_bytes_per_particle},
+    // Sorted grains before the lists across, the liquid's ground before the drag, which takes what
+    // it gave, and the grains' friction after both.
+    {EffectName::liquid, liquid_called, add_liquid_parts, liquid_bytes_per_particle},
+    {EffectName::coupling, coupling_called, add_couplings, coupling_bytes_per_particle, true},
     {EffectName::bed, bed_called, add_bed},
     {EffectName::walls, walls_called, add_walls},
-    {EffectName::grain_stress, grain_stress_called, add_stress, grain_stress_bytes_per_particle},
     {EffectName::grain_contacts, grain_contacts_called, add_grains, discrete_bytes_per_particle},
     {EffectName::kinetic_theory, kinetic_theory_called, add_collisions},
     {EffectName::states, states_called, add_states},

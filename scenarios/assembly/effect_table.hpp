@@ -39,6 +39,7 @@ struct EffectRow {
   void (*add)(SceneParts&) = nullptr;
   /// Memory besides the set's own fields [bytes per particle]; null: none.
   std::size_t (*bytes_per_particle)() = nullptr;
+  bool of_all_sets = false;  ///< that memory is one of sets that get no field, too
 };
 
 /// In the order in which they are added: passes of one stage run in this order.

@@ -4,6 +4,7 @@
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
 #include "engine/simulation/reference_speed.hpp"
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -117,14 +118,19 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
     c.discrete = true;
     c.reason =
         "`formulation: discrete`, every grain by itself; " + layers_text(c) + " of one grain each";
-  } else if (s.formulation == Formulation::full_stress) {
-    c.reason = "`formulation: full_stress`; " + layers_text(c);
+  } else if (s.formulation == Formulation::full_stress || s.fluid) {
+    c.reason = s.formulation == Formulation::full_stress
+                   ? "`formulation: full_stress`; "
+                   : "`formulation: auto`: `fluid` is a liquid in three dimensions; ";
+    c.reason += layers_text(c);
     // A release without any mass is refused as such where it is filled.
     const bool unresolved = c.release_layers > 0 && c.release_layers < unresolved_layers;
     require(!unresolved || s.numerics.accept_unresolved,
-            "formulation = full_stress (" + short_number(c.release_layers) +
+            std::string(s.fluid ? "fluid: " : "formulation = full_stress ") + "(" +
+                short_number(c.release_layers) +
                 " layers of particles resolve the release, fewer than 2: the footprint would be "
-                "wrong by up to 100 %). Use formulation: auto, a numerics.spacing_m below " +
+                "wrong by up to 100 %). Use " +
+                (s.fluid ? "" : "formulation: auto, ") + "a numerics.spacing_m below " +
                 short_number(s.numerics.spacing_m * c.release_layers / unresolved_layers) +
                 " m, or accept it with numerics.accept_unresolved: true.");
   } else if (const std::string key = column_key(s); !key.empty()) {
@@ -143,7 +149,11 @@ FormulationChoice choose_formulation(const Scenario& s, const Raster<double>& th
 }
 
 double typical_friction(const Scenario& s) {
+  if (is_liquid_alone(s)) return liquid_friction;
   const double dry = s.basal.friction_coefficient.value;
+  if (s.fluid)
+    return dry *
+           std::max(liquefied_share, weight_on_grains(s) * (1 - s.basal.pore_pressure_ratio.value));
   if (!s.mixture) return dry * (1 - s.basal.pore_pressure_ratio.value);
   const MixtureSpec& wet = *s.mixture;
   const double m = s.grains->solid_fraction.value, fluid = wet.fluid_density_kg_m3.value;
@@ -159,7 +169,7 @@ double typical_friction(const Scenario& s) {
 }
 
 bool has_both_formulations(const Scenario& s) {
-  return s.grains && s.formulation != Formulation::discrete &&
+  return s.grains && !s.fluid && s.formulation != Formulation::discrete &&
          (s.grains->friction || s.grains->friction_angle_deg) && !s.grains->states &&
          column_key(s).empty();
 }

@@ -24,6 +24,7 @@ bool knows_pore_pressure(const BasalSpec& basal) {
 std::string line_text(const Scenario& s, const Reach& reach) {
   const std::string friction = short_number(reach.friction);
   if (s.mixture) return "the energy line of a nearly liquefied mixture (friction " + friction + ")";
+  if (s.fluid) return "the energy line of a liquid (friction " + friction + ")";
   std::string text = "the energy line of the least friction drawn";
   if (knows_pore_pressure(s.basal)) text += ", less the most pore pressure";
   return text + " (" + friction + ")";

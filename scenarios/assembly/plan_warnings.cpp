@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a reader of the results has to know about the scene that was computed.
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/assembly/release_lip.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -140,7 +142,7 @@ void warn_of_inflow(const Scenario& s, const ScenePlan& plan, Warnings& out) {
 }
 
 void warn_of_states(const Scenario& s, const ScenePlan& plan, Warnings& out) {
-  if (!s.grains->states) return;
+  if (!s.grains || !s.grains->states) return;
   if (plan.formulation.depth_averaged) {
     out.emplace_back(
         "grains.states is not used: columns have no states. Use formulation: full_stress "
@@ -160,14 +162,16 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
   const double dx = s.numerics.spacing_m;
   warn_of_thin_flow(s, plan, out);
   warn_of_coarse_spacing(s, plan, out);
-  if (!plan.formulation.depth_averaged && !plan.discrete &&
+  if (s.grains && !plan.formulation.depth_averaged && !plan.discrete &&
       2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
     out.push_back("coarse grains: the smoothing length of " +
                   short_number(plan.stress.smoothing_length) +
                   " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
-                  " m: the grains act as a parameter only");
+                  " m: the grains act as a parameter only" +
+                  (plan.coupling ? ", and their drag is that of fewer than it was made for" : ""));
   warn_of_inflow(s, plan, out);
   warn_of_states(s, plan, out);
+  for (std::string& warning : liquid_warnings(s, plan)) out.push_back(std::move(warning));
   warn_of_smooth_pile(s, plan, out);
   warn_of_parabola(s, plan, out);
   if (plan.release.dropped_fraction > 0.01)

@@ -5,6 +5,7 @@
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
 #include "scenarios/assembly/formulation.hpp"
 #include "scenarios/assembly/inflow/inflow_plan.hpp"
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
@@ -145,6 +146,8 @@ double greatest_thickness(const ReleaseSpec& spec, const SceneInputs& in) {
 }
 
 double least_friction(const Scenario& s, const SceneInputs& in) {
+  // A liquid may leave its grains behind.
+  if (s.fluid) return liquid_friction;
   const double friction = drawn_bed_range(s, in, BedNumber::friction).first;
   double pore_pressure = drawn_bed_range(s, in, BedNumber::pore_pressure).second;
   // A mixture may liquefy on its way; what runs farther than this asks for more ground.

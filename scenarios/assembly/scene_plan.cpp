@@ -10,6 +10,7 @@
 #include "scenarios/assembly/grains/strength_inside.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/inflow/plan_masses.hpp"
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
 #include "scenarios/assembly/speed/expected_speed.hpp"
@@ -149,8 +150,9 @@ MixtureSettings plan_mixture(const GrainsSpec& grains, const MixtureSpec& spec) 
   return wet;
 }
 
-/// Of the grains, and of the water between them where there is a mixture.
+/// Of the grains, and of what is between them where there is a mixture or a fluid.
 double bulk_density(const Scenario& s, double solid_fraction) {
+  if (s.fluid) return wet_bulk_density(s);
   return s.mixture ? plan_mixture(*s.grains, *s.mixture).law.density(solid_fraction)
                    : s.grains->density_kg_m3.value * solid_fraction;
 }
@@ -214,7 +216,13 @@ IsolatedContactSettings plan_isolated_contacts(const Scenario& s, double speed) 
   return contacts;
 }
 
-void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed, ScenePlan& plan) {
+/// Of the grains alone as they are set down, what else is between them left out.
+double grains_bulk_density(const Scenario& s, const ScenePlan& plan) {
+  return s.fluid && s.grains ? s.grains->density_kg_m3.value * plan.reference_fraction
+                             : plan.bulk_density_kg_m3;
+}
+
+void plan_grain_stress(const Scenario& s, ScenePlan& plan) {
   const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
   const double start = start_speed(s), deepest = plan.release.max_thickness_m;
   GrainStressSettings& stress = plan.stress;
@@ -222,7 +230,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
   stress.friction_cone = s.grains->friction_cone;
   stress.spacing = dx;
   stress.smoothing_length = h;
-  stress.reference_density = plan.bulk_density_kg_m3;
+  stress.reference_density = grains_bulk_density(s, plan);
   stress.poisson_ratio = s.grains->poisson_ratio.value;
   stress.viscosity = s.numerics.artificial_viscosity;
   stress.density_diffusion = s.numerics.density_diffusion;
@@ -248,21 +256,34 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
       plan.isolated_contacts =
           plan_isolated_contacts(s, 2 * std::max(plan.reference_speed_m_s, start));
   }
+}
 
+void plan_contact(const Scenario& s, const std::vector<BasalResistance>& bed, ScenePlan& plan) {
+  const double dx = s.numerics.spacing_m, h = smoothing_ratio * dx;
+  const double start = start_speed(s), deepest = plan.release.max_thickness_m;
   ContactSettings& contact = plan.contact;
   contact.spacing = dx;
   contact.smoothing_length = h;
-  contact.reference_density = plan.bulk_density_kg_m3;
+  contact.reference_density = grains_bulk_density(s, plan);
   const double impact = std::max(plan.reference_speed_m_s, start) / (0.5 * dx);
   contact.stiffness =
       std::max(10 * standard_gravity * std::max(deepest, dx) / (dx * dx), impact * impact);
   contact.restitution = s.basal.restitution.value;
-  contact.internal_friction = stress.law.static_friction;
+  if (s.grains) contact.internal_friction = plan.stress.law.static_friction;
   contact.zones = plan.zones;
   contact.rasters = plan.rasters;
   contact.bed.clear();
   for (const BasalResistance& b : bed)
     contact.bed.push_back({b.friction_coefficient, b.pore_pressure_ratio, b.cohesion_pa});
+}
+
+void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed, ScenePlan& plan) {
+  if (s.grains) plan_grain_stress(s, plan);
+  plan_contact(s, bed, plan);
+  if (!s.fluid) return;
+  plan.liquid = plan_liquid(s, plan);
+  plan.liquid_contact = liquid_contact(s, plan);
+  if (s.grains) plan.coupling = plan_coupling(s);
 }
 
 /// How long a member may last, for a comparison of costs before it is released [s]: its end time,
@@ -304,8 +325,8 @@ bool knows_internal_friction(const DepthAveragedSettings& c) {
 }
 
 ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t member) {
-  require(s.grains.has_value(),
-          "grains: the block is missing (nothing would move). Add `grains:`.");
+  require(s.grains || s.fluid,
+          "grains: the block is missing (nothing would move). Add `grains:` or `fluid:`.");
   expect(s.domain.periodic.empty() || in.held() == whole_of(in.terrain_grid()),
          "ground that repeats itself is held whole");
   const Domain domain = make_domain(s.domain, *in.elevation);
@@ -315,7 +336,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   Raster<double> thickness = release_thickness(s.release, in);
   FormulationChoice formulation = choose_formulation(s, thickness);
   bool needs_more_ground = false;
-  if (s.formulation == Formulation::automatic && !formulation.depth_averaged) {
+  if (s.formulation == Formulation::automatic && !formulation.depth_averaged && !s.fluid) {
     const Terrain weighed = scene_ground(s, in, domain, false);
     weigh_cost(with_typical_bed(s, in), thickness, weighed, time_to_weigh(s, in, thickness),
                formulation);
@@ -333,9 +354,11 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   plan.formulation = formulation;
   plan.domain = domain;
 
-  plan.reference_fraction = s.grains->solid_fraction.value;
-  if (s.grains->states && !formulation.depth_averaged && plan.reference_fraction < dense_fraction) {
-    // A looser mass carries no load: it is deposited as the packing it settles to at once.
+  plan.reference_fraction = s.grains ? s.grains->solid_fraction.value : 0;
+  if (s.grains && s.grains->states && !s.fluid && !formulation.depth_averaged &&
+      plan.reference_fraction < dense_fraction) {
+    // A looser mass carries no load: it is deposited as the packing it settles to at once. In a
+    // fluid it is the fluid that carries it.
     for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
     plan.reference_fraction = dense_fraction;
   }

@@ -6,10 +6,12 @@
 #include "engine/core/domain.hpp"
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
+#include "engine/effects/coupling/settings.hpp"
 #include "engine/effects/dense/effect.hpp"
 #include "engine/effects/discrete/settings.hpp"
 #include "engine/effects/erosion/settings.hpp"
 #include "engine/effects/isolated/contacts.hpp"
+#include "engine/effects/liquid/settings.hpp"
 #include "engine/effects/phases/settings.hpp"
 #include "engine/particles/release.hpp"
 #include "scenarios/assembly/formulation.hpp"
@@ -35,6 +37,9 @@ struct ScenePlan {
   BedRasters rasters;                                        ///< over the zones
   GrainStressSettings stress;                                ///< full_stress
   ContactSettings contact;                                   ///< full_stress
+  std::optional<LiquidSettings> liquid;                      ///< where there is `fluid`
+  ContactSettings liquid_contact;                            ///< of it
+  std::optional<CouplingSettings> coupling;                  ///< where grains lie in it
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   std::optional<DiscreteSettings> discrete;                  ///< grains one by one
   double reference_fraction = 0.6;         ///< solid fraction of the mass as it is set down

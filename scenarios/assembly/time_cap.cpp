@@ -3,6 +3,7 @@
 
 #include "engine/core/constants.hpp"
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -27,9 +28,12 @@ double slowest_speed(const Scenario& s, const SceneInputs& in, double thickness,
   const BasalSpec& bed = s.basal;
   const double xi = drawn_bed_range(s, in, BedNumber::turbulence).first;
   if (std::isfinite(xi)) speed = std::min(speed, std::sqrt(xi * thickness * gentle_slope));
-  if (bed.viscosity_pa_s && bed.viscosity_pa_s->value > 0)
-    speed = std::min(speed, density * standard_gravity * gentle_slope * thickness * thickness /
-                                (3 * bed.viscosity_pa_s->value));
+  const double viscosity = bed.viscosity_pa_s   ? bed.viscosity_pa_s->value
+                           : is_liquid_alone(s) ? plain_viscosity(*s.fluid)
+                                                : 0;
+  if (viscosity > 0)
+    speed = std::min(
+        speed, density * standard_gravity * gentle_slope * thickness * thickness / (3 * viscosity));
   return speed;
 }
 

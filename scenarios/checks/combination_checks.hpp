@@ -10,6 +10,7 @@ namespace sturz {
 
 void check_terrain_and_release(const Scenario&, std::vector<Problem>&);
 void check_material(const Scenario&, std::vector<Problem>&);
+void check_fluid(const Scenario&, std::vector<Problem>&);
 void check_discrete(const Scenario&, std::vector<Problem>&);
 void check_structures(const Scenario&, std::vector<Problem>&);
 void check_flow(const Scenario&, std::vector<Problem>&);

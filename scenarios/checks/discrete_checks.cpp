@@ -35,6 +35,7 @@ void check_discrete(const Scenario& s, Problems& problems) {
   refuse(s.grains && asks_for_internal_friction(s.grains->earth_pressure), "grains.earth_pressure",
          columns, problems);
   refuse(s.mixture.has_value(), "mixture", columns, problems);
+  refuse(s.fluid.has_value(), "fluid", stress, problems);
   // That of a material goes with it: the file does not hold it by itself.
   refuse(b.turbulent_coefficient_m_s2 && s.material.empty(), "basal.turbulent_coefficient_m_s2",
          columns, problems);

@@ -27,10 +27,16 @@ std::vector<std::string> idle_paths(const Scenario& s, bool depth_averaged, bool
       paths.emplace_back("grains.diameter_m");
     return paths;
   }
+  // The bed's friction is the grains', and a liquid by itself has none to take it.
+  if (s.fluid && !s.grains)
+    return {"basal.friction_coefficient", "basal.pore_pressure_ratio", "basal.cohesion_pa",
+            "basal.zones", "numerics.artificial_viscosity"};
   if (!depth_averaged) {
     // Without rate dependence the inertial number, and with it the diameter, has no say; collisions
-    // and contacts have.
-    if (s.grains && s.grains->friction_angle_deg && !s.grains->states) return {"grains.diameter_m"};
+    // and contacts have, and drag.
+    const bool drags = s.fluid && !(s.coupling && s.coupling->drag_diameter_m);
+    if (s.grains && s.grains->friction_angle_deg && !s.grains->states && !drags)
+      return {"grains.diameter_m"};
     return {};
   }
   std::vector<std::string> paths{"grains.friction_cone",

@@ -15,14 +15,16 @@ using Problems = std::vector<Problem>;
 
 /// Isotropic columns slide on the bed and know no friction inside.
 bool needs_internal_friction(const Scenario& s) {
-  return s.formulation == Formulation::full_stress ||
+  return s.formulation == Formulation::full_stress || s.fluid ||
          asks_for_internal_friction(s.grains->earth_pressure);
 }
 
 void check_grains(const Scenario& s, Problems& problems) {
   if (!s.grains) {
-    problems.push_back(
-        {"grains", "grains (missing: nothing would move). Add a grains block or a material."});
+    if (!s.fluid)
+      problems.push_back({"grains",
+                          "grains (missing: nothing would move). Add a grains block or a material, "
+                          "or a fluid."});
     return;
   }
   const auto& g = *s.grains;
@@ -34,7 +36,7 @@ void check_grains(const Scenario& s, Problems& problems) {
     problems.push_back(
         {"grains",
          "grains (no internal friction, which " +
-             std::string(s.formulation == Formulation::full_stress
+             std::string(s.formulation == Formulation::full_stress || s.fluid
                              ? "full_stress needs). "
                              : "grains.earth_pressure: " +
                                    std::string(to_string(s.grains->earth_pressure)) + " needs). ") +
@@ -105,7 +107,7 @@ void check_formulation(const Scenario& s, Problems& problems) {
                                     "Remove it or set formulation: depth_averaged."});
   };
   const auto& b = s.basal;
-  if (!s.material.empty())
+  if (!s.material.empty() && !s.fluid)
     problems.push_back({"material", shown(s, "material") +
                                         " (formulation is full_stress; its priors are those of "
                                         "columns). Remove it or set formulation: "

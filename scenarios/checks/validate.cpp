@@ -19,6 +19,7 @@ std::vector<Problem> validate(const Scenario& scenario) {
   }
   check_terrain_and_release(scenario, problems);
   check_material(scenario, problems);
+  check_fluid(scenario, problems);
   check_discrete(scenario, problems);
   check_structures(scenario, problems);
   check_bed(scenario, problems);

@@ -33,6 +33,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   schema_rows::add_site_blocks(blocks);
   schema_rows::add_material_blocks(blocks);
   schema_rows::add_discrete_blocks(blocks);
+  schema_rows::add_fluid_blocks(blocks);
   schema_rows::add_structure_blocks(blocks);
   schema_rows::add_bed_field_blocks(blocks);
   schema_rows::add_erosion_blocks(blocks);
@@ -94,8 +95,6 @@ std::vector<std::string> names_in_block(const std::string& block) {
 
 std::span<const LaterKey> later_keys() {
   static const std::vector<LaterKey> keys = {
-      {"fluid", "a pore fluid with particles of its own"},
-      {"coupling", "drag between fluid and grains"},
       {"prior", "ready-made distributions by material"},
   };
   return keys;

@@ -209,6 +209,38 @@ TEST(ScenarioFile, ShippedCasesAreValidAndResolveTheirSource) {
   EXPECT_GE(n_cases, 2);
 }
 
+TEST(ScenarioFile, ConditionsOfOneCaseDifferInOneBlockOrNumber) {
+  const auto read = [](const std::string& name) {
+    return read_scenario(STURZ_SOURCE_DIR "/scenarios/cases/" + name);
+  };
+  const Scenario dry = read("shuicheng/condition_1.yaml");
+  const auto same_but_for = [&](Scenario s, auto undo) {
+    undo(s);
+    s.title = dry.title;
+    EXPECT_EQ(s, dry);
+  };
+  const auto no_pressure = [](Scenario& s) { s.basal.pore_pressure_ratio = 0; };
+  const auto no_slurry = [](Scenario& s) { s.fluid.reset(), s.coupling.reset(); };
+  same_but_for(read("shuicheng/condition_2.yaml"), no_pressure);
+  same_but_for(read("shuicheng/condition_3.yaml"), no_slurry);
+  same_but_for(read("shuicheng/condition_4.yaml"), [&](Scenario& s) {
+    no_pressure(s);
+    no_slurry(s);
+  });
+  // 100 kg of gravel; 0, 36.3 and 84.5 kg of slurry.
+  const double slurry[] = {0, 36.3, 84.5};
+  for (int k = 0; k < 3; ++k) {
+    const Scenario s = read("flume/flume_" + std::to_string(k + 1) + ".yaml");
+    const double volume = s.release.volume_m3->value, fraction = s.grains->solid_fraction.value;
+    EXPECT_NEAR(2600 * fraction * volume, 100, 0.05);
+    ASSERT_EQ(s.fluid.has_value(), k > 0);
+    if (!s.fluid) continue;
+    const FluidSpec& fluid = *s.fluid;
+    EXPECT_NEAR(fluid.density_kg_m3.value * fluid.saturation.value * (1 - fraction) * volume,
+                slurry[k], 0.05);
+  }
+}
+
 TEST(ScenarioFile, ZhangjiawanCarriesTheNumbersOfItsTable) {
   const Scenario s = read_scenario(STURZ_SOURCE_DIR "/scenarios/cases/zhangjiawan/scenario.yaml");
   EXPECT_EQ(s.grains->density_kg_m3, Uncertain(2400));

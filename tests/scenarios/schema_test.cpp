@@ -157,8 +157,8 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
               ElementsAre("static", "dynamic", "inertial_number_scale"));
   EXPECT_THAT(names_in_block(""),
               ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture",
-                          "basal", "formulation", "erosion", "numerics", "domain", "ensemble",
-                          "hazard", "gauges", "observation", "assets"));
+                          "fluid", "coupling", "basal", "formulation", "erosion", "numerics",
+                          "domain", "ensemble", "hazard", "gauges", "observation", "assets"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

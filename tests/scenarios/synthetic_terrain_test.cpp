@@ -192,6 +192,21 @@ TEST(SyntheticTerrain, FlumeEndsOnALevelPlate) {
   EXPECT_NEAR(bed.at(5, top), (3 * std::cos(a) - bed.grid.x_center(top)) * std::tan(a), 1e-12);
 }
 
+TEST(SyntheticTerrain, AFlumesSideWallsEndWithItsFloor) {
+  const Raster<double> open = make_synthetic({"flume", 0.02, {}}).bed;
+  const Raster<double> bed =
+      make_synthetic({"flume", 0.02, {{"channel_width_m", 0.5}, {"wall_height_m", 0.4}}}).bed;
+  const auto rise = [&](double x, double y) {
+    const int r = bed.grid.row_of(y), c = bed.grid.col_of(x);
+    return bed.at(r, c) - open.at(r, c);
+  };
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_EQ(rise(1, side * 0.24), 0);
+    EXPECT_NEAR(rise(1, side * 0.28), 0.4, 1e-12);
+    EXPECT_EQ(rise(3, side * 0.28), 0) << "the plate is open";
+  }
+}
+
 TEST(SyntheticTerrain, DebrisFlumeIsAChuteAnArcAndAPad) {
   const auto scene = make_synthetic({"debris_flume", 0.1, {}});
   const Raster<double>& bed = scene.bed;

@@ -15,7 +15,8 @@ namespace {
 /// Bulk volume of a particle; of a mixture that of its grains and water.
 class BulkVolume {
  public:
-  explicit BulkVolume(const MovingSet& p) : mass_(p.mass.data()), per_kg_(1 / p.bulk_density) {
+  explicit BulkVolume(const MovingSet& p)
+      : mass_(p.mass.data()), per_kg_(p.filled_share / p.bulk_density) {
     if (const Field* solids = p.find(fields::solids_volume)) solids_ = solids->component[0].data();
     if (const Field* water = p.find(fields::water_volume)) water_ = water->component[0].data();
   }

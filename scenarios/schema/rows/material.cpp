@@ -203,6 +203,7 @@ void add_material_keys(std::vector<KeyInfo>& keys) {
   add_states(keys);
   add_discrete_keys(keys);
   add_mixture_keys(keys);
+  add_fluid_keys(keys);
   add_basal(keys);
   keys.push_back(
       choice_key(scene, &Scenario::formulation, "formulation",

@@ -164,6 +164,7 @@ BlockInfo optional_block(const char* path, const char* help, const Block<Owner>&
 void add_site_keys(std::vector<KeyInfo>&);         ///< title, terrain, release
 void add_material_keys(std::vector<KeyInfo>&);     ///< grains, basal, formulation
 void add_discrete_keys(std::vector<KeyInfo>&);     ///< grains.discrete: within grains
+void add_fluid_keys(std::vector<KeyInfo>&);        ///< fluid, coupling: after mixture
 void add_structure_keys(std::vector<KeyInfo>&);    ///< terrain.dams, .buildings: within terrain
 void add_bed_field_keys(std::vector<KeyInfo>&);    ///< basal.samosat, basal.rasters: within basal
 void add_erosion_keys(std::vector<KeyInfo>&);      ///< erosion
@@ -176,6 +177,7 @@ void add_asset_keys(std::vector<KeyInfo>&);        ///< assets
 void add_site_blocks(std::vector<BlockInfo>&);
 void add_material_blocks(std::vector<BlockInfo>&);
 void add_discrete_blocks(std::vector<BlockInfo>&);
+void add_fluid_blocks(std::vector<BlockInfo>&);
 void add_structure_blocks(std::vector<BlockInfo>&);
 void add_bed_field_blocks(std::vector<BlockInfo>&);
 void add_erosion_blocks(std::vector<BlockInfo>&);

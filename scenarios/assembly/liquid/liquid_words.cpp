@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
+#include "scenarios/assembly/scene_plan.hpp"
+#include "scenarios/schema/number_text.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace sturz {
+namespace {
+
+std::string law_text(const FluidSpec& fluid) {
+  const HerschelBulkley law = liquid_law(fluid);
+  const std::string viscosity =
+      law.index == 1 ? "viscosity " + short_number(law.consistency) + " Pa s"
+                     : "K " + short_number(law.consistency) + ", n " + short_number(law.index);
+  if (law.newtonian()) return "Newton's law, " + viscosity;
+  return (law.index == 1 ? "Bingham's law, " : "Herschel and Bulkley's law, ") + viscosity +
+         ", yield stress " + short_number(law.yield_stress) + " Pa";
+}
+
+/// Drag over slip of slow grains [kg/(m3 s)]: Ergun where they lie dense, Wen and Yu where they do
+/// not, with the switch of Huilin and Gidaspow (docs/physics.md A.6).
+double slow_drag(double alpha, const CouplingSettings& c) {
+  const double pores = 1 - alpha, per_area = c.viscosity / (c.drag_diameter * c.drag_diameter);
+  const double ergun = 150 * alpha * alpha * per_area / pores;
+  const double wen_yu = 18 * alpha * per_area * std::pow(pores, -2.65);
+  const double dilute = std::atan(150 * 1.75 * (0.2 - alpha)) / std::numbers::pi + 0.5;
+  return c.drag_multiplier * ((1 - dilute) * ergun + dilute * wen_yu);
+}
+
+/// Within which a slow slip falls to 1/e [s].
+double slip_time(const Scenario& s, const CouplingSettings& c) {
+  const double alpha = s.grains->solid_fraction.value;
+  return 1 / (slow_drag(alpha, c) *
+              (1 / (alpha * c.grain_density) + 1 / (liquid_share(s) * c.liquid_density)));
+}
+
+std::string pore_pressure_warning(const Scenario& s) {
+  const std::string key =
+      "basal.pore_pressure_ratio = " + short_number(s.basal.pore_pressure_ratio.value);
+  if (!has_buoyancy(s))
+    return "pore pressure is counted twice: " + key +
+           " lies beside a fluid that drives the grains (coupling.scheme: paper, as published). It "
+           "is no prediction";
+  return key +
+         " lies beside a fluid that fills the pores: the fluid carries its share of the grains "
+         "already, so that this counts as excess over its pressure. Use 0 where it was meant as "
+         "the whole pore pressure";
+}
+
+}  // namespace
+
+std::string liquid_text(const Scenario& s, const ScenePlan& plan) {
+  std::string text = "`fluid`: " + law_text(*s.fluid) + "; " +
+                     short_number(plan.formulation.release_layers) +
+                     " layers at release; numerical sound speed " +
+                     short_number(std::round(plan.liquid->sound_speed)) + " m/s";
+  if (plan.liquid->least_sound_speed < plan.liquid->sound_speed)
+    text += ", down to " + short_number(std::round(plan.liquid->least_sound_speed)) +
+            " while it is slow";
+  return text;
+}
+
+std::string liquid_bed_text(const Scenario& s, const FormulationChoice& formulation) {
+  const std::string bed(to_string(liquid_bed(s, formulation)));
+  if (s.fluid->bed != FluidBed::automatic) return "`fluid.bed: " + bed + "`";
+  return "`fluid.bed: auto`: " + bed + ", " + short_number(formulation.layers) + " layers";
+}
+
+std::string coupling_text(const Scenario& s, const ScenePlan& plan) {
+  const CouplingSettings& c = *plan.coupling;
+  const double h = c.smoothing_length, d = s.grains->diameter_m.value;
+  std::string text = s.coupling ? "`coupling`: " : "`grains` and `fluid`: ";
+  text += c.buoyancy ? "drag and buoyancy" : "scheme: paper, drag without buoyancy";
+  text += "; fluid in " + short_number(100 * s.fluid->saturation.value) + " % of the pores";
+  text += "; drag of grains of " + short_number(c.drag_diameter) + " m";
+  if (s.coupling && s.coupling->drag_diameter_m)
+    text += " (coupling.drag_diameter_m; grains.diameter_m is " + short_number(d) + ")";
+  if (c.drag_multiplier != 1) text += " times " + short_number(c.drag_multiplier);
+  text += ": a slow slip dies out within " + short_number(slip_time(s, c)) + " s";
+  return text + "; smoothing length " + short_number(h / d) + " grain diameters";
+}
+
+std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& plan) {
+  std::vector<std::string> out;
+  if (!plan.coupling) return out;
+  const CouplingSettings& c = *plan.coupling;
+  if (c.drag_multiplier != 1)
+    out.push_back("the drag between grains and liquid is multiplied by " +
+                  short_number(c.drag_multiplier) + " (coupling.drag_multiplier): 1 is physics");
+  if (!c.buoyancy)
+    out.emplace_back(
+        "grains without buoyancy (coupling.scheme: paper): in a fluid they bear their whole weight "
+        "on each other and on the bed");
+  if (s.basal.pore_pressure_ratio.value > 0 && (!c.buoyancy || s.fluid->saturation.value >= 1))
+    out.push_back(pore_pressure_warning(s));
+  if (liquid_law(*s.fluid).index != 1)
+    out.push_back("the drag takes the fluid's viscosity at a shear rate of 1 1/s, " +
+                  short_number(c.viscosity) + " Pa s (fluid.index)");
+  return out;
+}
+
+}  // namespace sturz

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Blocks `fluid` and `coupling`: a liquid in three dimensions, by itself or among grains.
+#pragma once
+
+#include "scenarios/choices.hpp"
+#include "scenarios/uncertain.hpp"
+
+#include <optional>
+
+namespace sturz {
+
+/// A liquid with particles of its own; full_stress only. Its law follows from what is given:
+/// Newton's by a viscosity, Bingham's by a yield stress beside it, Herschel and Bulkley's by
+/// consistency and index.
+struct FluidSpec {
+  Uncertain density_kg_m3{1000};
+  std::optional<Uncertain> viscosity_pa_s;
+  std::optional<Uncertain> yield_stress_pa;
+  std::optional<Uncertain> consistency_pa_sn;  ///< K of tau = tau_y + K rate^n
+  std::optional<Uncertain> index;              ///< n of it
+  Uncertain saturation{1};                     ///< share of the grains' pores that it fills
+  FluidBed bed = FluidBed::automatic;
+  double artificial_viscosity = 0.02;  ///< alpha_v of B.4, of the liquid
+  bool operator==(const FluidSpec&) const = default;
+};
+
+/// What grains and liquid do to each other; absent: the defaults where a scene has both.
+struct CouplingSpec {
+  CouplingScheme scheme = CouplingScheme::physical;
+  std::optional<Uncertain> drag_diameter_m;  ///< absent: grains.diameter_m
+  Uncertain drag_multiplier{1};              ///< 1 is physics
+  bool operator==(const CouplingSpec&) const = default;
+};
+
+}  // namespace sturz

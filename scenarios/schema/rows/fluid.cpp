@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of a liquid in three dimensions and of what ties it to grains: fluid, coupling.
+#include "scenarios/schema/rows/rows.hpp"
+
+namespace sturz::schema_rows {
+namespace {
+
+constexpr auto fluid = blocks::at<&Scenario::fluid>;
+constexpr auto coupling = blocks::at<&Scenario::coupling>;
+
+void add_liquid(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  const auto add = [&keys](auto member, const Row& row) {
+    keys.push_back(key(fluid, member, row));
+  };
+  const auto add_positive = [&keys](auto member, const Row& row) {
+    keys.push_back(above_min(key(fluid, member, row)));
+  };
+  add(&FluidSpec::density_kg_m3, {"fluid.density_kg_m3", uncertain, "kg m-3", 500, 2500,
+                                  "Density of the liquid itself: water with its fines, or mud."});
+  add_positive(&FluidSpec::viscosity_pa_s,
+               {"fluid.viscosity_pa_s", uncertain, "Pa s", 0, 1e6,
+                "Viscosity; clear water has 0.001. By itself Newton's law, with yield_stress_pa "
+                "Bingham's."});
+  add(&FluidSpec::yield_stress_pa,
+      {"fluid.yield_stress_pa", uncertain, "Pa", 0, 1e6,
+       "Shear stress that the liquid bears at rest, with viscosity_pa_s or consistency_pa_sn."});
+  add_positive(&FluidSpec::consistency_pa_sn, {"fluid.consistency_pa_sn", uncertain, "Pa s", 0, 1e6,
+                                               "K of Herschel and Bulkley's law, shear stress = "
+                                               "yield_stress_pa + K rate^index in SI units, "
+                                               "in the place of viscosity_pa_s."});
+  add(&FluidSpec::index, {"fluid.index", uncertain, "1", 0.1, 1,
+                          "n of Herschel and Bulkley's law; below 1 the liquid thins with shear."});
+  add(&FluidSpec::saturation,
+      {"fluid.saturation", uncertain, "1", 0.05, 1,
+       "Share of the grains' pores that the liquid fills at the start. More liquid than pores is a "
+       "lower grains.solid_fraction."});
+  keys.push_back(choice_key(
+      fluid, &FluidSpec::bed, "fluid.bed",
+      "no_slip: the bed holds the liquid, whose shear beside it is resolved; film: drag of a flow "
+      "too thin for that, by its depth; slip: no drag; auto: no_slip where at least four layers "
+      "resolve release and expected deposit, else film."));
+  add(&FluidSpec::artificial_viscosity,
+      {"fluid.artificial_viscosity", number, "1", 0, 1,
+       "Strength of the artificial viscosity of the liquid, which stops ringing; the rest of "
+       "`numerics` holds for grains and liquid alike."});
+}
+
+}  // namespace
+
+void add_fluid_keys(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  add_liquid(keys);
+  keys.push_back(choice_key(
+      coupling, &CouplingSpec::scheme, "coupling.scheme",
+      "physical: drag, and buoyancy by the liquid's pressure; paper: drag alone, as Gao and others "
+      "computed, which with basal.pore_pressure_ratio counts the pore pressure twice."));
+  keys.push_back(above_min(key(coupling, &CouplingSpec::drag_diameter_m,
+                               {"coupling.drag_diameter_m", uncertain, "m", 0, 100,
+                                "Grain diameter of the drag, that of the fines where they set the "
+                                "permeability; grains.diameter_m when absent."})));
+  keys.push_back(above_min(key(coupling, &CouplingSpec::drag_multiplier,
+                               {"coupling.drag_multiplier", uncertain, "1", 0, 1e6,
+                                "Factor on the drag. 1 is physics, and any other is warned of in "
+                                "every result."})));
+}
+
+void add_fluid_blocks(std::vector<BlockInfo>& blocks) {
+  blocks.push_back(optional_block(
+      "fluid",
+      "A liquid with particles of its own, alone or in the pores of `grains`; full_stress.",
+      fluid));
+  blocks.push_back(optional_block(
+      "coupling", "What grains and liquid do to each other; without it the defaults.", coupling));
+}
+
+}  // namespace sturz::schema_rows

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// A liquid in three dimensions as its users meet it: alone, and in the pores of grains.
+#include "tests/app/app_fixture.hpp"
+
+#include <cmath>
+
+namespace sturz::test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// 300 m3 on a slope of 15 degrees, 700 particles of each set, three seconds.
+constexpr const char* slope = R"(title: Small flow
+terrain: {synthetic: {plane: {cell_size_m: 2, slope_deg: 15, length_m: 100, width_m: 50}}}
+release: {box: {x_m: [-30, -20], y_m: [-5, 5]}, thickness_m: 3}
+numerics: {spacing_m: 0.75, end_time_s: 3}
+hazard: {cell_size_m: 2, thickness_m: [0.5]}
+ensemble: {members: 2, design: latin_hypercube, seed: 1}
+)";
+constexpr const char* mud =
+    "fluid: {density_kg_m3: 1500, yield_stress_pa: {uniform: [200, 400]}, viscosity_pa_s: 20}\n";
+constexpr const char* slurry = R"(grains:
+  {density_kg_m3: 2600, diameter_m: 0.1, solid_fraction: {uniform: [0.50, 0.55]},
+   friction_angle_deg: 30}
+fluid: {density_kg_m3: 1100, viscosity_pa_s: 0.01}
+coupling: {drag_diameter_m: 0.005}
+basal: {friction_coefficient: 0.5}
+)";
+
+class Fluid : public App {
+ protected:
+  Ended run(const std::string& scene, const std::string& out, const std::string& threads) const {
+    write("flow.yaml", scene);
+    return sturz({"run", path("flow.yaml"), "-o", path(out), "--json", "--threads", threads,
+                  "--particles", "1"});
+  }
+  /// Runs on one and on two threads. \return the scalars
+  nlohmann::json scalars_of(const std::string& scene) const {
+    const Ended one = run(scene, "one", "1"), two = run(scene, "two", "2");
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+    const nlohmann::json a = event(one, "done"), b = event(two, "done");
+    EXPECT_EQ(a.value("state_hash", "a"), b.value("state_hash", "b"));
+    EXPECT_EQ(a.value("outcome", ""), "out_of_time") << a.value("reason", "");
+    return a.at("scalars");
+  }
+};
+
+TEST_F(Fluid, AMudFlowRunsAndKeepsItsMass) {
+  const nlohmann::json m = scalars_of(std::string(slope) + mud);
+  EXPECT_NEAR(m.value("released_mass_kg", 0.0), 1500 * 300, 1e-6 * 1500 * 300);
+  EXPECT_LE(std::abs(m.value("mass_error", 1.0)), 1e-12);
+  EXPECT_GT(m.value("com_travel_m", 0.0), 1);
+  EXPECT_LT(m.value("max_speed_m_s", 1e9), 30);
+  EXPECT_FALSE(m.at("energy_residual").is_null());
+  EXPECT_TRUE(m.at("solid_runout_m").is_null()) << "one material has no phases";
+  EXPECT_TRUE(exists("one/particles/particles.pvd"));
+}
+
+TEST_F(Fluid, ASaturatedSlideRunsAndTellsItsMaterialsApart) {
+  const nlohmann::json m = scalars_of(std::string(slope) + slurry);
+  const double fraction = 0.525, wet = 300 * (fraction * 2600 + (1 - fraction) * 1100);
+  EXPECT_NEAR(m.value("released_mass_kg", 0.0), wet, 1e-6 * wet);
+  for (const char* error : {"mass_error", "solids_error", "water_error"})
+    EXPECT_LE(std::abs(m.value(error, 1.0)), 1e-12) << error;
+  for (const char* extent : {"solid_runout_m", "liquid_runout_m", "max_solid_thickness_m",
+                             "max_liquid_thickness_m", "drag_loss_fraction"})
+    EXPECT_GT(m.value(extent, -1.0), 0) << extent;
+  const double both = m.value("max_thickness_m", 0.0);
+  EXPECT_LT(m.value("max_solid_thickness_m", 1e9), 0.75 * both);
+  EXPECT_THAT(read("one/particles/particles.pvd"), HasSubstr("liquid"));
+}
+
+TEST_F(Fluid, MapsOfAnEnsembleShowBoth) {
+  write("flow.yaml", std::string(slope) + slurry);
+  const Ended ended = sturz({"ensemble", path("flow.yaml"), "-o", path("out")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_TRUE(exists("out/hazard/solid_thickness_mean_m.tif"));
+  EXPECT_TRUE(exists("out/hazard/liquid_thickness_exceedance_0.5_m.tif"));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("Thickness of liquid alone"));
+}
+
+TEST_F(Fluid, WhatIsNotPhysicsIsSaidByDescribeAndEveryResult) {
+  write("flow.yaml", std::string(slope) + slurry);
+  const Ended plain = sturz({"describe", path("flow.yaml")});
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_THAT(plain.out, HasSubstr("effect grains in liquid: on (`coupling`: drag and buoyancy"));
+  EXPECT_THAT(plain.out + plain.err, Not(HasSubstr("counted twice")));
+  const std::vector<std::string> as_published = {
+      "--set", "coupling.scheme=paper",      "--set", "basal.pore_pressure_ratio=0.2",
+      "--set", "coupling.drag_multiplier=5", "--set", "numerics.end_time_s=0.1"};
+  std::vector<std::string> words{"run", path("flow.yaml"), "-o", path("paper")};
+  words.insert(words.end(), as_published.begin(), as_published.end());
+  const Ended paper = sturz(words);
+  ASSERT_EQ(paper.exit_code, 0) << paper.err;
+  for (const char* said : {"counted twice", "multiplied by 5"}) {
+    EXPECT_THAT(paper.out + paper.err, HasSubstr(said));
+    EXPECT_THAT(read("paper/report.html"), HasSubstr(said));
+  }
+}
+
+TEST_F(Fluid, ColumnsAreRefusedWithLineAndCure) {
+  write("flow.yaml", std::string(slope) + mud + "formulation: depth_averaged\n");
+  const Ended ended = sturz({"describe", path("flow.yaml")});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("flow.yaml:7"));
+  EXPECT_THAT(ended.err, HasSubstr("only full_stress knows a liquid"));
+  EXPECT_THAT(ended.err, HasSubstr("basal.viscosity_pa_s"));
+}
+
+}  // namespace
+}  // namespace sturz::test
