@@ -100,6 +100,12 @@ struct BoundaryView {
   /// What analytic walls add, order xx yy zz xy yz zx; null where there are none.
   const float* moment[6];    ///< to the moment matrix [-]
   const float* gradient[6];  ///< to the velocity gradient before correction [1/s]
+  /// Whether the ground holds what lies on it (a liquid): see sweep/no_slip_sums.hpp. Read by the
+  /// dense sweep.
+  bool no_slip = false;
+  /// 0..1: how much of the artificial viscosity stands for the viscosity of a liquid that the
+  /// ground holds. The rest, which is there for noise, slips along the ground.
+  float held_viscosity = 0;
 };
 
 /// How long a sweep spends on groups in which some grain is dispersed or has a dispersed neighbour.

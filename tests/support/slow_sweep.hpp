@@ -48,10 +48,16 @@ struct SlowRates {
   bool corrected = true;  ///< false where the moment matrix is too poor and B = I
 };
 
+/// A bed that holds what lies on it, see BoundaryView.
+struct BedImages {
+  bool no_slip = false;
+  double held_viscosity = 0;
+};
+
 /// B.2, B.3, B.4 over all pairs. \param images extra particles that are neighbours only;
 /// \param clouds  the gradient's correction as kinetic groups have it
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                                   const std::vector<SlowParticle>& images, const SweepConstants&,
-                                  bool clouds = false);
+                                  bool clouds = false, const BedImages& bed = {});
 
 }  // namespace sturz::test

@@ -176,10 +176,12 @@ struct Prepared {
 }  // namespace
 
 SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
-                    InstructionSet isa, const Domain& domain) {
+                    InstructionSet isa, const Domain& domain, const BedImages& bed) {
   Prepared p(particles, constants, isa, domain);
-  sweeps(isa).dense(p.view(), constants, p.rooms->boundary(p.ground), p.rooms->output(), 0,
-                    p.lists.n_groups());
+  BoundaryView boundary = p.rooms->boundary(p.ground);
+  boundary.no_slip = bed.no_slip;
+  boundary.held_viscosity = static_cast<float>(bed.held_viscosity);
+  sweeps(isa).dense(p.view(), constants, boundary, p.rooms->output(), 0, p.lists.n_groups());
   return p.results();
 }
 
