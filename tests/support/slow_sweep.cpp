@@ -78,7 +78,7 @@ struct HeldImage {
 
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                                   const std::vector<SlowParticle>& images, const SweepConstants& c,
-                                  bool clouds, const BedImages& bed) {
+                                  bool clouds, bool no_slip) {
   std::vector<SlowRates> out(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const SlowParticle& a = particles[i];
@@ -102,8 +102,9 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       const double share = 0.5 * (a.viscosity_share + b.viscosity_share);
       const double damped = share * c.viscosity * c.sound_speed * c.h * c.reference_density /
                             (distance * distance + 0.01 * c.h * c.h);
-      if (bed.no_slip) {
-        const HeldImage held{a, b, r, image, grad, damped, bed.held_viscosity};
+      if (no_slip) {
+        const double holding = 0.5 * (a.held_viscosity + b.held_viscosity) / share;
+        const HeldImage held{a, b, r, image, grad, damped, holding};
         image_gradient += held.gradient(), image_moment += held.moment();
         rates.from_ground += b.volume / density_a * held.force();
         return;

@@ -22,9 +22,10 @@
 /// same on both, and are the traction of the bed.
 ///
 /// Artificial viscosity, with S = (v_i + v_j).r_t, T = (v_i - v_j).r_t, N = (v_i + v_j).n r'_n:
-///   for noise   k (T + N)/(r'^2 + 0.01 h^2) d': the bed slips, or its friction would be that of
+///   for noise   (k - k_h) (T + N)/(r'^2 + 0.01 h^2) d': the bed slips, or its friction would be
+///   that of
 ///               the numerical viscosity and not of the liquid
-///   held        k V_j t^3 (S r_t + N r'_n n)/(r'^2 + 0.01 h^2): the share of it that stands for
+///   held        k_h V_j t^3 (S r_t + N r'_n n)/(r'^2 + 0.01 h^2): the share of it that stands for
 ///   the
 ///               liquid's own viscosity. Without it the bed's traction would lack that share. It is
 ///               also what damps the velocity that alternates from layer to layer, which gradients
@@ -42,7 +43,7 @@ class NoSlipSums {
  public:
   NoSlipSums(const DenseSelf& self, const GroundRows& ground, const BoundaryView& wall, int lane,
              std::size_t at)
-      : i_(self), distance_(Lanes::load(ground.distance + lane)), held_(wall.held_viscosity) {
+      : i_(self), distance_(Lanes::load(ground.distance + lane)) {
     n_[0] = Lanes::load(wall.nx + at), n_[1] = Lanes::load(wall.ny + at);
     n_[2] = Lanes::load(wall.nz + at);
     sums_.clear();
@@ -50,9 +51,9 @@ class NoSlipSums {
   }
 
   /// Adds one neighbour. One beyond the reach of all lanes adds zero.
-  /// \param viscosity  as in DenseSums::add
+  /// \param viscosity  as in DenseSums::add \param held  the part of it that the bed holds
   void add(const NeighborRecord& j, const GroundRecord& ground, const DenseScale& k,
-           Lanes viscosity) {
+           Lanes viscosity, Lanes held) {
     const Lanes x = difference(i_.x, j.x), y = difference(i_.y, j.y), z = difference(i_.z, j.z);
     const Lanes d = Lanes::all(ground.distance), sum = distance_ + d;
     const Lanes apart = fma(x, x, fma(y, y, z * z));
@@ -74,12 +75,12 @@ class NoSlipSums {
     add_gradient(ax, ay, az, wx, wy, wz);
     add_gradient(hx, hy, hz, wn * n_[0], wn * n_[1], wn * n_[2]);
 
-    const Lanes q = viscosity / (r2 + Lanes::all(k.eta2));
+    const Lanes inv = Lanes::all(1) / (r2 + Lanes::all(k.eta2));
     const Lanes normal = dot(hx, hy, hz) * across;
     const Lanes slips = fma(ax, tx, fma(ay, ty, az * tz)) + normal;
-    const Lanes held = fma(hx, tx, fma(hy, ty, hz * tz));
-    const Lanes free = Lanes::all(1 - held_) * slips, bound = Lanes::all(held_);
-    const Lanes along = q * fma(bound, held, free), away = q * fma(bound, normal, free) * wn;
+    const Lanes holds = fma(hx, tx, fma(hy, ty, hz * tz));
+    const Lanes noise = (viscosity - held) * slips;
+    const Lanes along = inv * fma(held, holds, noise), away = inv * fma(held, normal, noise) * wn;
     const Lanes dx = fma(wn, n_[0], wx), dy = fma(wn, n_[1], wy), dz = fma(wn, n_[2], wz);
     const Lanes sxy = Lanes::all(j.sxy), syz = Lanes::all(j.syz), szx = Lanes::all(j.szx);
     ImageSums& s = sums_;
@@ -119,7 +120,6 @@ class NoSlipSums {
 
   const DenseSelf& i_;
   Lanes n_[3], distance_, mnn_;
-  float held_;
   ImageSums sums_;
 };
 
@@ -130,10 +130,12 @@ class NoSlipSums {
                                                 const BoundaryView& wall, Lanes own_viscosity) {
   const DenseSelf self = self_of(rows, lane);
   NoSlipSums images(self, ground, wall, lane, group * group_size + lane);
-  const Lanes half = Lanes::all(0.5f * k.viscosity);
+  const Lanes half = Lanes::all(0.5f * k.viscosity),
+              own_held = half * Lanes::load(rows.tension + lane);
   for_each_image(view, group, ground, wall, k, [&](std::uint32_t j) {
     const NeighborRecord& record = view.records[j];
-    images.add(record, wall.ground[j], k, fma(half, Lanes::all(record.viscosity), own_viscosity));
+    images.add(record, wall.ground[j], k, fma(half, Lanes::all(record.viscosity), own_viscosity),
+               fma(half, Lanes::all(record.held_viscosity()), own_held));
   });
   return images.finish(Lanes::load(ground.weight + lane));
 }

@@ -37,8 +37,10 @@ TEST(FlowDepth, OfALayerIsItsVolumeOverItsAreaWhereverItLies) {
     int inside = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (std::hypot(p.x[i] - 1234.567, p.y[i] + 8.9) > 8 * dx) continue;
-      EXPECT_NEAR(depth.depth(i), 3 * dx, 0.01 * 3 * dx);
-      EXPECT_NEAR(depth.beside_ground(i), 1 * dx, 0.01 * dx) << "the second lies at its limit";
+      // Of the lattice's wave of length dx, dealing out leaves sinc^2(2 cos t) sinc^2(2 sin t) for
+      // each of four directions, at most 0.9 %, and reading back as much again.
+      EXPECT_NEAR(depth.depth(i), 3 * dx, 0.018 * 3 * dx);
+      EXPECT_NEAR(depth.beside_ground(i), 1 * dx, 0.018 * dx) << "the second lies at its limit";
       ++inside;
     }
     EXPECT_GT(inside, 400);
@@ -121,7 +123,7 @@ TEST(DragAlong, TakesWhatTheMotionLosesAndNeverTurnsIt) {
         },
         still.x(), still.y(), still.z());
     EXPECT_GE(taken, 0);
-    EXPECT_GE(along(still).dot(along(before)), 0);
+    EXPECT_GE(along(still).dot(along(before)), -1e-15);  // rounding of a stop
     EXPECT_LE(along(still).norm(), along(before).norm());
   }
 }

@@ -9,17 +9,19 @@ namespace sturz {
 namespace {
 
 /// Mean speed of a film of thickness h that carries the shear stress tau_b at its bed, by
-/// quadrature of its velocity: u(z) is the integral of the shear rate under tau = tau_b (1 - z/h).
+/// quadrature of its velocity over the part that flows: u(z) is the integral of the shear rate
+/// under tau = tau_b (1 - z/h), and above it a plug.
 double mean_speed(const HerschelBulkley& law, double tau_b, double h) {
   constexpr int n = 20000;
+  const double flowing = h * (tau_b - law.yield_stress) / tau_b;
   double speed = 0, sum = 0;
   for (int k = 0; k < n; ++k) {
-    const double tau = tau_b * (1 - (k + 0.5) / n), over = tau - law.yield_stress;
-    const double step = over > 0 ? std::pow(over / law.consistency, 1 / law.index) * h / n : 0;
-    sum += (speed + 0.5 * step) / n;
+    const double over = (tau_b - law.yield_stress) * (1 - (k + 0.5) / n);
+    const double step = std::pow(over / law.consistency, 1 / law.index) * flowing / n;
+    sum += (speed + 0.5 * step) * flowing / n;
     speed += step;
   }
-  return sum;
+  return (sum + speed * (h - flowing)) / h;
 }
 
 TEST(LiquidFilm, IsThatOfThePaperWithoutYieldStress) {
