@@ -51,7 +51,7 @@ class LiquidGroundContact final : public Pass {
 
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[set_];
-    if (films() && (p.n_sorts != sorts_ || p.size() != n_ || s.n_steps == 0)) {
+    if (drags() && (p.n_sorts != sorts_ || p.size() != n_ || s.n_steps == 0)) {
       depth_.measure(s.domain, p, settings_.reference_density);
       sorts_ = p.n_sorts;
       n_ = p.size();
@@ -67,6 +67,7 @@ class LiquidGroundContact final : public Pass {
   std::size_t bytes() const override { return depth_.bytes(); }
 
  private:
+  bool drags() const { return settings_.liquid->bed != LiquidBed::slip; }
   bool films() const { return settings_.liquid->bed == LiquidBed::film; }
 
   void press(const State& s, MovingSet& p, double dt, std::size_t begin, std::size_t end,
@@ -76,6 +77,8 @@ class LiquidGroundContact final : public Pass {
     const GroundImages images(p);
     const auto support_radius = static_cast<float>(2 * settings_.smoothing_length);
     const double kick = kick_time(s, dt);
+    const Field* weights = p.find(fields::ground_weight);
+    const double* weight = weights ? weights->component[0].data() : nullptr;
     const bool walled = !s.domain.walls.empty() && p.has(fields::velocity_before);
     for (std::size_t i = begin; i < end; ++i) {
       if (p.fate[i] != Fate::stays || b.distance[i] >= support_radius) continue;
@@ -87,8 +90,10 @@ class LiquidGroundContact final : public Pass {
       out.add(apply_contact(law_, b.distance[i], n.x(), n.y(), n.z(), support, dt, before.data(),
                             p.vx[i], p.vy[i], p.vz[i]),
               p.mass[i]);
-      if (films())
-        out.friction += p.mass[i] * drag_along(n, before, kick, drag_of(p, i, n.z()), p.vx[i],
+      // A sheet of one layer has no images that could hold it (BoundaryView): it is a film.
+      const double film = films() ? 1 : drags() && weight ? 1 - weight[i] : 0;
+      if (film > 0)
+        out.friction += p.mass[i] * drag_along(n, before, kick, drag_of(p, i, n.z(), film), p.vx[i],
                                                p.vy[i], p.vz[i]);
       if (walled)
         out.contact_work +=
@@ -98,12 +103,12 @@ class LiquidGroundContact final : public Pass {
   }
 
   /// A flow is no thinner than one particle spread over its own square.
-  FilmDrag drag_of(const MovingSet& p, std::size_t i, double upright) const {
+  FilmDrag drag_of(const MovingSet& p, std::size_t i, double upright, double share) const {
     const double density = settings_.reference_density, dx = settings_.spacing;
     const double least = p.mass[i] / (density * dx * dx);
     const double depth = std::max(least, depth_.depth(i) * upright);
     const double layer = std::clamp(depth_.beside_ground(i) * upright, least, depth);
-    return {settings_.liquid->law, density, depth, layer};
+    return {settings_.liquid->law, density, depth, layer, share};
   }
 
   std::size_t set_;

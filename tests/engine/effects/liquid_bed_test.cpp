@@ -2,12 +2,15 @@
 // What ground and walls do to a liquid along them.
 #include "engine/effects/bed/flow_depth.hpp"
 #include "engine/effects/bed/liquid_contact.hpp"
+#include "tests/support/liquid/liquid_scene.hpp"
 #include "tests/support/sweep_scene.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -139,6 +142,91 @@ TEST(WallShear, TheLayersBesideAWallBearTheTractionOfAnEvenShearTogether) {
     traction += c.reference_density * c.spacing * WallShear(c, d)(v).rate * v;
   }
   EXPECT_NEAR(traction, 0.5 * shear, 0.01 * 0.5 * shear);
+}
+
+/// A block of mud that collapses on a slope beside a wall.
+test::LiquidBox mud(LiquidBed bed, int threads = 1) {
+  test::LiquidBox box;
+  box.spacing = 0.1;
+  box.n = {14, 9, 7};
+  box.slope = 0.2;
+  box.along_slope = true;
+  box.settings.law = {30, 4, 0.7};
+  box.settings.sound_speed = 25;
+  box.bed = bed;
+  box.threads = threads;
+  box.domain.walls.push_back({Vec3(-0.05, 0, 0), Vec3(1, 0, 0)});
+  return box;
+}
+
+TEST(LiquidBed, LosesNoEnergyFromItsBooks) {
+  for (const LiquidBed bed : {LiquidBed::slip, LiquidBed::film, LiquidBed::no_slip}) {
+    test::HandMade made = test::liquid_of(mud(bed));
+    while (made.state.time < 0.6) made.advance();
+    const Ledger l = made.state.ledger();
+    const double explained = l.kinetic_0 + l.gravity_work + l.stress_work + l.contact_work -
+                             l.friction - l.rest_damping - l.lost_energy + l.outer_work;
+    EXPECT_NEAR(l.kinetic, explained, 1e-9 * l.gravity_work);
+    EXPECT_LT(std::abs(l.residual()), 0.01 * l.gravity_work);
+    EXPECT_GT(l.numerical(), -0.02 * l.gravity_work);
+    EXPECT_LT(l.numerical(), 0.1 * l.gravity_work);
+    EXPECT_LT(l.stress_impulse.norm(), 1e-6 * l.stress_impulse_scale);
+    if (bed == LiquidBed::slip) EXPECT_EQ(l.friction, 0);
+    if (bed == LiquidBed::film) EXPECT_GT(l.friction, 0.1 * l.gravity_work);
+    EXPECT_EQ(l.leaked_mass, 0);
+  }
+}
+
+TEST(LiquidBed, HoldsWhatItShould) {
+  const auto front = [](LiquidBed bed) {
+    test::HandMade made = test::liquid_of(mud(bed));
+    while (made.state.time < 0.6) made.advance();
+    const MovingSet& p = made.state.grains();
+    return *std::max_element(p.x.begin(), p.x.end());
+  };
+  const double slips = front(LiquidBed::slip), held = front(LiquidBed::no_slip);
+  EXPECT_LT(held, slips - 0.2);
+  EXPECT_LT(front(LiquidBed::film), slips - 0.2);
+}
+
+TEST(LiquidBed, GivesTheSameBitsAtAnyNumberOfThreads) {
+  for (const LiquidBed bed : {LiquidBed::film, LiquidBed::no_slip}) {
+    test::HandMade one = test::liquid_of(mud(bed)), three = test::liquid_of(mud(bed, 3));
+    for (int k = 0; k < 150; ++k) one.advance(), three.advance();
+    const MovingSet &a = one.state.grains(), &b = three.state.grains();
+    EXPECT_EQ(a.x, b.x);
+    EXPECT_EQ(a.vz, b.vz);
+    EXPECT_EQ(a.ledger.friction, b.ledger.friction);
+  }
+}
+
+/// Water between walls that drag: speed along them over that between walls that slip.
+TEST(LiquidBed, WallsDragOnlyWhereTheyAreSaidTo) {
+  const auto speed = [](bool hold) {
+    test::LiquidBox box;
+    box.spacing = 0.1;
+    box.n = {8, 6, 4};
+    box.settings.law = {0, 5, 1};
+    box.settings.sound_speed = 25;
+    box.velocity = {0.5, 0, 0};
+    box.walls_hold = hold;
+    box.domain.x = {true, 0, 0.8, 0};
+    box.domain.walls = {{Vec3(0, 0, 0), Vec3(0, 1, 0)}, {Vec3(0, 0.6, 0), Vec3(0, -1, 0)}};
+    test::HandMade made = test::liquid_of(box);
+    while (made.state.time < 2) made.advance();
+    const MovingSet& p = made.state.grains();
+    double sum = 0;
+    for (const double v : p.vx) sum += v / static_cast<double>(p.size());
+    return std::pair(sum, p.ledger.friction / p.ledger.kinetic_0);
+  };
+  const auto [slips, no_friction] = speed(false);
+  EXPECT_NEAR(slips, 0.5, 1e-3);
+  EXPECT_EQ(no_friction, 0);
+  // Between plates nu pi^2/W^2 is the rate of the slowest mode, which has nearly all of it.
+  const double nu = 5e-3, rate = nu * std::pow(3.141592653589793 / 0.6, 2);
+  const auto [held, friction] = speed(true);
+  EXPECT_NEAR(std::log(0.5 * 8 / std::pow(3.141592653589793, 2) / held) / (2 * rate), 1, 0.15);
+  EXPECT_GT(friction, 0.1);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct LiquidBox {
   LiquidSettings settings = {};     ///< spacing and lengths follow from `spacing`
   double gravity = standard_gravity;
   LiquidBed bed = LiquidBed::slip;
+  bool walls_hold = false;
   Domain domain = {};
   bool hydrostatic = true;  ///< starts under its own weight, else without pressure
   int threads = 1;
