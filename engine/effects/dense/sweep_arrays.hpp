@@ -71,6 +71,7 @@ struct SweepArrays {
       v.moment[c] = b.moment[c].data();
       v.gradient[c] = b.gradient[c].data();
     }
+    v.no_slip = b.no_slip;
     return v;
   }
 

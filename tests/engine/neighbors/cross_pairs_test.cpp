@@ -84,7 +84,7 @@ void expect_symmetric(const Sums& one, const Sums& other) {
 TEST(CrossPairs, HoldEveryPairOfTwoClouds) {
   const ParticleSet a = cloud(300, 1), b = cloud(1500, 2);
   CrossPairs pairs(h, 0.2 * h, 1);
-  pairs.update({a, 0}, {b, 0}, {}, 0, 0, 0, 2);
+  pairs.update({a, 0}, {b, 0}, {}, 0, 0, 2);
   const Sums from_a = listed(pairs, 0, a, b);
   EXPECT_GT(from_a.size(), 5000u);
   expect_same(from_a, slow(a, b, {}));
@@ -97,7 +97,7 @@ TEST(CrossPairs, HoldThoseAcrossPeriodsThatRise) {
   box.y = {true, 0, 10, 0};
   const ParticleSet a = cloud(200, 3), b = cloud(900, 4);
   CrossPairs pairs(h, 0.2 * h, 1);
-  pairs.update({a, 0}, {b, 0}, box, 0, 0, 0, 1);
+  pairs.update({a, 0}, {b, 0}, box, 0, 0, 1);
   expect_same(listed(pairs, 0, a, b), slow(a, b, box));
   expect_symmetric(listed(pairs, 0, a, b), listed(pairs, 1, b, a));
   Domain narrow;  // images of images: a box shorter than the support
@@ -106,7 +106,7 @@ TEST(CrossPairs, HoldThoseAcrossPeriodsThatRise) {
   for (auto* p : {&few, &some})
     for (double& x : p->x) x *= 0.12;
   CrossPairs short_pairs(h, 0, 1);
-  short_pairs.update({few, 0}, {some, 0}, narrow, 0, 0, 0, 1);
+  short_pairs.update({few, 0}, {some, 0}, narrow, 0, 0, 1);
   expect_same(listed(short_pairs, 0, few, some), slow(few, some, narrow));
 }
 
@@ -120,7 +120,7 @@ TEST(CrossPairs, FollowMovesWithinTheSkinAndNewOrders) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1, 1);
     const double way = 0.02 * h;  // of each particle along each axis
-    pairs.update({a, 0}, {b, 0}, box, 0, 0, 0, 1);
+    pairs.update({a, 0}, {b, 0}, box, 0, 0, 1);
     for (int step = 0; step < 12; ++step) {
       for (auto* p : {&a, &b})
         for (auto* x : {&p->x, &p->y, &p->z})
@@ -132,7 +132,7 @@ TEST(CrossPairs, FollowMovesWithinTheSkinAndNewOrders) {
         b.permute(order);
         ++sorts[1];
       }
-      pairs.update({a, sorts[0]}, {b, sorts[1]}, box, 2 * std::sqrt(3.0) * way, 1);
+      pairs.update({a, sorts[0]}, {b, sorts[1]}, box, 2 * std::sqrt(3.0) * way, 0, 1);
       expect_same(listed(pairs, 0, a, b), slow(a, b, box));
     }
     EXPECT_GT(pairs.n_rebuilds(), 1u);
@@ -143,16 +143,16 @@ TEST(CrossPairs, FollowMovesWithinTheSkinAndNewOrders) {
 TEST(CrossPairs, KnowWhoCameAndWent) {
   ParticleSet a = cloud(100, 1), b = cloud(400, 2);
   CrossPairs pairs(h, 0.3 * h, 1);
-  pairs.update({a, 0}, {b, 0}, {}, 0, 0, 0, 1);
+  pairs.update({a, 0}, {b, 0}, {}, 0, 0, 1);
   a.grow(1);
   a.x[100] = b.x[0], a.y[100] = b.y[0], a.z[100] = b.z[0];
   std::vector<std::uint8_t> keep(a.size(), 1);
   keep[4] = 0;
   a.compact(keep);
-  pairs.update({a, 0}, {b, 0}, {}, 0, 0, 0, 1);
+  pairs.update({a, 0}, {b, 0}, {}, 0, 0, 1);
   expect_same(listed(pairs, 0, a, b), slow(a, b, {}));
   const ParticleSet none;
-  pairs.update({none, 0}, {b, 0}, {}, 0, 0, 0, 1);
+  pairs.update({none, 0}, {b, 0}, {}, 0, 0, 1);
   EXPECT_TRUE(listed(pairs, 1, b, none).empty());
 }
 
@@ -161,7 +161,7 @@ TEST(CrossPairs, GradientIsTheDerivativeOfTheWeight) {
   ParticleSet b = cloud(200, 2);
   const auto weights = [&](std::vector<double>* gradient) {
     CrossPairs pairs(h, 0, 1);
-    pairs.update({a, 0}, {b, 0}, {}, 0, 0, 0, 1);
+    pairs.update({a, 0}, {b, 0}, {}, 0, 0, 1);
     const PairSide& side = pairs.side(1);
     std::vector<double> sum(b.size(), 0);
     for (std::size_t r = 0; r < side.n_rows(); ++r) {

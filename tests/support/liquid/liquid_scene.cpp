@@ -25,6 +25,18 @@ Terrain ground_of(const LiquidBox& box, double cell) {
   return Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow);
 }
 
+/// \param i,j,k  along the box's edges, in spacings
+Vec3 place_of(const LiquidBox& box, double i, double j, double k) {
+  const Vec3 edge = box.spacing * Vec3(i, j, k);
+  if (!box.along_slope) {
+    const double x = box.corner.x() + edge.x();
+    return {x, box.corner.y() + edge.y(), box.corner.z() - box.slope * x + edge.z()};
+  }
+  const double cosine = 1 / std::hypot(1, box.slope), sine = box.slope * cosine;
+  return box.corner +
+         Vec3(cosine * edge.x() + sine * edge.z(), edge.y(), cosine * edge.z() - sine * edge.x());
+}
+
 void place(const LiquidBox& box, MovingSet& p) {
   p.name = "liquid";
   p.spacing = box.spacing;
@@ -37,9 +49,8 @@ void place(const LiquidBox& box, MovingSet& p) {
   for (int i = 0; i < nx; ++i)
     for (int j = 0; j < ny; ++j)
       for (int k = 0; k < nz; ++k, ++at) {
-        p.x[at] = box.corner.x() + (i + 0.5) * box.spacing;
-        p.y[at] = box.corner.y() + (j + 0.5) * box.spacing;
-        p.z[at] = box.corner.z() - box.slope * p.x[at] + (k + 0.5) * box.spacing;
+        const Vec3 place = place_of(box, i + 0.5, j + 0.5, k + 0.5);
+        p.x[at] = place.x(), p.y[at] = place.y(), p.z[at] = place.z();
         p.vx[at] = box.velocity.x(), p.vy[at] = box.velocity.y(), p.vz[at] = box.velocity.z();
         p.mass[at] = box.settings.reference_density * std::pow(box.spacing, 3);
         p.ledger.released_mass += p.mass[at];
@@ -53,6 +64,7 @@ HandMade liquid_of(const LiquidBox& box) {
   HandMade made{State(ground_of(box, cell), box.domain), {}};
   State& s = made.state;
   s.threads = box.threads;
+  s.gravity = box.gravity;
   MovingSet& p = s.sets[0];
   place(box, p);
   mark_start(s.domain, p, 0);
@@ -67,13 +79,15 @@ HandMade liquid_of(const LiquidBox& box) {
   const double height = box.spacing * box.n[2], speed = 0.1 * liquid.sound_speed;
   contact.stiffness = std::max(10 * s.gravity * height / (box.spacing * box.spacing),
                                std::pow(2 * speed / box.spacing, 2));
-  contact.bed = {{0}};
+  contact.liquid = LiquidContact{box.settings.law, box.bed, box.walls_hold};
   add_gravity(made.step, s, 0);
   add_terrain_contact(made.step, 0, contact);
   if (!s.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
   std::vector<double> depth(p.size(), 0.0);
+  // On a slope the pressure is rho g cos^2 of what lies plumb above.
+  const double top = box.corner.z() + height * (box.along_slope ? std::hypot(1, box.slope) : 1);
   for (std::size_t i = 0; box.hydrostatic && i < p.size(); ++i)
-    depth[i] = box.corner.z() + height - (p.z[i] + box.slope * p.x[i]);
+    depth[i] = (top - (p.z[i] + box.slope * p.x[i])) / (1 + box.slope * box.slope);
   add_liquid(made.step, s, 0, liquid, depth);
   add_motion(made.step, 0, {box.spacing, liquid.smoothing_length});
   refresh_motion(s, p, 0);
