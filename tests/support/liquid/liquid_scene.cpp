@@ -21,7 +21,9 @@ Terrain ground_of(const LiquidBox& box, double cell) {
   const int n = static_cast<int>(std::ceil(2 * box.half_width / cell));
   Raster<double> z(Grid{n, n, -0.5 * n * cell, 0.5 * n * cell, cell, ""});
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) z.at(r, c) = -box.slope * z.grid.x_center(c);
+    for (int c = 0; c < n; ++c)
+      z.at(r, c) = box.ground ? box.ground(z.grid.x_center(c), z.grid.y_center(r))
+                              : -box.slope * z.grid.x_center(c);
   return Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow);
 }
 
@@ -59,7 +61,7 @@ HandMade liquid_of(const LiquidBox& box) {
   LiquidSettings liquid = box.settings;
   liquid.spacing = box.spacing;
   liquid.smoothing_length = smoothing_ratio * box.spacing;
-  liquid.instruction_set = best_instruction_set();
+  liquid.instruction_set = box.instruction_set;
   ContactSettings contact;
   contact.spacing = box.spacing;
   contact.smoothing_length = liquid.smoothing_length;

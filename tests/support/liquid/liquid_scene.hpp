@@ -8,6 +8,7 @@
 #include "tests/support/hand_made.hpp"
 
 #include <array>
+#include <functional>
 
 namespace sturz::test {
 
@@ -22,6 +23,9 @@ struct LiquidBox {
   double cell = 0;                  ///< of the ground [m]; 0: twice the spacing
   LiquidSettings settings = {};     ///< spacing and lengths follow from `spacing`
   Domain domain = {};
+  /// z of the ground at x, y; empty: the even ground of `slope`.
+  std::function<double(double, double)> ground = {};
+  InstructionSet instruction_set = best_instruction_set();
   bool hydrostatic = true;  ///< starts under its own weight, else without pressure
   int threads = 1;
 };
