@@ -176,6 +176,25 @@ TEST(Liquid, AChangeOfTheSoundSpeedKeepsPressuresAndShear) {
   EXPECT_NEAR(p.ledger.residual(), before.residual(), 1e-3 * before.elastic);
 }
 
+TEST(Liquid, StoredShearThatGoesWithTheSoundSpeedIsInTheBooks) {
+  LiquidBox b = still();
+  b.settings.law = {1e4, 10, 1};
+  b.settings.sound_speed = 200;
+  b.settings.least_sound_speed = 20;
+  HandMade made = liquid_of(b);
+  MovingSet& p = made.state.sets[0];
+  auto& stress = p.components(fields::stress);
+  for (std::size_t i = 0; i < p.size(); ++i) stress[5][i] = 3000;
+  made.advance();
+  const double before = p.ledger.residual(), c0 = p.sound_speed;
+  const double volume = 8 * 4 * 16 * 1e-3, modulus = 0.25 * 1000 * c0 * c0;
+  const double stored = volume * 3000.0 * 3000 / (2 * modulus);
+  p.motion.max_speed = 5;
+  made.advance();
+  ASSERT_GT(p.sound_speed, 2 * c0);
+  EXPECT_NEAR(p.ledger.residual(), before, 0.05 * stored);
+}
+
 TEST(Liquid, StoredEnergyLeavesWithItsParticle) {
   LiquidBox b;
   b.spacing = 1;
