@@ -27,25 +27,31 @@ Terrain ground_of(const LiquidBox& box, double cell) {
   return Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow);
 }
 
+std::vector<Vec3> lattice_of(const LiquidBox& box) {
+  std::vector<Vec3> at;
+  for (int i = 0; i < box.n[0]; ++i)
+    for (int j = 0; j < box.n[1]; ++j)
+      for (int k = 0; k < box.n[2]; ++k) {
+        const double x = box.corner.x() + (i + 0.5) * box.spacing;
+        at.emplace_back(x, box.corner.y() + (j + 0.5) * box.spacing,
+                        box.corner.z() - box.slope * x + (k + 0.5) * box.spacing);
+      }
+  return at;
+}
+
 void place(const LiquidBox& box, MovingSet& p) {
   p.name = "liquid";
   p.spacing = box.spacing;
   p.bulk_density = box.settings.reference_density;
   p.reference_fraction = 1;
-  const auto [nx, ny, nz] = box.n;
-  p.grow(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
-         static_cast<std::size_t>(nz));
-  std::size_t at = 0;
-  for (int i = 0; i < nx; ++i)
-    for (int j = 0; j < ny; ++j)
-      for (int k = 0; k < nz; ++k, ++at) {
-        p.x[at] = box.corner.x() + (i + 0.5) * box.spacing;
-        p.y[at] = box.corner.y() + (j + 0.5) * box.spacing;
-        p.z[at] = box.corner.z() - box.slope * p.x[at] + (k + 0.5) * box.spacing;
-        p.vx[at] = box.velocity.x(), p.vy[at] = box.velocity.y(), p.vz[at] = box.velocity.z();
-        p.mass[at] = box.settings.reference_density * std::pow(box.spacing, 3);
-        p.ledger.released_mass += p.mass[at];
-      }
+  const std::vector<Vec3> at = box.at.empty() ? lattice_of(box) : box.at;
+  p.grow(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    p.x[i] = at[i].x(), p.y[i] = at[i].y(), p.z[i] = at[i].z();
+    p.vx[i] = box.velocity.x(), p.vy[i] = box.velocity.y(), p.vz[i] = box.velocity.z();
+    p.mass[i] = box.settings.reference_density * std::pow(box.spacing, 3);
+    p.ledger.released_mass += p.mass[i];
+  }
 }
 
 }  // namespace
@@ -66,7 +72,8 @@ HandMade liquid_of(const LiquidBox& box) {
   contact.spacing = box.spacing;
   contact.smoothing_length = liquid.smoothing_length;
   contact.reference_density = liquid.reference_density;
-  const double height = box.spacing * box.n[2], speed = 0.1 * liquid.sound_speed;
+  const double height = box.at.empty() ? box.spacing * box.n[2] : box.top - box.corner.z();
+  const double speed = 0.1 * liquid.sound_speed;
   contact.stiffness = std::max(10 * s.gravity * height / (box.spacing * box.spacing),
                                std::pow(2 * speed / box.spacing, 2));
   contact.bed = {{0}};

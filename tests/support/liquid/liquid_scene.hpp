@@ -9,6 +9,7 @@
 
 #include <array>
 #include <functional>
+#include <vector>
 
 namespace sturz::test {
 
@@ -17,6 +18,9 @@ struct LiquidBox {
   double spacing = 0.1;             ///< [m]
   std::array<int, 3> n{10, 4, 10};  ///< particles along x, y, z
   Vec3 corner{0, 0, 0};             ///< the least x, y, z [m]
+  /// In the place of the lattice: the particles themselves, under a free surface at `top`.
+  std::vector<Vec3> at = {};
+  double top = 0;  ///< [m]
   Vec3 velocity{0, 0, 0};           ///< [m/s]
   double slope = 0;                 ///< the ground falls by it per metre eastward
   double half_width = 10;           ///< of the ground around x = y = 0 [m]
