@@ -43,6 +43,8 @@ struct BoundarySupport {
   /// Whether the ground holds what lies on it (a liquid): its images are those of
   /// sweep/no_slip_sums.hpp.
   bool no_slip = false;
+  /// Walls mirror all neighbours (NeighborLists::mirror_in) in the place of that closed form.
+  bool mirrored_walls = false;
 };
 
 /// Why a particle is about to be taken out of its set.

@@ -52,7 +52,8 @@ class BoundaryPass final : public Pass {
             else
               locate(s, p, i, out);
           }
-          if (!s.domain.walls.empty()) add_walls(s, p, dt, begin, end);
+          if (!s.domain.walls.empty() && !p.boundary.mirrored_walls)
+            add_walls(s, p, dt, begin, end);
         },
         [](Found& total, const Found& block) {
           total.any_leaving |= block.any_leaving;
@@ -74,7 +75,7 @@ class BoundaryPass final : public Pass {
     BoundarySupport& b = p.boundary;
     for (auto* column : {&b.distance, &b.nx, &b.ny, &b.nz}) column->resize(padded);
     p.fate.resize(p.size());
-    if (domain.walls.empty()) return;
+    if (domain.walls.empty() || b.mirrored_walls) return;
     for (int c = 0; c < 6; ++c) b.moment[c].resize(padded), b.gradient[c].resize(padded);
   }
 

@@ -34,6 +34,10 @@ class LiquidNeighbors final : public Pass {
 
   void apply(State& s, double) override {
     MovingSet& p = s.sets[shared_->set];
+    shared_->lists.mirror_in(s.domain.walls, s.time);
+    // A particle and its image in a wall close in at twice its speed, those of a stream, too.
+    if (shared_->lists.mirrors())
+      shared_->lists.add_relative_motion(2 * s.previous_dt * p.motion.max_speed);
     if (!shared_->outdated(s, p)) return;
     wrap_particles(s.domain, p);
     p.n_listed = p.size();
@@ -294,6 +298,7 @@ void add_liquid(Step& step, State& state, std::size_t set, const LiquidSettings&
   before.component[1] = p.vy;
   before.component[2] = p.vz;
   mark_start(state.domain, p, 0);
+  p.boundary.mirrored_walls = true;
   LiquidSettings first = settings;
   const bool follows = settings.least_sound_speed < settings.sound_speed;
   if (follows)

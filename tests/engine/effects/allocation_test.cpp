@@ -7,6 +7,7 @@
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/catalogue.hpp"
 #include "tests/engine/effects/coupling/coupled_sets.hpp"
+#include "tests/support/liquid/liquid_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -82,6 +83,24 @@ TEST(Allocation, ARebuildOfTheListsSettlesIntoItsMemory) {
   // Lists that grow may ask for more now and then, but not every time.
   Scenario s = ramp_slide(90, 4);
   EXPECT_LE(allocations(s, 20, 100, true), 10);
+}
+
+/// A collapsing column of liquid behind a wall. While it stays within the skin of its lists it asks
+/// for nothing, beyond that only where they grow.
+TEST(Allocation, AStepOfLiquidNeedsNoNewMemory) {
+  test::LiquidBox box;
+  box.n = {8, 4, 16};
+  box.domain.y = {true, 0, 0.4, 0};
+  box.domain.walls = {Wall{{0, 0, 0}, {1, 0, 0}}};
+  box.settings.law = {50, 1, 0.5};
+  test::HandMade made = test::liquid_of(box);
+  made.advance();
+  long before = n_allocations;
+  for (int n = 0; n < 40; ++n) made.advance();
+  EXPECT_EQ(n_allocations - before, 0);
+  before = n_allocations;
+  for (int n = 0; n < 400; ++n) made.advance();
+  EXPECT_LE(n_allocations - before, 10);
 }
 
 Scenario as_columns(Scenario s) {
