@@ -12,11 +12,14 @@ namespace sturz {
 ///
 /// Kinetic energy changes only through accounted works:
 ///   d(kinetic) = gravity_work + stress_work + contact_work - friction - rest_damping -
-///   lost_energy - taken_energy + added_energy - entrainment_loss - drag_loss + outer_work.
+///   lost_energy - taken_energy + added_energy - entrainment_loss - drag_loss + exchange_work +
+///   outer_work.
 /// stress_work = -(stress_power + numerical): what the pair forces take from the motion is either
 /// stored or dissipated by the constitutive law (stress_power), or went into artificial viscosity
-/// and the mismatch of discrete gradients (numerical). contact_work = -(spring change + damping),
-/// and among isolated particles -(change of rotational and isolated_elastic + isolated_dissipated).
+/// and the mismatch of discrete gradients (numerical). Where grains lie in a liquid, its pair
+/// forces are those of the mixture: a part of their work, exchange_work, is done on the grains.
+/// contact_work = -(spring change + damping), and among isolated particles -(change of rotational
+/// and isolated_elastic + isolated_dissipated).
 struct Ledger {
   double released_mass = 0, lost_mass = 0, leaked_mass = 0;  ///< leaked: found under the ground
   double added_mass = 0, taken_mass = 0;                     ///< by effects, after the release
@@ -24,9 +27,10 @@ struct Ledger {
   double added_volume = 0;      ///< bulk, of added mass that has one [m^3]
   double entrained_mass = 0;    ///< taken up of the bed, at rest until then
   double entrainment_loss = 0;  ///< of kinetic energy, by mixing with it
-  double drag_loss = 0;         ///< of kinetic energy, by drag between two sets of columns
+  double drag_loss = 0;         ///< of kinetic energy, by drag between two sets
   /// Mass times time at which drag was raised to keep two velocities solvable [kg s].
   double drag_raised = 0;
+  double exchange_work = 0;  ///< on grains, by their share of the liquid's stress
   double outer_work = 0;  ///< by what nothing below names: effects such as wind, ground that moves
 
   /// Now. Potential is the accounted change since release: it counts what left as it was when it
@@ -75,8 +79,9 @@ struct Ledger {
   double brought_mass() const { return released_mass + added_mass + entrained_mass; }
   /// Energy that shares are taken of [J].
   double available_energy() const { return released_energy() + added_energy; }
-  /// Dissipated by artificial viscosity and discretisation.
-  double numerical() const { return -stress_work - stress_power; }
+  /// Dissipated by artificial viscosity and discretisation; of grains and liquid together only,
+  /// where the one works on the other.
+  double numerical() const { return -stress_work - stress_power - exchange_work; }
   /// Dissipated in normal contact with ground and walls.
   double damping() const { return -(contact_work - isolated_work) - (spring - spring_0); }
   /// Dissipated by contacts of isolated particles, or lost with a particle that was pressed or
@@ -115,7 +120,8 @@ inline Ledger& Ledger::operator+=(const Ledger& other) {
                                &Ledger::released_water,   &Ledger::lost_water,
                                &Ledger::clipped_work,     &Ledger::entrained_mass,
                                &Ledger::entrainment_loss, &Ledger::drag_loss,
-                               &Ledger::drag_raised,      &Ledger::added_volume};
+                               &Ledger::drag_raised,      &Ledger::added_volume,
+                               &Ledger::exchange_work};
   // An entry that is added above but forgotten here would silently miss from every total.
   static_assert(sizeof(Ledger) == (std::size(entries) + 6) * sizeof(double));
   for (const Entry entry : entries) this->*entry += other.*entry;

@@ -24,6 +24,10 @@ inline constexpr FieldKey density_gradient{"density_gradient", 3, "m-1", "grain 
 /// 0..1: how much of a grain's image in the ground acts, of the last pair sweep.
 inline constexpr FieldKey ground_weight{"ground_weight", 1, "1", "grain stress", 1.0};
 
+// Dilatancy (dilatancy/).
+/// Density of the packing without load over the reference density, less 1.
+inline constexpr FieldKey packing_change{"packing_change", 1, "1", "dilatancy"};
+
 // States of the grains (kinetic/).
 /// GrainState by number.
 inline constexpr FlagKey state{"state", "states of the grains"};
@@ -59,6 +63,8 @@ enum class Membership : std::uint8_t {
 inline constexpr FieldKey grain_share{"grain_share", 1, "1", "grains in liquid"};
 /// Divergence of the grains' flux past the liquid, div(alpha_p (v_p - v_f)).
 inline constexpr FieldKey slip_divergence{"slip_divergence", 1, "s-1", "grains in liquid"};
+/// What the liquid gave of a grain's change of velocity in this step.
+inline constexpr FieldKey exchange_velocity{"exchange_velocity", 3, "m s-1", "grains in liquid"};
 
 // Depth-averaged columns (columns/).
 /// Normal to the ground.

@@ -40,6 +40,11 @@ struct BoundarySupport {
   std::vector<float> mirror_weight;  ///< 0..1, from the sweep: how much of walls' mirror acts
   std::vector<float> moment[6];  ///< of analytic walls, xx yy zz xy yz zx [-]; empty without walls
   std::vector<float> gradient[6];  ///< the same order [1/s]
+  /// Whether the ground holds what lies on it (a liquid): its images are those of
+  /// sweep/no_slip_sums.hpp.
+  bool no_slip = false;
+  /// Walls mirror all neighbours (NeighborLists::mirror_in) in the place of that closed form.
+  bool mirrored_walls = false;
 };
 
 /// Why a particle is about to be taken out of its set.

@@ -10,8 +10,8 @@
 namespace sturz {
 
 std::string_view to_string(Stage stage) {
-  constexpr std::string_view names[] = {"neighbors", "boundary", "gather", "force", "kick",
-                                        "walls",     "contact",  "stress", "move"};
+  constexpr std::string_view names[] = {"neighbors", "boundary", "across",  "gather", "force",
+                                        "kick",      "walls",    "contact", "stress", "move"};
   return names[static_cast<int>(stage)];
 }
 

@@ -18,6 +18,7 @@ namespace sturz {
 enum class Stage {
   neighbors,  ///< sort and list
   boundary,   ///< what ground and walls are to each particle at x_n
+  across,     ///< what the particles of two sets are to each other at x_n
   gather,     ///< neighbour records for the pair sweep
   force,      ///< accelerations, velocity gradients at x_n
   kick,       ///< v_{n-1/2} -> v_{n+1/2} by acceleration

@@ -111,7 +111,7 @@ void NeighborLists::sort_particles(ParticleSet& set) {
 
 void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
   images_.clear();
-  if (!domain.x.active && !domain.y.active) return;
+  if (!domain.x.active && !domain.y.active && walls_.empty()) return;
   const double search_radius = support_ + skin_;
   auto shifts = [&](const Period& p, double position, double out[3]) {
     int n = 0;
@@ -126,12 +126,76 @@ void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
     const int nx = shifts(domain.x, set.x[i], sx), ny = shifts(domain.y, set.y[i], sy);
     for (int a = 0; a < nx; ++a)
       for (int b = 0; b < ny; ++b) {
-        if (sx[a] == 0 && sy[b] == 0) continue;
-        images_.push_back({static_cast<std::uint32_t>(i), sx[a] * domain.x.length(),
-                           sy[b] * domain.y.length(),
-                           sx[a] * domain.x.rise + sy[b] * domain.y.rise});
+        const RecordImage image{static_cast<std::uint32_t>(i), sx[a] * domain.x.length(),
+                                sy[b] * domain.y.length(),
+                                sx[a] * domain.x.rise + sy[b] * domain.y.rise};
+        if (!walls_.empty()) mirror(image, {set.x[i], set.y[i], set.z[i]});
+        if (sx[a] != 0 || sy[b] != 0) images_.push_back(image);
       }
   }
+}
+
+/// Images in every wall in reach of the source, and in the corners of two that stand upright on
+/// each other.
+void NeighborLists::mirror(RecordImage image, const Vec3& at) {
+  const double search_radius = support_ + skin_;
+  const auto in_reach = [&](const Wall& w) {
+    return std::abs((at - w.point).dot(w.normal)) < search_radius;
+  };
+  for (std::size_t a = 0; a < walls_.size(); ++a) {
+    if (!in_reach(walls_[a])) continue;
+    image.mirrors[0] = &walls_[a], image.mirrors[1] = nullptr;
+    images_.push_back(image);
+    for (std::size_t b = 0; b < a; ++b) {
+      if (!in_reach(walls_[b]) || std::abs(walls_[a].normal.dot(walls_[b].normal)) > 0.01) continue;
+      image.mirrors[1] = &walls_[b];
+      images_.push_back(image);
+    }
+  }
+}
+
+void NeighborLists::mirror_in(const std::vector<Wall>& walls, double time) {
+  std::size_t standing = 0;
+  for (const Wall& w : walls) standing += time < w.remove_at_s;
+  if (standing == walls_.size()) return;
+  walls_.clear();
+  for (const Wall& w : walls)
+    if (time < w.remove_at_s) walls_.push_back(w);
+  invalidate();
+}
+
+void NeighborLists::turn(std::size_t image, float& x, float& y, float& z) const {
+  for (const Wall* wall : images_[image - padded_size()].mirrors) {
+    if (!wall) return;
+    const Vec3& n = wall->normal;
+    const double twice = 2 * (n.x() * x + n.y() * y + n.z() * z);
+    x = static_cast<float>(x - twice * n.x());
+    y = static_cast<float>(y - twice * n.y());
+    z = static_cast<float>(z - twice * n.z());
+  }
+}
+
+/// Position, velocity and stress R s R with R = I - 2 n n^T.
+void NeighborLists::mirror_record(const Wall& wall, NeighborRecord& r) const {
+  const Vec3& n = wall.normal;
+  const Vec3 at(origin_[0] + r.x * unit_, origin_[1] + r.y * unit_, origin_[2] + r.z * unit_);
+  const double away = 2 * (at - wall.point).dot(n);
+  r.x -= to_units(away * n.x(), 0, unit_);
+  r.y -= to_units(away * n.y(), 0, unit_);
+  r.z -= to_units(away * n.z(), 0, unit_);
+  const double twice = 2 * (n.x() * r.vx + n.y() * r.vy + n.z() * r.vz);
+  r.vx = static_cast<float>(r.vx - twice * n.x());
+  r.vy = static_cast<float>(r.vy - twice * n.y());
+  r.vz = static_cast<float>(r.vz - twice * n.z());
+  const Vec3 t(r.sxx * n.x() + r.sxy * n.y() + r.szx * n.z(),
+               r.sxy * n.x() + r.syy * n.y() + r.syz * n.z(),
+               r.szx * n.x() + r.syz * n.y() + r.szz * n.z());
+  const double normal = 4 * t.dot(n);
+  const auto turned = [&](float s, int a, int b) {
+    return static_cast<float>(s - 2 * (n[a] * t[b] + t[a] * n[b]) + normal * n[a] * n[b]);
+  };
+  r.sxx = turned(r.sxx, 0, 0), r.syy = turned(r.syy, 1, 1), r.szz = turned(r.szz, 2, 2);
+  r.sxy = turned(r.sxy, 0, 1), r.syz = turned(r.syz, 1, 2), r.szx = turned(r.szx, 2, 0);
 }
 
 void NeighborLists::gather_positions(const ParticleSet& set, std::size_t begin, std::size_t end) {
@@ -144,9 +208,11 @@ void NeighborLists::gather_positions(const ParticleSet& set, std::size_t begin, 
 
 void NeighborLists::copy_images() {
   for (std::size_t k = 0; k < images_.size(); ++k) {
-    const PeriodicImage& image = images_[k];
+    const RecordImage& image = images_[k];
     NeighborRecord& r = records_[padded_size() + k];
     r = records_[image.source];
+    for (const Wall* wall : image.mirrors)
+      if (wall) mirror_record(*wall, r);
     r.x += to_units(image.dx, 0, unit_);
     r.y += to_units(image.dy, 0, unit_);
     r.z += to_units(image.dz, 0, unit_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/core/domain.hpp"
+#include "engine/core/vec.hpp"
 #include "engine/neighbors/neighbor_records.hpp"
 #include "engine/particles/particle_set.hpp"
 
@@ -19,10 +20,11 @@ using TightList = std::size_t (*)(const NeighborRecord*, std::size_t first, int 
                                   const std::uint32_t* candidates, std::size_t n_candidates,
                                   float radius_units, std::uint32_t* out);
 
-/// A periodic image: record `source` moved by a whole period.
-struct PeriodicImage {
+/// An image: record `source` mirrored in up to two walls, then moved by a whole period.
+struct RecordImage {
   std::uint32_t source = 0;
-  double dx = 0, dy = 0, dz = 0;  ///< [m]
+  double dx = 0, dy = 0, dz = 0;           ///< [m]
+  const Wall* mirrors[2] = {nullptr, nullptr};  ///< of NeighborLists; null: none
 };
 
 /// Reusable neighbour lists with a skin: valid while no two particles moved more than `skin`
@@ -48,7 +50,14 @@ class NeighborLists {
   /// point, in a fixed order. An image's record stands for its source.
   template <class Visit>
   void for_each_near(double x, double y, double z, Visit&& visit) const;
-  /// Calls visit(record, source record) for every periodic image.
+  /// Mirrors records in those of the walls that stand at a time, from the next rebuild on: a
+  /// particle's neighbours beyond a wall are the images of those before it, and of itself. Lists
+  /// are out of date where other walls stand than before.
+  void mirror_in(const std::vector<Wall>& walls, double time);
+  bool mirrors() const { return !walls_.empty(); }
+  /// Turns a vector of an image's source as the walls of the image do.
+  void turn(std::size_t image, float& x, float& y, float& z) const;
+  /// Calls visit(record, source record) for every image.
   template <class Visit>
   void for_each_image(Visit&& visit) const {
     for (std::size_t k = 0; k < images_.size(); ++k) visit(padded_size() + k, images_[k].source);
@@ -75,6 +84,8 @@ class NeighborLists {
   void rest();
   void choose_frame(const ParticleSet&, const Domain&);
   void make_images(const ParticleSet&, const Domain&);
+  void mirror(RecordImage, const Vec3& at);
+  void mirror_record(const Wall&, NeighborRecord&) const;
   void sort_particles(ParticleSet&);
   void sort_records();
   void build_lists(int threads);
@@ -94,7 +105,8 @@ class NeighborLists {
   std::uint32_t n_cols_ = 1, n_rows_ = 1;
 
   std::size_t n_particles_ = 0, n_groups_ = 0;
-  std::vector<PeriodicImage> images_;
+  std::vector<Wall> walls_;  // that mirror
+  std::vector<RecordImage> images_;
   std::vector<NeighborRecord> records_;  // particles, padding to whole groups, images
   std::vector<std::uint64_t> keys_;      // column and height of what is being sorted
   std::vector<std::uint32_t> order_;

@@ -23,6 +23,11 @@ struct alignas(64) NeighborRecord {
   float sxx, syy, szz, sxy, syz, szx;  ///< stress, tension positive [Pa]
   float viscosity;                     ///< share of the artificial viscosity that acts [-]
   float tension;  ///< artificial pressure against clumps in tension [Pa], see TensionSums
+
+  /// Of a liquid, which has no such pressure: how much of `viscosity` stands for its own and is
+  /// held by a bed that does not slip [-]. The rest is there for noise and slips along the ground.
+  float& held_viscosity() { return tension; }
+  float held_viscosity() const { return tension; }
 };
 static_assert(sizeof(NeighborRecord) == 64);
 
@@ -100,6 +105,9 @@ struct BoundaryView {
   /// What analytic walls add, order xx yy zz xy yz zx; null where there are none.
   const float* moment[6];    ///< to the moment matrix [-]
   const float* gradient[6];  ///< to the velocity gradient before correction [1/s]
+  /// Whether the ground holds what lies on it (a liquid): see sweep/no_slip_sums.hpp. Read by the
+  /// dense sweep.
+  bool no_slip = false;
 };
 
 /// How long a sweep spends on groups in which some grain is dispersed or has a dispersed neighbour.

@@ -46,11 +46,39 @@ Matrix3d correction_in_a_cloud(const Matrix3d& moment, double dilation_ratio, bo
   return correction(moment / mean, corrected) / mean;
 }
 
+/// The image of b in a bed that holds it, by the traces that it leaves in a continuum: velocity odd
+/// about the bed along its normal, stress as that of b.
+struct HeldImage {
+  const SlowParticle &a, &b;
+  Vec3 r, image, grad;     ///< offsets of b and of its image, grad W there with both weights
+  double damped, holding;  ///< artificial viscosity over distance^2, how much of it is held
+
+  Matrix3d across() const { return a.ground_normal * a.ground_normal.transpose(); }
+  Matrix3d along() const { return Matrix3d::Identity() - across(); }
+  Matrix3d gradient() const {
+    return -b.volume * ((a.velocity + b.velocity) * (across() * grad).transpose() +
+                        (a.velocity - b.velocity) * (along() * grad).transpose());
+  }
+  Matrix3d moment() const {
+    const double f = -grad.dot(image) / image.squaredNorm() * b.volume;
+    return f * (r * r.transpose() + 4 * a.ground_distance * b.ground_distance * across());
+  }
+  Vec3 force() const {
+    const Vec3 sum = a.velocity + b.velocity, difference = a.velocity - b.velocity;
+    const double normal = sum.dot(across() * image);
+    const double slips = difference.dot(along() * image) + normal;
+    const double holds = sum.dot(along() * image);
+    const Vec3 noise = (1 - holding) * damped * slips * grad;
+    const Vec3 held = holding * damped * (holds * along() * grad + normal * across() * grad);
+    return (a.stress + b.stress) * grad + noise + held;
+  }
+};
+
 }  // namespace
 
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                                   const std::vector<SlowParticle>& images, const SweepConstants& c,
-                                  bool clouds) {
+                                  bool clouds, bool no_slip) {
   std::vector<SlowRates> out(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const SlowParticle& a = particles[i];
@@ -71,12 +99,20 @@ std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
       if (distance >= 2 * c.h) return;
       const double both = a.ground_weight * b.ground_weight;
       const Vec3 grad = both * derivative(distance, c) * image / distance;
+      const double share = 0.5 * (a.viscosity_share + b.viscosity_share);
+      const double damped = share * c.viscosity * c.sound_speed * c.h * c.reference_density /
+                            (distance * distance + 0.01 * c.h * c.h);
+      if (no_slip) {
+        const double holding = 0.5 * (a.held_viscosity + b.held_viscosity) / share;
+        const HeldImage held{a, b, r, image, grad, damped, holding};
+        image_gradient += held.gradient(), image_moment += held.moment();
+        rates.from_ground += b.volume / density_a * held.force();
+        return;
+      }
       const Vec3 u = a.velocity - reflection * b.velocity;
       image_gradient -= b.volume * u * grad.transpose();
       image_moment -= b.volume * image * grad.transpose();
-      const double share = 0.5 * (a.viscosity_share + b.viscosity_share);
-      const double q = share * c.viscosity * c.sound_speed * c.h * c.reference_density *
-                       u.dot(image) / (distance * distance + 0.01 * c.h * c.h);
+      const double q = damped * u.dot(image);
       rates.from_ground +=
           b.volume / density_a *
           ((a.stress + reflection * b.stress * reflection + q * Matrix3d::Identity()) * grad);

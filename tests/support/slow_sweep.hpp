@@ -14,11 +14,12 @@ namespace sturz::test {
 /// A particle as the sweep sees it, positions in metres.
 struct SlowParticle {
   Vec3 position{0, 0, 0}, velocity{0, 0, 0};
-  double volume = 1;                                      ///< m/rho [m^3]
-  double density_change = 0;                              ///< rho/rho_ref - 1
-  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();       ///< [Pa], tension positive
-  double viscosity_share = 1;                             ///< of the artificial viscosity that acts
-  Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();  ///< what walls add [-]
+  double volume = 1;                                 ///< m/rho [m^3]
+  double density_change = 0;                         ///< rho/rho_ref - 1
+  Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();  ///< [Pa], tension positive
+  double viscosity_share = 1;                        ///< of the artificial viscosity that acts
+  double held_viscosity = 0;  ///< the part of it that a bed holds, see NeighborRecord
+  Eigen::Matrix3d wall_moment = Eigen::Matrix3d::Zero();    ///< what walls add [-]
   Eigen::Matrix3d wall_gradient = Eigen::Matrix3d::Zero();  ///< [1/s]
   double ground_distance = 1e9;                             ///< [m]
   Vec3 ground_normal{0, 0, 1};
@@ -50,8 +51,9 @@ struct SlowRates {
 
 /// B.2, B.3, B.4 over all pairs. \param images extra particles that are neighbours only;
 /// \param clouds  the gradient's correction as kinetic groups have it
+/// \param no_slip  the ground holds what lies on it, see BoundaryView
 std::vector<SlowRates> slow_sweep(const std::vector<SlowParticle>& particles,
                                   const std::vector<SlowParticle>& images, const SweepConstants&,
-                                  bool clouds = false);
+                                  bool clouds = false, bool no_slip = false);
 
 }  // namespace sturz::test

@@ -23,7 +23,7 @@ NeighborRecord record_of(const SlowParticle& p, NeighborRecord r) {
   for (int k = 0; k < 6; ++k)
     *stress[k] = static_cast<float>(p.stress(entries[k][0], entries[k][1]));
   r.viscosity = static_cast<float>(p.viscosity_share);
-  r.tension = static_cast<float>(p.tension);
+  r.tension = static_cast<float>(p.tension + p.held_viscosity);
   return r;
 }
 
@@ -176,10 +176,11 @@ struct Prepared {
 }  // namespace
 
 SweepRun fast_sweep(const std::vector<SlowParticle>& particles, const SweepConstants& constants,
-                    InstructionSet isa, const Domain& domain) {
+                    InstructionSet isa, const Domain& domain, bool no_slip) {
   Prepared p(particles, constants, isa, domain);
-  sweeps(isa).dense(p.view(), constants, p.rooms->boundary(p.ground), p.rooms->output(), 0,
-                    p.lists.n_groups());
+  BoundaryView boundary = p.rooms->boundary(p.ground);
+  boundary.no_slip = no_slip;
+  sweeps(isa).dense(p.view(), constants, boundary, p.rooms->output(), 0, p.lists.n_groups());
   return p.results();
 }
 

@@ -23,7 +23,7 @@ SweepConstants usual_constants(double spacing);
 
 /// Runs lists and sweep on copies of the particles. Positions may lie anywhere.
 SweepRun fast_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,
-                    const Domain& = {});
+                    const Domain& = {}, bool no_slip = false);
 
 /// The same through the sweep of grains that may disperse.
 SweepRun kinetic_sweep(const std::vector<SlowParticle>&, const SweepConstants&, InstructionSet,

@@ -2,9 +2,10 @@
 #include "engine/effects/bed/effect.hpp"
 
 #include "engine/core/parallel.hpp"
+#include "engine/effects/bed/contact_sums.hpp"
+#include "engine/effects/bed/liquid_contact.hpp"
 #include "engine/effects/bed/mirrored.hpp"
 #include "engine/effects/fields.hpp"
-#include "engine/laws/contact_impulse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,50 +14,6 @@
 
 namespace sturz {
 namespace {
-
-struct ContactSums {
-  double pressure_work = 0, contact_work = 0, friction = 0, spring = 0;
-  Vec3 along{0, 0, 0};  ///< impulse of the ground's images along it, which the kick holds
-  double pushed = 0;    ///< that of all their pushes, whatever their directions
-
-  void add(const ContactEnergy& e, double mass) {
-    pressure_work += mass * e.pressure_work;
-    contact_work += mass * e.contact_work;
-    friction += mass * e.friction;
-    spring += mass * e.spring;
-  }
-};
-
-void combine(ContactSums& total, const ContactSums& block) {
-  total.pressure_work += block.pressure_work;
-  total.contact_work += block.contact_work;
-  total.friction += block.friction;
-  total.spring += block.spring;
-  total.along += block.along;
-  total.pushed += block.pushed;
-}
-
-/// Integral of the smoothing kernel over a plane at distance d (SmoothingKernel::plane_integral),
-/// once per step and particle in the hot path.
-double plane_integral(double d, double h) {
-  const double y = 1 - std::fmax(d, 0.0) / (2 * h), y2 = y * y, y5 = y2 * y2 * y;
-  return y > 0 ? 10.5 / h * y5 * (1 + y * (-1.5 + y * (4.0 / 7.0))) : 0;
-}
-
-/// Velocities at the start of the step, as the gather pass left them.
-class StartVelocity {
- public:
-  explicit StartVelocity(const ParticleSet& p)
-      : set_(p), before_(set_.find(fields::velocity_before)) {}
-  Vec3 operator()(std::size_t i) const {
-    if (!before_) return {set_.vx[i], set_.vy[i], set_.vz[i]};
-    return {before_->component[0][i], before_->component[1][i], before_->component[2][i]};
-  }
-
- private:
-  const ParticleSet& set_;
-  const Field* before_;
-};
 
 /// Looks up the ground under every particle and what the mirrored halves add to its gradients.
 class BoundaryPass final : public Pass {
@@ -75,6 +32,7 @@ class BoundaryPass final : public Pass {
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[set_];
     make_room(s.domain, p);
+    p.boundary.no_slip = settings_.liquid && settings_.liquid->bed == LiquidBed::no_slip;
     // Where nothing moved in storage, what was far from the ground has come no nearer than it went.
     const bool known = p.n_sorts == sorts_ && p.size() == n_ && p.n_created() == created_ &&
                        s.terrain.n_changes() == ground_changes_;
@@ -94,7 +52,8 @@ class BoundaryPass final : public Pass {
             else
               locate(s, p, i, out);
           }
-          if (!s.domain.walls.empty()) add_walls(s, p, dt, begin, end);
+          if (!s.domain.walls.empty() && !p.boundary.mirrored_walls)
+            add_walls(s, p, dt, begin, end);
         },
         [](Found& total, const Found& block) {
           total.any_leaving |= block.any_leaving;
@@ -116,7 +75,7 @@ class BoundaryPass final : public Pass {
     BoundarySupport& b = p.boundary;
     for (auto* column : {&b.distance, &b.nx, &b.ny, &b.nz}) column->resize(padded);
     p.fate.resize(p.size());
-    if (domain.walls.empty()) return;
+    if (domain.walls.empty() || b.mirrored_walls) return;
     for (int c = 0; c < 6; ++c) b.moment[c].resize(padded), b.gradient[c].resize(padded);
   }
 
@@ -178,12 +137,6 @@ class BoundaryPass final : public Pass {
   std::size_t sorts_ = 0, n_ = 0, created_ = 0, ground_changes_ = 0;  // of the step before
 };
 
-void account(MovingSet& p, const ContactSums& sums) {
-  p.ledger.stress_work += sums.pressure_work;
-  p.ledger.contact_work += sums.contact_work;
-  p.ledger.friction += sums.friction;
-}
-
 class GroundContact final : public Pass {
  public:
   GroundContact(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {
@@ -212,11 +165,7 @@ class GroundContact final : public Pass {
           press(s, p, pressure, dt, begin, end, out);
         },
         combine);
-    account(p, sums);
-    // Of walls, which come first, it holds theirs already.
-    p.ledger.spring = (s.domain.walls.empty() ? 0 : p.ledger.spring) + sums.spring;
-    p.ledger.stress_impulse -= sums.along;  // that of pairs alone, to the rounding of both
-    p.ledger.stress_impulse_scale += sums.pushed;
+    account_ground(s.domain, p, sums);
   }
 
  private:
@@ -252,14 +201,6 @@ class GroundContact final : public Pass {
             0.5 * p.mass[i] *
             by_walls(s, p, i, found - before, dt).dot(Vec3(p.vx[i], p.vy[i], p.vz[i]) - found);
     }
-  }
-
-  /// What walls gave of a change of velocity before the ground's contact. Its work was accounted
-  /// for with the velocity that they left; it is that at the end of the step that counts.
-  static Vec3 by_walls(const State& s, const MovingSet& p, std::size_t i, const Vec3& change,
-                       double dt) {
-    const double kick = s.n_steps == 0 ? 0.5 * dt : dt;
-    return change - kick * Vec3(p.ax[i], p.ay[i], p.az[i] - s.gravity);
   }
 
   std::size_t zone_of(const Domain& domain, const ParticleSet& p, std::size_t i) const {
@@ -309,20 +250,23 @@ class WallContact final : public Pass {
       law.stiffness = settings_.stiffness;
       law.damping = 2 * damping_ratio(settings_.restitution) * std::sqrt(settings_.stiffness);
       law.contact_distance = 0.5 * settings_.spacing;
-      law.friction = wall.friction_coefficient;
+      law.friction = settings_.liquid ? 0 : wall.friction_coefficient;
       law.cohesion_distance = -1;
-      press(s.sets[set_], wall, law, dt, s.threads);
+      press(s, wall, law, dt);
     }
   }
 
  private:
-  void press(MovingSet& p, const Wall& wall, const ContactLaw& law, double dt, int threads) const {
+  void press(State& s, const Wall& wall, const ContactLaw& law, double dt) const {
+    MovingSet& p = s.sets[set_];
+    const bool drags = settings_.liquid && settings_.liquid->walls_hold;
+    const double kick = kick_time(s, dt);
     const WallPressure pressure = WallPressure::of_walls(p, settings_);
     const StartVelocity start(p);
     const double support_radius = 2 * settings_.smoothing_length;
     const Vec3 n = wall.normal;
     const ContactSums sums = ordered_reduce(
-        p.size(), threads, ContactSums{},
+        p.size(), s.threads, ContactSums{},
         [&](std::size_t begin, std::size_t end, ContactSums& out) {
           for (std::size_t i = begin; i < end; ++i) {
             const double d = (Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(n);
@@ -334,6 +278,9 @@ class WallContact final : public Pass {
             out.add(apply_contact(law, d, n.x(), n.y(), n.z(), support, dt, start(i).data(),
                                   p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);
+            if (drags)
+              out.friction += p.mass[i] * drag_along(n, start(i), kick, WallShear(settings_, d),
+                                                     p.vx[i], p.vy[i], p.vz[i]);
           }
         },
         combine);
@@ -353,7 +300,10 @@ void add_ground_lookup(Step& step, std::size_t set, const ContactSettings& setti
 
 void add_terrain_contact(Step& step, std::size_t set, const ContactSettings& settings) {
   add_ground_lookup(step, set, settings);
-  step.add(std::make_unique<GroundContact>(set, settings));
+  if (settings.liquid)
+    add_liquid_contact(step, set, settings);
+  else
+    step.add(std::make_unique<GroundContact>(set, settings));
 }
 
 void add_wall_contact(Step& step, std::size_t set, const ContactSettings& settings) {

@@ -4,8 +4,10 @@
 
 #include "engine/effects/bed_rasters.hpp"
 #include "engine/effects/step.hpp"
+#include "engine/laws/herschel_bulkley.hpp"
 #include "engine/terrain/zone_map.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace sturz {
@@ -14,6 +16,20 @@ struct GroundFriction {
   double friction_coefficient = 0.4;  ///< mu_b [-]
   double pore_pressure_ratio = 0;     ///< r_u [-]
   double cohesion_pa = 0;             ///< c_b [Pa]
+};
+
+/// What a bed does to the liquid beside it.
+enum class LiquidBed {
+  slip,     ///< it pushes, and never drags
+  film,     ///< drag of a film too thin for its shear to be resolved, by the depth of the flow
+  no_slip,  ///< it holds the liquid: from about four layers on the shear beside it is resolved
+};
+
+struct LiquidContact {
+  HerschelBulkley law;
+  LiquidBed bed = LiquidBed::no_slip;
+  /// Analytic walls drag the particles beside them by the shear between; else they slip.
+  bool walls_hold = false;
 };
 
 struct ContactSettings {
@@ -28,6 +44,8 @@ struct ContactSettings {
   std::vector<GroundFriction> bed{1};  ///< by zone, [0] where there is none
   ZoneMap zones;
   BedRasters rasters;  ///< over the ground of the zones
+  /// Of a liquid; absent for grains. It has no Coulomb friction, so `bed` does not count.
+  std::optional<LiquidContact> liquid;
 };
 
 /// Adds the look-up of ground and walls and the ground's contact. Reads the fields of grain stress

@@ -17,8 +17,8 @@ class WallPressure {
  public:
   static WallPressure of_walls(const MovingSet& p, const ContactSettings& c) {
     WallPressure w(p, c);
-    if (const Field* stress = p.find(fields::stress))
-      for (int k = 0; k < 6; ++k) w.stress_[k] = stress->component[k].data();
+    const Field* stress = p.boundary.mirrored_walls ? nullptr : p.find(fields::stress);
+    for (int k = 0; k < 6 && stress; ++k) w.stress_[k] = stress->component[k].data();
     return w;
   }
   static WallPressure of_ground(const MovingSet& p, const ContactSettings& c) {

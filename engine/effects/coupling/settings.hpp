@@ -10,9 +10,19 @@ struct CouplingSettings {
   double viscosity = 0.001;       ///< mu_f that the grains feel [Pa s]
   double drag_diameter = 0.01;    ///< d of the drag: of the fines that set the permeability [m]
   double drag_multiplier = 1;     ///< on the drag; 1 is physics
-  bool buoyancy = true;           ///< grains take their share of the liquid's pressure
+  bool buoyancy = true;           ///< grains take their share of room and of the liquid's pressure
   double smoothing_length = 1.3;  ///< h of the weights between the two sets [m]
   double spacing = 1;             ///< of the grains [m]
+  double courant = 0.25;          ///< dt <= courant h/(c0 sqrt(1 + X) + |v|)
+  double skin = 0.25;             ///< of the lists across, in smoothing lengths
+
+  static constexpr double least_fraction = 0.02;  ///< alpha_p of a grain's own volume
+  static constexpr double most_fraction = 0.8;
+  /// X of grains in a liquid particle: pores of a tenth.
+  static constexpr double largest_share = 9;
+  /// Share of a grain's support that liquid must fill for the grain to count as wet all over; under
+  /// that, what they do to each other fades with the share.
+  static constexpr double wet_support = 0.5;
 };
 
 }  // namespace sturz

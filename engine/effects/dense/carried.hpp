@@ -38,6 +38,7 @@ inline void gather_ground(SweepArrays& shared, const MovingSet& p, double suppor
   lists.for_each_image([&](std::size_t image, std::size_t source) {
     ground[image] = ground[source];
     gradient[image] = gradient[source];
+    lists.turn(image, gradient[image].x, gradient[image].y, gradient[image].z);
   });
 }
 

@@ -105,6 +105,7 @@ class GatherPass final : public Pass {
     const auto& density_change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
     const auto& viscous = p.scalar(fields::viscous_ratio);
+    const Field* packing = p.find(fields::packing_change);
     parallel_ranges(
         p.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
           lists.gather_positions(p, begin, end);
@@ -112,7 +113,8 @@ class GatherPass final : public Pass {
           for (std::size_t i = begin; i < end; ++i) {
             NeighborRecord& r = records[i];
             const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
-            r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
+            const double packed = packing ? 1 + packing->component[0][i] : 1;
+            r.volume = static_cast<float>(p.mass[i] / (packed * reference * (1 + e)));
             r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
             r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
             r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));

@@ -67,10 +67,11 @@ struct SweepArrays {
   BoundaryView boundary(const Domain& domain, const MovingSet& p) const {
     const BoundarySupport& b = p.boundary;
     BoundaryView v{ground.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
-    for (int c = 0; c < 6 && !domain.walls.empty(); ++c) {
+    for (int c = 0; c < 6 && !domain.walls.empty() && !b.mirrored_walls; ++c) {
       v.moment[c] = b.moment[c].data();
       v.gradient[c] = b.gradient[c].data();
     }
+    v.no_slip = b.no_slip;
     return v;
   }
 

@@ -7,6 +7,7 @@
 #include "engine/effects/arrivals.hpp"
 #include "engine/effects/dense/carried.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/effects/liquid/pair_viscosity.hpp"
 #include "engine/effects/liquid/shared.hpp"
 #include "engine/effects/liquid/update.hpp"
 #include "engine/effects/motion/wrapping.hpp"
@@ -33,6 +34,10 @@ class LiquidNeighbors final : public Pass {
 
   void apply(State& s, double) override {
     MovingSet& p = s.sets[shared_->set];
+    shared_->lists.mirror_in(s.domain.walls, s.time);
+    // A particle and its image in a wall close in at twice its speed, those of a stream, too.
+    if (shared_->lists.mirrors())
+      shared_->lists.add_relative_motion(2 * s.previous_dt * p.motion.max_speed);
     if (!shared_->outdated(s, p)) return;
     wrap_particles(s.domain, p);
     p.n_listed = p.size();
@@ -64,6 +69,7 @@ class LiquidGather final : public Pass {
     const auto& change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
     const double* share = scalar_or_null(p, fields::grain_share);
+    const PairViscosity pair_viscosity(g);
     parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       shared_->lists.gather_positions(p, begin, end);
       NeighborRecord* records = shared_->lists.records();
@@ -78,8 +84,13 @@ class LiquidGather final : public Pass {
         // Air in pores is not a dilation that diffusion should even out.
         r.density_change =
             static_cast<float>(std::fmax(e, (1 - in_pores) * LiquidSettings::separation_threshold));
-        const double mean = (stress[0][i] + stress[1][i] + stress[2][i]) / 3, of = 1 / (1 + x);
-        r.viscosity = 1;
+        const double mean = (stress[0][i] + stress[1][i] + stress[2][i]) / 3;
+        const Symmetric deviator{stress[0][i] - mean, stress[1][i] - mean, stress[2][i] - mean,
+                                 stress[3][i],        stress[4][i],        stress[5][i]};
+        const auto pairs = pair_viscosity.at(std::sqrt(deviator.norm2()));
+        const double of = (1 - pairs.carried) / (1 + x);
+        r.held_viscosity() = static_cast<float>(pairs.alpha / (1 + x));
+        r.viscosity = static_cast<float>(g.viscosity + pairs.alpha / (1 + x));
         r.sxx = static_cast<float>(mean + of * (stress[0][i] - mean));
         r.syy = static_cast<float>(mean + of * (stress[1][i] - mean));
         r.szz = static_cast<float>(mean + of * (stress[2][i] - mean));
@@ -122,7 +133,7 @@ class LiquidSweep final : public Pass {
     constants.gradient_factor = SmoothingKernel{g.smoothing_length}.discrete_gradient_factor();
     constants.reference_density = g.reference_density;
     constants.sound_speed = g.sound_speed;
-    constants.viscosity = g.viscosity;
+    constants.viscosity = 1;  // records hold alpha itself
     constants.density_diffusion = g.density_diffusion;
     constants.spacing = g.spacing;
     const double kept = gradient_share(s, g.sound_speed, g.smoothing_length, dt);
@@ -287,6 +298,7 @@ void add_liquid(Step& step, State& state, std::size_t set, const LiquidSettings&
   before.component[1] = p.vy;
   before.component[2] = p.vz;
   mark_start(state.domain, p, 0);
+  p.boundary.mirrored_walls = true;
   LiquidSettings first = settings;
   const bool follows = settings.least_sound_speed < settings.sound_speed;
   if (follows)

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numerical sound speed of a liquid follows its flow.
+#include "engine/core/symmetric_tensor.hpp"
 #include "engine/effects/dense/following_speed.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/effects/liquid/shared.hpp"
 
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace sturz {
 namespace {
+
+/// tau^2 of particle i [Pa^2].
+double shear_norm2(const std::vector<std::vector<double>>& stress, std::size_t i) {
+  const double mean = (stress[0][i] + stress[1][i] + stress[2][i]) / 3;
+  return Symmetric{stress[0][i] - mean, stress[1][i] - mean, stress[2][i] - mean,
+                   stress[3][i],        stress[4][i],        stress[5][i]}
+      .norm2();
+}
 
 /// A change keeps every pressure and shear stress as it is, so the density that carries it is
 /// another one. Elastic energy that comes or goes with that is accounted as numerical.
@@ -29,8 +39,11 @@ class LiquidSoundSpeed final : public Pass {
     LiquidSettings next = g;
     next.sound_speed = wanted;
     auto& change = p.scalar(fields::density_change);
+    const auto& stress = p.components(fields::stress);
+    const double shear = (1 / next.shear_modulus() - 1 / g.shear_modulus()) / g.reference_density;
     double gained = 0;
     for (std::size_t i = 0; i < change.size(); ++i) {
+      gained += 0.5 * p.mass[i] * shear * shear_norm2(stress, i);
       if (change[i] <= 0) continue;
       const double e = next.density_change_at(g.pressure_at(change[i]));
       gained += p.mass[i] * (next.stored_at(e) - g.stored_at(change[i]));

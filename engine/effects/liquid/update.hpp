@@ -70,7 +70,7 @@ class LiquidUpdate {
                       0.5 * (p.l[1] + p.l[3]), 0.5 * (p.l[5] + p.l[7]), 0.5 * (p.l[2] + p.l[6])};
     const Symmetric t = s.plus(2 * shear_ * dt_, d);
     const double trial = std::sqrt(t.norm2());
-    const double tau = trial > 0 ? coherent(e) * law_.relaxed(trial, shear_ * dt_) : 0;
+    const double tau = trial > 0 ? law_at(e).relaxed(trial, shear_ * dt_) : 0;
     const double scale = trial > 0 ? tau / trial : 0;
     const double work = 0.5 * dt_ * (s.dot(d) + scale * t.dot(d));
     const double after = stored(e), half_inv = 0.5 / shear_;
@@ -83,10 +83,12 @@ class LiquidUpdate {
   }
 
  private:
-  /// Spray carries no shear: 1 in the liquid .. 0 where it has separated.
-  static double coherent(double e) {
-    const double x = 1 - e / LiquidSettings::separation_threshold;
-    return e >= 0 ? 1 : std::fmax(0.0, x);
+  /// Spray carries no shear: the whole law in the liquid, nothing where it has separated. Scaled is
+  /// the law, not the stress that it gives: that would be taken off anew with every step.
+  HerschelBulkley law_at(double e) const {
+    if (e >= 0) return law_;
+    const double share = std::fmax(0.0, 1 - e / LiquidSettings::separation_threshold);
+    return {share * law_.yield_stress, share * law_.consistency, law_.index};
   }
   double stored(double e) const { return settings_.reference_density * settings_.stored_at(e); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/effects/sweep/finish.hpp"
+#include "engine/effects/sweep/no_slip_sums.hpp"
 
 namespace sturz::STURZ_ISA {
 
@@ -34,7 +35,9 @@ inline void dense_group(const NeighborView& view, const DenseScale& scale, const
     }
     ImageSums images;
     const bool near = ground.least < scale.support;
-    if (near)
+    if (near && wall.no_slip)
+      images = no_slip_sums(view, group, rows, ground, lane, scale, wall, own);
+    else if (near)
       images = image_sums(view, group, rows, ground, lane, scale, wall, own,
                           [&](std::uint32_t j) { return view.records[j].viscosity; });
     const Lanes mirror_trace =

@@ -100,11 +100,15 @@ struct ImageSums {
     az = fma(szx, dx, fma(syz, dy, fma(Lanes::all(j.szz) + q, dz, az)));
   }
 
-  /// Turns the sums out of the mirror, in the weight of the lanes.
-  void finish(const MirroredSelf& i, Lanes weight) {
+  void scale(Lanes weight) {
     Lanes* const all[] = {&lxx, &lxy, &lxz, &lyx, &lyy, &lyz, &lzx, &lzy, &lzz, &mxx, &myy,
                           &mzz, &mxy, &myz, &mzx, &gx,  &gy,  &gz,  &ax,  &ay,  &az};
     for (Lanes* c : all) *c = weight * *c;
+  }
+
+  /// Turns the sums out of the mirror, in the weight of the lanes.
+  void finish(const MirroredSelf& i, Lanes weight) {
+    scale(weight);
     reflect(i.n, gx, gy, gz);
     reflect(i.n, ax, ay, az);
     reflect(i.n, lxx, lyx, lzx), reflect(i.n, lxy, lyy, lzy), reflect(i.n, lxz, lyz, lzz);
@@ -135,6 +139,17 @@ inline Lanes ground_weight(const DenseSums& s, Lanes scale, const BoundaryView& 
   return select_less(share, one, max(share, Lanes::all(0)), one);
 }
 
+/// Calls body(j) for the records of a group's list whose images may be near it.
+template <class Body>
+inline void for_each_image(const NeighborView& view, std::size_t group, const GroundRows& ground,
+                           const BoundaryView& wall, const DenseScale& k, Body&& body) {
+  const float reach = k.support - ground.least;
+  const std::uint32_t* begin = view.list(group);
+  const std::uint32_t* end = begin + view.list_size(group);
+  for (const std::uint32_t* j = begin; j != end; ++j)
+    if (wall.ground[*j].distance < reach) body(*j);
+}
+
 /// The images of all neighbours of a group's lanes.
 /// \param viscosity  of record j: the share of the artificial viscosity that acts
 template <class Viscosity>
@@ -147,14 +162,10 @@ template <class Viscosity>
   ImageSums images;
   images.clear();
   const Lanes half = Lanes::all(0.5f * k.viscosity);
-  const float reach = k.support - ground.least;
-  const std::uint32_t* begin = view.list(group);
-  const std::uint32_t* end = begin + view.list_size(group);
-  for (const std::uint32_t* j = begin; j != end; ++j) {
-    const GroundRecord& g = wall.ground[*j];
-    if (g.distance >= reach) continue;
-    images.add(self, view.records[*j], g, k, fma(half, Lanes::all(viscosity(*j)), own_viscosity));
-  }
+  for_each_image(view, group, ground, wall, k, [&](std::uint32_t j) {
+    images.add(self, view.records[j], wall.ground[j], k,
+               fma(half, Lanes::all(viscosity(j)), own_viscosity));
+  });
   images.finish(self, Lanes::load(ground.weight + lane));
   return images;
 }

@@ -6,6 +6,8 @@
 #include "io/site/scene_inputs.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/catalogue.hpp"
+#include "tests/engine/effects/coupling/coupled_sets.hpp"
+#include "tests/support/liquid/liquid_scene.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,6 +85,24 @@ TEST(Allocation, ARebuildOfTheListsSettlesIntoItsMemory) {
   EXPECT_LE(allocations(s, 20, 100, true), 10);
 }
 
+/// A collapsing column of liquid behind a wall. While it stays within the skin of its lists it asks
+/// for nothing, beyond that only where they grow.
+TEST(Allocation, AStepOfLiquidNeedsNoNewMemory) {
+  test::LiquidBox box;
+  box.n = {8, 4, 16};
+  box.domain.y = {true, 0, 0.4, 0};
+  box.domain.walls = {Wall{{0, 0, 0}, {1, 0, 0}}};
+  box.settings.law = {50, 1, 0.5};
+  test::HandMade made = test::liquid_of(box);
+  made.advance();
+  long before = n_allocations;
+  for (int n = 0; n < 40; ++n) made.advance();
+  EXPECT_EQ(n_allocations - before, 0);
+  before = n_allocations;
+  for (int n = 0; n < 400; ++n) made.advance();
+  EXPECT_LE(n_allocations - before, 10);
+}
+
 Scenario as_columns(Scenario s) {
   s.formulation = Formulation::depth_averaged;
   return s;
@@ -105,6 +125,21 @@ TEST(Allocation, AStepOfColumnsNeedsNoNewMemory) {
 TEST(Allocation, ASpreadingFlowOfColumnsAsksOnlyWhenItsCellsOutgrowTheirRoom) {
   // Tables of cells and runs grow by factors: a handful of times while the flow doubles its extent.
   EXPECT_LE(allocations(similarity_slide(), 4, 100, false), 8);
+}
+
+TEST(Allocation, AStepOfGrainsInLiquidNeedsNoNewMemory) {
+  auto sets = test::full_pores(10, 0.2);
+  sets[0].velocity = {0.5, 0, 0};
+  test::CoupledSets made = test::coupled_sets(sets[0], sets[1], test::periodic_box(10), {});
+  const auto asked = [&](int steps, double dt) {
+    const long before = n_allocations;
+    for (int n = 0; n < steps; ++n) made.step.apply(made.state, dt);
+    return n_allocations - before;
+  };
+  asked(1, 1e-3);
+  EXPECT_EQ(asked(20, 1e-3), 0) << "no new lists";
+  asked(20, 0.1);
+  EXPECT_LE(asked(40, 0.1), 4) << "new lists every few steps";
 }
 
 }  // namespace

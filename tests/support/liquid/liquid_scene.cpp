@@ -21,8 +21,31 @@ Terrain ground_of(const LiquidBox& box, double cell) {
   const int n = static_cast<int>(std::ceil(2 * box.half_width / cell));
   Raster<double> z(Grid{n, n, -0.5 * n * cell, 0.5 * n * cell, cell, ""});
   for (int r = 0; r < n; ++r)
-    for (int c = 0; c < n; ++c) z.at(r, c) = -box.slope * z.grid.x_center(c);
+    for (int c = 0; c < n; ++c)
+      z.at(r, c) = box.ground ? box.ground(z.grid.x_center(c), z.grid.y_center(r))
+                              : -box.slope * z.grid.x_center(c);
   return Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow);
+}
+
+/// \param i,j,k  along the box's edges, in spacings
+Vec3 place_of(const LiquidBox& box, double i, double j, double k) {
+  const Vec3 edge = box.spacing * Vec3(i, j, k);
+  if (!box.along_slope) {
+    const double x = box.corner.x() + edge.x();
+    return {x, box.corner.y() + edge.y(), box.corner.z() - box.slope * x + edge.z()};
+  }
+  const double cosine = 1 / std::hypot(1, box.slope), sine = box.slope * cosine;
+  return box.corner +
+         Vec3(cosine * edge.x() + sine * edge.z(), edge.y(), cosine * edge.z() - sine * edge.x());
+}
+
+std::vector<Vec3> lattice_of(const LiquidBox& box) {
+  std::vector<Vec3> at;
+  for (int i = 0; i < box.n[0]; ++i)
+    for (int j = 0; j < box.n[1]; ++j)
+      for (int k = 0; k < box.n[2]; ++k)
+        at.push_back(place_of(box, i + 0.5, j + 0.5, k + 0.5));
+  return at;
 }
 
 void place(const LiquidBox& box, MovingSet& p) {
@@ -30,20 +53,14 @@ void place(const LiquidBox& box, MovingSet& p) {
   p.spacing = box.spacing;
   p.bulk_density = box.settings.reference_density;
   p.reference_fraction = 1;
-  const auto [nx, ny, nz] = box.n;
-  p.grow(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
-         static_cast<std::size_t>(nz));
-  std::size_t at = 0;
-  for (int i = 0; i < nx; ++i)
-    for (int j = 0; j < ny; ++j)
-      for (int k = 0; k < nz; ++k, ++at) {
-        p.x[at] = box.corner.x() + (i + 0.5) * box.spacing;
-        p.y[at] = box.corner.y() + (j + 0.5) * box.spacing;
-        p.z[at] = box.corner.z() - box.slope * p.x[at] + (k + 0.5) * box.spacing;
-        p.vx[at] = box.velocity.x(), p.vy[at] = box.velocity.y(), p.vz[at] = box.velocity.z();
-        p.mass[at] = box.settings.reference_density * std::pow(box.spacing, 3);
-        p.ledger.released_mass += p.mass[at];
-      }
+  const std::vector<Vec3> at = box.at.empty() ? lattice_of(box) : box.at;
+  p.grow(at.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    p.x[i] = at[i].x(), p.y[i] = at[i].y(), p.z[i] = at[i].z();
+    p.vx[i] = box.velocity.x(), p.vy[i] = box.velocity.y(), p.vz[i] = box.velocity.z();
+    p.mass[i] = box.settings.reference_density * std::pow(box.spacing, 3);
+    p.ledger.released_mass += p.mass[i];
+  }
 }
 
 }  // namespace
@@ -53,27 +70,31 @@ HandMade liquid_of(const LiquidBox& box) {
   HandMade made{State(ground_of(box, cell), box.domain), {}};
   State& s = made.state;
   s.threads = box.threads;
+  s.gravity = box.gravity;
   MovingSet& p = s.sets[0];
   place(box, p);
   mark_start(s.domain, p, 0);
   LiquidSettings liquid = box.settings;
   liquid.spacing = box.spacing;
   liquid.smoothing_length = smoothing_ratio * box.spacing;
-  liquid.instruction_set = best_instruction_set();
+  liquid.instruction_set = box.instruction_set;
   ContactSettings contact;
   contact.spacing = box.spacing;
   contact.smoothing_length = liquid.smoothing_length;
   contact.reference_density = liquid.reference_density;
-  const double height = box.spacing * box.n[2], speed = 0.1 * liquid.sound_speed;
+  const double height = box.at.empty() ? box.spacing * box.n[2] : box.top - box.corner.z();
+  const double speed = 0.1 * liquid.sound_speed;
   contact.stiffness = std::max(10 * s.gravity * height / (box.spacing * box.spacing),
                                std::pow(2 * speed / box.spacing, 2));
-  contact.bed = {{0}};
+  contact.liquid = LiquidContact{box.settings.law, box.bed, box.walls_hold};
   add_gravity(made.step, s, 0);
   add_terrain_contact(made.step, 0, contact);
   if (!s.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
   std::vector<double> depth(p.size(), 0.0);
+  // On a slope the pressure is rho g cos^2 of what lies plumb above.
+  const double top = box.corner.z() + height * (box.along_slope ? std::hypot(1, box.slope) : 1);
   for (std::size_t i = 0; box.hydrostatic && i < p.size(); ++i)
-    depth[i] = box.corner.z() + height - (p.z[i] + box.slope * p.x[i]);
+    depth[i] = (top - (p.z[i] + box.slope * p.x[i])) / (1 + box.slope * box.slope);
   add_liquid(made.step, s, 0, liquid, depth);
   add_motion(made.step, 0, {box.spacing, liquid.smoothing_length});
   refresh_motion(s, p, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Neighbours mirrored in the ground (docs/physics.md B.10, ADR 0037).
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/ground_block.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,60 +12,18 @@ namespace sturz {
 namespace {
 
 using Eigen::Matrix3d;
+using test::mass_of;
 using test::SlowParticle;
-using test::SlowRates;
+using test::tilted_frame;
 
 constexpr double dx = 1.5;
 
 InstructionSet fastest() { return best_instruction_set(); }
 
-/// Two tangents and the normal of an inclined plane through the origin, in rows.
-Matrix3d tilted_frame() {
-  const Vec3 n = Vec3(-0.4, 0.1, 1).normalized();
-  Matrix3d frame;
-  frame.row(2) = n;
-  frame.row(0) = Vec3(n.z(), 0, -n.x()).normalized();
-  frame.row(1) = n.cross(Vec3(frame.row(0)));
-  return frame;
-}
-
-/// n[2] layers on the inclined plane, the lowest half a spacing above it.
 std::vector<SlowParticle> block_on_ground(std::array<int, 3> n, double jitter) {
-  const Matrix3d frame = tilted_frame();
-  auto cloud = test::lattice(n, dx, jitter);
-  for (SlowParticle& p : cloud) {
-    p.position = frame.transpose() * (p.position + Vec3(0, 0, 0.5 * n[2] * dx));
-    p.ground_normal = frame.row(2);
-    p.ground_distance = p.position.dot(p.ground_normal);
-  }
-  return cloud;
+  return test::block_on_ground(n, dx, jitter);
 }
-
-std::vector<SlowParticle> rough_block() {
-  auto cloud = block_on_ground({11, 10, 7}, 0.2);
-  test::roughen(cloud, dx);
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> u(-1, 1);
-  for (SlowParticle& p : cloud) {
-    p.ground_weight = 0.6 + 0.4 * u(random);
-    p.density_gradient = 1e-3 * Vec3(u(random), u(random), u(random));
-  }
-  return cloud;
-}
-
-double mass(const SlowParticle& p, const SweepConstants& c) {
-  return p.volume * c.reference_density * (1 + p.density_change);
-}
-
-using Part = std::pair<const char*, Eigen::MatrixXd (*)(const SlowRates&)>;
-const std::vector<Part> parts{
-    {"acceleration", [](const SlowRates& r) -> Eigen::MatrixXd { return r.acceleration; }},
-    {"from ground", [](const SlowRates& r) -> Eigen::MatrixXd { return r.from_ground; }},
-    {"gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.gradient; }},
-    {"ground weight",
-     [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.ground_weight, 0, 0); }},
-    {"density gradient", [](const SlowRates& r) -> Eigen::MatrixXd { return r.density_gradient; }},
-    {"diffusion", [](const SlowRates& r) -> Eigen::MatrixXd { return Vec3(r.diffusion, 0, 0); }}};
+std::vector<SlowParticle> rough_block() { return test::rough_block_on_ground(dx); }
 
 TEST(GroundImages, EqualTheSlowTwin) {
   const auto constants = test::usual_constants(dx);
@@ -74,7 +32,7 @@ TEST(GroundImages, EqualTheSlowTwin) {
   for (auto isa : {InstructionSet::plain, InstructionSet::avx2, InstructionSet::avx512}) {
     if (!supports(isa)) continue;
     const auto fast = test::fast_sweep(cloud, constants, isa).rates;
-    for (const auto& [name, part] : parts)
+    for (const auto& [name, part] : test::parts_with_images())
       EXPECT_LT(test::relative_error(fast, slow, part), 1e-5) << name << " " << to_string(isa);
   }
 }
@@ -90,7 +48,7 @@ TEST(GroundImages, EqualTheSlowTwinAmongDispersedGrains) {
   }
   const auto slow = test::slow_sweep(cloud, {}, constants, true);
   const auto fast = test::kinetic_sweep(cloud, constants, fastest()).rates;
-  for (const auto& [name, part] : parts)
+  for (const auto& [name, part] : test::parts_with_images())
     EXPECT_LT(test::relative_error(fast, slow, part), 1e-5) << name;
   for (std::size_t i = 0; i < cloud.size(); ++i)
     EXPECT_NEAR(fast[i].support_completeness, slow[i].support_completeness, 1e-5);
@@ -113,7 +71,7 @@ TEST(GroundImages, AreThoseOfPeriodicNeighboursToo) {
   }
   const auto slow = test::slow_sweep(cloud, images, constants);
   const auto fast = test::fast_sweep(cloud, constants, fastest(), domain).rates;
-  for (const auto& [name, part] : parts)
+  for (const auto& [name, part] : test::parts_with_images())
     EXPECT_LT(test::relative_error(fast, slow, part), 1e-5) << name;
 }
 
@@ -144,7 +102,8 @@ double thrust(int layers, bool mirrored) {
   const auto rates = test::fast_sweep(cloud, constants, fastest(), domain).rates;
   double force = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (cloud[i].position.x() > 0) force += mass(cloud[i], constants) * rates[i].acceleration.x();
+    if (cloud[i].position.x() > 0)
+      force += mass_of(cloud[i], constants) * rates[i].acceleration.x();
   return force / (6 * dx) / (0.5 * layers * dx * layers * dx);
 }
 
@@ -171,7 +130,7 @@ TEST(GroundImages, DoTheWorkThatTheStrainTakes) {
   double work = 0, power = 0, size = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const SlowParticle& p = cloud[i];
-    const double done = mass(p, constants) * fast[i].from_ground.dot(p.velocity);
+    const double done = mass_of(p, constants) * fast[i].from_ground.dot(p.velocity);
     work += done;
     size += std::abs(done);
     power += p.volume * p.stress.cwiseProduct(with[i].pair_sums - without[i].pair_sums).sum();
@@ -187,8 +146,8 @@ TEST(GroundImages, PushAwayFromThePlaneAndNotAlongIt) {
   Vec3 force(0, 0, 0);
   double scale = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    force += mass(cloud[i], constants) * fast[i].from_ground;
-    scale += mass(cloud[i], constants) * fast[i].from_ground.norm();
+    force += mass_of(cloud[i], constants) * fast[i].from_ground;
+    scale += mass_of(cloud[i], constants) * fast[i].from_ground.norm();
   }
   const Vec3 local = tilted_frame() * force;
   EXPECT_LT(std::hypot(local.x(), local.y()), 1e-6 * scale);

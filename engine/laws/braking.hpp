@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A column under a constant pull and a bed that brakes it.
+/// What lies on a bed that brakes it, under a constant pull.
 #pragma once
 
 #include "engine/core/vec.hpp"

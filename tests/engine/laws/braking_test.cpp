@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A bed that brakes a column under a constant pull.
-#include "engine/effects/columns/braking.hpp"
+#include "engine/laws/braking.hpp"
 
 #include <gtest/gtest.h>
 
