@@ -24,6 +24,12 @@ double released_mass(const MovingSet& p) {
   return sum.value();
 }
 
+LiquidBed as_engine(FluidBed bed) {
+  return bed == FluidBed::no_slip ? LiquidBed::no_slip
+         : bed == FluidBed::film  ? LiquidBed::film
+                                  : LiquidBed::slip;
+}
+
 bool fills_pores(const Scenario& s) { return s.fluid->saturation.value >= 1; }
 
 }  // namespace
@@ -113,6 +119,7 @@ ContactSettings liquid_contact(const Scenario& s, const ScenePlan& plan) {
   c.bed = {GroundFriction{0, 0, 0}};
   c.zones = {};
   c.rasters = {};
+  c.liquid = LiquidContact{liquid_law(*s.fluid), as_engine(liquid_bed(s, plan.formulation))};
   return c;
 }
 

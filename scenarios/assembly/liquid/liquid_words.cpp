@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/laws/drag.hpp"
 #include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <cmath>
-#include <numbers>
 
 namespace sturz {
 namespace {
@@ -19,20 +19,11 @@ std::string law_text(const FluidSpec& fluid) {
          ", yield stress " + short_number(law.yield_stress) + " Pa";
 }
 
-/// Drag over slip of slow grains [kg/(m3 s)]: Ergun where they lie dense, Wen and Yu where they do
-/// not, with the switch of Huilin and Gidaspow (docs/physics.md A.6).
-double slow_drag(double alpha, const CouplingSettings& c) {
-  const double pores = 1 - alpha, per_area = c.viscosity / (c.drag_diameter * c.drag_diameter);
-  const double ergun = 150 * alpha * alpha * per_area / pores;
-  const double wen_yu = 18 * alpha * per_area * std::pow(pores, -2.65);
-  const double dilute = std::atan(150 * 1.75 * (0.2 - alpha)) / std::numbers::pi + 0.5;
-  return c.drag_multiplier * ((1 - dilute) * ergun + dilute * wen_yu);
-}
-
 /// Within which a slow slip falls to 1/e [s].
 double slip_time(const Scenario& s, const CouplingSettings& c) {
+  const GranularDrag law{c.drag_diameter, c.liquid_density, c.viscosity};
   const double alpha = s.grains->solid_fraction.value;
-  return 1 / (slow_drag(alpha, c) *
+  return 1 / (c.drag_multiplier * law.exchange(alpha, 0) *
               (1 / (alpha * c.grain_density) + 1 / (liquid_share(s) * c.liquid_density)));
 }
 

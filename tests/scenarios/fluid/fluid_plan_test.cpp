@@ -174,7 +174,25 @@ TEST(FluidPlan, TheLiquidMeetsTheGroundWithoutTheGrainsFriction) {
   EXPECT_EQ(plan.liquid_contact.bed[0].friction_coefficient, 0);
   EXPECT_EQ(plan.liquid_contact.bed[0].cohesion_pa, 0);
   EXPECT_EQ(plan.liquid_contact.reference_density, 1000);
+  ASSERT_TRUE(plan.liquid_contact.liquid);
+  EXPECT_EQ(plan.liquid_contact.liquid->law.consistency, 0.01);
+  EXPECT_FALSE(plan.contact.liquid);
   EXPECT_NEAR(plan.contact.reference_density, 0.55 * 2500, 1e-9);
+}
+
+TEST(FluidPlan, TheBedHoldsWhatLayersResolveAndDragsAFilmElse) {
+  const auto bed = [](const Scenario& s) {
+    return plan_scene(s, slope_inputs(), 0).liquid_contact.liquid->bed;
+  };
+  Scenario s = mud();
+  EXPECT_EQ(bed(s), LiquidBed::film) << "five layers at release, one where it comes to rest";
+  s.numerics.spacing_m = 0.3;
+  EXPECT_EQ(bed(s), LiquidBed::no_slip);
+  s.fluid->bed = FluidBed::slip;
+  EXPECT_EQ(bed(s), LiquidBed::slip);
+  s.numerics.spacing_m = 2;
+  s.fluid->bed = FluidBed::no_slip;
+  EXPECT_EQ(bed(s), LiquidBed::no_slip);
 }
 
 TEST(FluidPlan, DescribesBothEffectsAndTheOrderOfTheContacts) {
