@@ -16,9 +16,10 @@ class FilmDrag {
  public:
   /// \param depth   of the flow \param layer  of its part that is braked, both normal to the bed
   /// [m]
-  FilmDrag(const HerschelBulkley& law, double density, double depth, double layer)
+  /// \param share  of the drag that acts [-]
+  FilmDrag(const HerschelBulkley& law, double density, double depth, double layer, double share)
       : film_{law},
-        per_mass_(1 / (density * layer)),
+        per_mass_(share / (density * layer)),
         thickness_(LiquidFilm::equivalent_thickness(layer, depth)) {}
   SurfaceDrag operator()(double speed) const {
     const double v = std::max(speed, 1e-9);  // below it the law's own power would have no slope

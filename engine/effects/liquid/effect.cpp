@@ -69,7 +69,7 @@ class LiquidGather final : public Pass {
     const auto& change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
     const double* share = scalar_or_null(p, fields::grain_share);
-    const PairViscosity pair_viscosity(g);
+    const auto& viscous_ratio = p.scalar(fields::viscous_ratio);
     parallel_ranges(p.size(), reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
       shared_->lists.gather_positions(p, begin, end);
       NeighborRecord* records = shared_->lists.records();
@@ -85,9 +85,7 @@ class LiquidGather final : public Pass {
         r.density_change =
             static_cast<float>(std::fmax(e, (1 - in_pores) * LiquidSettings::separation_threshold));
         const double mean = (stress[0][i] + stress[1][i] + stress[2][i]) / 3;
-        const Symmetric deviator{stress[0][i] - mean, stress[1][i] - mean, stress[2][i] - mean,
-                                 stress[3][i],        stress[4][i],        stress[5][i]};
-        const auto pairs = pair_viscosity.at(std::sqrt(deviator.norm2()));
+        const auto pairs = PairViscosity::of(viscous_ratio[i]);
         const double of = (1 - pairs.carried) / (1 + x);
         r.held_viscosity() = static_cast<float>(pairs.alpha / (1 + x));
         r.viscosity = static_cast<float>(g.viscosity + pairs.alpha / (1 + x));
@@ -184,6 +182,8 @@ class LiquidStress final : public Pass {
     const float* gradient[9] = {r.lxx, r.lxy, r.lxz, r.lyx, r.lyy, r.lyz, r.lzx, r.lzy, r.lzz};
     auto& change = p.scalar(fields::density_change);
     auto& stress = p.components(fields::stress);
+    auto& viscous_ratio = p.scalar(fields::viscous_ratio);
+    const PairViscosity pair_viscosity(shared_->settings);
     const double* share = scalar_or_null(p, fields::grain_share);
     const double* slip = scalar_or_null(p, fields::slip_divergence);
     const LiquidSettings& g = shared_->settings;
@@ -205,6 +205,7 @@ class LiquidStress final : public Pass {
       out.viscous += volume * energies.viscous;
       out.diffusion += volume * energies.diffusion;
       change[i] = now.e;
+      viscous_ratio[i] = pair_viscosity.ratio(now.l, std::sqrt(now.s.norm2()));
       stress[0][i] = now.s.xx - pressure;
       stress[1][i] = now.s.yy - pressure;
       stress[2][i] = now.s.zz - pressure;
@@ -293,6 +294,8 @@ void add_liquid(Step& step, State& state, std::size_t set, const LiquidSettings&
   p.add(fields::stress);
   p.add(fields::density_gradient);
   p.add(fields::ground_weight);
+  Field& ratio = p.add(fields::viscous_ratio);
+  std::fill(ratio.component[0].begin(), ratio.component[0].end(), PairViscosity::none);
   Field& before = p.add(fields::velocity_before);
   before.component[0] = p.vx;
   before.component[1] = p.vy;
