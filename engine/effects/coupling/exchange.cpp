@@ -69,7 +69,8 @@ class ExchangePass final : public Pass {
 
   Surroundings surroundings(std::size_t row) const {
     const Coupling& c = *shared_;
-    const Quads<2> sum = gather(c.of_grains(), row, c.liquid_now);
+    const PairSide::Pairs pairs = c.of_grains().pairs(row);
+    const Quads<2> sum = gather(pairs, pairs.weight, c.liquid_now);
     const double inverse = 1 / c.met[row].met;
     return {c.met[row].velocity, inverse * sum.vector(0), inverse * sum.vector(4), inverse * sum[3],
             inverse * sum[7]};
@@ -109,11 +110,11 @@ class ExchangePass final : public Pass {
     const double solids = std::clamp(1 - liquid.pores, 0.0, 1 - GranularDrag::least_pores);
     // With the mean of the slips at both ends: a grain that settles does so at the law's speed
     // whatever the step.
+    const GranularDrag::AtShare law(law_, solids);
     const double start = slip0.norm();
-    const Vec3 end = slip - slip_taken(slip0, slip, force * law_.per_grain_volume(solids, start));
+    const Vec3 end = slip - slip_taken(slip0, slip, force * law(start));
     const double mean = 0.5 * (start + end.norm());
-    const Vec3 impulse =
-        -reduced * slip_taken(slip0, slip, force * law_.per_grain_volume(solids, mean));
+    const Vec3 impulse = -reduced * slip_taken(slip0, slip, force * law(mean));
     c.drag[row] = impulse / mass;
     const Vec3 given = impulse / met.met;
     c.impulse[row].quad[0] = Quad{given.x(), given.y(), given.z(), 0};
@@ -126,7 +127,8 @@ class ExchangePass final : public Pass {
     parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t j = side.index(r);
-        const Vec3 sum = gather(side, r, c.impulse).vector(0);
+        const PairSide::Pairs pairs = side.pairs(r);
+        const Vec3 sum = gather(pairs, pairs.weight, c.impulse).vector(0);
         const Vec3 v = -c.take[r] / p.mass[j] * sum;
         c.drawn[r] = v;
         p.vx[j] += v.x(), p.vy[j] += v.y(), p.vz[j] += v.z();
