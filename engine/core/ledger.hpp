@@ -46,7 +46,7 @@ struct Ledger {
   double conducted = 0;      ///< gained by its conduction: zero but for rounding
   double collisions = 0;     ///< dissipated by collisions of grains
   double granular_lost = 0;  ///< with grains that left the continuum, less what came back
-  double plastic = 0;        ///< dissipated by yielding
+  double plastic = 0;        ///< dissipated by yielding of grains and flow of a liquid
   double diffusion = 0;      ///< elastic energy added by density diffusion and stress smoothing
   double contact_work = 0;  ///< by contact springs, dampers and the ground guard, isolated_work too
   double isolated_work = 0;  ///< by contacts of isolated particles, on their flight

@@ -10,6 +10,7 @@ struct EffectName {
   static constexpr std::string_view gravity = "gravity";
   static constexpr std::string_view bed = "bed";
   static constexpr std::string_view grain_stress = "grain stress";
+  static constexpr std::string_view dilatancy = "dilatancy";
   static constexpr std::string_view states = "states of the grains";
   static constexpr std::string_view kinetic_theory = "kinetic theory";
   static constexpr std::string_view isolated = "isolated particles";

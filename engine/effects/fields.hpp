@@ -24,6 +24,10 @@ inline constexpr FieldKey density_gradient{"density_gradient", 3, "m-1", "grain 
 /// 0..1: how much of a grain's image in the ground acts, of the last pair sweep.
 inline constexpr FieldKey ground_weight{"ground_weight", 1, "1", "grain stress", 1.0};
 
+// Dilatancy (dilatancy/).
+/// Density of the packing without load over the reference density, less 1.
+inline constexpr FieldKey packing_change{"packing_change", 1, "1", "dilatancy"};
+
 // States of the grains (kinetic/).
 /// GrainState by number.
 inline constexpr FlagKey state{"state", "states of the grains"};

@@ -32,6 +32,7 @@ FAMILIES = {
     "dense": {"kinetic/settings.hpp"},
     "kinetic": {"dense"},
     "isolated": {"dense"},
+    "dilatancy": {"dense"},
     "liquid": {"dense"},
     "phases": {"columns"},
     "sweep": {"dense", "kinetic", "columns", "phases"},

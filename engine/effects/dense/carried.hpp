@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/core/parallel.hpp"
-#include "engine/effects/dense/shared.hpp"
+#include "engine/effects/dense/sweep_arrays.hpp"
 #include "engine/effects/fields.hpp"
 
 #include <algorithm>
@@ -11,9 +11,10 @@
 namespace sturz {
 
 /// Distances to the ground, and what the last sweep left for this one.
-inline void gather_ground(GrainStress& shared, const MovingSet& p, int threads) {
+/// \param support  2h [m]
+inline void gather_ground(SweepArrays& shared, const MovingSet& p, double support, int threads) {
   const NeighborLists& lists = shared.lists;
-  const double unit = lists.view().unit_m, support = 2 * shared.settings.smoothing_length;
+  const double unit = lists.view().unit_m;
   const GroundRecord none{static_cast<float>(GroundRecord::far * support / unit), 0};
   auto& ground = shared.ground;
   auto& gradient = shared.density_gradient;
@@ -42,8 +43,9 @@ inline void gather_ground(GrainStress& shared, const MovingSet& p, int threads) 
 
 /// How much of a sweep's density gradient enters that of the next: all at the start, then over
 /// 10 h/c0, forty steps or so.
-inline double gradient_share(const State& s, const GrainStressSettings& g, double dt) {
-  const double relaxed = dt * g.sound_speed / (10 * g.smoothing_length);
+/// \param sound_speed  c0 [m/s] \param h  smoothing length [m]
+inline double gradient_share(const State& s, double sound_speed, double h, double dt) {
+  const double relaxed = dt * sound_speed / (10 * h);
   return s.n_steps == 0 ? 1 : std::min(1.0, relaxed);
 }
 

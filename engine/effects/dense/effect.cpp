@@ -39,18 +39,12 @@ class NeighborPass final : public Pass {
 
   void apply(State& s, double) override {
     MovingSet& p = s.sets[shared_->set];
-    NeighborLists& lists = shared_->lists;
-    const double* range = p.motion.velocity_range;
-    lists.add_relative_motion(
-        s.previous_dt * std::sqrt(range[0] * range[0] + range[1] * range[1] + range[2] * range[2]));
-    if (p.order_changed) lists.invalidate();
-    p.order_changed = false;
     isolated_ns_ = all_ns_ = 0;
-    if (!lists.needs_rebuild()) return;
+    if (!shared_->outdated(s, p)) return;
     const std::int64_t start = now_ns();
     wrap_particles(s.domain, p);
-    rebuild(s, p, lists);
-    make_room(p, lists.padded_size());
+    rebuild(s, p, shared_->lists);
+    make_room(p, shared_->lists.padded_size());
     ++p.n_sorts;
     all_ns_ = now_ns() - start;
   }
@@ -82,13 +76,10 @@ class NeighborPass final : public Pass {
   }
 
   void make_room(MovingSet& p, std::size_t padded) const {
-    for (auto& r : shared_->results) r.resize(padded);
+    shared_->make_room(p);
     for (auto& r : shared_->smooth) r.resize(padded);
     if (shared_->settings.states)
       for (auto& r : shared_->dispersed) r.resize(padded);
-    const std::size_t all = std::max(padded, p.size());
-    for (auto* a : {&p.ax, &p.ay, &p.az, &p.boundary.mirror_weight}) a->resize(all);
-    for (auto& a : p.boundary.from_ground) a.resize(all);
   }
 
   std::shared_ptr<GrainStress> shared_;
@@ -114,6 +105,7 @@ class GatherPass final : public Pass {
     const auto& density_change = p.scalar(fields::density_change);
     const auto& stress = p.components(fields::stress);
     const auto& viscous = p.scalar(fields::viscous_ratio);
+    const Field* packing = p.find(fields::packing_change);
     parallel_ranges(
         p.n_listed, reduction_block, s.threads, [&](std::size_t begin, std::size_t end) {
           lists.gather_positions(p, begin, end);
@@ -121,7 +113,8 @@ class GatherPass final : public Pass {
           for (std::size_t i = begin; i < end; ++i) {
             NeighborRecord& r = records[i];
             const double e = std::max(density_change[i], GrainStressSettings::separation_threshold);
-            r.volume = static_cast<float>(p.mass[i] / (reference * (1 + e)));
+            const double packed = packing ? 1 + packing->component[0][i] : 1;
+            r.volume = static_cast<float>(p.mass[i] / (packed * reference * (1 + e)));
             r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
             r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
             r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
@@ -145,7 +138,7 @@ class GatherPass final : public Pass {
     lists.copy_images();
     for (std::size_t i = p.n_listed; i < p.size(); ++i)
       before[0][i] = p.vx[i], before[1][i] = p.vy[i], before[2][i] = p.vz[i];
-    gather_ground(*shared_, p, s.threads);
+    gather_ground(*shared_, p, 2 * shared_->settings.smoothing_length, s.threads);
   }
   std::size_t bytes() const override {
     return shared_->ground.capacity() * sizeof(GroundRecord) +
@@ -180,7 +173,7 @@ class SweepPass final : public Pass {
   void apply(State& s, double dt) override {
     MovingSet& p = s.sets[shared_->set];
     const GrainStressSettings& g = shared_->settings;
-    const double kept = gradient_share(s, g, dt);
+    const double kept = gradient_share(s, g.sound_speed, g.smoothing_length, dt);
     const bool smooth = s.n_steps % GrainStressSettings::smoothing_interval == 0;
     shared_->smoothing_now =
         smooth ? g.stress_smoothing * GrainStressSettings::smoothing_interval : 0;
@@ -194,13 +187,10 @@ class SweepPass final : public Pass {
                                    g.spacing,
                                    shared_->smoothing_now,
                                    g.ratio_floor()};
-    NeighborView view = shared_->lists.view();
-    view.density_gradient = shared_->density_gradient.data();
+    const NeighborView view = shared_->view();
     SweepOutput out = shared_->output();
-    out.ax = p.ax.data(), out.ay = p.ay.data(), out.az = p.az.data();
-    for (int k = 0; k < 3; ++k) out.from_ground[k] = p.boundary.from_ground[k].data();
-    out.mirror_weight = p.boundary.mirror_weight.data();
-    const BoundaryView wall = boundary_view(s.domain, p);
+    SweepArrays::join_state(out, p);
+    const BoundaryView wall = shared_->boundary(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
     constexpr std::size_t groups_per_range = 16;
     dispersed_ns_ = all_ns_ = 0;
@@ -239,16 +229,6 @@ class SweepPass final : public Pass {
                  wall, out, begin, end);
     all_ns_.fetch_add(now_ns() - start, std::memory_order_relaxed);
     dispersed_ns_.fetch_add(clock.spent_ns, std::memory_order_relaxed);
-  }
-
-  BoundaryView boundary_view(const Domain& domain, const MovingSet& p) const {
-    const BoundarySupport& b = p.boundary;
-    BoundaryView view{shared_->ground.data(), b.nx.data(), b.ny.data(), b.nz.data(), {}, {}};
-    for (int c = 0; c < 6 && !domain.walls.empty(); ++c) {
-      view.moment[c] = b.moment[c].data();
-      view.gradient[c] = b.gradient[c].data();
-    }
-    return view;
   }
 
   std::shared_ptr<GrainStress> shared_;

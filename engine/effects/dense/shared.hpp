@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/effects/dense/settings.hpp"
+#include "engine/effects/dense/sweep_arrays.hpp"
 #include "engine/effects/step.hpp"
-#include "engine/neighbors/neighbor_lists.hpp"
 
 #include <memory>
 #include <vector>
@@ -22,16 +22,10 @@ class ListChanges {
   virtual bool after_sorting(const Domain&, MovingSet&, const NeighborLists&) = 0;
 };
 
-/// Lists, and the sweep's results in storage order.
-struct GrainStress {
-  std::size_t set;  ///< index in State::sets
+/// What the pair sweep of grains needs and leaves.
+struct GrainStress : SweepArrays {
   GrainStressSettings settings;
-  NeighborLists lists;
-  /// Velocity gradient, density diffusion, density gradient, weight of the image in the ground.
-  std::vector<float> results[14];
   std::vector<float> smooth[6];
-  std::vector<GroundRecord> ground;  // by record
-  std::vector<HalfDensityGradient> density_gradient;
   // Only where grains may disperse:
   std::vector<float>
       dispersed[9];  // support completeness, neighbours, conduction, pair gradient; see SweepOutput
@@ -41,29 +35,11 @@ struct GrainStress {
   double smoothing_now = 0;  // zeta of this step's sweep: every smoothing_interval-th, else 0
 
   GrainStress(std::size_t set_index, const GrainStressSettings& s)
-      : set(set_index),
-        settings(s),
-        lists(2 * s.smoothing_length, s.skin * s.smoothing_length,
-              sweeps(s.instruction_set).tight_list) {}
+      : SweepArrays(set_index, s.smoothing_length, s.skin, s.instruction_set), settings(s) {}
 
   /// Without accelerations and the walls' mirror weights, which live in the state.
   SweepOutput output() {
-    SweepOutput out{};
-    float** slots[] = {&out.lxx,
-                       &out.lxy,
-                       &out.lxz,
-                       &out.lyx,
-                       &out.lyy,
-                       &out.lyz,
-                       &out.lzx,
-                       &out.lzy,
-                       &out.lzz,
-                       &out.diffusion,
-                       &out.density_gradient[0],
-                       &out.density_gradient[1],
-                       &out.density_gradient[2],
-                       &out.ground_weight};
-    for (int k = 0; k < 14; ++k) *slots[k] = results[k].data();
+    SweepOutput out = SweepArrays::output();
     for (int k = 0; k < 6; ++k) out.smooth[k] = smooth[k].data();
     out.support_completeness = dispersed[0].data(), out.neighbors = dispersed[1].data(),
     out.conducted = dispersed[2].data();

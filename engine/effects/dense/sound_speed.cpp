@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numerical sound speed follows the flow: a slide that starts, spreads and stops needs the
 // stiffness of its fastest moment only then.
+#include "engine/effects/dense/following_speed.hpp"
 #include "engine/effects/dense/shared.hpp"
 #include "engine/effects/fields.hpp"
 
@@ -10,8 +11,7 @@
 namespace sturz {
 namespace {
 
-/// Keeps c0 at `factor` times the present largest speed (so the Mach number stays at 1/factor),
-/// never under what the mass needs at rest and never over twice what its descent asks for.
+/// See FollowingSpeed.
 ///
 /// A change keeps every pressure and stress as it is: rho_new = rho_ref (1 + p/K_new). Elastic
 /// energy p^2/2K + tau^2/2G goes with 1/c0^2; the difference is accounted as numerical.
@@ -26,22 +26,12 @@ class SoundSpeedPass final : public Pass {
   void apply(State& s, double) override {
     MovingSet& p = s.sets[shared_->set];
     const GrainStressSettings& g = shared_->settings;
-    const double needed = g.speed_factor * p.motion.max_speed;
-    const double wanted =
-        std::clamp(room * needed, g.least_sound_speed, 2 * std::max(planned_, g.least_sound_speed));
-    if (wanted > g.sound_speed && needed > g.sound_speed)
-      change(p, wanted);
-    else if (s.n_steps % interval == 0 && wanted < g.sound_speed)
-      change(p, std::max(wanted, fall * g.sound_speed));
+    const FollowingSpeed rule{g.speed_factor, g.least_sound_speed, planned_};
+    const double wanted = rule.next(g.sound_speed, p.motion.max_speed, s.n_steps);
+    if (wanted != g.sound_speed) change(p, wanted);
   }
 
  private:
-  /// Raised at once with this much room, so that an accelerating flow does not ask every step.
-  static constexpr double room = 1.1;
-  /// Lowered slowly: by this factor every so many-th step.
-  static constexpr double fall = 0.97;
-  static constexpr int interval = 16;
-
   void change(MovingSet& p, double c0) {
     GrainStressSettings& g = shared_->settings;
     const double ratio = (g.sound_speed / c0) * (g.sound_speed / c0);  // K_old / K_new

@@ -38,7 +38,7 @@ struct LiquidSettings {
   /// Tait's equation (Monaghan 1994), no suction: P = (rho_0 c0^2/gamma)((1 + e)^gamma - 1) for
   /// e = rho/rho_0 - 1 > 0, nothing below [Pa].
   double pressure_at(double e) const {
-    return e > 0 ? bulk_modulus() / exponent * (std::pow(1 + e, exponent) - 1) : 0;
+    return e > 0 ? bulk_modulus() / exponent * (raised(1 + e, exponent) - 1) : 0;
   }
   /// e >= 0 that carries a pressure [-].
   double density_change_at(double pressure) const {
@@ -48,7 +48,15 @@ struct LiquidSettings {
   double stored_at(double e) const {
     if (!(e > 0)) return 0;
     const double g = exponent, c2 = sound_speed * sound_speed, r = 1 + e;
-    return c2 / g * ((std::pow(r, g - 1) - 1) / (g - 1) + 1 / r - 1);
+    return c2 / g * ((raised(r, g) / r - 1) / (g - 1) + 1 / r - 1);
+  }
+
+ private:
+  /// r^g; the usual exponent by products, twice for every particle and step.
+  static double raised(double r, double g) {
+    if (g != 7) return std::pow(r, g);
+    const double r2 = r * r, r4 = r2 * r2;
+    return r4 * r2 * r;
   }
 };
 

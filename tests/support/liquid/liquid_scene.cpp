@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/support/liquid/liquid_scene.hpp"
+
+#include "engine/effects/arrivals.hpp"
+#include "engine/effects/liquid/effect.hpp"
+#include "engine/effects/motion/accounts.hpp"
+#include "engine/simulation/parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace sturz::test {
+namespace {
+
+constexpr double smoothing_ratio = 1.3;
+
+Terrain ground_of(const LiquidBox& box, double cell) {
+  const int n = static_cast<int>(std::ceil(2 * box.half_width / cell));
+  Raster<double> z(Grid{n, n, -0.5 * n * cell, 0.5 * n * cell, cell, ""});
+  for (int r = 0; r < n; ++r)
+    for (int c = 0; c < n; ++c) z.at(r, c) = -box.slope * z.grid.x_center(c);
+  return Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow);
+}
+
+void place(const LiquidBox& box, MovingSet& p) {
+  p.name = "liquid";
+  p.spacing = box.spacing;
+  p.bulk_density = box.settings.reference_density;
+  p.reference_fraction = 1;
+  const auto [nx, ny, nz] = box.n;
+  p.grow(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) *
+         static_cast<std::size_t>(nz));
+  std::size_t at = 0;
+  for (int i = 0; i < nx; ++i)
+    for (int j = 0; j < ny; ++j)
+      for (int k = 0; k < nz; ++k, ++at) {
+        p.x[at] = box.corner.x() + (i + 0.5) * box.spacing;
+        p.y[at] = box.corner.y() + (j + 0.5) * box.spacing;
+        p.z[at] = box.corner.z() - box.slope * p.x[at] + (k + 0.5) * box.spacing;
+        p.vx[at] = box.velocity.x(), p.vy[at] = box.velocity.y(), p.vz[at] = box.velocity.z();
+        p.mass[at] = box.settings.reference_density * std::pow(box.spacing, 3);
+        p.ledger.released_mass += p.mass[at];
+      }
+}
+
+}  // namespace
+
+HandMade liquid_of(const LiquidBox& box) {
+  const double cell = box.cell > 0 ? box.cell : 2 * box.spacing;
+  HandMade made{State(ground_of(box, cell), box.domain), {}};
+  State& s = made.state;
+  s.threads = box.threads;
+  MovingSet& p = s.sets[0];
+  place(box, p);
+  mark_start(s.domain, p, 0);
+  LiquidSettings liquid = box.settings;
+  liquid.spacing = box.spacing;
+  liquid.smoothing_length = smoothing_ratio * box.spacing;
+  liquid.instruction_set = best_instruction_set();
+  ContactSettings contact;
+  contact.spacing = box.spacing;
+  contact.smoothing_length = liquid.smoothing_length;
+  contact.reference_density = liquid.reference_density;
+  const double height = box.spacing * box.n[2], speed = 0.1 * liquid.sound_speed;
+  contact.stiffness = std::max(10 * s.gravity * height / (box.spacing * box.spacing),
+                               std::pow(2 * speed / box.spacing, 2));
+  contact.bed = {{0}};
+  add_gravity(made.step, s, 0);
+  add_terrain_contact(made.step, 0, contact);
+  if (!s.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
+  std::vector<double> depth(p.size(), 0.0);
+  for (std::size_t i = 0; box.hydrostatic && i < p.size(); ++i)
+    depth[i] = box.corner.z() + height - (p.z[i] + box.slope * p.x[i]);
+  add_liquid(made.step, s, 0, liquid, depth);
+  add_motion(made.step, 0, {box.spacing, liquid.smoothing_length});
+  refresh_motion(s, p, 0);
+  p.ledger.kinetic_0 = p.ledger.kinetic;
+  return made;
+}
+
+Simulation simulation_of(const LiquidBox& box, double end_time_s) {
+  HandMade made = liquid_of(box);
+  StopSettings stop;
+  stop.end_time_s = end_time_s;
+  stop.stop_at_rest = false;
+  RunFacts facts;
+  facts.spacing_m = box.spacing;
+  const double cell = 2 * box.spacing;
+  const int n = static_cast<int>(std::ceil(2 * box.half_width / cell));
+  const Grid grid{n, n, -0.5 * n * cell, 0.5 * n * cell, cell, ""};
+  return Simulation(std::make_unique<SimulationParts>(
+      SimulationParts{std::move(made.state), std::move(made.step),
+                      PeakMaps({grid, 0.5 * box.spacing}), StopRule(stop), facts}));
+}
+
+}  // namespace sturz::test
