@@ -49,11 +49,32 @@ struct GranularDrag {
     static const double alone = f(0);
     return f(solids) / alone;
   }
+  /// beta/a_p of the blend at one share of grains, for any slip: what does not depend on it is
+  /// looked up once.
+  class AtShare {
+   public:
+    AtShare(const GranularDrag& law, double solids) {
+      const double pores = std::max(1 - solids, least_pores), phi = dispersion(solids);
+      const double through = std::pow(pores, -1.65);
+      packed_ = (1 - phi) * law.ergun(solids, 0);
+      inertial_ = (1 - phi) * 1.75 * law.density / law.diameter;
+      slow_ = phi * 18 * law.viscosity / (law.diameter * law.diameter) * through / pores;
+      fast_ = phi * 0.33 * law.density / law.diameter * through;
+      per_slip_ = pores * law.density * law.diameter / law.viscosity;
+    }
+    /// \param slip |u| [m/s] \return [kg/(m^3 s)]
+    double operator()(double slip) const {
+      const double reynolds = per_slip_ * slip;
+      const double single =
+          reynolds < 1000 ? slow_ * (1 + 0.15 * std::pow(reynolds, 0.687)) : fast_ * slip;
+      return packed_ + inertial_ * slip + single;
+    }
+
+   private:
+    double packed_, inertial_, slow_, fast_, per_slip_;
+  };
   /// beta/a_p of the blend [kg/(m^3 s)]. \param solids a_p; \param slip |u| [m/s]
-  double per_grain_volume(double solids, double slip) const {
-    const double phi = dispersion(solids);
-    return (1 - phi) * ergun(solids, slip) + phi * wen_yu(solids, slip);
-  }
+  double per_grain_volume(double solids, double slip) const { return AtShare(*this, solids)(slip); }
   /// beta [kg/(m^3 s)].
   double exchange(double solids, double slip) const {
     return solids * per_grain_volume(solids, slip);

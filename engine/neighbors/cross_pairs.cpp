@@ -29,7 +29,7 @@ struct Extent {
 /// What lies outside the frame falls into its outermost cells: slow, never wrong.
 std::uint64_t index_along(std::int32_t units, std::int32_t cell, int offset) {
   const std::int32_t i = units > 0 ? std::min(units / cell, last_index) : 0;
-  return static_cast<std::uint64_t>(i + 1 + offset);
+  return static_cast<std::uint64_t>(std::int64_t{i} + 1 + offset);
 }
 
 /// A run of sources that may be near.

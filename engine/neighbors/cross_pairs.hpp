@@ -37,21 +37,21 @@ class PairSide {
     for (std::size_t k = 0; k < image_row_.size(); ++k)
       values[n_rows() + k] = values[image_row_[k]];
   }
-  /// visit(source, weight) with the weight W [1/m^3] of the smoothing kernel, in a fixed order;
-  /// weight 0 for those of the skin. A pair has the same weight from both sides, to the last bit.
-  template <class Visit>
-  void for_each(std::size_t row, Visit&& visit) const {
+  /// A row's pairs, in a fixed order.
+  struct Pairs {
+    const std::uint32_t* source;
+    const float* weight;  ///< W [1/m^3] of the smoothing kernel; 0 for those of the skin
+    const float* slope;   ///< C t^3 [1/m^5], whose gradient at the row is slope (x_source - x_row)
+    std::size_t n;
+  };
+  /// A pair has the same weight from both sides, to the last bit. Slopes on the side that wants
+  /// gradients only.
+  Pairs pairs(std::size_t row) const {
     const Block& b = blocks_[row / block];
-    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
-      visit(b.source[k], b.weight[k]);
-  }
-  /// visit(source, weight, slope) with the slope C t^3 [1/m^5] of the smoothing kernel, whose
-  /// gradient at the row's particle is slope (x_source - x_row).
-  template <class Visit>
-  void for_each_slope(std::size_t row, Visit&& visit) const {
-    const Block& b = blocks_[row / block];
-    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
-      visit(b.source[k], b.weight[k], b.slope[k]);
+    const Run run = runs_[row];
+    const float* slope = b.slope.empty() ? nullptr : b.slope.data() + run.begin;
+    return {b.source.data() + run.begin, b.weight.data() + run.begin, slope,
+            std::size_t{run.end} - run.begin};
   }
   /// Where a source lies, in the frame of CrossPairs::unit [units].
   Vec3 place(std::size_t source) const {
@@ -66,14 +66,15 @@ class PairSide {
     return {p.nx[row], p.ny[row], p.nz[row]};
   }
   float gap(std::size_t source, std::size_t m) const { return mirrors_[m].gap[source]; }
-  /// visit(source, weight, slope) of the images in mirror m, for rows near it. The weights of
-  /// for_each hold them already, the slopes of for_each_slope do not.
-  template <class Visit>
-  void for_each_image(std::size_t row, std::size_t m, Visit&& visit) const {
+  /// The images of a row's pairs in mirror m, for rows near it. The weights of `pairs` hold them
+  /// already, its slopes do not.
+  Pairs image_pairs(std::size_t row, std::size_t m) const {
     const Block& b = blocks_[row / block];
     const ImageBlock& images = b.images[m];
-    for (std::uint32_t k = runs_[row].begin; k < runs_[row].end; ++k)
-      visit(b.source[k], images.weight[k], images.slope.empty() ? 0 : images.slope[k]);
+    const Run run = runs_[row];
+    const float* slope = images.slope.empty() ? nullptr : images.slope.data() + run.begin;
+    return {b.source.data() + run.begin, images.weight.data() + run.begin, slope,
+            std::size_t{run.end} - run.begin};
   }
   std::size_t n_entries() const;
   std::size_t bytes() const;

@@ -80,7 +80,8 @@ class ExchangePass final : public Pass {
 
   Surroundings surroundings(std::size_t row) const {
     const Coupling& c = *shared_;
-    Quads<2> sum = gather(c.of_grains(), row, c.liquid_now);
+    const PairSide::Pairs pairs = c.of_grains().pairs(row);
+    Quads<2> sum = gather(pairs, pairs.weight, c.liquid_now);
     turn_images(c.of_grains(), row, c.liquid_now, {0}, sum);  // the push goes on beyond the ground
     const double inverse = 1 / c.met[row].met;
     return {c.met[row].velocity, inverse * sum.vector(0), inverse * sum.vector(4), inverse * sum[3],
@@ -121,11 +122,11 @@ class ExchangePass final : public Pass {
     const double solids = std::clamp(1 - liquid.pores, 0.0, 1 - GranularDrag::least_pores);
     // With the mean of the slips at both ends: a grain that settles does so at the law's speed
     // whatever the step.
+    const GranularDrag::AtShare law(law_, solids);
     const double start = slip0.norm();
-    const Vec3 end = slip - slip_taken(slip0, slip, force * law_.per_grain_volume(solids, start));
+    const Vec3 end = slip - slip_taken(slip0, slip, force * law(start));
     const double mean = 0.5 * (start + end.norm());
-    const Vec3 impulse =
-        -reduced * slip_taken(slip0, slip, force * law_.per_grain_volume(solids, mean));
+    const Vec3 impulse = -reduced * slip_taken(slip0, slip, force * law(mean));
     c.drag[row] = impulse / mass;
     const Vec3 given = impulse / met.met;
     c.impulse[row].quad[0] = Quad{given.x(), given.y(), given.z(), 0};
@@ -138,7 +139,8 @@ class ExchangePass final : public Pass {
     parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t j = side.index(r);
-        Quads<1> sum = gather(side, r, c.impulse);
+        const PairSide::Pairs pairs = side.pairs(r);
+        Quads<1> sum = gather(pairs, pairs.weight, c.impulse);
         turn_images(side, r, c.impulse, {0}, sum);
         const Vec3 v = -c.take[r] / p.mass[j] * sum.vector(0);
         c.drawn[r] = v;

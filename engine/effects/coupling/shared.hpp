@@ -74,16 +74,34 @@ struct Coupling {
   const PairSide& of_liquid() const { return pairs.side(liquid_side); }
 };
 
-/// Sum of W times what a row's sources have.
+/// Sum of weights times what a row's sources have. Two sums side by side: an addition need not wait
+/// for the one before.
 template <int n>
-Quads<n> gather(const PairSide& side, std::size_t row, const std::vector<Quads<n>>& values) {
-  Quads<n> sum;
+Quads<n> gather(const PairSide::Pairs& pairs, const float* weights,
+                const std::vector<Quads<n>>& values) {
+  Quads<n> even, odd;
   const Quads<n>* value = values.data();
-  side.for_each(row, [&](std::uint32_t source, float weight) {
-    const double w = weight;
-    for (int c = 0; c < n; ++c) sum.quad[c] += w * value[source].quad[c];
-  });
-  return sum;
+  std::size_t k = 0;
+  for (; k + 1 < pairs.n; k += 2) {
+    const double w = weights[k], next = weights[k + 1];
+    const Quads<n>&a = value[pairs.source[k]], &b = value[pairs.source[k + 1]];
+    for (int c = 0; c < n; ++c) even.quad[c] += w * a.quad[c], odd.quad[c] += next * b.quad[c];
+  }
+  if (k < pairs.n)
+    for (int c = 0; c < n; ++c)
+      even.quad[c] += static_cast<double>(weights[k]) * value[pairs.source[k]].quad[c];
+  for (int c = 0; c < n; ++c) even.quad[c] += odd.quad[c];
+  return even;
+}
+/// The same of single numbers.
+inline double gather(const PairSide::Pairs& pairs, const std::vector<double>& values) {
+  double sum[4] = {};
+  const double* value = values.data();
+  std::size_t k = 0;
+  for (; k + 3 < pairs.n; k += 4)
+    for (int c = 0; c < 4; ++c) sum[c] += pairs.weight[k + c] * value[pairs.source[k + c]];
+  for (; k < pairs.n; ++k) sum[0] += pairs.weight[k] * value[pairs.source[k]];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /// Images move as in a mirror: what a sum over all sources has of their vectors is turned, so that
@@ -93,11 +111,8 @@ void turn_images(const PairSide& side, std::size_t row, const std::vector<Quads<
                  std::initializer_list<int> firsts, Quads<n>& sum) {
   for (std::size_t m = 0; m < side.n_mirrors(); ++m) {
     if (!side.near(row, m)) continue;
-    Quads<n> images;
-    side.for_each_image(row, m, [&](std::uint32_t source, float weight, float) {
-      const double w = weight;
-      for (int c = 0; c < n; ++c) images.quad[c] += w * values[source].quad[c];
-    });
+    const PairSide::Pairs pairs = side.image_pairs(row, m);
+    const Quads<n> images = gather(pairs, pairs.weight, values);
     const Vec3 normal = side.normal(row, m);
     for (const int first : firsts) sum.add(first, -2 * normal.dot(images.vector(first)) * normal);
   }

@@ -37,7 +37,7 @@ VelocityBox velocities(const MovingSet& p, int threads) {
 class ListsAcross final : public Pass {
  public:
   explicit ListsAcross(std::shared_ptr<Coupling> shared) : shared_(std::move(shared)) {}
-  std::string_view name() const override { return "lists across sets"; }
+  std::string_view name() const override { return "pairs across sets"; }
   std::string_view effect() const override { return EffectName::coupling; }
   Stage stage() const override { return Stage::across; }
 
@@ -159,12 +159,10 @@ class SharesPass final : public Pass {
     const Velocities velocity(p, ahead);
     const Field* change = p.find(fields::density_change);
     const PairSide& side = c.of_liquid();
-    const double* volume = c.volume.data();
     parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t j = side.index(r);
-        double filled = 0;
-        side.for_each(r, [&](std::uint32_t i, float w) { filled += w * volume[i]; });
+        const double filled = gather(side.pairs(r), c.volume);
         const double q = p.mass[j] / std::max(1.0, filled);
         const Vec3 v = q * velocity.now(j), next = q * velocity.ahead(j);
         const double density = c.settings.liquid_density * relative_density(change, j);
@@ -185,7 +183,8 @@ class SharesPass final : public Pass {
     parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t i = side.index(r);
-        Quads<2> sum = gather(side, r, c.liquid_start);
+        const PairSide::Pairs pairs = side.pairs(r);
+        Quads<2> sum = gather(pairs, pairs.weight, c.liquid_start);
         turn_images(side, r, c.liquid_start, {1, 5}, sum);
         MetLiquid& met = c.met[r];
         const double pores = met.wet, around = sum[0];
@@ -217,11 +216,14 @@ class SharesPass final : public Pass {
     for (std::size_t m = 0; m < side.n_mirrors(); ++m) {
       if (!side.near(row, m)) continue;
       const Vec3 normal = side.normal(row, m), here = side.place(row);
-      side.for_each_image(row, m, [&](std::uint32_t i, float, float slope) {
-        if (slope == 0) return;
+      const PairSide::Pairs pairs = side.image_pairs(row, m);
+      for (std::size_t k = 0; k < pairs.n; ++k) {
+        if (pairs.slope[k] == 0) continue;
+        const std::uint32_t i = pairs.source[k];
         const Vec3 f = c.flux[i].vector(0), r = grains.place(i) - here;
-        flux += slope * (r.dot(f) + 2 * (grains.gap(i, m) - normal.dot(r)) * normal.dot(f));
-      });
+        flux +=
+            pairs.slope[k] * (r.dot(f) + 2 * (grains.gap(i, m) - normal.dot(r)) * normal.dot(f));
+      }
     }
     return c.pairs.unit() * flux;
   }
@@ -233,20 +235,15 @@ class SharesPass final : public Pass {
     const Field* change = p.find(fields::density_change);
     auto &share = p.scalar(fields::grain_share), &slip = p.scalar(fields::slip_divergence);
     const PairSide& side = c.of_liquid();
-    const double* rooms = c.room.data();
-    const Quads<1>* fluxes = c.flux.data();
     const bool acts = c.settings.buoyancy;
     c.largest_share = ordered_reduce(
         side.n_rows(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& largest) {
           for (std::size_t r = begin; r < end; ++r) {
             const std::uint32_t j = side.index(r);
-            double room = 0;
-            Quads<1> sum;
-            side.for_each_slope(r, [&](std::uint32_t i, float w, float slope) {
-              room += w * rooms[i];
-              sum.quad[0] += static_cast<double>(slope) * fluxes[i].quad[0];
-            });
+            const PairSide::Pairs pairs = side.pairs(r);
+            const double room = gather(pairs, c.room);
+            const Quads<1> sum = gather(pairs, pairs.slope, c.flux);
             const double flux =
                 sum[3] - sum.vector(0).dot(c.pairs.unit() * side.place(r)) + flux_of_images(c, r);
             const double density = c.settings.liquid_density * relative_density(change, j);

@@ -51,6 +51,16 @@ TEST(GranularDrag, IsWenAndYusAmongFew) {
   EXPECT_NEAR(law.wen_yu(0, 1.0001) / law.wen_yu(0, 0.9999), 1, 0.005);
 }
 
+TEST(GranularDrag, BlendsTheTwo) {
+  const GranularDrag law{0.002, 1100, 0.01};
+  for (const double a : {0.0, 0.05, 0.19, 0.21, 0.6, 0.95})
+    for (const double u : {0.0, 1e-3, 0.5, 30.0}) {
+      const double phi = GranularDrag::dispersion(a);
+      const double blend = (1 - phi) * law.ergun(a, u) + phi * law.wen_yu(a, u);
+      EXPECT_NEAR(law.per_grain_volume(a, u), blend, 1e-13 * blend) << a << " " << u;
+    }
+}
+
 TEST(GranularDrag, SwitchesWithoutAJump) {
   const GranularDrag law{0.001, 1000, 0.001};
   for (double a = 0; a < 0.95; a += 1e-3)

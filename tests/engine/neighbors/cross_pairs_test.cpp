@@ -39,10 +39,13 @@ Sums listed(const CrossPairs& pairs, int on, const ParticleSet& mine, const Part
   sources.copy_images(id);
   Sums out;
   for (std::size_t r = 0; r < side.n_rows(); ++r)
-    side.for_each(r, [&](std::uint32_t s, float w) {
-      const auto theirs = static_cast<std::uint32_t>(id[s]), own = mine.id[side.index(r)];
+    for (std::size_t k = 0; k < side.pairs(r).n; ++k) {
+      const PairSide::Pairs pairs_of = side.pairs(r);
+      const auto theirs = static_cast<std::uint32_t>(id[pairs_of.source[k]]);
+      const std::uint32_t own = mine.id[side.index(r)];
+      const double w = pairs_of.weight[k];
       if (w > 0) out[on == 0 ? std::pair{own, theirs} : std::pair{theirs, own}] += w;
-    });
+    }
   return out;
 }
 
@@ -165,11 +168,12 @@ TEST(CrossPairs, GradientIsTheDerivativeOfTheWeight) {
     const PairSide& side = pairs.side(1);
     std::vector<double> sum(b.size(), 0);
     for (std::size_t r = 0; r < side.n_rows(); ++r) {
-      side.for_each(r, [&](std::uint32_t, float w) { sum[side.index(r)] += w; });
-      side.for_each_slope(r, [&](std::uint32_t s, float, float slope) {
-        const Vec3 apart = pairs.unit() * (pairs.side(0).place(s) - side.place(r));
-        if (gradient) (*gradient)[side.index(r)] += slope * apart.y();
-      });
+      const PairSide::Pairs near = side.pairs(r);
+      for (std::size_t k = 0; k < near.n; ++k) {
+        sum[side.index(r)] += near.weight[k];
+        const Vec3 apart = pairs.unit() * (pairs.side(0).place(near.source[k]) - side.place(r));
+        if (gradient) (*gradient)[side.index(r)] += near.slope[k] * apart.y();
+      }
     }
     return sum;
   };

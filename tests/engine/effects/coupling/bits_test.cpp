@@ -18,7 +18,7 @@ std::vector<double> by_id(const CoupledSets& made) {
     std::vector<double> values(8 * p.size(), 0);
     const Field *share = p.find(fields::grain_share), *slip = p.find(fields::slip_divergence);
     for (std::size_t i = 0; i < p.size(); ++i) {
-      double* at = &values[8 * p.id[i]];
+      double* at = &values[std::size_t{8} * p.id[i]];
       at[0] = p.x[i], at[1] = p.y[i], at[2] = p.z[i];
       at[3] = p.vx[i], at[4] = p.vy[i], at[5] = p.vz[i];
       if (share) at[6] = share->component[0][i], at[7] = slip->component[0][i];
