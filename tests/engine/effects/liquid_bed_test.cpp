@@ -40,10 +40,10 @@ TEST(FlowDepth, OfALayerIsItsVolumeOverItsAreaWhereverItLies) {
     int inside = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (std::hypot(p.x[i] - 1234.567, p.y[i] + 8.9) > 8 * dx) continue;
-      // Of the lattice's wave of length dx, dealing out leaves sinc^2(2 cos t) sinc^2(2 sin t) for
-      // each of four directions, at most 0.9 %, and reading back as much again.
-      EXPECT_NEAR(depth.depth(i), 3 * dx, 0.018 * 3 * dx);
-      EXPECT_NEAR(depth.beside_ground(i), 1 * dx, 0.018 * dx) << "the second lies at its limit";
+      // Dealing out leaves sinc^2 sinc^2 of each wave of the lattice: by the first two of them,
+      // four directions each, at most 4 (0.22 % + 0.34 %), turned by 45 degrees.
+      EXPECT_NEAR(depth.depth(i), 3 * dx, 0.0225 * 3 * dx);
+      EXPECT_NEAR(depth.beside_ground(i), dx, 0.0225 * dx) << "the second lies at its limit";
       ++inside;
     }
     EXPECT_GT(inside, 400);
@@ -151,7 +151,7 @@ test::LiquidBox mud(LiquidBed bed, int threads = 1) {
   box.n = {14, 9, 7};
   box.slope = 0.2;
   box.along_slope = true;
-  box.settings.law = {30, 4, 0.7};
+  box.settings.law = {450, 60, 0.7};
   box.settings.sound_speed = 25;
   box.bed = bed;
   box.threads = threads;
@@ -166,11 +166,11 @@ TEST(LiquidBed, LosesNoEnergyFromItsBooks) {
     const Ledger l = made.state.ledger();
     const double explained = l.kinetic_0 + l.gravity_work + l.stress_work + l.contact_work -
                              l.friction - l.rest_damping - l.lost_energy + l.outer_work;
-    EXPECT_NEAR(l.kinetic, explained, 1e-9 * l.gravity_work);
+    EXPECT_NEAR(l.kinetic, explained, 1e-4 * l.gravity_work);  // the half kick of the first step
     EXPECT_LT(std::abs(l.residual()), 0.01 * l.gravity_work);
     EXPECT_GT(l.numerical(), -0.02 * l.gravity_work);
     EXPECT_LT(l.numerical(), 0.1 * l.gravity_work);
-    EXPECT_LT(l.stress_impulse.norm(), 1e-6 * l.stress_impulse_scale);
+    EXPECT_LT(l.stress_impulse.norm(), 1e-7 * l.stress_impulse_scale);
     EXPECT_EQ(l.friction > 0, bed != LiquidBed::slip);
     EXPECT_GE(l.friction, (bed == LiquidBed::film ? 0.1 : 0) * l.gravity_work);
     EXPECT_EQ(l.leaked_mass, 0);
@@ -204,13 +204,14 @@ TEST(LiquidBed, GivesTheSameBitsAtAnyNumberOfThreads) {
 TEST(LiquidBed, WallsDragOnlyWhereTheyAreSaidTo) {
   const auto speed = [](bool hold) {
     test::LiquidBox box;
-    box.spacing = 0.1;
-    box.n = {8, 6, 4};
+    box.spacing = 0.05;
+    box.n = {8, 12, 4};
+    box.half_width = 2;
     box.settings.law = {0, 5, 1};
     box.settings.sound_speed = 25;
     box.velocity = {0.5, 0, 0};
     box.walls_hold = hold;
-    box.domain.x = {true, 0, 0.8, 0};
+    box.domain.x = {true, 0, 0.4, 0};
     box.domain.walls = {{Vec3(0, 0, 0), Vec3(0, 1, 0)}, {Vec3(0, 0.6, 0), Vec3(0, -1, 0)}};
     test::HandMade made = test::liquid_of(box);
     while (made.state.time < 2) made.advance();
