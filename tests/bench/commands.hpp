@@ -30,6 +30,8 @@ Report threads(const Options&);
 Report ensemble(const Options&);
 /// What does an effect cost that a scene does not call for?
 Report absent_effects(const Options&);
+/// How fast is one core in a liquid?
+Report liquid(const Options&);
 /// Are the bits of every shipped scene still the same, on every instruction set and thread count?
 Report hashes(const Options&);
 /// Does it survive what wants to break it, and by which margin?

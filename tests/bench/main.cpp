@@ -30,6 +30,8 @@ constexpr Command commands[] = {
     {"threads", "One member on one and on all processors", sturz::bench::threads},
     {"ensemble", "Members per hour and what the runner costs", sturz::bench::ensemble},
     {"absent-effects", "What effects cost that are not there", sturz::bench::absent_effects},
+    {"liquid", "A dam break of liquid: particle-updates per second of one core",
+     sturz::bench::liquid},
     {"hashes", "State hash of every shipped scene: what must not change", sturz::bench::hashes},
     {"hard", "Hard cases and random members against their bounds", sturz::bench::hard}};
 

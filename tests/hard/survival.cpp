@@ -44,7 +44,8 @@ class Witness {
     const double fall = std::max(0.0, parts_.facts.release.top_m - lowest_z_);
     out.cold = cold_;
     out.lowest_dx = lowest_ / parts_.facts.spacing_m;
-    out.speed_ratio = fastest_ / std::sqrt(start_speed * start_speed + 2 * gravity * fall);
+    out.free_fall = std::sqrt(start_speed * start_speed + 2 * gravity * fall);
+    out.speed_ratio = fastest_ / out.free_fall;
     if (estimated_dt > 0) out.least_dt_ratio = least_dt_ / estimated_dt;
     if (most_released_ > 0) write_ledger(out);
     write_end(out);

@@ -31,7 +31,8 @@ struct Survival {
   double cold = 0;          ///< grains seen with a granular temperature below zero or NaN
   double lost_share = 0;    ///< of the released mass: left over the domain boundary, or leaked
   double lowest_dx = 0;     ///< lowest centre above the ground, at any time looked at
-  double speed_ratio = 0;   ///< fastest particle / sqrt(v0^2 + 2 g drop)
+  double free_fall = 0;     ///< sqrt(v0^2 + 2 g drop) [m/s]
+  double speed_ratio = 0;   ///< fastest particle / that
   double mean_dt_ratio = 0, least_dt_ratio = 0;  ///< over the estimate before the run
   double kinetic_ratio = 0;                      ///< kinetic energy at the end / at its peak
   /// Energy that is there (kinetic, stored, in springs, gone with mass) or known to be spent

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPHERIC test 2 (Kleefsman and others 2005): a dam break that hits a box on the floor of a tank.
 #include "tests/physics/liquid/liquid_books.hpp"
-#include "tests/support/liquid/liquid_scene.hpp"
+#include "tests/support/liquid/impact_tank.hpp"
 
 #include <fmt/core.h>
 
@@ -13,33 +13,7 @@
 namespace sturz::test {
 namespace {
 
-constexpr double tank = 3.22, half_tank_width = 0.5, column = 1.228, height = 0.55;
-/// The box on the floor: its upstream face is where the gauges are.
-constexpr double face = 2.42, box_length = 0.161, box_half_width = 0.2015, box_height = 0.161;
-constexpr double west = -0.5 * tank;  ///< x of the wall behind the column; the ground's middle is 0
-
-/// Tank walls are planes, the box is a step of the ground.
-/// \param across  particles across the tank
-LiquidBox tank_of(int across) {
-  LiquidBox b;
-  b.spacing = 2 * half_tank_width / across;
-  b.n = {static_cast<int>(std::lround(column / b.spacing)), across,
-         static_cast<int>(std::lround(height / b.spacing))};
-  b.corner = {west, -half_tank_width, 0};
-  b.half_width = 0.5 * tank + 0.3;
-  b.cell = b.spacing / 4;
-  b.ground = [](double x, double y) {
-    const double at = x - west;
-    const bool on_box = at > face && at < face + box_length && std::abs(y) < box_half_width;
-    return on_box ? box_height : 0.0;
-  };
-  b.domain.walls = {Wall{{west, 0, 0}, {1, 0, 0}}, Wall{{-west, 0, 0}, {-1, 0, 0}},
-                    Wall{{0, -half_tank_width, 0}, {0, 1, 0}},
-                    Wall{{0, half_tank_width, 0}, {0, -1, 0}}};
-  b.settings.sound_speed = 20 * std::sqrt(gravity_m_s2 * height);
-  b.settings.least_sound_speed = 0.5 * b.settings.sound_speed;
-  return b;
-}
+constexpr double height = ImpactTank::height, face = ImpactTank::west + ImpactTank::face;
 
 /// Mean pressure of the particles beside the face at height z, near its middle [Pa].
 double pressure_at(const SimulationParts& parts, double z) {
@@ -47,7 +21,7 @@ double pressure_at(const SimulationParts& parts, double z) {
   const double dx = parts.facts.spacing_m;
   double sum = 0, n = 0;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const double before = west + face - p.x[i];
+    const double before = face - p.x[i];
     if (before < 0 || before > 1.5 * dx || std::abs(p.y[i]) > 2 * dx) continue;
     if (std::abs(p.z[i] - z) > std::max(dx, 0.02)) continue;
     sum += pressure_of(p, i), n += 1;
@@ -95,7 +69,7 @@ TEST(LiquidImpact, HitsTheBoxWhenAndAsHardAsMeasured) {
     reference.time.push_back(t * unit), reference.pressure.push_back(weight * measured_at(t));
   const double hit = reference.time.front();
   for (const int across : resolutions({14, 20}, {40})) {
-    const LiquidBox b = tank_of(across);
+    const LiquidBox b = ImpactTank::scene(across);
     Gauge p1, p3;
     const Finished f =
         run(simulation_of(b, 1.5), {0.004, [&](double t, const SimulationParts& parts) {
