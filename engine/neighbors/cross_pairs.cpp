@@ -292,10 +292,10 @@ void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients
   PairSide::Block& b = from.blocks_[block];
   const std::size_t first = block * PairSide::block;
   const std::size_t last = std::min(from.n_rows(), first + PairSide::block);
-  const SmoothingKernel kernel{h_};
+  const SmoothingKernel smoothing{h_};
   const auto to_s = static_cast<float>(unit_ / support_);
-  const auto norm = static_cast<float>(kernel.value(0));
-  const auto slope = static_cast<float>(kernel.discrete_gradient_factor());
+  const auto norm = static_cast<float>(smoothing.value(0));
+  const auto slope = static_cast<float>(smoothing.discrete_gradient_factor());
   const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
   const std::uint32_t* source = b.source.data();
   constexpr std::uint32_t chunk = 64;

@@ -139,15 +139,15 @@ void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
 /// each other.
 void NeighborLists::mirror(RecordImage image, const Vec3& at) {
   const double search_radius = support_ + skin_;
-  const auto in_reach = [&](const Wall& w) {
+  const auto beside = [&](const Wall& w) {
     return std::abs((at - w.point).dot(w.normal)) < search_radius;
   };
   for (std::size_t a = 0; a < walls_.size(); ++a) {
-    if (!in_reach(walls_[a])) continue;
+    if (!beside(walls_[a])) continue;
     image.mirrors[0] = &walls_[a], image.mirrors[1] = nullptr;
     images_.push_back(image);
     for (std::size_t b = 0; b < a; ++b) {
-      if (!in_reach(walls_[b]) || std::abs(walls_[a].normal.dot(walls_[b].normal)) > 0.01) continue;
+      if (!beside(walls_[b]) || std::abs(walls_[a].normal.dot(walls_[b].normal)) > 0.01) continue;
       image.mirrors[1] = &walls_[b];
       images_.push_back(image);
     }

@@ -23,7 +23,7 @@ using TightList = std::size_t (*)(const NeighborRecord*, std::size_t first, int 
 /// An image: record `source` mirrored in up to two walls, then moved by a whole period.
 struct RecordImage {
   std::uint32_t source = 0;
-  double dx = 0, dy = 0, dz = 0;           ///< [m]
+  double dx = 0, dy = 0, dz = 0;                ///< [m]
   const Wall* mirrors[2] = {nullptr, nullptr};  ///< of NeighborLists; null: none
 };
 

@@ -55,7 +55,7 @@ class ListsAcross final : public Pass {
  private:
   static CrossPairs::Ground ground_of(const MovingSet& p) {
     const BoundarySupport& b = p.boundary;
-    if (b.distance.size() < p.size()) return {};  // nobody looks up the ground of this set
+    if (b.distance.size() < p.size()) return {};  // no pass looks up the ground of this set
     return {b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data()};
   }
 

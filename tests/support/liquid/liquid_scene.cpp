@@ -43,8 +43,7 @@ std::vector<Vec3> lattice_of(const LiquidBox& box) {
   std::vector<Vec3> at;
   for (int i = 0; i < box.n[0]; ++i)
     for (int j = 0; j < box.n[1]; ++j)
-      for (int k = 0; k < box.n[2]; ++k)
-        at.push_back(place_of(box, i + 0.5, j + 0.5, k + 0.5));
+      for (int k = 0; k < box.n[2]; ++k) at.push_back(place_of(box, i + 0.5, j + 0.5, k + 0.5));
   return at;
 }
 
