@@ -5,9 +5,26 @@
 #include "scenarios/choices.hpp"
 #include "scenarios/uncertain.hpp"
 
+#include <array>
 #include <optional>
 
 namespace sturz {
+
+/// What the bed does to a liquid in three dimensions; `automatic` decides by the layers that
+/// resolve its flow.
+enum class FluidBed { automatic, no_slip, film, slip };
+constexpr auto words_of(FluidBed) {
+  using enum FluidBed;
+  return std::array{Word{automatic, "auto"}, Word{no_slip, "no_slip"}, Word{film, "film"},
+                    Word{slip, "slip"}};
+}
+
+/// Drag and buoyancy between grains and liquid in three dimensions, or the paper's drag alone.
+enum class CouplingScheme { physical, paper };
+constexpr auto words_of(CouplingScheme) {
+  using enum CouplingScheme;
+  return std::array{Word{physical, "physical"}, Word{paper, "paper"}};
+}
 
 /// A liquid with particles of its own; full_stress only. Its law follows from what is given:
 /// Newton's by a viscosity, Bingham's by a yield stress beside it, Herschel and Bulkley's by

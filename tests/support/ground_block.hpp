@@ -2,7 +2,7 @@
 /// Blocks of particles on an inclined plane, as the pair sweep sees them.
 #pragma once
 
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/sweep/sweep_scene.hpp"
 
 #include <array>
 #include <random>

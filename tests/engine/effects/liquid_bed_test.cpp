@@ -3,7 +3,7 @@
 #include "engine/effects/bed/flow_depth.hpp"
 #include "engine/effects/bed/liquid_contact.hpp"
 #include "tests/support/liquid/liquid_scene.hpp"
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/sweep/sweep_scene.hpp"
 
 #include <gtest/gtest.h>
 
