@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Neighbours mirrored in the ground (docs/physics.md B.10, ADR 0037).
-#include "tests/support/ground_block.hpp"
+#include "tests/engine/effects/sweep/ground_block.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A liquid's neighbours mirrored in a bed that holds it (docs/physics.md B.10).
-#include "tests/support/ground_block.hpp"
+#include "tests/engine/effects/sweep/ground_block.hpp"
 
 #include <gtest/gtest.h>
 
