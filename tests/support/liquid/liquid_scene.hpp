@@ -20,12 +20,12 @@ struct LiquidBox {
   Vec3 corner{0, 0, 0};             ///< the least x, y, z [m]
   /// In the place of the lattice: the particles themselves, under a free surface at `top`.
   std::vector<Vec3> at = {};
-  double top = 0;  ///< [m]
-  Vec3 velocity{0, 0, 0};           ///< [m/s]
-  double slope = 0;                 ///< the ground falls by it per metre eastward
-  double half_width = 10;           ///< of the ground around x = y = 0 [m]
-  double cell = 0;                  ///< of the ground [m]; 0: twice the spacing
-  LiquidSettings settings = {};     ///< spacing and lengths follow from `spacing`
+  double top = 0;                ///< [m]
+  Vec3 velocity{0, 0, 0};        ///< [m/s]
+  double slope = 0;              ///< the ground falls by it per metre eastward
+  double half_width = 10;        ///< of the ground around x = y = 0 [m]
+  double cell = 0;               ///< of the ground [m]; 0: twice the spacing
+  LiquidSettings settings = {};  ///< spacing and lengths follow from `spacing`
   Domain domain = {};
   /// z of the ground at x, y; empty: the even ground of `slope`.
   std::function<double(double, double)> ground = {};
