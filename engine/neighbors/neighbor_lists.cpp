@@ -135,7 +135,7 @@ void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
   }
 }
 
-/// Images in every wall in reach of the source, and in the corners of two that stand upright on
+/// Images in every wall beside the source, and in the corners of two that stand upright on
 /// each other.
 void NeighborLists::mirror(RecordImage image, const Vec3& at) {
   const double search_radius = support_ + skin_;
@@ -162,6 +162,34 @@ void NeighborLists::mirror_in(const std::vector<Wall>& walls, double time) {
   for (const Wall& w : walls)
     if (time < w.remove_at_s) walls_.push_back(w);
   invalidate();
+}
+
+void NeighborLists::weigh_images(double moment_factor) {
+  if (walls_.empty()) return;
+  for (RecordImage& image : images_) {
+    image.share = 1;
+    for (const Wall* wall : image.mirrors)
+      if (wall)
+        image.share *= static_cast<float>(
+            std::min(1.0, 4 * moment_factor * moment_along(image.source, wall->normal)));
+  }
+}
+
+/// Sum of t^3 (r.n)^2 over the listed particles themselves, t = 1 - r/2h [m^2].
+double NeighborLists::moment_along(std::size_t particle, const Vec3& n) const {
+  const NeighborView lists = view();
+  const std::size_t group = particle / group_size;
+  const std::uint32_t* begin = lists.list(group);
+  const NeighborRecord& i = records_[particle];
+  double sum = 0;
+  for (const std::uint32_t* j = begin; j != begin + lists.list_size(group); ++j) {
+    if (*j >= n_particles_) continue;
+    const NeighborRecord& o = records_[*j];
+    const Vec3 r(unit_ * (o.x - i.x), unit_ * (o.y - i.y), unit_ * (o.z - i.z));
+    const double t = std::max(0.0, 1 - r.norm() / support_), along = r.dot(n);
+    sum += t * t * t * along * along;
+  }
+  return sum;
 }
 
 void NeighborLists::turn(std::size_t image, float& x, float& y, float& z) const {
@@ -213,6 +241,7 @@ void NeighborLists::copy_images() {
     r = records_[image.source];
     for (const Wall* wall : image.mirrors)
       if (wall) mirror_record(*wall, r);
+    r.volume *= image.share;
     r.x += to_units(image.dx, 0, unit_);
     r.y += to_units(image.dy, 0, unit_);
     r.z += to_units(image.dz, 0, unit_);

@@ -42,6 +42,9 @@ class LiquidNeighbors final : public Pass {
     wrap_particles(s.domain, p);
     p.n_listed = p.size();
     shared_->lists.rebuild(p, s.domain, s.threads);
+    const LiquidSettings& g = shared_->settings;
+    const double factor = SmoothingKernel{g.smoothing_length}.discrete_gradient_factor();
+    shared_->lists.weigh_images(factor * std::pow(g.spacing, 3));
     shared_->make_room(p);
     ++p.n_sorts;
   }
