@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Zhangjiawan-like slide beside the paper's figures, all lengths from the crown, with the error of resolution.
 
-usage: beside_the_paper.py STURZ OUT [--fine]   (needs python3-numpy, python3-gdal; --fine adds 2.6 m: half an hour of CPU)
+usage: beside_the_paper.py STURZ OUT [--fine]   (needs python3-numpy, python3-gdal; --fine adds 2.6 m: five minutes of CPU more)
 OUT takes the runs. The ground is drawn from published heights and lengths, not measured: a comparison of sizes, not a validation.
 Gao et al. (2024) figures are those of their text, figures 7-9 and table 6. Every figure of full stress is that of its finest run; what
 stands behind +- is its change from the run before, which has 2 to 3 times fewer particles.
