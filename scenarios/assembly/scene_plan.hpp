@@ -7,6 +7,7 @@
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/coupling/settings.hpp"
+#include "engine/effects/dilatancy/settings.hpp"
 #include "engine/effects/dense/effect.hpp"
 #include "engine/effects/discrete/settings.hpp"
 #include "engine/effects/erosion/settings.hpp"
@@ -39,6 +40,7 @@ struct ScenePlan {
   ContactSettings contact;                                   ///< full_stress
   std::optional<LiquidSettings> liquid;                      ///< where there is `fluid`
   ContactSettings liquid_contact;                            ///< of it
+  std::optional<DilatancySettings> dilatancy;  ///< where shear changes the grains' packing
   std::optional<CouplingSettings> coupling;                  ///< where grains lie in it
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   std::optional<DiscreteSettings> discrete;                  ///< grains one by one

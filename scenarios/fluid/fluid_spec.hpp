@@ -46,6 +46,9 @@ struct CouplingSpec {
   CouplingScheme scheme = CouplingScheme::physical;
   std::optional<Uncertain> drag_diameter_m;  ///< absent: grains.diameter_m
   Uncertain drag_multiplier{1};              ///< 1 is physics
+  /// Where shear neither loosens nor tightens the grains; given: they do elsewhere.
+  std::optional<Uncertain> critical_solid_fraction;
+  Uncertain dilatancy_slope{4};  ///< k of tan psi = k (solid fraction - that of steady shear)
   bool operator==(const CouplingSpec&) const = default;
 };
 

@@ -73,6 +73,17 @@ std::string coupling_text(const Scenario& s, const ScenePlan& plan) {
   return text + "; smoothing length " + short_number(h / d) + " grain diameters";
 }
 
+std::string dilatancy_text(const Scenario& s) {
+  const double released = s.grains->solid_fraction.value;
+  const double critical = s.coupling->critical_solid_fraction->value;
+  const std::string than =
+      " than critical (" + short_number(released) + ", " + short_number(critical) + "), shear ";
+  return "`coupling.critical_solid_fraction`: " +
+         (released < critical
+              ? "looser" + than + "tightens it and the liquid takes its load"
+              : "not looser" + than + "loosens it and it draws in liquid, which brakes it");
+}
+
 std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& plan) {
   std::vector<std::string> out;
   if (!plan.coupling) return out;
