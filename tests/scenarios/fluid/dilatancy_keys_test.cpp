@@ -39,10 +39,10 @@ TEST(DilatancyKeys, PresenceOfTheCriticalFractionIsTheSwitch) {
   EXPECT_EQ(plan.dilatancy->law.grain_diameter, 0.002);
   EXPECT_EQ(plan.dilatancy->reference_fraction, 0.55);
   EXPECT_EQ(plan.dilatancy->slope, 4);
-  Simulation loose = assemble(sheared(0.62), slope_inputs(), 0);
+  Simulation loose = assemble(sheared(0.62), slope_inputs(), 0, 1);
   EXPECT_TRUE(loose.parts().state.grains().has(fields::packing_change));
   EXPECT_FALSE(plan_scene(wet_slide(), slope_inputs(), 0).dilatancy);
-  Simulation without = assemble(wet_slide(), slope_inputs(), 0);
+  Simulation without = assemble(wet_slide(), slope_inputs(), 0, 1);
   EXPECT_FALSE(without.parts().state.grains().has(fields::packing_change));
 }
 
