@@ -103,6 +103,7 @@ HandMade immersed(const ImmersedGrains& g) {
   HandMade made{level_state(g), {}};
   State& s = made.state;
   s.threads = g.threads;
+  s.gravity = g.gravity;
   place(g, s);
   const double h = smoothing_ratio * g.spacing;
   for (const std::size_t set : {0, 1}) add_gravity(made.step, s, set);
@@ -113,9 +114,11 @@ HandMade immersed(const ImmersedGrains& g) {
   GrainStressSettings grains;
   grains.spacing = g.spacing, grains.smoothing_length = h;
   grains.reference_density = g.solid_fraction * g.grain_density;
-  grains.sound_speed = g.sound_speed;
+  grains.sound_speed = g.grain_sound_speed > 0 ? g.grain_sound_speed : g.sound_speed;
   grains.law.grain_density = g.grain_density;
   grains.law.grain_diameter = g.drag_diameter;
+  const double harder = g.grain_friction - grains.law.static_friction;
+  grains.law.static_friction += harder, grains.law.dynamic_friction += harder;
   grains.instruction_set = best_instruction_set();
   dry.internal_friction = grains.law.static_friction;
   std::vector<double> depth;

@@ -23,7 +23,10 @@ struct ImmersedGrains {
   double viscosity = 0.001;                            ///< [Pa s]
   double drag_diameter = 1e-3;                         ///< [m]
   double sound_speed = 30;                             ///< of both sets [m/s]
+  double grain_sound_speed = 0;                        ///< of the grains alone; 0: the same [m/s]
+  double gravity = standard_gravity;                   ///< [m/s^2]
   double friction = 0.5;                               ///< of the bed
+  double grain_friction = MuIRheology{}.static_friction;  ///< mu_s; 10 and more: grains never yield
   bool walled = false;  ///< walls at x = 0 and the liquid's end, else x repeats itself
   /// Share of the grains' submerged weight that the pore pressure bears at the start.
   double liquefied = 0;
