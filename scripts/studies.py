@@ -35,6 +35,7 @@ MADE = {
                                       str(STUDIES / "error_against_seconds_earlier.json"),
                                       str(ROOT / "docs/images/error_against_seconds.png"))]),
     "beside_the_paper": ("beside_the_paper.md", [script("beside_the_paper", STURZ, str(OUT / "paper"))]),
+    "paper": ("paper.md", [script("paper", STURZ, str(ROOT / "scenarios/cases"), str(OUT / "paper_wet"))]),
 }
 
 
