@@ -58,6 +58,7 @@ SHUICHENG = [(f"{name}, as published, {dx} m", f"condition_{k + 1}", {"numerics.
              for dx in (7.7, 6.1) for k, name in enumerate(("I", "II", "III", "IV"))]
 SHUICHENG += [
     ("physical, 7.7 m", "condition_3", {**WET, "numerics.spacing_m": 7.7}),
+    ("physical, friction 0.87, 7.7 m", "condition_3", {**WET, "basal.friction_coefficient": 0.87, "numerics.spacing_m": 7.7}),
     ("physical, 6.1 m", "condition_3", {**WET, "numerics.spacing_m": 6.1}),
     ("physical, drag of 10 mm, 7.7 m", "condition_3", {**WET, "coupling.drag_diameter_m": 0.01, "numerics.spacing_m": 7.7}),
     ("I, columns", "condition_1", COLUMNS),
