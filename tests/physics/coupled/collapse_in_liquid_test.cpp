@@ -67,7 +67,8 @@ Collapse collapse(bool dense, double spacing, double end) {
   double pressure = 0, n = 0, next = 0;
   while (made.state.time < end) {
     made.advance();
-    if (made.state.time > 0.05 && made.state.time < 0.5) pressure += pore_pressure(made.state, g), ++n;
+    if (made.state.time > 0.05 && made.state.time < 0.5)
+      pressure += pore_pressure(made.state, g), ++n;
     if (made.state.time < next) continue;
     next += end / 10;
     fmt::print("{} at {:.2f} s: front {:.1f} mm, pore pressure {:+.0f} Pa, fastest {:.3f} m/s\n",
