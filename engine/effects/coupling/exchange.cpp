@@ -60,6 +60,7 @@ class ExchangePass final : public Pass {
         const double kappa = x > 0 ? kept / x : 1;
         const Vec3 now = velocity(p, j), a = (now - at(before, j)) / kick - gravity;
         const Vec3 push = q * kappa * c.settings.liquid_density * relative * a, v = q * now;
+        c.held[r] = kick * (a - Vec3(p.ax[j], p.ay[j], p.az[j]));
         c.liquid_now[r].quad[0] = Quad{v.x(), v.y(), v.z(), q / (1 + kept)};
         c.liquid_now[r].quad[1] = Quad{push.x(), push.y(), push.z(), q * std::min(1.0, relative)};
       }
@@ -154,7 +155,8 @@ class ExchangePass final : public Pass {
 };
 
 /// Works with the mean velocity of the step, as all works are taken; of those that leave, whose
-/// energy is that of the step's start, none.
+/// energy is that of the step's start, none. A film's friction that the drag changes counts as
+/// contact.
 class ExchangeAccounts final : public Pass {
  public:
   explicit ExchangeAccounts(std::shared_ptr<Coupling> shared) : shared_(std::move(shared)) {}
@@ -165,22 +167,33 @@ class ExchangeAccounts final : public Pass {
   void apply(State& s, double) override {
     const Coupling& c = *shared_;
     MovingSet &grains = s.sets[c.grains], &liquid = s.sets[c.liquid];
-    grains.ledger.exchange_work += work(s, grains, c.of_grains(), c.lift);
-    grains.ledger.drag_loss -= work(s, grains, c.of_grains(), c.drag);
-    liquid.ledger.drag_loss -= work(s, liquid, c.of_liquid(), c.drawn);
+    const auto mean = [](const MovingSet& p) {
+      const Components& before = p.components(fields::velocity_before);
+      return [&](std::uint32_t i, std::size_t) -> Vec3 {
+        return 0.5 * (at(before, i) + velocity(p, i));
+      };
+    };
+    grains.ledger.exchange_work += work(s, grains, c.of_grains(), c.lift, mean(grains));
+    grains.ledger.drag_loss -= work(s, grains, c.of_grains(), c.drag, mean(grains));
+    liquid.ledger.drag_loss -= work(s, liquid, c.of_liquid(), c.drawn, mean(liquid));
+    // What ground and walls did was taken with the velocity before the drag.
+    liquid.ledger.contact_work +=
+        work(s, liquid, c.of_liquid(), c.held,
+             [&](std::uint32_t, std::size_t r) -> Vec3 { return 0.5 * c.drawn[r]; });
   }
 
  private:
+  /// Sum of m change.speed. \param speed  of particle i in row r [m/s]
+  template <class Speed>
   static double work(const State& s, const MovingSet& p, const PairSide& side,
-                     const std::vector<Vec3>& change) {
-    const Components& before = p.components(fields::velocity_before);
+                     const std::vector<Vec3>& change, Speed&& speed) {
     return ordered_reduce(
         side.n_rows(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& sum) {
           for (std::size_t r = begin; r < end; ++r) {
             const std::uint32_t i = side.index(r);
             if (p.any_leaving && s.leaves(p, i)) continue;
-            sum += 0.5 * p.mass[i] * change[r].dot(at(before, i) + velocity(p, i));
+            sum += p.mass[i] * change[r].dot(speed(i, r));
           }
         },
         [](double& total, double block) { total += block; });

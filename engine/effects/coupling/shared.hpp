@@ -57,6 +57,7 @@ struct Coupling {
   std::vector<double> share;     ///< X_j, not cut [liquid's rows]
   std::vector<Vec3> lift, drag;  ///< changes of a grain's velocity in this step [grains' rows]
   std::vector<Vec3> drawn;       ///< of a liquid particle's, by drag [liquid's rows]
+  std::vector<Vec3> held;        ///< the same by ground and walls, before the drag
   // What sums over neighbours read, by source.
   std::vector<double> volume;          ///< V_i
   std::vector<Quads<2>> liquid_start;  ///< q, q v at n-1/2, pore volume, q v at n+1/2

@@ -112,7 +112,7 @@ class SharesPass final : public Pass {
     const Coupling& c = *shared_;
     return c.met.capacity() * (sizeof(MetLiquid) + 2 * sizeof(Vec3)) +
            c.volume.capacity() * (2 * sizeof(double) + 2 * sizeof(Quads<1>)) +
-           c.take.capacity() * (2 * sizeof(double) + 2 * sizeof(Quads<2>) + sizeof(Vec3));
+           c.take.capacity() * (2 * sizeof(double) + 2 * sizeof(Quads<2>) + 2 * sizeof(Vec3));
   }
 
  private:
@@ -120,7 +120,7 @@ class SharesPass final : public Pass {
     Coupling& c = *shared_;
     c.met.resize(c.of_grains().n_rows());
     for (auto* v : {&c.lift, &c.drag}) v->resize(c.of_grains().n_rows());
-    c.drawn.resize(c.of_liquid().n_rows());
+    for (auto* v : {&c.drawn, &c.held}) v->resize(c.of_liquid().n_rows());
     c.share.resize(c.of_liquid().n_rows());
     fit(c.volume, c.of_grains().n_sources());
     fit(c.room, c.of_grains().n_sources());

@@ -142,16 +142,36 @@ class LiquidSweep final : public Pass {
     const SweepOutput out = shared_->output(p);
     const BoundaryView wall = shared_->boundary(s.domain, p);
     const Sweeps& loops = sweeps(g.instruction_set);
+    const double* share = scalar_or_null(p, fields::grain_share);
     constexpr std::size_t groups_per_range = 16;
     parallel_ranges(shared_->lists.n_groups(), groups_per_range, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       loops.dense(view, constants, wall, out, begin, end);
+                      if (share) lighten(p, share, begin * group_size, end * group_size);
                       keep_for_next(out, p, begin * group_size, end * group_size, kept);
                     });
   }
   std::size_t bytes() const override { return shared_->bytes(); }
 
  private:
+  /// The sweep divides by the density that diffusion may see; what acts on a particle that does not
+  /// fill its pores accelerates the mass that is there. With it m (1 + X) a of a pair is opposite.
+  void lighten(MovingSet& p, const double* share, std::size_t begin, std::size_t end) const {
+    const NeighborRecord* records = shared_->lists.records();
+    const auto& change = p.scalar(fields::density_change);
+    const double reach = 2 * shared_->settings.smoothing_length / shared_->lists.view().unit_m;
+    auto& ground = p.boundary.from_ground;
+    for (std::size_t i = begin; i < std::min(end, p.n_listed); ++i) {
+      const double filled = 1 + std::fmax(change[i], least_density_change(share[i]));
+      const double seen = 1 + static_cast<double>(records[i].density_change);
+      if (filled >= seen) continue;
+      const auto lighter = static_cast<float>(seen / filled);
+      for (auto* a : {&p.ax, &p.ay, &p.az}) (*a)[i] *= lighter;
+      if (shared_->ground[i].distance >= reach) continue;  // the sweep wrote nothing there
+      for (auto& a : ground) a[i] *= lighter;
+    }
+  }
+
   std::shared_ptr<LiquidFlow> shared_;
 };
 
