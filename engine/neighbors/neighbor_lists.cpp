@@ -166,30 +166,39 @@ void NeighborLists::mirror_in(const std::vector<Wall>& walls, double time) {
 
 void NeighborLists::weigh_images(double moment_factor) {
   if (walls_.empty()) return;
+  const double enough = 0.25 / moment_factor;
   for (RecordImage& image : images_) {
     image.share = 1;
     for (const Wall* wall : image.mirrors)
       if (wall)
-        image.share *= static_cast<float>(
-            std::min(1.0, 4 * moment_factor * moment_along(image.source, wall->normal)));
+        image.share *=
+            static_cast<float>(std::min(1.0, moment_along(image, wall->normal, enough) / enough));
   }
 }
 
-/// Sum of t^3 (r.n)^2 over the listed particles themselves, t = 1 - r/2h [m^2].
-double NeighborLists::moment_along(std::size_t particle, const Vec3& n) const {
+/// Sum of t^3 (r.n)^2 over the listed particles themselves, t = 1 - r/2h, no farther than where it
+/// is `enough` [m^2].
+double NeighborLists::moment_along(const RecordImage& image, const Vec3& normal,
+                                   double enough) const {
   const NeighborView lists = view();
-  const std::size_t group = particle / group_size;
+  const std::size_t group = image.source / group_size;
   const std::uint32_t* begin = lists.list(group);
-  const NeighborRecord& i = records_[particle];
-  double sum = 0;
-  for (const std::uint32_t* j = begin; j != begin + lists.list_size(group); ++j) {
+  const NeighborRecord& i = records_[image.source];
+  const auto nx = static_cast<float>(normal.x()), ny = static_cast<float>(normal.y());
+  const auto nz = static_cast<float>(normal.z()), to_s = static_cast<float>(unit_ / support_);
+  const auto stop = static_cast<float>(enough / (unit_ * unit_));
+  float sum = 0;
+  for (const std::uint32_t* j = begin; j != begin + lists.list_size(group) && sum < stop; ++j) {
     if (*j >= n_particles_) continue;
     const NeighborRecord& o = records_[*j];
-    const Vec3 r(unit_ * (o.x - i.x), unit_ * (o.y - i.y), unit_ * (o.z - i.z));
-    const double t = std::max(0.0, 1 - r.norm() / support_), along = r.dot(n);
+    const auto x = static_cast<float>(o.x - i.x), y = static_cast<float>(o.y - i.y);
+    const auto z = static_cast<float>(o.z - i.z);
+    const float t = 1 - to_s * std::sqrt(x * x + y * y + z * z);
+    if (t <= 0) continue;
+    const float along = x * nx + y * ny + z * nz;
     sum += t * t * t * along * along;
   }
-  return sum;
+  return sum * unit_ * unit_;
 }
 
 void NeighborLists::turn(std::size_t image, float& x, float& y, float& z) const {

@@ -92,7 +92,7 @@ class NeighborLists {
   void make_images(const ParticleSet&, const Domain&);
   void mirror(RecordImage, const Vec3& at);
   void mirror_record(const Wall&, NeighborRecord&) const;
-  double moment_along(std::size_t particle, const Vec3& n) const;
+  double moment_along(const RecordImage&, const Vec3& normal, double enough) const;
   void sort_particles(ParticleSet&);
   void sort_records();
   void build_lists(int threads);
