@@ -48,7 +48,7 @@ CASES = {
                     "rows": "columns full_3 full_6 full_10 full_12 full_12:seed=2 full_12:seed=3 full_20 grains_8 grains_8:seed=2 grains_8:seed=3 grains_5 grains_5:seed=2 grains_5:seed=3"
                             " grains_5:overlap=0.05 grains_5:overlap=0.2 grains_5:bed_rolling_friction=0 grains_5:bed_rolling_friction=0.1 grains_3"},
     "flume": {"text": FLUME, "angle": 20, "bed": 0.5, "thick": 0.3009, "columns": 0.02, "digits": 2, "area": (1, "m²"),
-              "rows": " ".join(f"{row}:bed={bed}" for bed in (0.364, 0.5, 0.8) for row in ("columns", "full_12", "grains_0.02"))},
+              "rows": " ".join(f"{row}:bed={bed}" for bed in (0.364, 0.5, 0.8) for row in ("columns", "full_12", "grains_0.03", "grains_0.02"))},
 }
 
 
