@@ -79,8 +79,8 @@ Collapse collapse(bool dense, double spacing, double end) {
   return {front(made.state.sets[0]) - g.grain_length, pressure / n};
 }
 
-/// The first quarter of a second, in which the pore pressure decides. With STURZ_COUPLED_LONG until both
-/// are at rest, as docs/studies/liquid_among_grains.md tells.
+/// The first quarter of a second, in which the pore pressure decides. With STURZ_COUPLED_LONG until
+/// both are at rest, as docs/studies/liquid_among_grains.md tells.
 TEST(ColumnInLiquid, LooseRunsFartherThanDense) {
   const bool at_rest = std::getenv("STURZ_COUPLED_LONG") != nullptr;
   const double spacing = 0.006;
