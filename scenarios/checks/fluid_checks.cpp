@@ -122,6 +122,11 @@ class Check {
       add("coupling.dilatancy_slope",
           shown("coupling.dilatancy_slope") +
               " (no effect without coupling.critical_solid_fraction). Give that, or remove it.");
+    if (s_.coupling && s_.coupling->critical_solid_fraction &&
+        s_.coupling->scheme == CouplingScheme::paper)
+      add("coupling.critical_solid_fraction",
+          shown("coupling.critical_solid_fraction") +
+              " (coupling.scheme: paper has no pressure that acts on grains). Keep one of them.");
     const bool physical = !s_.coupling || s_.coupling->scheme == CouplingScheme::physical;
     if (physical && s_.grains->pore_pressure_inside)
       add("grains.pore_pressure_inside",
