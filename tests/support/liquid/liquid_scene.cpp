@@ -24,7 +24,7 @@ Terrain ground_of(const LiquidBox& box, double cell) {
     for (int c = 0; c < n; ++c)
       z.at(r, c) = box.ground ? box.ground(z.grid.x_center(c), z.grid.y_center(r))
                               : -box.slope * z.grid.x_center(c);
-  return Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow);
+  return {std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow};
 }
 
 /// \param i,j,k  along the box's edges, in spacings

@@ -16,7 +16,7 @@ namespace sturz::test {
 namespace {
 
 constexpr double dx = 0.1;
-constexpr std::size_t quarter_size = 5 * 4 * 8;
+constexpr std::size_t quarter_size = 160;  // 5 x 4 x 8
 
 /// Particles of a lattice around the middle (x, y) of the ground, each a little aside, the same in
 /// all four quadrants.
