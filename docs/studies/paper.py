@@ -71,7 +71,8 @@ SHUICHENG += [
 ]
 # Largest speed, area, centre of mass, distance, thickness of tables 5 and 6.
 SHUICHENG_PAPER = {"I": (14, 0.11, 300, 600, 24), "II": (25.5, 0.21, 500, 850, 21), "III": (32, 0.26, 650, 1000, 23),
-                   "IV": (38, 0.32, 760, 1360, 21), "the landslide": (35, 0.33, 770, "1,340 / 1,360", 20)}
+                   "IV": (38, 0.32, 760, 1360, 21), "the landslide": (35, 0.33, 770, "1,340 / 1,360", 20),
+                   "MatDEM in table 6": (44, math.nan, math.nan, 1358, 50), "DAN3D in table 6": (40, math.nan, math.nan, 1250, 24)}
 
 # Floor of scenarios/shapes/shuicheng.cpp: distance from the crown along the path, elevation [m].
 PROFILE = np.array([(0, 1700), (60, 1655), (230, 1553), (330, 1500), (400, 1470), (480, 1447), (600, 1397), (750, 1348), (900, 1309),
