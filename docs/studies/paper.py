@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The paper's flume experiments and its four conditions of Shuicheng beside ours.
 
-usage: paper.py STURZ CASES OUT [--only TEXT] [--fine]   (needs python3-numpy, python3-gdal; 15 min of CPU, --fine: half an hour)
+usage: paper.py STURZ CASES OUT [--only TEXT] [--fine]   (needs python3-numpy; half an hour of CPU, --fine: 10 min more)
 CASES is scenarios/cases, OUT takes the runs; a run that is there is not made again. --only makes just the runs whose name has
-TEXT in it and prints no table. Published figures: Gao et al. (2024), tables 1 to 6 and text.
+TEXT in it; the tables then have what is there. Published figures: Gao et al. (2024), tables 1 to 6 and text.
 """
 import json
 import math
@@ -71,7 +71,18 @@ SHUICHENG += [
 ]
 # Largest speed, area, centre of mass, distance, thickness of tables 5 and 6.
 SHUICHENG_PAPER = {"I": (14, 0.11, 300, 600, 24), "II": (25.5, 0.21, 500, 850, 21), "III": (32, 0.26, 650, 1000, 23),
-                   "IV": (38, 0.32, 760, 1360, 21), "the landslide": (35, 0.33, 770, "1,340 / 1,360", 20)}
+                   "IV": (38, 0.32, 760, 1360, 21), "the landslide": (35, 0.33, 770, "1,340 / 1,360", 20),
+                   "MatDEM in table 6": (44, math.nan, math.nan, 1358, 50), "DAN3D in table 6": (40, math.nan, math.nan, 1250, 24)}
+
+# Floor of scenarios/shapes/shuicheng.cpp: distance from the crown along the path, elevation [m].
+PROFILE = np.array([(0, 1700), (60, 1655), (230, 1553), (330, 1500), (400, 1470), (480, 1447), (600, 1397), (750, 1348), (900, 1309),
+                    (1050, 1279), (1200, 1256), (1340, 1240), (1450, 1228), (1700, 1205)], float)
+# Friction that acts on a block of the whole mixture: friction on floor and plate of the flume; on the ground of Shuicheng.
+FULL, SUNK = 1 - 1570 / 1999, 1 - 0.601 * 1570 / 1771  # flume III in full pores; II, slurry in the lower 60 %
+FLUME_BLOCKS = [("I, 0.8", 0.8), ("II, physical, 0.8", 0.8 * SUNK), ("III, physical, 0.8", 0.8 * FULL), ("I, tan 20", 0.364),
+                ("II, physical, tan 20", 0.364 * SUNK), ("III, physical, tan 20", 0.364 * FULL)]
+SHUICHENG_BLOCKS = [("I", 0.5), ("II", 0.4), ("III, as published", 0.5 * 1400 / 2000), ("IV, as published", 0.4 * 1400 / 2000),
+                    ("physical, 0.5", 0.5 * (1 - 1200 / 2000)), ("physical, 0.87", 0.87 * (1 - 1200 / 2000))]
 
 
 def share(values, mass, part):
@@ -211,6 +222,21 @@ def show_ratios(found):
     table(("spacing", "II / I", "III / I", "IV / I"), rows)
 
 
+def block_stops(friction, start):
+    """Where a block comes to rest that starts so far from the crown; infinite beyond the ground [m]."""
+    x = np.arange(start + 1, 1650.0)
+    floor = np.interp(x, *PROFILE.T)
+    below = np.nonzero(np.interp(start, *PROFILE.T) - friction * (x - start) < floor)[0]
+    return float(x[below[0]]) if len(below) else math.inf
+
+
+def show_blocks():
+    table(("flume", "mu_eff", "on 20 degrees m/s²", "on the plate m/s²"),
+          [(name, number(mu, 2), number(9.81 * (math.sin(SLOPE) - mu * math.cos(SLOPE)), 1), number(-9.81 * mu, 1)) for name, mu in FLUME_BLOCKS])
+    table(("Shuicheng", "mu_eff", "a block from 20 m below the crown stops at m", "from the mass's centre, 140 m"),
+          [(name, number(mu, 2), number(block_stops(mu, 20)), number(block_stops(mu, 140))) for name, mu in SHUICHENG_BLOCKS])
+
+
 def main(sturz, cases, out, *flags):
     cases, out = pathlib.Path(cases).resolve(), pathlib.Path(out).resolve()
     only = flags[flags.index("--only") + 1] if "--only" in flags else ""
@@ -222,6 +248,8 @@ def main(sturz, cases, out, *flags):
     show_shuicheng(shuicheng)
     print("### Distances over that of condition I\n")
     show_ratios(shuicheng)
+    print("### Blocks\n")
+    show_blocks()
 
 
 if __name__ == "__main__":
