@@ -169,7 +169,7 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
                   short_number(plan.stress.smoothing_length) +
                   " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
                   " m: the grains act as a parameter only" +
-                  (plan.coupling ? ", and their drag is that of fewer than it was made for" : ""));
+                  (plan.coupling ? ", and their drag assumes a smoothing length of two of them" : ""));
   warn_of_inflow(s, plan, out);
   warn_of_states(s, plan, out);
   for (std::string& warning : liquid_warnings(s, plan)) out.push_back(std::move(warning));

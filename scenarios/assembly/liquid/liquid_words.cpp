@@ -95,8 +95,8 @@ std::string dilatancy_text(const Scenario& s) {
       " than critical (" + short_number(released) + ", " + short_number(critical) + "), shear ";
   return "`coupling.critical_solid_fraction`: " +
          (released < critical
-              ? "looser" + than + "tightens it and the liquid takes its load"
-              : "not looser" + than + "loosens it and it draws in liquid, which brakes it");
+              ? "looser" + than + "tightens the grains and the liquid takes over their load"
+              : "not looser" + than + "loosens the grains, which draw in liquid and are braked by it");
 }
 
 std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& plan) {
