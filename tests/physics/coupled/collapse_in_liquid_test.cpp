@@ -67,7 +67,8 @@ Collapse collapse(bool dense, double spacing, double end) {
   double pressure = 0, n = 0, next = 0;
   while (made.state.time < end) {
     made.advance();
-    if (made.state.time > 0.05 && made.state.time < 0.5) pressure += pore_pressure(made.state, g), ++n;
+    if (made.state.time > 0.05 && made.state.time < 0.5)
+      pressure += pore_pressure(made.state, g), ++n;
     if (made.state.time < next) continue;
     next += end / 10;
     fmt::print("{} at {:.2f} s: front {:.1f} mm, pore pressure {:+.0f} Pa, fastest {:.3f} m/s\n",
@@ -78,8 +79,8 @@ Collapse collapse(bool dense, double spacing, double end) {
   return {front(made.state.sets[0]) - g.grain_length, pressure / n};
 }
 
-/// The first quarter of a second, in which the pore pressure decides. With STURZ_COUPLED_LONG until both
-/// are at rest, as docs/studies/liquid_among_grains.md tells.
+/// The first quarter of a second, in which the pore pressure decides. With STURZ_COUPLED_LONG until
+/// both are at rest, as docs/studies/liquid_among_grains.md tells.
 TEST(ColumnInLiquid, LooseRunsFartherThanDense) {
   const bool at_rest = std::getenv("STURZ_COUPLED_LONG") != nullptr;
   const double spacing = 0.006;

@@ -34,8 +34,7 @@ ImmersedGrains soft_ground(int layers) {
 /// k/(mu (1/M + alpha_f/K_f)), the water being soft, too; k of Ergun's law without inertia [m^2/s].
 double consolidation(const ImmersedGrains& g) {
   const double solids = g.solid_fraction, pores = 1 - solids;
-  const double k =
-      std::pow(pores, 3) * g.drag_diameter * g.drag_diameter / (150 * solids * solids);
+  const double k = std::pow(pores, 3) * g.drag_diameter * g.drag_diameter / (150 * solids * solids);
   const double skeleton = solids * g.grain_density * g.sound_speed * g.sound_speed;
   const double water = g.liquid_density * g.sound_speed * g.sound_speed;
   return k / g.viscosity / (1 / skeleton + pores / water);

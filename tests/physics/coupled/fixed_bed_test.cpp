@@ -99,7 +99,8 @@ TEST_P(FixedGrains, TakeErgunsPressureDrop) {
     const double drop = g.liquid_density * bed.drive;
     const std::string name = fmt::format("V14 fixed bed, {}, layers {}", bed.name, layers);
     const double middle = ergun(g, u.middle), all = ergun(g, u.all);
-    expect_within(relative(name + ", middle", "Pa/m by Ergun at the speed seen", middle, drop, 0.02));
+    expect_within(
+        relative(name + ", middle", "Pa/m by Ergun at the speed seen", middle, drop, 0.02));
     record(relative(name + ", with top and bottom", "Pa/m", all, drop));
   }
 }

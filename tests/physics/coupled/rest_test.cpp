@@ -18,7 +18,7 @@ ImmersedGrains basin(int layers) {
 }
 
 struct Profile {
-  double off = 0, all = 0;        ///< sums of squares
+  double off = 0, all = 0;          ///< sums of squares
   double lowest = 0, lowest_n = 0;  ///< of the lowest layer: sum of found / expected
 
   void add(double found, double expected, bool is_lowest) {
@@ -66,8 +66,7 @@ TEST(SaturatedColumn, CarriesItsWeightInTwoParts) {
     advance_to(made, 5 * std::sqrt(g.grain_height / g.gravity));
     const std::string name = fmt::format("V3 saturated, layers {}", layers);
     const Profile water = pore_pressure(s, g), grains = effective_stress(s, g);
-    expect_within(
-        {name + ", pore pressure", "L2 of the profile", water.l2(), 0, water.l2(), 0.02});
+    expect_within({name + ", pore pressure", "L2 of the profile", water.l2(), 0, water.l2(), 0.02});
     expect_within(
         {name + ", effective stress", "L2 of the profile", grains.l2(), 0, grains.l2(), 0.02});
     record({name + ", lowest layer, pore pressure", "off", water.lowest_error(), 0,

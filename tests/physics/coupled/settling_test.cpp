@@ -28,8 +28,7 @@ ImmersedGrains suspension(double solids, int layers) {
 double slip_of(const ImmersedGrains& g) {
   const GranularDrag law{g.drag_diameter, g.liquid_density, g.viscosity};
   const double solids = g.solid_fraction;
-  const double weight =
-      solids * (1 - solids) * (g.grain_density - g.liquid_density) * g.gravity;
+  const double weight = solids * (1 - solids) * (g.grain_density - g.liquid_density) * g.gravity;
   double slip = 0.01;
   for (int n = 0; n < 200; ++n) slip = 0.5 * (slip + weight / law.exchange(solids, slip));
   return slip;
