@@ -28,7 +28,7 @@ std::string title(Quantity q) {
     case Quantity::eroded:
       return "Eroded depth";
     case Quantity::solid:
-      return "Thickness of grains alone";
+      return "Thickness of grains without their pores";
     case Quantity::liquid:
       return "Thickness of liquid alone";
     case Quantity::intensity:

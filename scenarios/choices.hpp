@@ -105,22 +105,6 @@ constexpr auto words_of(PhaseDragLaw) {
   return std::array{Word{permeability, "permeability"}, Word{settling, "settling"}};
 }
 
-/// What the bed does to a liquid in three dimensions; `automatic` decides by the layers that
-/// resolve its flow.
-enum class FluidBed { automatic, no_slip, film, slip };
-constexpr auto words_of(FluidBed) {
-  using enum FluidBed;
-  return std::array{Word{automatic, "auto"}, Word{no_slip, "no_slip"}, Word{film, "film"},
-                    Word{slip, "slip"}};
-}
-
-/// Drag and buoyancy between grains and liquid in three dimensions, or the paper's drag alone.
-enum class CouplingScheme { physical, paper };
-constexpr auto words_of(CouplingScheme) {
-  using enum CouplingScheme;
-  return std::array{Word{physical, "physical"}, Word{paper, "paper"}};
-}
-
 /// One continuous stress law from dense to dilute, or the paper's switch between laws.
 enum class StressMode { unified, paper_switch };
 constexpr auto words_of(StressMode) {

@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the studies of docs/studies again that rest on the three-dimensional solver, and puts their tables into their pages.
 
-usage: scripts/studies.py [--list] [NAME ...]    (all when no name is given: some three hours on two cores)
+usage: scripts/studies.py [--list] [--data FOLDER] [NAME ...]    (all when no name is given: some four hours on two cores)
 Needs a release build with tests (./test.sh, or cmake --build build/release), python3-numpy, python3-netcdf4, python3-gdal,
-python3-matplotlib. A page keeps its words; what stands between <!-- made by NAME --> and <!-- end --> is replaced, with
+python3-matplotlib, and for some measured ground: FOLDER holds s1000_sthelens (pre_runout_DEM.asc, landslide_depth.asc and DEM_of_Difference.asc
+from the tutorials mass_wasting_runout of github.com/landlab/landlab, MIT) and marsicano_tinitaly (marsicano_10m.tif of TINITALY,
+release_250m.geojson). A page keeps its words; what stands between <!-- made by NAME --> and <!-- end --> is replaced, with
 the day and the machine. Read the words again: they may no longer fit.
 """
+import argparse
 import datetime
+import os
 import pathlib
 import platform
 import subprocess
@@ -22,19 +26,30 @@ def script(name, *arguments):
     return ["/usr/bin/python3", str(STUDIES / f"{name}.py"), *arguments]
 
 
-# Name: (page, commands; what the last one prints is put in). WHOLE: that is the page; no page: the command writes it.
+def hard(states, page):
+    return [BENCH, "hard", "--full", "--states", states, "--markdown", str(STUDIES / page)]
+
+
+DATA = "folder of --data"
+IMAGES = ROOT / "docs/images"
+# Name: (page, commands; what the last one prints is put in). WHOLE: that is the page; no page: the commands write theirs.
 WHOLE = "whole "
 MADE = {
     "verification": (WHOLE + "verification_table.md",
                      [["ctest", "--test-dir", str(BUILD), "-L", "^physics$"],
                       ["python3", str(ROOT / "scripts/verification_table.py"), str(BUILD / "tests/physics/results.csv")]]),
-    "stability": ("", [[BENCH, "hard", "--full", "--states", "both", "--markdown", str(STUDIES / "stability.md")]]),
+    "stability": ("", [hard("dense", "stability.md"), hard("all", "stability_states.md")]),
     "error_against_seconds": ("error_against_seconds.md",
                               [script("error_against_seconds", "measure", STURZ, str(OUT / "ladder")),
                                script("error_against_seconds", "show", str(OUT / "ladder/figures.json"),
                                       str(STUDIES / "error_against_seconds_earlier.json"),
-                                      str(ROOT / "docs/images/error_against_seconds.png"))]),
+                                      str(IMAGES / "error_against_seconds.png"))]),
     "beside_the_paper": ("beside_the_paper.md", [script("beside_the_paper", STURZ, str(OUT / "paper"))]),
+    "paper": ("paper.md", [script("paper", STURZ, str(ROOT / "scenarios/cases"), str(OUT / "paper_wet"))]),
+    "who_is_right": ("who_is_right.md", [script("who_is_right", str(BUILD / "tests/tools/energy_of"), str(OUT / "who"))]),
+    "formulations": ("formulations.md", [script("formulations", STURZ, DATA, str(OUT / "formulations"), str(IMAGES / "formulations.png"))]),
+    "strength_inside": ("strength_inside.md", [script("strength_inside", STURZ, DATA, str(OUT / "strength"), "collapse", "pile", "slope", "s1000:4.5", "s1000:2.25")]),
+    "performance": ("performance.md", [script("performance", BENCH, STURZ, str(OUT / "performance"), str(IMAGES / "performance.png"))]),
 }
 
 
@@ -54,9 +69,13 @@ def put(page, name, text):
     path.write_text(f"{head}{begin}\n{text.strip()}\n\n{machine()}\n{end}{rest.split(end, 1)[1]}")
 
 
-def make(name):
+def make(name, data):
     page, commands = MADE[name]
     well = True
+    if not data and any(DATA in command for command in commands):
+        print(f"{name}: not made (its ground is measured). Say with --data where that lies.")
+        return False
+    commands = [[data if word == DATA else word for word in command] for command in commands]
     for command in commands:  # tests that fail and bounds that do not hold are written down, too
         done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
         if done.returncode != 0:
@@ -71,17 +90,22 @@ def make(name):
     return well
 
 
-def main(arguments):
-    if "--list" in arguments:
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("names", nargs="*")
+    parser.add_argument("--list", action="store_true")
+    parser.add_argument("--data", type=os.path.abspath)
+    given = parser.parse_intermixed_args()
+    if given.list:
         print("\n".join(MADE))
         return 0
-    unknown = [name for name in arguments if name not in MADE]
+    unknown = [name for name in given.names if name not in MADE]
     if unknown:
         print(f"no study is called {', '.join(unknown)}; there are {', '.join(MADE)}", file=sys.stderr)
         return 2
     OUT.mkdir(parents=True, exist_ok=True)
-    return 0 if all([make(name) for name in arguments or MADE]) else 1
+    return 0 if all([make(name, given.data) for name in given.names or MADE]) else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

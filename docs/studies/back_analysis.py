@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Back-analysis tried where the answer is known, and where it was measured.
 
-usage: back_analysis.py STURZ DATA_FOLDER OUT_FOLDER twins|s1000 [FULL_STRESS_MEMBERS]
-DATA_FOLDER is ../shared/data. `twins`: ten members of a slope play the event in turn; one ensemble of 200 others is calibrated
+usage: back_analysis.py STURZ DATA_FOLDER OUT_FOLDER [twins|s1000|full:MEMBERS ...]
+DATA_FOLDER holds marsicano_tinitaly (marsicano_10m.tif, release_250m.geojson) and s1000_sthelens (pre_runout_DEM.asc,
+landslide_depth.asc, DEM_of_Difference.asc). `twins`: ten members of a slope play the event in turn; one ensemble of 200 others is calibrated
 against each, with measurement errors added. `s1000`: the landslide of 2021 by its lengths alone, then held against its measured
-thickness and outline; friction alone, friction with pore pressure, with an eroding bed; with a number of members
-full stress with so many of them in their place. Prints tables.
+thickness and outline: friction alone, friction with pore pressure, with an eroding bed. `full`: the same in full stress
+with so many members, friction alone. Prints tables.
 """
 import csv
 import json
@@ -51,6 +52,9 @@ FIELDS = """observation:
 FRICTION = "{friction_coefficient: {uniform: [0.15, 0.40]}}"
 WITH_PORES = "{friction_coefficient: {uniform: [0.20, 0.60]}, pore_pressure_ratio: {uniform: [0, 0.5]}}"
 BED = "erosion: {law: exponential, growth_rate_per_m: {log_uniform: [5.0e-5, 2.0e-3]}, supply: unlimited}\n"
+
+
+TITLES = {"twins": "Twins", "s1000": "S-1000, columns", "full": "S-1000, full stress"}
 
 
 def sturz(program, *words):
@@ -164,11 +168,14 @@ def prepared(data, out):
     return folder.resolve()
 
 
-def main(program, data, out, which, full_members="0"):
+def main(program, data, out, *parts):
     out = pathlib.Path(out)
     out.mkdir(parents=True, exist_ok=True)
     data = pathlib.Path(data).resolve()
-    return twins(program, data, out) if which == "twins" else s1000(program, data, out, int(full_members))
+    for part in parts or ("twins", "s1000", "full:32"):
+        name, _, number = part.partition(":")
+        print(f"\n### {TITLES[name]}")
+        twins(program, data, out) if name == "twins" else s1000(program, data, out, int(number or 0))
 
 
 if __name__ == "__main__":

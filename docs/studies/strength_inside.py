@@ -6,13 +6,12 @@ usage: strength_inside.py STURZ DATA_FOLDER OUT_FOLDER [collapse|pile|slope|s100
 friction angle. `s1000`: the landslide of 2021 beside its DEM of difference; DATA_FOLDER/s1000_sthelens holds
 pre_runout_DEM.asc, landslide_depth.asc and DEM_of_Difference.asc. Prints tables.
 """
-import json
 import math
 import pathlib
-import subprocess
 import sys
 
 from erosion_s1000 import centre, layer, read_grid
+from runs import run as kept_run
 
 CONES = ("simple_shear", "plane_strain")
 
@@ -69,11 +68,7 @@ hazard: {{cell_size_m: 10}}
 
 def run(sturz, folder, text):
     """Folder and numbers of one member."""
-    folder.mkdir(parents=True, exist_ok=True)
-    scene = folder / "scene.yaml"
-    scene.write_text(text)
-    done = subprocess.run([sturz, "run", scene, "-o", folder / "out", "--replace", "--json"], capture_output=True, text=True, check=True)
-    return folder / "out", json.loads(done.stdout.splitlines()[-1])["scalars"]
+    return folder / "out", kept_run(sturz, folder, text)
 
 
 def pile_slope(cells, cell):
@@ -173,12 +168,21 @@ def s1000(sturz, data, out, spacing=2.25):
         line(f"{formulation} | {spacing} | {angle} | {0.265 / (1 - ratio):.3f}, {ratio:.2f} | {cone or ''} | {'yes' if inside else ''}", deposit, 1 - kept)
 
 
+PARTS = {
+    "collapse": ("V8b: slices of a column collapse", collapses),
+    "pile": ("V9: a heap of 8 m over a radius of 8 m comes down", piles),
+    "slope": ("V9: a slope without end, friction 30 degrees, bed rougher", slopes),
+    "s1000": ("S-1000", s1000),
+}
+
+
 def main(sturz, data, out, *parts):
     out = pathlib.Path(out)
     for part in parts or ("collapse", "pile", "slope", "s1000:4.5", "s1000:2.25"):
-        print(f"\n{part}")
         name, _, spacing = part.partition(":")
-        {"collapse": collapses, "pile": piles, "slope": slopes, "s1000": s1000}[name](sturz, data, out, *([float(spacing)] if spacing else []))
+        title, measure = PARTS[name]
+        print(f"\n### {title}{f', {spacing} m' if spacing else ''}")
+        measure(sturz, data, out, *([float(spacing)] if spacing else []))
 
 
 if __name__ == "__main__":

@@ -8,11 +8,11 @@ Single runs: the front is the farthest column, read from frames every 0.05 s. Me
 """
 import math
 import pathlib
-import re
 import subprocess
 import sys
 
 import numpy as np
+from frames import frame as read
 from netCDF4 import Dataset
 
 CHUTE, PAD, STRAIGHT, RADIUS = math.radians(31), math.radians(2.5), 78.0, 10.0
@@ -75,18 +75,8 @@ def along_bed(x):
 
 def frame(path):
     """Time, map x and mass of the columns of a ParaView frame."""
-    data = path.read_bytes()
-    head, _, tail = data.partition(b'<AppendedData encoding="raw">')
-    tail = tail[tail.index(b"_") + 1:]
-    text = head.decode()
-    time = float(re.search(r'Name="TimeValue"[^>]*>([^<]+)<', text)[1])
-
-    def array(name):
-        at = int(re.search(rf'Name="{name}"[^>]*offset="(\d+)"', text)[1])
-        size = int(np.frombuffer(tail, "<u8", 1, at)[0])
-        return np.frombuffer(tail[at + 8:at + 8 + size], "<f8")
-
-    return time, array("Points").reshape(-1, 3)[:, 0], array("mass")
+    time, (points, mass) = read(path, ("Points", "mass"))
+    return time, points[:, 0], mass
 
 
 def settings(values):

@@ -57,7 +57,7 @@ class PairSide {
   Vec3 place(std::size_t source) const {
     return {1.0 * x_[source], 1.0 * y_[source], 1.0 * z_[source]};
   }
-  /// Ground and walls that may complete kernels.
+  /// Ground and walls that may complete supports.
   std::size_t n_mirrors() const { return mirrors_.size(); }
   /// Whether sources have images in mirror m near a row; its normal and the distance to it [units].
   bool near(std::size_t row, std::size_t m) const { return mirrors_[m].near[row] != 0; }
@@ -148,7 +148,7 @@ class CrossPairs {
   /// longest way that two particles of the sets may have gone relative to each other since the last
   /// call [m] \param time  walls count until they are removed [s]
   ///
-  /// A kernel that ground or a wall cuts is completed by the images of the sources: what lies at
+  /// A support that ground or a wall cuts is completed by the images of the sources: what lies at
   /// its foot is as full of grains as what lies above it.
   void update(const Set& a, const Set& b, const Domain&, double ahead, double time, int threads);
 

@@ -135,19 +135,19 @@ void NeighborLists::make_images(const ParticleSet& set, const Domain& domain) {
   }
 }
 
-/// Images in every wall in reach of the source, and in the corners of two that stand upright on
+/// Images in every wall beside the source, and in the corners of two that stand upright on
 /// each other.
 void NeighborLists::mirror(RecordImage image, const Vec3& at) {
   const double search_radius = support_ + skin_;
-  const auto in_reach = [&](const Wall& w) {
+  const auto beside = [&](const Wall& w) {
     return std::abs((at - w.point).dot(w.normal)) < search_radius;
   };
   for (std::size_t a = 0; a < walls_.size(); ++a) {
-    if (!in_reach(walls_[a])) continue;
+    if (!beside(walls_[a])) continue;
     image.mirrors[0] = &walls_[a], image.mirrors[1] = nullptr;
     images_.push_back(image);
     for (std::size_t b = 0; b < a; ++b) {
-      if (!in_reach(walls_[b]) || std::abs(walls_[a].normal.dot(walls_[b].normal)) > 0.01) continue;
+      if (!beside(walls_[b]) || std::abs(walls_[a].normal.dot(walls_[b].normal)) > 0.01) continue;
       image.mirrors[1] = &walls_[b];
       images_.push_back(image);
     }
@@ -162,6 +162,43 @@ void NeighborLists::mirror_in(const std::vector<Wall>& walls, double time) {
   for (const Wall& w : walls)
     if (time < w.remove_at_s) walls_.push_back(w);
   invalidate();
+}
+
+void NeighborLists::weigh_images(double moment_factor) {
+  if (walls_.empty()) return;
+  const double enough = 0.25 / moment_factor;
+  for (RecordImage& image : images_) {
+    image.share = 1;
+    for (const Wall* wall : image.mirrors)
+      if (wall)
+        image.share *=
+            static_cast<float>(std::min(1.0, moment_along(image, wall->normal, enough) / enough));
+  }
+}
+
+/// Sum of t^3 (r.n)^2 over the listed particles themselves, t = 1 - r/2h, no farther than where it
+/// is `enough` [m^2].
+double NeighborLists::moment_along(const RecordImage& image, const Vec3& normal,
+                                   double enough) const {
+  const NeighborView lists = view();
+  const std::size_t group = image.source / group_size;
+  const std::uint32_t* begin = lists.list(group);
+  const NeighborRecord& i = records_[image.source];
+  const auto nx = static_cast<float>(normal.x()), ny = static_cast<float>(normal.y());
+  const auto nz = static_cast<float>(normal.z()), to_s = static_cast<float>(unit_ / support_);
+  const auto stop = static_cast<float>(enough / (unit_ * unit_));
+  float sum = 0;
+  for (const std::uint32_t* j = begin; j != begin + lists.list_size(group) && sum < stop; ++j) {
+    if (*j >= n_particles_) continue;
+    const NeighborRecord& o = records_[*j];
+    const auto x = static_cast<float>(o.x - i.x), y = static_cast<float>(o.y - i.y);
+    const auto z = static_cast<float>(o.z - i.z);
+    const float t = 1 - to_s * std::sqrt(x * x + y * y + z * z);
+    if (t <= 0) continue;
+    const float along = x * nx + y * ny + z * nz;
+    sum += t * t * t * along * along;
+  }
+  return sum * unit_ * unit_;
 }
 
 void NeighborLists::turn(std::size_t image, float& x, float& y, float& z) const {
@@ -213,6 +250,7 @@ void NeighborLists::copy_images() {
     r = records_[image.source];
     for (const Wall* wall : image.mirrors)
       if (wall) mirror_record(*wall, r);
+    r.volume *= image.share;
     r.x += to_units(image.dx, 0, unit_);
     r.y += to_units(image.dy, 0, unit_);
     r.z += to_units(image.dz, 0, unit_);

@@ -56,7 +56,8 @@ bool has_states(const MemberScalars& m) {
 std::string states_text(const MemberScalars& m, const MemberHistory& history) {
   if (!history.has_states) {
     if (std::isnan(m.parted_fraction))
-      return "Columns (depth_averaged) have no states: how loose the grains were is not known.";
+      return "Columns (depth_averaged) have no states, nor has a liquid by itself: how loose the "
+             "grains were is not known.";
     return fmt::format(
         "At most {} of the mass and time was {}; what such grains do beyond falling freely was "
         "left out, since grains.states was not asked for.",

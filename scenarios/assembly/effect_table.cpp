@@ -7,6 +7,7 @@
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/coupling/effect.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/dilatancy/effect.hpp"
 #include "engine/effects/discrete/effect.hpp"
 #include "engine/effects/erosion/effect.hpp"
 #include "engine/effects/inflow/effect.hpp"
@@ -83,6 +84,10 @@ Called liquid_called(const Scenario& s, const ScenePlan& plan) {
 Called coupling_called(const Scenario& s, const ScenePlan& plan) {
   if (!plan.coupling) return {false, s.fluid ? "no `grains`" : "no `fluid`"};
   return {true, coupling_text(s, plan)};
+}
+Called dilatancy_called(const Scenario& s, const ScenePlan& plan) {
+  if (!plan.dilatancy) return by_key("coupling.critical_solid_fraction", false);
+  return {true, dilatancy_text(s)};
 }
 Called grain_contacts_called(const Scenario& s, const ScenePlan& plan) {
   if (!plan.discrete) return by_key("formulation: discrete", false);
@@ -220,6 +225,9 @@ void add_stress(SceneParts& p) {
   p.grain_stress = add_grain_stress(p.step, p.state, grains, p.plan.stress,
                                     p.plan.coupling ? depth_on_contacts(p.scenario, depth) : depth);
 }
+void add_loosening(SceneParts& p) {
+  add_dilatancy(p.step, p.state, p.grain_stress, *p.plan.dilatancy);
+}
 void add_couplings(SceneParts& p) {
   add_coupling(p.step, p.state, grains, liquid_set(p.scenario), *p.plan.coupling);
 }
@@ -257,6 +265,7 @@ void add_eroded_bed(SceneParts& p) { add_erosion(p.step, p.state, grains, *p.pla
 constexpr EffectRow table[] = {
     {EffectName::gravity, always, add_kick},
     {EffectName::grain_stress, grain_stress_called, add_stress, grain_stress_bytes_per_particle},
+    {EffectName::dilatancy, dilatancy_called, add_loosening},
     // Sorted grains before the lists across, the liquid's ground before the drag, which takes what
     // it gave, and the grains' friction after both.
     {EffectName::liquid, liquid_called, add_liquid_parts, liquid_bytes_per_particle},

@@ -284,6 +284,7 @@ void plan_full_stress(const Scenario& s, const std::vector<BasalResistance>& bed
   plan.liquid = plan_liquid(s, plan);
   plan.liquid_contact = liquid_contact(s, plan);
   if (s.grains) plan.coupling = plan_coupling(s);
+  plan.dilatancy = plan_dilatancy(s);
 }
 
 /// How long a member may last, for a comparison of costs before it is released [s]: its end time,

@@ -8,6 +8,7 @@
 #include "engine/effects/columns/effect.hpp"
 #include "engine/effects/coupling/settings.hpp"
 #include "engine/effects/dense/effect.hpp"
+#include "engine/effects/dilatancy/settings.hpp"
 #include "engine/effects/discrete/settings.hpp"
 #include "engine/effects/erosion/settings.hpp"
 #include "engine/effects/isolated/contacts.hpp"
@@ -34,12 +35,13 @@ struct ScenePlan {
   double release_narrow_side_m = 0;
   double bulk_density_kg_m3 = 1;
   ZoneMap zones;
-  BedRasters rasters;                                        ///< over the zones
-  GrainStressSettings stress;                                ///< full_stress
-  ContactSettings contact;                                   ///< full_stress
-  std::optional<LiquidSettings> liquid;                      ///< where there is `fluid`
-  ContactSettings liquid_contact;                            ///< of it
-  std::optional<CouplingSettings> coupling;                  ///< where grains lie in it
+  BedRasters rasters;                          ///< over the zones
+  GrainStressSettings stress;                  ///< full_stress
+  ContactSettings contact;                     ///< full_stress
+  std::optional<LiquidSettings> liquid;        ///< where there is `fluid`
+  ContactSettings liquid_contact;              ///< of it
+  std::optional<DilatancySettings> dilatancy;  ///< where shear changes the grains' packing
+  std::optional<CouplingSettings> coupling;    ///< where grains lie in it
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet
   std::optional<DiscreteSettings> discrete;                  ///< grains one by one
   double reference_fraction = 0.6;         ///< solid fraction of the mass as it is set down

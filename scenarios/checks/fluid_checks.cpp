@@ -112,6 +112,21 @@ class Check {
           "fluid.density_kg_m3 = " + number_text(heaviest) +
               " (must be below grains.density_kg_m3 = " + number_text(lightest) +
               ": grains that float have no effective stress).");
+    if (s_.coupling && s_.coupling->critical_solid_fraction && s_.grains->states)
+      add("coupling.critical_solid_fraction",
+          shown("coupling.critical_solid_fraction") +
+              " (grains.states is there too, which says how a packing bears its load). Keep one "
+              "of them.");
+    if (s_.coupling && !s_.coupling->critical_solid_fraction &&
+        s_.coupling->dilatancy_slope != CouplingSpec{}.dilatancy_slope)
+      add("coupling.dilatancy_slope",
+          shown("coupling.dilatancy_slope") +
+              " (no effect without coupling.critical_solid_fraction). Give that, or remove it.");
+    if (s_.coupling && s_.coupling->critical_solid_fraction &&
+        s_.coupling->scheme == CouplingScheme::paper)
+      add("coupling.critical_solid_fraction",
+          shown("coupling.critical_solid_fraction") +
+              " (coupling.scheme: paper has no pressure that acts on grains). Keep one of them.");
     const bool physical = !s_.coupling || s_.coupling->scheme == CouplingScheme::physical;
     if (physical && s_.grains->pore_pressure_inside)
       add("grains.pore_pressure_inside",

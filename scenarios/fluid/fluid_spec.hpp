@@ -5,9 +5,26 @@
 #include "scenarios/choices.hpp"
 #include "scenarios/uncertain.hpp"
 
+#include <array>
 #include <optional>
 
 namespace sturz {
+
+/// What the bed does to a liquid in three dimensions; `automatic` decides by the layers that
+/// resolve its flow.
+enum class FluidBed { automatic, no_slip, film, slip };
+constexpr auto words_of(FluidBed) {
+  using enum FluidBed;
+  return std::array{Word{automatic, "auto"}, Word{no_slip, "no_slip"}, Word{film, "film"},
+                    Word{slip, "slip"}};
+}
+
+/// Drag and buoyancy between grains and liquid in three dimensions, or the paper's drag alone.
+enum class CouplingScheme { physical, paper };
+constexpr auto words_of(CouplingScheme) {
+  using enum CouplingScheme;
+  return std::array{Word{physical, "physical"}, Word{paper, "paper"}};
+}
 
 /// A liquid with particles of its own; full_stress only. Its law follows from what is given:
 /// Newton's by a viscosity, Bingham's by a yield stress beside it, Herschel and Bulkley's by
@@ -29,6 +46,9 @@ struct CouplingSpec {
   CouplingScheme scheme = CouplingScheme::physical;
   std::optional<Uncertain> drag_diameter_m;  ///< absent: grains.diameter_m
   Uncertain drag_multiplier{1};              ///< 1 is physics
+  /// Where shear neither loosens nor tightens the grains; given: they do elsewhere.
+  std::optional<Uncertain> critical_solid_fraction;
+  Uncertain dilatancy_slope{4};  ///< k of tan psi = k (solid fraction - that of steady shear)
   bool operator==(const CouplingSpec&) const = default;
 };
 

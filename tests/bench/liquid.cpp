@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A dam break of liquid, end to end through Simulation::run, and pass by pass.
+#include "engine/simulation/parts.hpp"
 #include "tests/bench/commands.hpp"
 #include "tests/bench/slices.hpp"
 #include "tests/support/liquid/impact_tank.hpp"
-
-#include "engine/simulation/parts.hpp"
 
 #include <fmt/core.h>
 

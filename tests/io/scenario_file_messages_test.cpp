@@ -120,9 +120,9 @@ TEST(ScenarioMessages, StatesOfGrains) {
 }
 
 TEST(ScenarioMessages, KeysOfLaterVersionsAreNotUnknown) {
-  EXPECT_THAT(problems(scene() + "fluid: {density_kg_m3: 1200}\n"),
-              ElementsAre("scenario.yaml:7:1: fluid (not available in this version: a pore fluid "
-                          "with particles of its own). Remove it."));
+  EXPECT_THAT(problems(scene() + "prior: {}\n"),
+              ElementsAre("scenario.yaml:7:1: prior (not available in this version: ready-made "
+                          "distributions by material). Remove it."));
   EXPECT_THAT(problems(scene() + "prior: {}\ncoupling: 1\nobservation: {}\n").size(), 3u);
   EXPECT_THAT(problems(scene() + "ensemble: {design: full_grid}\n"),
               ElementsAre("scenario.yaml:7:20: ensemble.design = full_grid (not available in this "

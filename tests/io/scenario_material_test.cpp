@@ -56,7 +56,7 @@ TEST(Materials, AMisspeltOneIsTheOnlyProblem) {
     EXPECT_THAT(said, HasSubstr(fmt::format("material = {}", name)));
     EXPECT_THAT(said, Not(HasSubstr("grains (missing")));
   }
-  EXPECT_THAT(refusal(""), HasSubstr("Add a grains block or a material."));
+  EXPECT_THAT(refusal(""), HasSubstr("Add a grains block or a material, or a fluid."));
 }
 
 TEST(Materials, AStoredSceneReadsBackAsItWas) {

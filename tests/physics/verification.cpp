@@ -155,10 +155,10 @@ void keep(const Line& line, const Finished& f) {
   testing::Test::RecordProperty("error", fmt::format("{:.4g}", line.error));
   keep_line(
       line.name,
-      fmt::format("\"{}\",{:g},{:g},{:.4g},{},{:g},{:.3f},\"{}\",{:.8g},{:.8g},{:.4g},{:.4g},{}",
-                  line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit, m.n_steps,
-                  m.wall_s, line.quantity, line.measured, line.reference, line.error,
-                  line.tolerance, verdict));
+      fmt::format(
+          "\"{}\",{:g},{:g},{:.4g},\"{}\",{:g},{:.3f},\"{}\",{:.8g},{:.8g},{:.4g},{:.4g},{}",
+          line.name, dx, m.n_particles, m.mean_dt_s, f.result.binding_limit, m.n_steps, m.wall_s,
+          line.quantity, line.measured, line.reference, line.error, line.tolerance, verdict));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """House rules that a machine can check. Usage: check_style.py CHECK ROOT, CHECK one of the
 functions below or `all`. Prints file:line: what is wrong; exit code 1 when anything is."""
+import importlib.util
 import pathlib
 import re
 import sys
@@ -297,8 +298,48 @@ def decisions(root):
             yield f"docs/decisions/{path.name}:1: has the number of {first[number.group(1)]}. Take the next free one."
 
 
+MADE_BY = re.compile(r"^<!-- made by (\w+) -->$")
+
+
+def blocks_of(page):
+    """Name, line and whether it ends, of every block of a page that a command makes."""
+    lines = lines_of(page)
+    for n, line in enumerate(lines, 1):
+        if found := MADE_BY.match(line):
+            rest = [other for other in lines[n:] if other == "<!-- end -->" or MADE_BY.match(other)]
+            yield found.group(1), n, bool(rest) and rest[0] == "<!-- end -->"
+
+
+def studies(root):
+    """What a page says was made by an entry of scripts/studies.py is one, and goes there; and every entry has its page."""
+    script = root / "scripts/studies.py"
+    if not script.is_file():
+        return
+    spec = importlib.util.spec_from_file_location("studies_of_the_root", script)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    pages = {name: page for name, (page, _) in module.MADE.items()}
+    seen = set()
+    for page in sorted((root / "docs/studies").glob("*.md")):
+        where = page.relative_to(root).as_posix()
+        for name, n, ends in blocks_of(page):
+            if name in seen:
+                yield f"{where}:{n}: a second block of {name}."
+            seen.add(name)
+            if pages.get(name) != page.name:
+                yield f"{where}:{n}: scripts/studies.py makes no {name} for this page."
+            if not ends:
+                yield f"{where}:{n}: the block of {name} has no line <!-- end -->."
+    for name, page in pages.items():
+        whole = page.startswith(module.WHOLE)
+        if whole and not (root / "docs/studies" / page.removeprefix(module.WHOLE)).is_file():
+            yield f"scripts/studies.py:1: {name} makes {page.removeprefix(module.WHOLE)}, which docs/studies has not."
+        if page and not whole and name not in seen:
+            yield f"scripts/studies.py:1: docs/studies/{page} has no line <!-- made by {name} -->."
+
+
 CHECKS = {f.__name__: f for f in (length, folders, functions, silence, words, headers, machine_paths, equations,
-                                  references, citation, decisions)}
+                                  references, citation, decisions, studies)}
 
 
 def main(which, root):

@@ -162,6 +162,24 @@ class CheckStyle(unittest.TestCase):
         self.assertFalse(self.findings("functions", "io/a.cpp", "constexpr int t[] = {\n" + body + "};\n"))
         self.assertFalse(self.findings("functions", "io/a.cpp", "void f() {\n" + body[:300] + "}\n"))
 
+    def test_pages_and_what_makes_them_agree(self):
+        for folder in ("scripts", "docs/studies"):
+            (self.root / folder).mkdir(parents=True, exist_ok=True)
+        (self.root / "scripts/studies.py").write_text(
+            'WHOLE = "whole "\nMADE = {"a": ("a.md", []), "b": (WHOLE + "b.md", []), "c": ("", [])}\n')
+        (self.root / "docs/studies/b.md").write_text("no block")
+        block = "words\n<!-- made by a -->\n1\n<!-- end -->\n"
+        self.assertFalse(self.findings("studies", "docs/studies/a.md", block))
+        (self.root / "docs/studies/a.md").write_text(block)
+        for text in ("", block.replace("by a", "by d"), block.replace("end", "and"), block + block, block.replace("by a", "by b")):
+            self.assertTrue(self.findings("studies", "docs/studies/a.md", text), text)
+        self.assertTrue(self.findings("studies", "docs/studies/other.md", block), "on another page")
+        (self.root / "docs/studies/a.md").write_text(block)
+        self.assertTrue(self.findings("studies", "docs/studies/other.md", block), "on two pages")
+        self.assertFalse(list(style.CHECKS["studies"](self.root)))
+        (self.root / "docs/studies/b.md").unlink()
+        self.assertTrue(list(style.CHECKS["studies"](self.root)), "no whole page")
+
     def test_the_citation_has_the_projects_version(self):
         (self.root / "CMakeLists.txt").write_text("project(sturz VERSION 1.2.3 LANGUAGES CXX)\n")
         self.assertFalse(self.findings("citation", "CITATION.cff", "title: x\nversion: 1.2.3\n"))

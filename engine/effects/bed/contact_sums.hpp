@@ -2,6 +2,7 @@
 /// What the contacts with ground and walls count, and what they start from.
 #pragma once
 
+#include "engine/effects/bed/effect.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/effects/state.hpp"
 #include "engine/laws/braking.hpp"
@@ -32,6 +33,16 @@ inline void combine(ContactSums& total, const ContactSums& block) {
   total.spring += block.spring;
   total.along += block.along;
   total.pushed += block.pushed;
+}
+
+/// Spring and damper of a surface that does not rub.
+inline ContactLaw smooth_contact(const ContactSettings& c) {
+  ContactLaw law;
+  law.stiffness = c.stiffness;
+  law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
+  law.contact_distance = 0.5 * c.spacing;
+  law.cohesion_distance = -1;
+  return law;
 }
 
 inline void account(MovingSet& p, const ContactSums& sums) {

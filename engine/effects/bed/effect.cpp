@@ -141,11 +141,8 @@ class GroundContact final : public Pass {
  public:
   GroundContact(std::size_t set, const ContactSettings& c) : set_(set), settings_(c) {
     for (const GroundFriction& zone : c.bed) {
-      ContactLaw& law = laws_.emplace_back();
-      law.stiffness = c.stiffness;
-      law.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
-      law.contact_distance = 0.5 * c.spacing;
-      lay(law, zone);
+      laws_.push_back(smooth_contact(c));
+      lay(laws_.back(), zone);
     }
   }
   std::string_view name() const override { return "terrain contact"; }
@@ -246,12 +243,8 @@ class WallContact final : public Pass {
     s.sets[set_].ledger.spring = 0;
     for (const Wall& wall : s.domain.walls) {
       if (s.time >= wall.remove_at_s) continue;
-      ContactLaw law;
-      law.stiffness = settings_.stiffness;
-      law.damping = 2 * damping_ratio(settings_.restitution) * std::sqrt(settings_.stiffness);
-      law.contact_distance = 0.5 * settings_.spacing;
+      ContactLaw law = smooth_contact(settings_);
       law.friction = settings_.liquid ? 0 : wall.friction_coefficient;
-      law.cohesion_distance = -1;
       press(s, wall, law, dt);
     }
   }

@@ -35,13 +35,10 @@ class FilmDrag {
 class LiquidGroundContact final : public Pass {
  public:
   LiquidGroundContact(std::size_t set, const ContactSettings& c)
-      : set_(set), settings_(c), depth_(c.spacing, 2 * c.smoothing_length) {
-    law_.stiffness = c.stiffness;
-    law_.damping = 2 * damping_ratio(c.restitution) * std::sqrt(c.stiffness);
-    law_.contact_distance = 0.5 * c.spacing;
-    law_.friction = 0;
-    law_.cohesion_distance = -1;
-  }
+      : set_(set),
+        settings_(c),
+        law_(smooth_contact(c)),
+        depth_(c.spacing, 2 * c.smoothing_length) {}
   std::string_view name() const override { return "terrain contact, liquid"; }
   std::string_view effect() const override { return EffectName::bed; }
   Stage stage() const override { return Stage::contact; }

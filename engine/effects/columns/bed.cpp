@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What gravity, lateral pressure and the bed do to a column.
 #include "engine/core/parallel.hpp"
-#include "engine/laws/braking.hpp"
 #include "engine/effects/columns/mixture.hpp"
 #include "engine/effects/columns/shared.hpp"
 #include "engine/effects/columns/wet_profile.hpp"
+#include "engine/laws/braking.hpp"
 
 #include <algorithm>
 #include <cmath>

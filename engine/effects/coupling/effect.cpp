@@ -5,6 +5,7 @@
 #include "engine/effects/coupling/shared.hpp"
 #include "engine/effects/fields.hpp"
 
+#include <algorithm>
 #include <memory>
 
 namespace sturz {
@@ -22,6 +23,10 @@ void add_coupling(Step& step, State& state, std::size_t grains, std::size_t liqu
   expect(state.sets[liquid].has(fields::grain_share), "add_coupling_fields comes first");
   state.sets[grains].add(fields::exchange_velocity);
   const auto shared = std::make_shared<Coupling>(grains, liquid, settings);
+  // Until the first step has looked: as the grains were set down.
+  const double packed =
+      std::clamp(state.sets[grains].reference_fraction, 0.0, CouplingSettings::largest_fraction());
+  shared->largest_share = packed / (1 - packed);
   add_shares(step, shared);
   add_exchange(step, shared);
 }

@@ -71,9 +71,13 @@ class ExchangePass final : public Pass {
   /// What the ground's images will push a grain off with [m/s^2]. Its contact follows the drag, for
   /// friction has the last word; but grains that seem to fall through the bed until then would drag
   /// the liquid along, and a film of it would grow under them.
-  static Vec3 ground_push(const MovingSet& p, std::size_t i) {
+  Vec3 ground_push(const MovingSet& p, std::size_t i) const {
     const BoundarySupport& b = p.boundary;
     if (i >= b.from_ground[0].size() || i >= b.distance.size()) return Vec3::Zero();
+    // Beyond the support the sweep writes nothing: another particle's push stands there.
+    const double support = 2 * shared_->settings.smoothing_length;
+    if (p.fate[i] != Fate::stays || b.distance[i] >= static_cast<float>(support))
+      return Vec3::Zero();
     const Vec3 n(b.nx[i], b.ny[i], b.nz[i]);
     const Vec3 push(b.from_ground[0][i], b.from_ground[1][i], b.from_ground[2][i]);
     return std::max(0.0, push.dot(n)) * n;

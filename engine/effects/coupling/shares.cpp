@@ -55,7 +55,7 @@ class ListsAcross final : public Pass {
  private:
   static CrossPairs::Ground ground_of(const MovingSet& p) {
     const BoundarySupport& b = p.boundary;
-    if (b.distance.size() < p.size()) return {};  // nobody looks up the ground of this set
+    if (b.distance.size() < p.size()) return {};  // no pass looks up the ground of this set
     return {b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data()};
   }
 
@@ -90,11 +90,7 @@ class SharesPass final : public Pass {
     const CouplingSettings& c = shared_->settings;
     const MovingSet& liquid = s.sets[shared_->liquid];
     if (!(liquid.sound_speed > 0)) return;
-    // Before the first step no share is known: as if the grains lay as they were set down.
-    const double packed = s.sets[shared_->grains].reference_fraction;
-    const double share = s.n_steps > 0  ? shared_->largest_share
-                         : packed < 0.9 ? packed / (1 - packed)
-                                        : CouplingSettings::largest_share;
+    const double share = shared_->largest_share;
     out.push_back({"acoustic among grains",
                    c.courant * c.smoothing_length /
                        (liquid.sound_speed * std::sqrt(1 + share) + liquid.motion.max_speed)});
@@ -235,7 +231,6 @@ class SharesPass final : public Pass {
     const Field* change = p.find(fields::density_change);
     auto &share = p.scalar(fields::grain_share), &slip = p.scalar(fields::slip_divergence);
     const PairSide& side = c.of_liquid();
-    const bool acts = c.settings.buoyancy;
     c.largest_share = ordered_reduce(
         side.n_rows(), s.threads, 0.0,
         [&](std::size_t begin, std::size_t end, double& largest) {
@@ -249,8 +244,8 @@ class SharesPass final : public Pass {
             const double density = c.settings.liquid_density * relative_density(change, j);
             const double x = room * c.take[r] * density / p.mass[j];
             c.share[r] = x;
-            share[j] = acts ? std::min(x, CouplingSettings::largest_share) : 0;
-            slip[j] = acts ? flux * (x > 0 ? share[j] / x : 0) : 0;
+            share[j] = std::min(x, CouplingSettings::largest_share);
+            slip[j] = flux * (x > 0 ? share[j] / x : 0);
             largest = std::max(largest, share[j]);
           }
         },

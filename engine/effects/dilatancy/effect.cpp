@@ -25,17 +25,15 @@ class PackedForces final : public Pass {
   void apply(State& s, double) override {
     MovingSet& p = s.sets[shared_->set];
     const auto& packing = p.scalar(fields::packing_change);
-    float* const columns[] = {p.ax.data(),
-                              p.ay.data(),
-                              p.az.data(),
-                              p.boundary.from_ground[0].data(),
-                              p.boundary.from_ground[1].data(),
-                              p.boundary.from_ground[2].data()};
+    const auto support = static_cast<float>(2 * shared_->settings.smoothing_length);
+    const float* distance = p.boundary.distance.data();
     parallel_ranges(p.n_listed, reduction_block, s.threads,
                     [&](std::size_t begin, std::size_t end) {
                       for (std::size_t i = begin; i < end; ++i) {
                         const auto share = static_cast<float>(1 / (1 + packing[i]));
-                        for (float* c : columns) c[i] *= share;
+                        for (auto* a : {&p.ax, &p.ay, &p.az}) (*a)[i] *= share;
+                        if (distance[i] >= support) continue;  // the sweep wrote nothing there
+                        for (auto& a : p.boundary.from_ground) a[i] *= share;
                       }
                     });
   }

@@ -36,12 +36,18 @@ class LiquidNeighbors final : public Pass {
     MovingSet& p = s.sets[shared_->set];
     shared_->lists.mirror_in(s.domain.walls, s.time);
     // A particle and its image in a wall close in at twice its speed, those of a stream, too.
+    const double* range = p.motion.velocity_range;
+    const double apart = std::hypot(range[0], range[1], range[2]);
     if (shared_->lists.mirrors())
-      shared_->lists.add_relative_motion(2 * s.previous_dt * p.motion.max_speed);
+      shared_->lists.add_relative_motion(s.previous_dt *
+                                         std::fmax(0.0, 2 * p.motion.max_speed - apart));
     if (!shared_->outdated(s, p)) return;
     wrap_particles(s.domain, p);
     p.n_listed = p.size();
     shared_->lists.rebuild(p, s.domain, s.threads);
+    const LiquidSettings& g = shared_->settings;
+    const double factor = SmoothingKernel{g.smoothing_length}.discrete_gradient_factor();
+    shared_->lists.weigh_images(factor * std::pow(g.spacing, 3));
     shared_->make_room(p);
     ++p.n_sorts;
   }

@@ -2,8 +2,8 @@
 /// Liquid in three dimensions: weakly compressible SPH on the pair sweep of the dense grains, whose
 /// stress here is -P I + s with Tait's P and the s of a Herschel-Bulkley law.
 ///
-/// Brings the fields `density_change`, `stress`, `density_gradient`, `ground_weight` and
-/// `velocity_before`, and the passes
+/// Brings the fields `density_change`, `stress`, `viscous_ratio`, `density_gradient`,
+/// `ground_weight` and `velocity_before`, and the passes
 ///   neighbors: lists   gather: records   force: pair sweep   stress: density and stress n -> n+1
 #pragma once
 

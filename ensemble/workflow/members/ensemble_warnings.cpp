@@ -115,15 +115,15 @@ void warn_of_layers(const Scene& scene, const DesignTable& design, Warnings& out
                     "and are columns, the others may be full_stress, and jump against them. Name "
                     "one formulation",
                     thin, n));
-  if (s.formulation != Formulation::full_stress) return;
+  if (s.formulation != Formulation::full_stress && !s.fluid) return;
   const auto thinnest = std::min_element(layers.release.begin(), layers.release.end());
   if (const auto refused = count_below(layers.release, unresolved_layers);
       refused > 0 && !s.numerics.accept_unresolved)
-    out.push_back(
-        fmt::format("{} of {} members will fail: the thinnest release has {} layers of particles, "
-                    "fewer than 2. Use a smaller numerics.spacing_m, formulation: depth_averaged, "
-                    "or numerics.accept_unresolved",
-                    refused, n, short_number(*thinnest)));
+    out.push_back(fmt::format(
+        "{} of {} members will fail: the thinnest release has {} layers of particles, "
+        "fewer than 2. Use a smaller numerics.spacing_m, {}or "
+        "numerics.accept_unresolved",
+        refused, n, short_number(*thinnest), s.fluid ? "" : "formulation: depth_averaged, "));
   else if (*thinnest < resolved_layers && scene.description.layers >= resolved_layers)
     out.push_back(
         fmt::format("thin members: {} of {} have releases of fewer than 4 layers, the "

@@ -107,6 +107,20 @@ CouplingSettings plan_coupling(const Scenario& s) {
   return c;
 }
 
+std::optional<DilatancySettings> plan_dilatancy(const Scenario& s) {
+  const CouplingSpec spec = coupling_of(s);
+  if (!s.fluid || !s.grains || !spec.critical_solid_fraction) return std::nullopt;
+  DilatancySettings d;
+  d.law.solid_density = s.grains->density_kg_m3.value;
+  d.law.fluid_density = s.fluid->density_kg_m3.value;
+  d.law.fluid_viscosity = plain_viscosity(*s.fluid);
+  d.law.critical_fraction = spec.critical_solid_fraction->value;
+  d.law.grain_diameter = spec.drag_diameter_m.value_or(s.grains->diameter_m).value;
+  d.reference_fraction = s.grains->solid_fraction.value;
+  d.slope = spec.dilatancy_slope.value;
+  return d;
+}
+
 FluidBed liquid_bed(const Scenario& s, const FormulationChoice& formulation) {
   if (s.fluid->bed != FluidBed::automatic) return s.fluid->bed;
   return formulation.layers >= resolved_layers ? FluidBed::no_slip : FluidBed::film;

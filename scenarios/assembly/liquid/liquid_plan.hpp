@@ -4,12 +4,14 @@
 
 #include "engine/effects/bed/effect.hpp"
 #include "engine/effects/coupling/settings.hpp"
+#include "engine/effects/dilatancy/settings.hpp"
 #include "engine/effects/liquid/settings.hpp"
 #include "engine/effects/state.hpp"
 #include "scenarios/assembly/formulation.hpp"
 #include "scenarios/scenario.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,6 +47,10 @@ HerschelBulkley liquid_law(const FluidSpec&);
 /// Of a plan whose release, expected speed and contact are known.
 LiquidSettings plan_liquid(const Scenario& numbers, const ScenePlan&);
 CouplingSettings plan_coupling(const Scenario& numbers);
+/// Absent: packings only change under load.
+std::optional<DilatancySettings> plan_dilatancy(const Scenario& numbers);
+/// For `describe`.
+std::string dilatancy_text(const Scenario& numbers);
 /// What the bed does to the liquid, decided where the scene leaves it to the program.
 FluidBed liquid_bed(const Scenario& numbers, const FormulationChoice&);
 /// The ground as the liquid meets it: no friction of grains.

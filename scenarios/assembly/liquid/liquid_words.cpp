@@ -27,9 +27,24 @@ double slip_time(const Scenario& s, const CouplingSettings& c) {
               (1 / (alpha * c.grain_density) + 1 / (liquid_share(s) * c.liquid_density)));
 }
 
+/// The largest pore_pressure_ratio of the bed and its zones.
+double largest_pore_pressure_ratio(const BasalSpec& basal) {
+  double most = basal.pore_pressure_ratio.value;
+  for (const BasalZone& zone : basal.zones)
+    if (zone.pore_pressure_ratio) most = std::fmax(most, zone.pore_pressure_ratio->value);
+  return most;
+}
+
+bool has_pore_pressure_ratio(const BasalSpec& basal) {
+  return largest_pore_pressure_ratio(basal) > 0 || !basal.rasters.pore_pressure_ratio.path.empty();
+}
+
 std::string pore_pressure_warning(const Scenario& s) {
-  const std::string key =
-      "basal.pore_pressure_ratio = " + short_number(s.basal.pore_pressure_ratio.value);
+  const double most = largest_pore_pressure_ratio(s.basal);
+  const std::string key = most > s.basal.pore_pressure_ratio.value
+                              ? "a pore_pressure_ratio of the bed of " + short_number(most)
+                          : most > 0 ? "basal.pore_pressure_ratio = " + short_number(most)
+                                     : "basal.rasters.pore_pressure_ratio";
   if (!has_buoyancy(s))
     return "pore pressure is counted twice: " + key +
            " lies beside a fluid that drives the grains (coupling.scheme: paper, as published). It "
@@ -73,6 +88,17 @@ std::string coupling_text(const Scenario& s, const ScenePlan& plan) {
   return text + "; smoothing length " + short_number(h / d) + " grain diameters";
 }
 
+std::string dilatancy_text(const Scenario& s) {
+  const double released = s.grains->solid_fraction.value;
+  const double critical = s.coupling->critical_solid_fraction->value;
+  const std::string than =
+      " than critical (" + short_number(released) + ", " + short_number(critical) + "), shear ";
+  return "`coupling.critical_solid_fraction`: " +
+         (released < critical
+              ? "looser" + than + "tightens it and the liquid takes its load"
+              : "not looser" + than + "loosens it and it draws in liquid, which brakes it");
+}
+
 std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& plan) {
   std::vector<std::string> out;
   if (!plan.coupling) return out;
@@ -84,7 +110,7 @@ std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& pla
     out.emplace_back(
         "grains without buoyancy (coupling.scheme: paper): in a fluid they bear their whole weight "
         "on each other and on the bed");
-  if (s.basal.pore_pressure_ratio.value > 0 && (!c.buoyancy || s.fluid->saturation.value >= 1))
+  if (has_pore_pressure_ratio(s.basal) && (!c.buoyancy || s.fluid->saturation.value >= 1))
     out.push_back(pore_pressure_warning(s));
   if (liquid_law(*s.fluid).index != 1)
     out.push_back("the drag takes the fluid's viscosity at a shear rate of 1 1/s, " +

@@ -64,6 +64,15 @@ void add_fluid_keys(std::vector<KeyInfo>& keys) {
                                {"coupling.drag_multiplier", uncertain, "1", 0, 1e6,
                                 "Factor on the drag. 1 is physics, and any other is warned of in "
                                 "every result."})));
+  keys.push_back(key(coupling, &CouplingSpec::critical_solid_fraction,
+                     {"coupling.critical_solid_fraction", uncertain, "1", 0.3, 0.8,
+                      "Solid fraction that slow shear leaves as it is. Given, grains looser than "
+                      "it tighten where they are sheared and press on the liquid, and denser ones "
+                      "loosen and draw it in; without it a packing only changes under load."}));
+  keys.push_back(key(coupling, &CouplingSpec::dilatancy_slope,
+                     {"coupling.dilatancy_slope", uncertain, "1", 0.01, 20,
+                      "k of tan psi = k (solid fraction - that of steady shear): 4 for glass beads "
+                      "(Pailha and Pouliquen), 1 in D-Claw."}));
 }
 
 void add_fluid_blocks(std::vector<BlockInfo>& blocks) {

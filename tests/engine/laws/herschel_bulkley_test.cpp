@@ -15,7 +15,8 @@ std::vector<HerschelBulkley> laws() {
   std::vector<HerschelBulkley> all;
   for (const double index : {1.0, 0.5, 0.3})
     for (const double yield : {0.0, 40.0})
-      for (const double consistency : {1e-3, 2.0, 300.0}) all.push_back({yield, consistency, index});
+      for (const double consistency : {1e-3, 2.0, 300.0})
+        all.push_back({yield, consistency, index});
   return all;
 }
 

@@ -33,8 +33,8 @@ HardLiquid hard_liquid(std::uint64_t number);
 /// Runs it on one thread.
 Survival run(const HardLiquid&);
 
-/// checks_of() with a bound of its own for the speed: pressure may push a front ahead at 2 sqrt(g H)
-/// (Ritter 1892) on top of what it has fallen.
+/// checks_of() with a bound of its own for the speed: pressure may push a front ahead at 2 sqrt(g
+/// H) (Ritter 1892) on top of what it has fallen.
 std::vector<Check> checks_of(const HardLiquid&, const Survival&);
 
 }  // namespace sturz::test

@@ -73,8 +73,9 @@ TEST(LiquidDamBreak, FollowsRittersProfile) {
     double early = 0;
     const Finished f =
         run(simulation_of(b, 6 * unit), {2 * unit, [&](double t, const SimulationParts& parts) {
-              if (t > 3.9 * unit && t < 4.1 * unit) early = ritter_error(parts, length, h0);
-            }});
+                                           if (t > 3.9 * unit && t < 4.1 * unit)
+                                             early = ritter_error(parts, length, h0);
+                                         }});
     const std::string name = fmt::format("V4 liquid, layers {}", layers);
     const double off = ritter_error(f.simulation.parts(), length, h0);
     record({name + ", thickness at 4", "L1", early, 0, early}, f);
@@ -146,9 +147,9 @@ TEST(LiquidDamBreak, FrontIsThatOfTheExperiments) {
     for (std::size_t k = 0; k < c.front.z.size(); ++k)
       if (c.front.z[k] > 4 && c.front.z[k] < 10)
         t.push_back(c.front.time[k]), z.push_back(c.front.z[k]);
-    expect_within(relative("V5 " + name + ", speed of the front", "dZ/dT", slope_of(t, z), 1.69,
-                           0.08),
-                  c.finished);
+    expect_within(
+        relative("V5 " + name + ", speed of the front", "dZ/dT", slope_of(t, z), 1.69, 0.08),
+        c.finished);
     expect_within({"V5 " + name + ", time offset", "T", late / n, 0, late / n, 0.35}, c.finished);
     double squares = 0;
     for (std::size_t k = 1; k < koshizuka_oka.time.size(); ++k)

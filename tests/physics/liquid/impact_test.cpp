@@ -30,10 +30,17 @@ double pressure_at(const SimulationParts& parts, double z) {
 }
 
 /// p/(rho g H) of gauge P1 (z = 0.021 m) over t sqrt(g/H), as printed with PySPH.
-constexpr std::array<std::array<double, 2>, 11> measured_p1{
-    {{1.672, 0.447}, {1.684, 1.435}, {1.711, 2.022}, {1.778, 1.721}, {1.948, 1.358},
-     {2.308, 1.080}, {2.733, 0.776}, {3.581, 0.641}, {5.703, 0.463}, {8.673, 0.550},
-     {12.07, 0.359}}};
+constexpr std::array<std::array<double, 2>, 11> measured_p1{{{1.672, 0.447},
+                                                             {1.684, 1.435},
+                                                             {1.711, 2.022},
+                                                             {1.778, 1.721},
+                                                             {1.948, 1.358},
+                                                             {2.308, 1.080},
+                                                             {2.733, 0.776},
+                                                             {3.581, 0.641},
+                                                             {5.703, 0.463},
+                                                             {8.673, 0.550},
+                                                             {12.07, 0.359}}};
 
 double measured_at(double t) {
   for (std::size_t k = 1; k < measured_p1.size(); ++k)
@@ -72,10 +79,11 @@ TEST(LiquidImpact, HitsTheBoxWhenAndAsHardAsMeasured) {
     const LiquidBox b = ImpactTank::scene(across);
     Gauge p1, p3;
     const Finished f =
-        run(simulation_of(b, 1.5), {0.004, [&](double t, const SimulationParts& parts) {
-              p1.time.push_back(t), p1.pressure.push_back(pressure_at(parts, 0.021));
-              p3.time.push_back(t), p3.pressure.push_back(pressure_at(parts, 0.101));
-            }});
+        run(simulation_of(b, 1.5),
+            {0.004, [&](double t, const SimulationParts& parts) {
+               p1.time.push_back(t), p1.pressure.push_back(pressure_at(parts, 0.021));
+               p3.time.push_back(t), p3.pressure.push_back(pressure_at(parts, 0.101));
+             }});
     const std::string name = fmt::format("SPHERIC 2, {} across", across);
     const double arrival = p1.arrival(0.2 * weight);
     expect_within({name + ", arrival at P1", "s", arrival, hit, arrival - hit, 0.03}, f);

@@ -54,9 +54,8 @@ Rest examine(const Finished& f, double start_z) {
 }
 
 class LiquidAtRest : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Between, LiquidAtRest, testing::Bool(), [](const auto& i) {
-  return i.param ? "Walls" : "PeriodicImages";
-});
+INSTANTIATE_TEST_SUITE_P(Between, LiquidAtRest, testing::Bool(),
+                         [](const auto& i) { return i.param ? "Walls" : "PeriodicImages"; });
 
 TEST_P(LiquidAtRest, CarriesItsWeightAndStaysWhereItIs) {
   for (const int layers : resolutions({5, 10, 20}, {30})) {

@@ -14,7 +14,8 @@ struct ImpactTank {
   static constexpr double face = 2.42, box_length = 0.161, box_half_width = 0.2015,
                           box_height = 0.161;
 
-  /// Tank walls are planes, the box is a step of the ground. \param across  particles over the width
+  /// Tank walls are planes, the box is a step of the ground. \param across  particles over the
+  /// width
   static LiquidBox scene(int across);
 };
 

@@ -24,7 +24,7 @@ Terrain ground_of(const LiquidBox& box, double cell) {
     for (int c = 0; c < n; ++c)
       z.at(r, c) = box.ground ? box.ground(z.grid.x_center(c), z.grid.y_center(r))
                               : -box.slope * z.grid.x_center(c);
-  return Terrain(std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow);
+  return {std::make_shared<Raster<double>>(std::move(z)), NodataRule::outflow};
 }
 
 /// \param i,j,k  along the box's edges, in spacings
@@ -43,8 +43,7 @@ std::vector<Vec3> lattice_of(const LiquidBox& box) {
   std::vector<Vec3> at;
   for (int i = 0; i < box.n[0]; ++i)
     for (int j = 0; j < box.n[1]; ++j)
-      for (int k = 0; k < box.n[2]; ++k)
-        at.push_back(place_of(box, i + 0.5, j + 0.5, k + 0.5));
+      for (int k = 0; k < box.n[2]; ++k) at.push_back(place_of(box, i + 0.5, j + 0.5, k + 0.5));
   return at;
 }
 

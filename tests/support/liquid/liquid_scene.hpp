@@ -20,13 +20,13 @@ struct LiquidBox {
   Vec3 corner{0, 0, 0};             ///< the least x, y, z [m]
   /// In the place of the lattice: the particles themselves, under a free surface at `top`.
   std::vector<Vec3> at = {};
-  double top = 0;  ///< [m]
-  Vec3 velocity{0, 0, 0};           ///< [m/s]
-  double slope = 0;                 ///< the ground falls by it per metre eastward
-  bool along_slope = false;         ///< layers along the ground and normal to it, else plumb
-  double half_width = 10;           ///< of the ground around x = y = 0 [m]
-  double cell = 0;                  ///< of the ground [m]; 0: twice the spacing
-  LiquidSettings settings = {};     ///< spacing and lengths follow from `spacing`
+  double top = 0;                ///< [m]
+  Vec3 velocity{0, 0, 0};        ///< [m/s]
+  double slope = 0;              ///< the ground falls by it per metre eastward
+  bool along_slope = false;      ///< layers along the ground and normal to it, else plumb
+  double half_width = 10;        ///< of the ground around x = y = 0 [m]
+  double cell = 0;               ///< of the ground [m]; 0: twice the spacing
+  LiquidSettings settings = {};  ///< spacing and lengths follow from `spacing`
   double gravity = standard_gravity;
   LiquidBed bed = LiquidBed::slip;
   bool walls_hold = false;

@@ -212,7 +212,7 @@ TEST(Exchange, TheMixtureGetsTheWholePush) {
     EXPECT_LT(std::abs(p.ledger.residual()), 1e-10 * both.kinetic_0) << p.name;
 }
 
-TEST(Exchange, WithoutBuoyancyGrainsTakeNoRoomAndNoPush) {
+TEST(Exchange, WithoutBuoyancyGrainsTakeRoomAndNoPush) {
   CouplingSettings settings;
   settings.buoyancy = false;
   settings.drag_multiplier = 0;
@@ -221,7 +221,7 @@ TEST(Exchange, WithoutBuoyancyGrainsTakeNoRoomAndNoPush) {
   made.liquid().az.assign(made.liquid().size(), 9.81f);
   for (int n = 0; n < 3; ++n) made.step.apply(made.state, 0.01);
   for (const double v : made.grains().vz) EXPECT_EQ(v, 0);
-  for (const double x : made.liquid().scalar(fields::grain_share)) EXPECT_EQ(x, 0);
+  for (const double x : made.liquid().scalar(fields::grain_share)) EXPECT_GT(x, 0);
 }
 
 /// Pores half full: drag on half of the grain.

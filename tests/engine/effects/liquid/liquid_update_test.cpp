@@ -124,8 +124,8 @@ TEST(LiquidUpdate, WorkIsStoredOrDissipated) {
         const LiquidEnergies step = advance(p, g, dt, 1);
         const double trace = p.l[0] + p.l[4] + p.l[8];
         // V sigma : D dt by itself, deviators in the middle of the step, V = m/(rho_0 (1 + e)).
-        const Symmetric d{p.l[0] - trace / 3,        p.l[4] - trace / 3,
-                          p.l[8] - trace / 3,        0.5 * (p.l[1] + p.l[3]),
+        const Symmetric d{p.l[0] - trace / 3,      p.l[4] - trace / 3,
+                          p.l[8] - trace / 3,      0.5 * (p.l[1] + p.l[3]),
                           0.5 * (p.l[5] + p.l[7]), 0.5 * (p.l[2] + p.l[6])};
         outside += 0.5 * dt * (s.dot(d) + p.s.dot(d)) -
                    dt * trace * 0.5 * (g.pressure_at(e) / (1 + e) + g.pressure_at(p.e) / (1 + p.e));
@@ -142,9 +142,8 @@ TEST(LiquidUpdate, WorkIsStoredOrDissipated) {
 }
 
 TEST(LiquidUpdate, SteadyShearHasTheStressOfItsLawAndHeatsByIt) {
-  for (const HerschelBulkley& law :
-       {HerschelBulkley{0, 0.001, 1}, HerschelBulkley{0, 30, 1}, HerschelBulkley{300, 30, 1},
-        HerschelBulkley{100, 40, 0.5}})
+  for (const HerschelBulkley& law : {HerschelBulkley{0, 0.001, 1}, HerschelBulkley{0, 30, 1},
+                                     HerschelBulkley{300, 30, 1}, HerschelBulkley{100, 40, 0.5}})
     for (const double dt : {1e-4, 1e-3}) {
       LiquidSettings g = settings();
       g.law = law;
@@ -231,8 +230,8 @@ TEST(LiquidUpdate, LeastDensityHasNoJumps) {
 /// The thinner it is spread, the less shear it carries: the same at any step, whether it flows
 /// within a step (water) or over many (a stiff mud).
 TEST(LiquidUpdate, ShearOfSprayDoesNotDependOnTheStep) {
-  for (const HerschelBulkley& law : {HerschelBulkley{0, 0.001, 1}, HerschelBulkley{0, 2000, 1},
-                                     HerschelBulkley{400, 100, 0.6}})
+  for (const HerschelBulkley& law :
+       {HerschelBulkley{0, 0.001, 1}, HerschelBulkley{0, 2000, 1}, HerschelBulkley{400, 100, 0.6}})
     for (const double dt : {1e-5, 1e-4, 1e-3}) {
       LiquidSettings g = settings();
       g.law = law;

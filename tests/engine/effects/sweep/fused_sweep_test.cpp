@@ -2,7 +2,7 @@
 #include "engine/effects/sweep/fused_sweep.hpp"
 
 #include "engine/neighbors/smoothing_kernel.hpp"
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/sweep/sweep_scene.hpp"
 
 #include <gtest/gtest.h>
 

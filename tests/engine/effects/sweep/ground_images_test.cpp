@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Neighbours mirrored in the ground (docs/physics.md B.10, ADR 0037).
-#include "tests/support/ground_block.hpp"
+#include "tests/engine/effects/sweep/ground_block.hpp"
 
 #include <gtest/gtest.h>
 
@@ -121,22 +121,9 @@ TEST(GroundImages, ALayerPushesAlongTheGroundWithItsWholeThrust) {
 TEST(GroundImages, DoTheWorkThatTheStrainTakes) {
   auto constants = test::usual_constants(dx);
   constants.viscosity = 0;
-  const auto cloud = rough_block();
-  auto airborne = cloud;
-  for (SlowParticle& p : airborne) p.ground_distance = 1e9;
-  const auto with = test::slow_sweep(cloud, {}, constants);
-  const auto without = test::slow_sweep(airborne, {}, constants);
-  const auto fast = test::fast_sweep(cloud, constants, fastest()).rates;
-  double work = 0, power = 0, size = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const SlowParticle& p = cloud[i];
-    const double done = mass_of(p, constants) * fast[i].from_ground.dot(p.velocity);
-    work += done;
-    size += std::abs(done);
-    power += p.volume * p.stress.cwiseProduct(with[i].pair_sums - without[i].pair_sums).sum();
-  }
-  EXPECT_LT(std::abs(work + power), 1e-6 * size);
-  EXPECT_GT(std::abs(work), 1e-3 * size);
+  const auto images = test::work_of_images(rough_block(), constants, false);
+  EXPECT_LT(std::abs(images.work + images.power), 1e-6 * images.size);
+  EXPECT_GT(std::abs(images.work), 1e-3 * images.size);
 }
 
 TEST(GroundImages, PushAwayFromThePlaneAndNotAlongIt) {

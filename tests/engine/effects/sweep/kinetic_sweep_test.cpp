@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sweep of grains that may disperse, against its slow twin and against the dense sweep.
 #include "engine/effects/kinetic/update.hpp"
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/sweep/sweep_scene.hpp"
 
 #include <gtest/gtest.h>
 

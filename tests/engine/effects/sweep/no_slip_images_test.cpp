@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A liquid's neighbours mirrored in a bed that holds it (docs/physics.md B.10).
-#include "tests/support/ground_block.hpp"
+#include "tests/engine/effects/sweep/ground_block.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,22 +93,9 @@ TEST(NoSlipImages, ShearAlongTheBedHasItsExactGradientInAnyDisorder) {
 TEST(NoSlipImages, DoTheWorkThatTheStrainTakes) {
   auto constants = test::usual_constants(dx);
   constants.viscosity = 0;
-  const auto cloud = test::rough_block_on_ground(dx);
-  auto airborne = cloud;
-  for (SlowParticle& p : airborne) p.ground_distance = 1e9;
-  const auto with = test::slow_sweep(cloud, {}, constants, false, held);
-  const auto without = test::slow_sweep(airborne, {}, constants);
-  const auto fast = test::fast_sweep(cloud, constants, fastest(), {}, held).rates;
-  double work = 0, power = 0, size = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const SlowParticle& p = cloud[i];
-    const double done = mass_of(p, constants) * fast[i].from_ground.dot(p.velocity);
-    work += done;
-    size += std::abs(done);
-    power += p.volume * p.stress.cwiseProduct(with[i].pair_sums - without[i].pair_sums).sum();
-  }
-  EXPECT_LT(std::abs(work + power), 1e-6 * size);
-  EXPECT_GT(std::abs(work), 1e-3 * size);
+  const auto images = test::work_of_images(test::rough_block_on_ground(dx), constants, held);
+  EXPECT_LT(std::abs(images.work + images.power), 1e-6 * images.size);
+  EXPECT_GT(std::abs(images.work), 1e-3 * images.size);
 }
 
 TEST(NoSlipImages, ArtificialViscosityTakesEnergyWhateverTheMotion) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The dense sweep on lattices, where its sums have closed forms. Its slow twin (fused_sweep_test)
 // has the same formulas and proves arithmetic; here the references are the balance laws.
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/sweep/sweep_scene.hpp"
 
 #include <gtest/gtest.h>
 

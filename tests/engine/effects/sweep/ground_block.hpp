@@ -2,9 +2,10 @@
 /// Blocks of particles on an inclined plane, as the pair sweep sees them.
 #pragma once
 
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/sweep/sweep_scene.hpp"
 
 #include <array>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <vector>
@@ -48,6 +49,30 @@ inline std::vector<SlowParticle> rough_block_on_ground(double dx) {
 
 inline double mass_of(const SlowParticle& p, const SweepConstants& c) {
   return p.volume * c.reference_density * (1 + p.density_change);
+}
+
+/// What the images in the ground do to the motion, and what their part of the strain takes from it.
+struct ImagesWork {
+  double work = 0, power = 0;  ///< sums over the particles [W]
+  double size = 0;             ///< sum of the works' sizes [W]
+};
+/// \param c  without artificial viscosity, which is no part of the stress
+inline ImagesWork work_of_images(const std::vector<SlowParticle>& cloud, const SweepConstants& c,
+                                 bool no_slip) {
+  auto airborne = cloud;
+  for (SlowParticle& p : airborne) p.ground_distance = 1e9;
+  const auto with = slow_sweep(cloud, {}, c, false, no_slip);
+  const auto without = slow_sweep(airborne, {}, c);
+  const auto fast = fast_sweep(cloud, c, best_instruction_set(), {}, no_slip).rates;
+  ImagesWork sum;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const SlowParticle& p = cloud[i];
+    const double done = mass_of(p, c) * fast[i].from_ground.dot(p.velocity);
+    sum.work += done;
+    sum.size += std::abs(done);
+    sum.power += p.volume * p.stress.cwiseProduct(with[i].pair_sums - without[i].pair_sums).sum();
+  }
+  return sum;
 }
 
 /// What the images have a part in, with names.

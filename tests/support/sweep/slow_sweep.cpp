@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/slow_sweep.hpp"
+#include "tests/support/sweep/slow_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "engine/core/domain.hpp"
 #include "engine/effects/sweep/fused_sweep.hpp"
-#include "tests/support/slow_sweep.hpp"
+#include "tests/support/sweep/slow_sweep.hpp"
 
 #include <array>
 #include <functional>

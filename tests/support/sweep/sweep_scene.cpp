@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/sweep_scene.hpp"
+#include "tests/support/sweep/sweep_scene.hpp"
 
 #include "engine/neighbors/neighbor_lists.hpp"
 #include "engine/neighbors/smoothing_kernel.hpp"
