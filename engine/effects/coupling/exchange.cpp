@@ -180,10 +180,11 @@ class ExchangeAccounts final : public Pass {
     grains.ledger.exchange_work += work(s, grains, c.of_grains(), c.lift, mean(grains));
     grains.ledger.drag_loss -= work(s, grains, c.of_grains(), c.drag, mean(grains));
     liquid.ledger.drag_loss -= work(s, liquid, c.of_liquid(), c.drawn, mean(liquid));
-    // What ground and walls did was taken with the velocity before the drag.
+    // What ground and walls did before the drag was taken with the velocity that they left.
     liquid.ledger.contact_work +=
-        work(s, liquid, c.of_liquid(), c.held,
-             [&](std::uint32_t, std::size_t r) -> Vec3 { return 0.5 * c.drawn[r]; });
+        work(s, liquid, c.of_liquid(), c.held, [&](std::uint32_t j, std::size_t r) -> Vec3 {
+          return 0.5 * (velocity(liquid, j) - c.liquid_now[r].vector(0) / c.take[r]);
+        });
   }
 
  private:

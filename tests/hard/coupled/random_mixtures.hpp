@@ -26,11 +26,10 @@ namespace sturz::test {
 struct HardMixture {
   std::string name;
   ImmersedGrains scene;
-  double drag_multiplier = 1;
-  Vec3 velocity{0, 0, 0};  ///< of grains and liquid that lie in `moves_to_x` [m/s]
-  double moves_to_x = 0;
-  double lifted = 0;      ///< of dry grains [m]
-  double saturation = 1;  ///< of the pores beyond half the grains' length
+  double wall_x = 0;  ///< where the wall at the liquid's end goes when the run starts [m]
+  /// Both sets start at this velocity along x between two places, the others at rest [m/s, m].
+  double speed = 0, from_x = 0, to_x = 0;
+  double saturation = 1;  ///< of the pores beyond half of the grains' length
   double end_s = 0;
 };
 HardMixture hard_mixture(std::uint64_t number);
@@ -44,7 +43,7 @@ struct MixtureSurvival {
   double speed_ratio = 0;      ///< fastest particle / (free fall + 2 sqrt(g H))
   double energy_residual = 0;  ///< over the most that was released
   double numerical_share = 0;  ///< the same
-  double least_dt_ratio = 0;   ///< mean step / that at the start
+  double least_dt_ratio = 0;   ///< shortest step over the first whole one
   double particles = 0, steps = 0, seconds = 0;
 };
 MixtureSurvival run(const HardMixture&);

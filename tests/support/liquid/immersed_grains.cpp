@@ -21,7 +21,7 @@ namespace {
 constexpr double smoothing_ratio = 1.3;
 
 State level_state(const ImmersedGrains& g) {
-  const double cell = 2 * g.spacing, longest = std::max(g.liquid_length, g.grain_length);
+  const double cell = 2 * g.spacing, longest = std::max(g.liquid_length, g.grain_length) + g.reach;
   const int n = static_cast<int>(std::ceil(2 * longest / cell)) + 8;
   Raster<double> z(Grid{n, n, -0.5 * n * cell, 0.5 * n * cell, cell, ""});
   Domain d;
@@ -136,6 +136,7 @@ HandMade immersed(const ImmersedGrains& g) {
   CouplingSettings coupling;
   coupling.grain_density = g.grain_density, coupling.liquid_density = g.liquid_density;
   coupling.viscosity = g.viscosity, coupling.drag_diameter = g.drag_diameter;
+  coupling.drag_multiplier = g.drag_multiplier;
   coupling.smoothing_length = h, coupling.spacing = g.spacing;
   add_coupling(made.step, s, 0, 1, coupling);
   add_terrain_contact(made.step, 0, dry);

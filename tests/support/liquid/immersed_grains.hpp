@@ -27,6 +27,8 @@ struct ImmersedGrains {
   double gravity = standard_gravity;                   ///< [m/s^2]
   double friction = 0.5;                               ///< of the bed
   double grain_friction = MuIRheology{}.static_friction;  ///< mu_s; 10 and more: grains never yield
+  double drag_multiplier = 1;
+  double reach = 0;     ///< of the ground beyond the longer box [m]
   bool walled = false;  ///< walls at x = 0 and the liquid's end, else x repeats itself
   /// Share of the grains' submerged weight that the pore pressure bears at the start.
   double liquefied = 0;
