@@ -165,11 +165,11 @@ Warnings plan_warnings(const Scenario& s, const ScenePlan& plan) {
   warn_of_coarse_spacing(s, plan, out);
   if (s.grains && !plan.formulation.depth_averaged && !plan.discrete &&
       2 * plan.stress.smoothing_length < 4 * s.grains->diameter_m.value)
-    out.push_back("coarse grains: the smoothing length of " +
-                  short_number(plan.stress.smoothing_length) +
-                  " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
-                  " m: the grains act as a parameter only" +
-                  (plan.coupling ? ", and their drag assumes a smoothing length of two of them" : ""));
+    out.push_back(
+        "coarse grains: the smoothing length of " + short_number(plan.stress.smoothing_length) +
+        " m is under two grain diameters of " + short_number(s.grains->diameter_m.value) +
+        " m: the grains act as a parameter only" +
+        (plan.coupling ? ", and their drag assumes a smoothing length of two of them" : ""));
   warn_of_inflow(s, plan, out);
   warn_of_states(s, plan, out);
   for (std::string& warning : liquid_warnings(s, plan)) out.push_back(std::move(warning));

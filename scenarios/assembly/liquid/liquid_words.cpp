@@ -96,7 +96,8 @@ std::string dilatancy_text(const Scenario& s) {
   return "`coupling.critical_solid_fraction`: " +
          (released < critical
               ? "looser" + than + "tightens the grains and the liquid takes over their load"
-              : "not looser" + than + "loosens the grains, which draw in liquid and are braked by it");
+              : "not looser" + than +
+                    "loosens the grains, which draw in liquid and are braked by it");
 }
 
 std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& plan) {
