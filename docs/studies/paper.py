@@ -40,6 +40,7 @@ FLUME = [(f"{name}, {dx} mm", case, {**values, "numerics.spacing_m": HOPPER / ro
              ("III, as published", "flume_3", {}),
              ("II, physical, 0.8", "flume_2", PHYSICAL),
              ("III, physical, 0.8", "flume_3", PHYSICAL),
+             ("I, 0.8, states of the grains", "flume_1", {"grains.states": "{dilute: {}, ultradilute: {contacts: hertz_mindlin}}"}),
              ("I, 0.5", "flume_1", {"basal.friction_coefficient": 0.5}),
              ("I, tan 20", "flume_1", TAN20),
              ("II, physical, tan 20", "flume_2", {**PHYSICAL, **TAN20}),
