@@ -10,7 +10,7 @@ namespace sturz::test {
 namespace {
 
 TEST(RandomMixtures, Survive) {
-  for (int number = 0; number < hard_members(16); ++number) {
+  for (int number = 0; number < hard_members(10); ++number) {
     const HardMixture m = hard_mixture(static_cast<std::uint64_t>(number));
     const MixtureSurvival s = run(m);
     const ImmersedGrains& g = m.scene;
