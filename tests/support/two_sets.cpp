@@ -3,6 +3,8 @@
 
 #include "engine/effects/arrivals.hpp"
 #include "engine/effects/motion/accounts.hpp"
+#include "engine/neighbors/cross_pairs.hpp"
+#include "engine/neighbors/smoothing_kernel.hpp"
 #include "engine/simulation/parts.hpp"
 
 #include <algorithm>
@@ -31,47 +33,56 @@ void place(const GrainBox& box, MovingSet& p) {
       }
 }
 
-/// Linear drag between two sets: a pair exchanges k W(r) m_i m_j (v_j - v_i), W = (1 - r/R)^3, each
-/// side summed from its own lists.
+/// Linear drag between two sets: a pair exchanges k W(r)/W(0) m_i m_j (v_j - v_i), each side summed
+/// from its own pairs.
 class Exchange final : public Pass {
  public:
-  Exchange(double rate, double support) : rate_(rate), support_(support) {
-    for (auto& lists : lists_) lists = std::make_unique<CrossLists>(support, 0.1 * support);
-  }
+  Exchange(double rate, double support)
+      : per_weight_(rate / SmoothingKernel{0.5 * support}.value(0)),
+        pairs_(0.5 * support, 0.05 * support, no_gradients) {}
   std::string_view name() const override { return "exchange"; }
   std::string_view effect() const override { return "exchange"; }
   Stage stage() const override { return Stage::force; }
 
   void apply(State& s, double) override {
-    for (int side : {0, 1}) {
-      CrossLists& lists = *lists_[side];
-      MovingSet &from = s.sets[side], &to = s.sets[1 - side];
-      lists.add_relative_motion((from.motion.max_speed + to.motion.max_speed) * s.previous_dt);
-      if (sorts_[side] != from.n_sorts + to.n_sorts) lists.invalidate();
-      sorts_[side] = from.n_sorts + to.n_sorts;
-      if (lists.needs_rebuild()) lists.rebuild(from, to, s.domain, s.threads);
-      drag(lists, from, to);
-    }
+    MovingSet &a = s.sets[0], &b = s.sets[1];
+    const double ahead = (a.motion.max_speed + b.motion.max_speed) * s.previous_dt;
+    pairs_.update({a, a.n_sorts}, {b, b.n_sorts}, s.domain, ahead, s.time, s.threads);
+    for (int side : {0, 1}) drag(side, s.sets[side], s.sets[1 - side]);
   }
 
  private:
-  void drag(const CrossLists& lists, MovingSet& from, const MovingSet& to) const {
-    for (std::size_t i = 0; i < from.size(); ++i) {
+  static constexpr int no_gradients = -1;
+  struct Motion {
+    Vec3 velocity{0, 0, 0};
+    double mass = 0;
+  };
+
+  void drag(int side, MovingSet& from, const MovingSet& to) const {
+    const PairSide &rows = pairs_.side(side), &sources = pairs_.side(1 - side);
+    std::vector<Motion> moved(sources.n_sources());
+    for (std::size_t r = 0; r < sources.n_rows(); ++r) {
+      const std::uint32_t j = sources.index(r);
+      moved[r] = {{to.vx[j], to.vy[j], to.vz[j]}, to.mass[j]};
+    }
+    sources.copy_images(moved);
+    for (std::size_t r = 0; r < rows.n_rows(); ++r) {
+      const std::uint32_t i = rows.index(r);
+      const PairSide::Pairs pairs = rows.pairs(r);
+      const Vec3 own(from.vx[i], from.vy[i], from.vz[i]);
       Vec3 a(0, 0, 0);
-      lists.for_each(i, from, to, [&](std::size_t j, const Vec3& r) {
-        const double t = 1 - r.norm() / support_;
-        const Vec3 slip(to.vx[j] - from.vx[i], to.vy[j] - from.vy[i], to.vz[j] - from.vz[i]);
-        a += rate_ * t * t * t * to.mass[j] * slip;
-      });
+      for (std::size_t k = 0; k < pairs.n; ++k) {
+        const Motion& other = moved[pairs.source[k]];
+        a += per_weight_ * pairs.weight[k] * other.mass * (other.velocity - own);
+      }
       from.ax[i] += static_cast<float>(a.x());
       from.ay[i] += static_cast<float>(a.y());
       from.az[i] += static_cast<float>(a.z());
     }
   }
 
-  double rate_, support_;
-  std::unique_ptr<CrossLists> lists_[2];
-  std::size_t sorts_[2] = {0, 0};
+  double per_weight_;
+  CrossPairs pairs_;
 };
 
 void add_set(HandMade& made, std::size_t k, const GrainBox& box) {

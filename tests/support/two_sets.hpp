@@ -3,7 +3,6 @@
 /// ground.
 #pragma once
 
-#include "engine/neighbors/cross_lists.hpp"
 #include "engine/simulation/simulation.hpp"
 #include "tests/support/hand_made.hpp"
 
@@ -26,7 +25,7 @@ struct GrainBox {
 std::vector<GrainBox> coarse_and_fine();
 
 /// Each box as a particle set of its own: grain stress, gravity, ground, motion.
-/// \param exchange  drag between the sets [1/s]; 0: they do not know of each other, no cross lists
+/// \param exchange  drag between the sets [1/s]; 0: they do not know of each other, no pairs across
 HandMade sets_of(const std::vector<GrainBox>&, int threads = 1, double exchange = 0);
 
 /// The same with the bookkeeping of a run.

@@ -87,7 +87,7 @@ TEST(TwoSets, DoNotKnowOfEachOtherWithoutExchange) {
   EXPECT_EQ(both.state.sets[0].ledger.residual(), coarse.state.grains().ledger.residual());
 }
 
-TEST(TwoSets, ExchangeMomentumThroughCrossLists) {
+TEST(TwoSets, ExchangeMomentumThroughCrossPairs) {
   HandMade made = sets_of(coarse_and_fine(), 1, drag);
   State& s = made.state;
   s.gravity = 0;
