@@ -35,6 +35,9 @@ void build(Grammar& grammar) {
   program.set_version_flag(
       "--version", fmt::format("sturz {} ({}, {}, {})", version, git_commit, compiler, build_type));
   program.require_subcommand(1);
+  program.failure_message([](const CLI::App*, const CLI::Error& problem) {
+    return fmt::format("error: {}\nRun with --help for more information.\n", problem.what());
+  });
   program.get_formatter()->column_width(34);
   program.footer(
       "Exit codes: 0 done, 1 usage or scenario error, 2 too many failed members, "

@@ -69,6 +69,7 @@ workflow::EnsembleRequest request_of(const Options& o) {
   if (!o.posterior.empty())
     for (std::string& set : workflow::posterior_overrides(o.posterior))
       request.scene.overrides.push_back(std::move(set));
+  request.posterior = o.posterior;
   request.folder = o.of.out.empty() ? workflow::default_folder(o.scenario) : o.of.out;
   request.members = o.at_most > 0 ? o.at_most : o.of.members;
   if (o.until_converged > 0) request.until_half_width = o.until_converged;
@@ -151,10 +152,6 @@ int ensemble(const Options& options, Console& console) {
   const auto forecast =
       workflow::forecast_of(job, speed_cache(), process_seconds(), observer, interrupt_flag());
   announce(job, options, forecast, console);
-  if (!options.posterior.empty())
-    for (const std::string& warning :
-         workflow::posterior_warnings(options.posterior, workflow::found_at(job.scene)))
-      console.warn(warning);
   const workflow::MembersRun run =
       job.growth ? workflow::run_until_converged(job, observer, interrupt_flag())
                  : workflow::run_ensemble(job, observer, interrupt_flag());

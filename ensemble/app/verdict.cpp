@@ -10,6 +10,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+#include <system_error>
+
 namespace sturz::app {
 namespace {
 
@@ -79,6 +82,18 @@ void warn_of_members(const CensoringReport& censoring, const std::vector<MemberW
     console.warn(fmt::format("{} of {} members: {}", w.count, members, w.text));
 }
 
+/// What was made, and what each file is for.
+void list_files(const workflow::OutputFolder& folder, Console& console) {
+  console.say("  report.html   look here first");
+  console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
+  console.say("  members.csv   one row per member");
+  std::error_code ignored;
+  if (std::filesystem::exists(folder.assets_csv(), ignored))
+    console.say("  assets.csv    one row per asset; assets.gpkg the same for GIS");
+  if (std::filesystem::exists(folder.gauges_csv(), ignored))
+    console.say("  gauges.csv    arrivals and peaks at gauges; gauge_series.csv over time");
+}
+
 }  // namespace
 
 int verdict(const workflow::MapsMade& made, Console& console) {
@@ -89,9 +104,7 @@ int verdict(const workflow::MapsMade& made, Console& console) {
   console.say(fmt::format("{} of {} members are valid{}. Results are in {}:", made.valid,
                           made.planned, made.valid > 0 ? ": " + counts_text(made.censoring) : "",
                           folder));
-  console.say("  report.html   look here first");
-  console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
-  console.say("  members.csv   one row per member");
+  list_files(made.folder, console);
   if (made.scores)
     if (const std::string near = nearest_text(*made.scores, made.numbers); !near.empty())
       console.say("  " + near);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sturz {
 namespace {
@@ -73,6 +74,31 @@ void check_value(const UncertainKey& key, const Marginal& marginal, double value
           fmt::format("{} = {} (outside {} .. {}, the support of the distribution that the "
                       "scenario gives). Widen the distribution or correct the table.",
                       where(), value, marginal.lower(), marginal.upper()));
+}
+
+/// A posterior comes from another scene, maybe of another site: words for what the scene lacks.
+void require_posterior_fits(std::span<const UncertainKey> keys, const DesignTable& posterior) {
+  for (std::size_t c = 0; c < posterior.keys.size(); ++c) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const std::vector<double>& row : posterior.values) {
+      least = std::min(least, row.at(c));
+      most = std::max(most, row.at(c));
+    }
+    const std::string rows =
+        fmt::format("the posterior's values lie in {:.6g} .. {:.6g}", least, most);
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const UncertainKey& k) {
+      return k.path == posterior.keys[c];
+    });
+    require(key != keys.end(),
+            fmt::format("{} is one number in this scene, so that nothing that was learnt of it can "
+                        "be used ({}). Give it the distribution that it was calibrated with.",
+                        posterior.keys[c], rows));
+    const Marginal marginal(key->distribution, key->path);
+    require(least >= marginal.lower() && most <= marginal.upper(),
+            fmt::format("{}: this scene's distribution ends at {:.6g} and {:.6g} ({}). Give it the "
+                        "distribution that it was calibrated with.",
+                        key->path, marginal.lower(), marginal.upper(), rows));
+  }
 }
 
 }  // namespace
@@ -147,6 +173,7 @@ std::vector<std::string> keys_without_column(const Scenario& scenario, const Des
 
 DesignTable with_prior_columns(const Scenario& scenario, DesignTable table) {
   const std::vector<UncertainKey> keys = uncertain_keys(scenario);
+  require_posterior_fits(keys, table);
   // A column of its own for every key: those of the posterior's were its coordinates.
   const auto cube =
       draw_unit_cube(Design::sobol, table.values.size(), keys.size(), scenario.ensemble.seed);

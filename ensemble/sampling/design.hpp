@@ -68,7 +68,8 @@ DesignTable table_design(const Scenario& scenario, std::span<const std::string> 
 std::vector<std::string> keys_without_column(const Scenario&, const DesignTable&);
 /// The table with a column more for each of those, drawn from its own distribution by Sobol' points
 /// of ensemble.seed, independent of all others; a longer table goes on with the same rows.
-/// \throws SetupError naming the key when its distribution is unusable
+/// \throws SetupError naming the key when its distribution is unusable, or when the scene has none
+/// for a column of the posterior, or one that its values do not fit into
 DesignTable with_prior_columns(const Scenario&, DesignTable);
 
 /// CSV text: `# name: value` lines (design, seed, units), then

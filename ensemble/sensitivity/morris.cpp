@@ -36,8 +36,13 @@ MorrisMeasure measure(std::span<const double> effects, std::int64_t n_censored) 
     squares += (e - m.mean) * (e - m.mean);
     absolute_squares += std::pow(std::abs(e) - m.mean_absolute, 2);
   }
-  m.deviation = std::sqrt(squares / (n - 1));
-  m.mean_absolute_error = std::sqrt(absolute_squares / (n - 1) / n);
+  // What rounding leaves where all effects are one is no spread.
+  const auto spread = [&](double variance) {
+    const double found = std::sqrt(variance);
+    return found < 1e-12 * m.mean_absolute ? 0 : found;
+  };
+  m.deviation = spread(squares / (n - 1));
+  m.mean_absolute_error = spread(absolute_squares / (n - 1) / n);
   return m;
 }
 

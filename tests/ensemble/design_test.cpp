@@ -203,5 +203,30 @@ TEST(PosteriorTable, KeysWithoutAColumnAreDrawnFromTheirPrior) {
   EXPECT_FALSE(used.is_posterior);
 }
 
+TEST(APosteriorOfAnotherScene, IsRefusedInItsOwnWords) {
+  Scenario scenario;
+  scenario.basal.friction_coefficient = uniform(0.1, 0.3);
+  DesignTable posterior;
+  posterior.keys = {"basal.friction_coefficient"};
+  posterior.units = {"1"};
+  posterior.is_posterior = true;
+  posterior.values = {{0.2}, {0.35}};
+  const auto words = [&] {
+    try {
+      with_prior_columns(scenario, posterior);
+    } catch (const SetupError& problem) {
+      return std::string(problem.what());
+    }
+    return std::string("it is taken");
+  };
+  EXPECT_THAT(words(), AllOf(HasSubstr("ends at 0.1 and 0.3"), HasSubstr("0.2 .. 0.35"),
+                             Not(HasSubstr("ensemble.table"))));
+  posterior.values = {{0.2}, {0.3}};
+  EXPECT_EQ(words(), "it is taken");
+  scenario.basal.friction_coefficient = 0.25;
+  EXPECT_THAT(words(), AllOf(HasSubstr("basal.friction_coefficient is one number in this scene"),
+                             HasSubstr("0.2 .. 0.3")));
+}
+
 }  // namespace
 }  // namespace sturz

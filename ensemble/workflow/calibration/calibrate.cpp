@@ -182,11 +182,13 @@ EnsembleJob prepare_calibration(const CalibrateRequest& request, Observer& obser
   const Scene scene = load_scene(request.ensemble.scene);
   const Scenario& s = scene.scenario;
   require(scene.inputs.event != nullptr,
-          "the scene has no `observation` block (a calibration needs something that was seen or "
-          "measured). Add one, see the user guide.");
+          fmt::format("{}: no `observation` block (a calibration needs something that was seen or "
+                      "measured). Add one, see the user guide.",
+                      request.ensemble.scene.file));
   require(!uncertain_keys(s).empty(),
-          "no value of the scene is uncertain (there is nothing to calibrate). Give a key a "
-          "distribution, such as basal.friction_coefficient: {uniform: [0.1, 0.5]}.");
+          fmt::format("{}: no value is uncertain (there is nothing to calibrate). Give a key a "
+                      "distribution, such as basal.friction_coefficient: {{uniform: [0.1, 0.5]}}.",
+                      request.ensemble.scene.file));
   const Design design = s.ensemble.design;
   require(
       design == Design::latin_hypercube || design == Design::sobol || design == Design::monte_carlo,

@@ -4,6 +4,8 @@
 #include "engine/core/error.hpp"
 #include "ensemble/members/shards.hpp"
 #include "ensemble/stopping/stop_rule.hpp"
+#include "ensemble/workflow/calibration/calibrate.hpp"
+#include "ensemble/workflow/calibration/posterior_files.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
@@ -236,6 +238,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   job.folder.root = request.folder;
   for (std::string& warning : ensemble_warnings(job.scene, job.design))
     job.scene.description.warnings.push_back(std::move(warning));
+  if (!request.posterior.empty())
+    for (std::string& warning : posterior_warnings(request.posterior, found_at(job.scene)))
+      job.scene.description.warnings.push_back(std::move(warning));
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
   job.manifest.scenario_hash = scenario_hash(job.scene.scenario);
   job.manifest.scene_hash = scene_hash(job.scene.scenario, job.scene.inputs.identities);

@@ -32,7 +32,10 @@ struct EnsembleRequest {
   /// run_until_converged(); `members` is the most then. Not for shards.
   std::optional<double> until_half_width;
   std::string until_asset;  ///< name of the asset whose P(hit) is meant instead; empty: the map
-  std::string command;      ///< how the user asked for it, for the manifest
+  /// Folder of a calibration that the scene's table is from: the job warns where what was found
+  /// there does not fit this scene. Empty: none.
+  std::filesystem::path posterior;
+  std::string command;  ///< how the user asked for it, for the manifest
 };
 
 /// An ensemble that grows look by look: its design is at every time a first part of `whole`.
@@ -70,7 +73,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest&, Observer&);
 void share_machine(EnsembleJob&, Observer&);
 
 /// Takes more rows of job.growth->whole into the design, in memory and in the folder; to do is then
-/// what is not finished of them. 	hrows SetupError when design.csv was changed meanwhile;
+/// what is not finished of them. \throws SetupError when design.csv was changed meanwhile;
 /// IoError
 void grow_design(EnsembleJob&, std::int64_t n_members, Observer&);
 
