@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How finely to compute: the cheapest spacing for a wanted error, and how to split seconds between
+/// spacing and members.
+#pragma once
+
+#include "ensemble/fidelity/ladder.hpp"
+
+#include <string>
+
+namespace sturz {
+
+/// Relative errors of a mean over many members at one spacing.
+struct ErrorAt {
+  double error = nan_d;  ///< the largest over results and maps
+  std::string of;        ///< which one: a result's name, or "map above 0.5 m"
+};
+ErrorAt error_at(const LadderAccuracy&, double spacing_m);
+
+struct Choice {
+  double spacing_m = nan_d;  ///< within the computed spacings; NaN: none is fine enough
+  double member_cpu_s = nan_d;
+  ErrorAt predicted;               ///< at that spacing, or at the finest one
+  bool coarsest = false;           ///< the coarsest is enough: a coarser one may be too
+  double finer_spacing_m = nan_d;  ///< where none is enough: what the fitted orders ask for; NaN:
+                                   ///< they tell none
+};
+
+/// The coarsest spacing between those that were computed, to a hundredth, at which every result and
+/// map is within `wanted` of its limit.
+Choice cheapest_for(const LadderAccuracy&, double wanted);
+
+/// What a number of core-seconds buys best.
+struct Split {
+  double spacing_m = nan_d;  ///< within the computed spacings
+  double members = nan_d;
+  double error = nan_d;  ///< root mean square over the results of both parts, relative
+  double resolution = nan_d, sampling = nan_d;  ///< its parts
+};
+
+/// Least root mean square, over results with a scale, of the error of resolution at that spacing
+/// and the standard error of so many independent members (quasi-random designs do better).
+/// \param core_s computing time for all members together; at least two members fit, or the split is
+/// NaN
+Split best_split(const LadderAccuracy&, double core_s);
+
+/// The same at a given spacing, for comparison.
+Split split_at(const LadderAccuracy&, double core_s, double spacing_m);
+
+}  // namespace sturz
