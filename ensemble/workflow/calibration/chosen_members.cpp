@@ -8,6 +8,7 @@
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/results/merge.hpp"
+#include "ensemble/workflow/without_folder.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
 
@@ -16,20 +17,6 @@
 namespace sturz::workflow {
 namespace fs = std::filesystem;
 namespace {
-
-/// The listener of the whole: this folder's log is not its log.
-class WithoutFolder final : public Observer {
- public:
-  explicit WithoutFolder(Observer& to) : to_(to) {}
-  void warning(std::string_view text) override { to_.warning(text); }
-  void ensemble_progress(const RunnerProgress& progress, std::int64_t before) override {
-    to_.ensemble_progress(progress, before);
-  }
-  void member_stored(const MemberResult& result) override { to_.member_stored(result); }
-
- private:
-  Observer& to_;
-};
 
 DesignTable table_of(const EnsembleJob& job, const std::vector<std::vector<double>>& cube) {
   DesignTable table;

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/fidelity/cost_files.hpp"
+
+#include "io/files/text_files.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz::workflow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json interval(const Interval& i) { return {number(i.low), number(i.high)}; }
+Json numbers(const std::vector<double>& values) {
+  Json all = Json::array();
+  for (const double v : values) all.push_back(number(v));
+  return all;
+}
+
+Json result_json(const ResultAccuracy& r) {
+  const Refinement& f = r.refinement;
+  return {{"name", r.name},
+          {"units", r.units},
+          {"members", r.n_members},
+          {"means", numbers(f.means)},
+          {"converges", f.converges},
+          {"order", number(f.order)},
+          {"order_90", interval(f.order_90)},
+          {"limit", number(f.limit)},
+          {"limit_90", interval(f.limit_90)},
+          {"resampled_converging", f.resampled_converging},
+          {"errors", numbers(f.errors)},
+          {"member_rms_to_finest", numbers(r.member_rms)},
+          {"spread", number(r.spread)},
+          {"noise_of_a_member", number(r.noise)}};
+}
+
+Json map_json(const MapAccuracy& map) {
+  Json distances = Json::array();
+  for (const MapDistance& d : map.distances)
+    distances.push_back({{"area_between_m2", d.area_between_m2},
+                         {"mean_area_m2", d.mean_area_m2},
+                         {"worst_cell", d.worst_cell},
+                         {"boundary_m", number(d.boundary_m)}});
+  return {{"threshold_m", map.threshold_m},
+          {"to_finest", distances},
+          {"relative_errors", numbers(map.relative_errors)}};
+}
+
+Json split_json(const Split& s) {
+  return {{"spacing_m", number(s.spacing_m)},
+          {"members", number(s.members)},
+          {"error", number(s.error)},
+          {"resolution", number(s.resolution)},
+          {"sampling", number(s.sampling)}};
+}
+
+Json choice_json(const Choice& c) {
+  return {{"spacing_m", number(c.spacing_m)},   {"member_cpu_s", number(c.member_cpu_s)},
+          {"error", number(c.predicted.error)}, {"bound_by", c.predicted.of},
+          {"coarsest_computed", c.coarsest},    {"finer_spacing_m", number(c.finer_spacing_m)}};
+}
+
+Json changes_json(const std::vector<Change>& changes) {
+  Json all = Json::array();
+  for (const Change& c : changes)
+    all.push_back({{"name", c.name},
+                   {"units", c.units},
+                   {"change", number(c.mean)},
+                   {"standard_error", number(c.standard_error)},
+                   {"from", number(c.rung_mean)},
+                   {"members", c.n_members}});
+  return all;
+}
+
+Json certainty_json(const std::vector<Certainty>& all) {
+  Json list = Json::array();
+  for (const Certainty& c : all)
+    list.push_back({{"name", c.result},
+                    {"sampling", number(c.sampling)},
+                    {"resolution", number(c.resolution)},
+                    {"model", number(c.model)}});
+  return list;
+}
+
+Json ladder_json(const CostStudy& study, std::size_t i, const CostQuestions& questions) {
+  const LadderAccuracy& ladder = study.ladders[i];
+  const double core_s = core_seconds(study, ladder, questions);
+  const Choice choice = cheapest_for(ladder, questions.wanted_error);
+  Json json{{"formulation", ladder.formulation},
+            {"members_used", ladder.members.size()},
+            {"spacings_m", ladder.spacings_m},
+            {"member_cpu_s", ladder.member_cpu_s},
+            {"seconds_factor", number(ladder.seconds.factor)},
+            {"seconds_exponent", number(ladder.seconds.exponent)},
+            {"seconds_fit_worst_ratio", number(ladder.seconds.worst_ratio)}};
+  for (const ResultAccuracy& r : ladder.results) json["results"].push_back(result_json(r));
+  for (const MapAccuracy& map : ladder.maps) json["maps"].push_back(map_json(map));
+  json["cheapest"] = choice_json(choice);
+  json["core_s"] = core_s;
+  json["best_split"] = split_json(best_split(ladder, core_s));
+  json["at_finest"] = split_json(split_at(ladder, core_s, ladder.spacings_m.back()));
+  json["certainty_at_finest"] =
+      certainty_json(certainty_at(study, i, ladder.spacings_m.back(), study.planned_members));
+  return json;
+}
+
+std::string csv_of(const CostStudy& study) {
+  std::string text =
+      "formulation,spacing_m,member_cpu_s,result,units,mean,relative_error,member_rms_to_finest,"
+      "members\n";
+  const auto cell = [](double v) {
+    return std::isfinite(v) ? fmt::format("{}", v) : std::string();
+  };
+  for (const LadderAccuracy& ladder : study.ladders)
+    for (std::size_t l = 0; l < ladder.spacings_m.size(); ++l)
+      for (const ResultAccuracy& r : ladder.results)
+        text += fmt::format(
+            "{},{},{},{},{},{},{},{},{}\n", ladder.formulation, ladder.spacings_m[l],
+            ladder.member_cpu_s[l], r.name, r.units, cell(r.refinement.means[l]),
+            cell(r.relative_error(ladder.spacings_m[l])), cell(r.member_rms[l]), r.n_members);
+  return text;
+}
+
+}  // namespace
+
+double core_seconds(const CostStudy& study, const LadderAccuracy& ladder,
+                    const CostQuestions& questions) {
+  return questions.core_s > 0 ? questions.core_s
+                              : study.planned_members * ladder.member_cpu_s.back();
+}
+
+std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, double spacing_m,
+                                    double members) {
+  std::vector<Certainty> all;
+  for (const ResultAccuracy& r : study.ladders[ladder].results) {
+    Certainty c;
+    c.result = r.name;
+    c.sampling = r.spread / r.scale() / std::sqrt(members);
+    c.resolution = r.relative_error(spacing_m);
+    for (const ModelDifference& model : study.models)
+      for (const Change& change : model.changes)
+        if (change.name == r.name && !(std::abs(change.mean) / r.scale() <= c.model))
+          c.model = std::abs(change.mean) / r.scale();
+    all.push_back(std::move(c));
+  }
+  return all;
+}
+
+std::string cost_json_text(const CostStudy& study, const CostQuestions& questions) {
+  Json json{{"members_per_spacing", study.members},
+            {"planned_members", study.planned_members},
+            {"wanted_error", questions.wanted_error},
+            {"ladders", Json::array()},
+            {"variants", Json::array()},
+            {"models", Json::array()},
+            {"warnings", study.warnings}};
+  for (std::size_t i = 0; i < study.ladders.size(); ++i)
+    json["ladders"].push_back(ladder_json(study, i, questions));
+  for (const VariantCost& v : study.variants)
+    json["variants"].push_back({{"set", v.variant},
+                                {"formulation", v.formulation},
+                                {"spacing_m", v.spacing_m},
+                                {"seconds_ratio", number(v.seconds_ratio)},
+                                {"changes", changes_json(v.changes)}});
+  for (const ModelDifference& m : study.models)
+    json["models"].push_back(
+        {{"from", m.from}, {"to", m.to}, {"changes", changes_json(m.changes)}});
+  return json.dump(2) + "\n";
+}
+
+void write_cost_files(const CostStudy& study, const CostQuestions& questions) {
+  write_text_atomic(study.folder / "cost.json", cost_json_text(study, questions));
+  write_text_atomic(study.folder / "cost.csv", csv_of(study));
+}
+
+}  // namespace sturz::workflow

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What accuracy costs: one scene, the same draws, several formulations and spacings.
+#pragma once
+
+#include "ensemble/fidelity/choice.hpp"
+#include "ensemble/fidelity/ladder.hpp"
+#include "ensemble/workflow/members/ensemble_job.hpp"
+#include "ensemble/workflow/observer.hpp"
+
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+struct CostRequest {
+  SceneRequest scene;
+  std::filesystem::path folder;    ///< of the study; begun ensembles in it go on
+  int members = 0;                 ///< at each spacing; 0: 16
+  int workers = 0;                 ///< members at a time; 0: all cores available to the process
+  std::vector<double> spacings_m;  ///< any order; empty: 2, 1.5 and 1 times the scene's
+  std::vector<std::string> formulations;  ///< empty: the one that the scene is computed in
+  /// "key=value": the scene with that change, at the middle spacing of the first formulation.
+  std::vector<std::string> variants;
+  std::string command;  ///< how the user asked for it
+};
+
+/// One ensemble of the study.
+struct CostPart {
+  std::string name;         ///< of its folder: "depth_averaged_8m"
+  std::string formulation;  ///< as asked for
+  double spacing_m = 0;
+  std::string variant;     ///< empty: a rung of the ladder
+  bool displaced = false;  ///< a rung again, with uncertain values displaced by next to nothing
+};
+
+/// Results of a variant beside the rung that it changes.
+struct VariantCost {
+  std::string variant, formulation;
+  double spacing_m = 0, seconds_ratio = nan_d;
+  std::vector<Change> changes;
+};
+
+/// How far two formulations lie apart at their finest, with the same values: no sampling and no
+/// spacing removes it.
+struct ModelDifference {
+  std::string from, to;
+  std::vector<Change> changes;
+};
+
+struct CostStudy {
+  std::filesystem::path folder;
+  std::vector<CostPart> parts;
+  std::vector<LadderAccuracy> ladders;  ///< one per formulation
+  std::vector<VariantCost> variants;
+  std::vector<ModelDifference> models;  ///< each formulation beside the first
+  int planned_members = 0;              ///< ensemble.members of the scenario
+  int members = 0;                      ///< at each spacing
+  std::vector<std::string> warnings;
+};
+
+/// The ensembles of a study, begun and not computed. Everything that can be wrong with one of them
+/// is found here.
+struct CostJob {
+  CostRequest request;
+  std::vector<CostPart> parts;
+  std::vector<EnsembleJob> jobs;  ///< one per part
+  int planned_members = 0;
+};
+
+/// \throws SetupError also for spacings or formulations that the scene cannot have, naming them
+CostJob prepare_cost(const CostRequest&, Observer&);
+
+/// Computes what is not finished, the coarsest first, and looks at all. Members lie in
+/// folder/NAME/ as those of `sturz ensemble` do, without maps; cost.json and cost.csv beside them.
+/// \throws Cancelled with all finished members kept; SetupError when a spacing has no valid member
+CostStudy compute_cost(const CostJob&, Observer&, const std::atomic<bool>& cancel);
+
+}  // namespace sturz::workflow
