@@ -15,7 +15,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +35,7 @@ struct Options {
   std::vector<double> spacings;
   std::vector<std::string> formulations;
   std::vector<std::string> variants;
+  std::vector<std::string> wanted;
   double wanted_error = 0.05;
   double core_hours = 0;
 };
@@ -51,6 +55,8 @@ workflow::CostRequest request_of(const Options& o) {
   request.spacings_m = o.spacings;
   request.formulations = o.formulations;
   request.variants = o.variants;
+  for (const std::string& name : o.wanted)
+    if (name != map_word) request.results.push_back(name);
   request.command = command_text(o);
   return request;
 }
@@ -59,43 +65,69 @@ std::string percent(double share, const char* format = "{:.1f} %") {
   return std::isfinite(share) ? fmt::format(fmt::runtime(format), 100 * share) : "unknown";
 }
 
-/// One line per spacing: estimated errors of means over many members.
+std::string order_text(const Refinement& f) {
+  if (!f.converges) return "none";
+  if (!std::isfinite(f.order_90.low)) return fmt::format("{:.2f}", f.order);
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", f.order, f.order_90.low, f.order_90.high);
+}
+
+/// A line per result: how far its mean is about off at each spacing.
 void say_table(const LadderAccuracy& ladder, Console& console) {
-  std::string head = "  spacing  CPU s a member";
-  for (const ResultAccuracy& r : ladder.results) head += fmt::format("  {:>15}", r.name);
-  for (const MapAccuracy& m : ladder.maps) head += fmt::format("  map > {:g} m", m.threshold_m);
-  console.say(head);
-  for (std::size_t l = 0; l < ladder.spacings_m.size(); ++l) {
-    std::string line =
-        fmt::format("  {:>5.4g} m  {:>14.3g}", ladder.spacings_m[l], ladder.member_cpu_s[l]);
-    for (const ResultAccuracy& r : ladder.results)
-      line += fmt::format("  {:>15}", percent(r.relative_error(ladder.spacings_m[l])));
-    for (const MapAccuracy& m : ladder.maps)
-      line += fmt::format("  {:>{}}", percent(m.relative_errors[l]),
-                          fmt::format("map > {:g} m", m.threshold_m).size());
-    console.say(line);
+  const auto line = [&](const std::string& name, const std::vector<std::string>& cells,
+                        const std::string& rest) {
+    std::string text = fmt::format("  {:<17}", name);
+    for (const std::string& cell : cells) text += fmt::format("{:>9}", cell);
+    console.say(text + "  " + rest);
+  };
+  std::vector<std::string> heads, seconds;
+  for (const double d : ladder.spacings_m) heads.push_back(fmt::format("{:.4g} m", d));
+  for (const double s : ladder.member_cpu_s) seconds.push_back(fmt::format("{:.3g}", s));
+  line("spacing", heads, "order (90 %)");
+  line("CPU s a member", seconds, fmt::format("{:.1f}", ladder.seconds.exponent));
+  for (const ResultAccuracy& r : ladder.results) {
+    std::vector<std::string> cells;
+    for (const double d : ladder.spacings_m) cells.push_back(percent(r.relative_error(d)));
+    line(r.name, cells, order_text(r.refinement));
+  }
+  for (const MapAccuracy& m : ladder.maps) {
+    std::vector<std::string> cells;
+    for (const double e : m.relative_errors) cells.push_back(percent(e));
+    line(fmt::format("map > {:g} m", m.threshold_m), cells, "");
   }
 }
 
-void say_orders(const LadderAccuracy& ladder, Console& console) {
+/// What the table cannot say.
+void say_notes(const LadderAccuracy& ladder, Console& console) {
+  std::string without;
+  double noise = 0;
+  bool looked = false;
   for (const ResultAccuracy& r : ladder.results) {
-    const Refinement& f = r.refinement;
-    std::string text = f.converges
-                           ? fmt::format("order {:.2f}, limit {:.4g} {}", f.order, f.limit, r.units)
-                           : std::string(
-                                 "no order: its means do not go one way, so errors are "
-                                 "guessed from their range");
-    if (f.converges && std::isfinite(f.order_90.low))
-      text += fmt::format(" (90 %: order {:.2f} to {:.2f}, limit {:.4g} to {:.4g})", f.order_90.low,
-                          f.order_90.high, f.limit_90.low, f.limit_90.high);
-    if (std::isfinite(r.noise))
-      text += fmt::format("; noise of a member {}", percent(r.noise / r.scale(), "{:.2g} %"));
-    console.say(fmt::format("  {:<16} {}", r.name, text));
+    if (!r.refinement.converges) without += (without.empty() ? "" : ", ") + r.name;
+    if (!std::isfinite(r.noise)) continue;
+    looked = true;
+    noise = std::max(noise, r.noise / r.scale());
   }
+  if (!ladder.not_told.empty())
+    console.say(
+        fmt::format("  Not told: {}. Every member was cut off, by an edge or its end time, "
+                    "at one spacing or another.",
+                    fmt::join(ladder.not_told, ", ")));
+  for (const ResultAccuracy& r : ladder.results)
+    if (r.n_members < static_cast<std::int64_t>(ladder.members.size()))
+      console.say(
+          fmt::format("  {} is told by {} members: the others were cut off, by an edge or "
+                      "their end time.",
+                      r.name, r.n_members));
+  if (!without.empty())
+    console.say("  No order: at these spacings the means of " + without +
+                " approach no limit; their errors are guessed from the range of the means.");
+  if (looked)
+    console.say(fmt::format("  A displacement of 1e-7 of the values moves a member by up to {}.",
+                            percent(noise, "{:.2g} %")));
 }
 
 void say_choice(const LadderAccuracy& ladder, const CostQuestions& questions, Console& console) {
-  const Choice choice = cheapest_for(ladder, questions.wanted_error);
+  const Choice choice = cheapest_for(ladder, questions.wanted, questions.wanted_error);
   const std::string wanted = percent(questions.wanted_error, "{:g} %");
   if (std::isfinite(choice.spacing_m))
     console.say(fmt::format(
@@ -135,15 +167,16 @@ void say_split(const CostStudy& study, const LadderAccuracy& ladder, const CostQ
 }
 
 void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
-  const LadderAccuracy& ladder = study.ladders[i];
-  console.say(fmt::format("  {} planned members at {:g} m:", study.planned_members,
-                          ladder.spacings_m.back()));
+  const double finest = study.ladders[i].spacings_m.back();
+  console.say(fmt::format("  {} planned members at {:g} m are off by about", study.planned_members,
+                          finest));
+  console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", "", "sampling", "resolution", "model"));
   for (const workflow::Certainty& c :
-       workflow::certainty_at(study, i, ladder.spacings_m.back(), study.planned_members))
-    console.say(fmt::format(
-        "  {:<16} sampling +- {}, resolution +- {}, model {}", c.result, percent(c.sampling),
-        percent(c.resolution),
-        std::isfinite(c.model) ? "+- " + percent(c.model) : "not looked at (--formulations)"));
+       workflow::certainty_at(study, i, finest, study.planned_members))
+    console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", c.result, percent(c.sampling),
+                            percent(c.resolution),
+                            std::isfinite(c.model) ? percent(c.model) : "?"));
+  if (study.models.empty()) console.say("  ?: no other formulation was computed (--formulations)");
 }
 
 void say_changes(const std::vector<Change>& changes, Console& console) {
@@ -157,13 +190,10 @@ void say_all(const CostStudy& study, const CostQuestions& questions, Console& co
   for (std::size_t i = 0; i < study.ladders.size(); ++i) {
     const LadderAccuracy& ladder = study.ladders[i];
     console.say(fmt::format(
-        "{}: estimated errors of means, relative to the limit; {} of {} members, drawn alike at "
-        "every spacing",
+        "{}: about how far means are off, of {} of {} members drawn alike at every spacing",
         ladder.formulation, ladder.members.size(), study.members));
     say_table(ladder, console);
-    say_orders(ladder, console);
-    console.say(
-        fmt::format("  seconds grow as spacing to the power {:.1f}", ladder.seconds.exponent));
+    say_notes(ladder, console);
     say_choice(ladder, questions, console);
     say_split(study, ladder, questions, console);
     say_certainty(study, i, console);
@@ -187,7 +217,10 @@ int cost(const Options& options, Console& console) {
   console.say(fmt::format("{} ensembles of {} members: {}", job.parts.size(),
                           job.jobs.front().design.n_members(), names));
   const CostStudy study = workflow::compute_cost(job, observer, interrupt_flag());
-  const CostQuestions questions{options.wanted_error, 3600 * options.core_hours};
+  CostQuestions questions;
+  questions.wanted_error = options.wanted_error;
+  questions.core_s = 3600 * options.core_hours;
+  if (!options.wanted.empty()) questions.wanted = options.wanted;
   workflow::write_cost_files(study, questions);
   console.clear_progress();
   say_all(study, questions, console);
@@ -223,7 +256,21 @@ void add_cost(Grammar& grammar) {
       .add_option("--variant", options.variants,
                   "The scene with this change beside it, at the middle spacing; may be repeated")
       ->type_name("KEY=VALUE");
-  parser.add_option("--within", options.wanted_error, "Wanted relative error of every result")
+  std::set<std::string> names{map_word};
+  for (const ScalarInfo& scalar : scalar_table()) names.insert(scalar.name);
+  parser
+      .add_option(
+          "--for", options.wanted,
+          "What has to be that exact: columns of members.csv, and map: the map of the least "
+          "thickness; run-out, area, centre of mass and map where none is named")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->check(CLI::Validator(
+          [names](const std::string& name) {
+            return names.contains(name) ? std::string() : name + " is no column of members.csv";
+          },
+          ""));
+  parser.add_option("--within", options.wanted_error, "Wanted relative error")
       ->type_name("SHARE")
       ->check(CLI::Range(1e-4, 1.0))
       ->capture_default_str();

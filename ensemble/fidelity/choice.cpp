@@ -30,19 +30,19 @@ double between(const std::vector<double>& spacings, const std::vector<double>& v
   return values.back();
 }
 
-std::string map_name(const MapAccuracy& map) {
-  std::string text = std::to_string(map.threshold_m);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return "map above " + text + " m";
+bool is_asked(std::span<const std::string> what, const std::string& name) {
+  return std::find(what.begin(), what.end(), name) != what.end();
 }
 
-/// Where every result that converges is within `wanted`; NaN when one does not, or maps do not
-/// follow.
-double spacing_by_orders(const LadderAccuracy& ladder, double wanted) {
+/// Where all is within `wanted` by the orders; NaN when one has none, or the map is not.
+double spacing_by_orders(const LadderAccuracy& ladder, std::span<const std::string> what,
+                         double wanted) {
   double spacing = ladder.spacings_m.back();
+  if (is_asked(what, map_word) && !ladder.maps.empty() &&
+      !(ladder.maps.front().relative_errors.back() <= wanted))
+    return nan_d;
   for (const ResultAccuracy& r : ladder.results) {
-    if (r.relative_error(spacing) <= wanted) continue;
+    if (!is_asked(what, r.name) || r.relative_error(spacing) <= wanted) continue;
     if (!r.refinement.converges) return nan_d;
     spacing = std::min(spacing, std::pow(wanted * r.scale() / std::abs(r.refinement.coefficient),
                                          1 / r.refinement.order));
@@ -52,29 +52,34 @@ double spacing_by_orders(const LadderAccuracy& ladder, double wanted) {
 
 }  // namespace
 
-ErrorAt error_at(const LadderAccuracy& ladder, double spacing_m) {
+ErrorAt error_at(const LadderAccuracy& ladder, std::span<const std::string> what,
+                 double spacing_m) {
   ErrorAt worst;
   const auto look = [&](double error, const std::string& of) {
-    if (std::isfinite(error) && !(error <= worst.error)) worst = {error, of};
+    if (is_asked(what, of) && !(error <= worst.error)) worst = {error, of};
   };
   for (const ResultAccuracy& r : ladder.results) look(r.relative_error(spacing_m), r.name);
-  for (const MapAccuracy& map : ladder.maps)
-    look(between(ladder.spacings_m, map.relative_errors, spacing_m), map_name(map));
+  if (!ladder.maps.empty())
+    look(between(ladder.spacings_m, ladder.maps.front().relative_errors, spacing_m), map_word);
   return worst;
 }
 
-Choice cheapest_for(const LadderAccuracy& ladder, double wanted) {
+Choice cheapest_for(const LadderAccuracy& ladder, std::span<const std::string> what,
+                    double wanted) {
   Choice choice;
-  for (int k = 0; k <= n_between; ++k) {
+  choice.predicted = error_at(ladder, what, ladder.spacings_m.back());
+  // From the finest on: a coarse one that happens to be near does not count.
+  for (int k = n_between; k >= 0; --k) {
     const double spacing = spacing_number(ladder, k);
-    choice.predicted = error_at(ladder, spacing);
-    if (!(choice.predicted.error <= wanted)) continue;
+    const ErrorAt here = error_at(ladder, what, spacing);
+    if (!(here.error <= wanted)) break;
+    choice.predicted = here;
     choice.spacing_m = spacing;
     choice.member_cpu_s = ladder.seconds.at(spacing);
     choice.coarsest = k == 0;
-    return choice;
   }
-  choice.finer_spacing_m = spacing_by_orders(ladder, wanted);
+  if (std::isnan(choice.spacing_m))
+    choice.finer_spacing_m = spacing_by_orders(ladder, what, wanted);
   return choice;
 }
 

@@ -5,16 +5,20 @@
 
 #include "ensemble/fidelity/ladder.hpp"
 
+#include <span>
 #include <string>
 
 namespace sturz {
 
 /// Relative errors of a mean over many members at one spacing.
 struct ErrorAt {
-  double error = nan_d;  ///< the largest over results and maps
-  std::string of;        ///< which one: a result's name, or "map above 0.5 m"
+  double error = nan_d;  ///< the largest of those asked for
+  std::string of;        ///< which one
 };
-ErrorAt error_at(const LadderAccuracy&, double spacing_m);
+/// "map" among `what` stands for the map of the least threshold.
+inline constexpr const char* map_word = "map";
+/// \param what names of results, and `map`; those that the ladder does not have are left out
+ErrorAt error_at(const LadderAccuracy&, std::span<const std::string> what, double spacing_m);
 
 struct Choice {
   double spacing_m = nan_d;  ///< within the computed spacings; NaN: none is fine enough
@@ -25,9 +29,9 @@ struct Choice {
                                    ///< they tell none
 };
 
-/// The coarsest spacing between those that were computed, to a hundredth, at which every result and
-/// map is within `wanted` of its limit.
-Choice cheapest_for(const LadderAccuracy&, double wanted);
+/// The coarsest spacing between those that were computed, to a hundredth of their range, from which
+/// on all of `what` is within `wanted` of its limit.
+Choice cheapest_for(const LadderAccuracy&, std::span<const std::string> what, double wanted);
 
 /// What a number of core-seconds buys best.
 struct Split {

@@ -186,7 +186,10 @@ LadderAccuracy ladder_accuracy(std::string formulation, std::span<const Rung> ru
   for (const std::string& name : questions.results) {
     auto result =
         result_accuracy(name, ladder.spacings_m, by_number, ladder.members, questions.seed);
-    if (!result) continue;
+    if (!result) {
+      ladder.not_told.push_back(name);
+      continue;
+    }
     if (displaced != nullptr)
       result->noise = noise_of(by_number[displaced_rung], twins, scalar_named(name).field);
     ladder.results.push_back(std::move(*result));

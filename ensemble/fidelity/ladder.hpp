@@ -59,6 +59,8 @@ struct LadderAccuracy {
   std::vector<std::int64_t> members;  ///< valid at every spacing
   std::int64_t n_asked = 0;           ///< members per spacing, as they were asked for
   std::vector<ResultAccuracy> results;
+  /// Results that no member lets one know at every spacing: all were cut off at one or another.
+  std::vector<std::string> not_told;
   std::vector<MapAccuracy> maps;
 };
 

@@ -91,14 +91,17 @@ Json certainty_json(const std::vector<Certainty>& all) {
 Json ladder_json(const CostStudy& study, std::size_t i, const CostQuestions& questions) {
   const LadderAccuracy& ladder = study.ladders[i];
   const double core_s = core_seconds(study, ladder, questions);
-  const Choice choice = cheapest_for(ladder, questions.wanted_error);
+  const Choice choice = cheapest_for(ladder, questions.wanted, questions.wanted_error);
   Json json{{"formulation", ladder.formulation},
             {"members_used", ladder.members.size()},
             {"spacings_m", ladder.spacings_m},
             {"member_cpu_s", ladder.member_cpu_s},
             {"seconds_factor", number(ladder.seconds.factor)},
             {"seconds_exponent", number(ladder.seconds.exponent)},
-            {"seconds_fit_worst_ratio", number(ladder.seconds.worst_ratio)}};
+            {"seconds_fit_worst_ratio", number(ladder.seconds.worst_ratio)},
+            {"results", Json::array()},
+            {"not_told", ladder.not_told},
+            {"maps", Json::array()}};
   for (const ResultAccuracy& r : ladder.results) json["results"].push_back(result_json(r));
   for (const MapAccuracy& map : ladder.maps) json["maps"].push_back(map_json(map));
   json["cheapest"] = choice_json(choice);
@@ -156,6 +159,7 @@ std::string cost_json_text(const CostStudy& study, const CostQuestions& question
   Json json{{"members_per_spacing", study.members},
             {"planned_members", study.planned_members},
             {"wanted_error", questions.wanted_error},
+            {"wanted", questions.wanted},
             {"ladders", Json::array()},
             {"variants", Json::array()},
             {"models", Json::array()},

@@ -6,14 +6,17 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace sturz::workflow {
 
 /// What is asked of a study.
 struct CostQuestions {
-  double wanted_error = 0.05;  ///< relative, of every result and map
-  double core_s = 0;           ///< computing time for an ensemble; 0: what its planned members take
-                               ///< at the finest spacing
+  double wanted_error = 0.05;  ///< relative
+  /// What has to be within it: names of results, and `map`, the map of the least threshold.
+  std::vector<std::string> wanted{"runout_m", "reached_area_m2", "com_travel_m", map_word};
+  double core_s = 0;  ///< computing time for an ensemble; 0: what its planned members take
+                      ///< at the finest spacing
 };
 
 /// The three numbers under a headline, relative to the result: half widths at one standard error,

@@ -2,6 +2,7 @@
 #include "ensemble/workflow/fidelity/cost_study.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/comparison/member_pairs.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
@@ -34,6 +35,33 @@ std::string name_of(const CostPart& part) {
       name += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' ? c : '_';
   }
   return name;
+}
+
+std::vector<std::string> results_of(const CostRequest& request) {
+  std::vector<std::string> results = looked_at;
+  for (const std::string& name : request.results)
+    if (std::find(results.begin(), results.end(), name) == results.end()) results.push_back(name);
+  return results;
+}
+
+/// Each once, with the parts that it is true of where not all say it.
+std::vector<std::string> warnings_of(const CostJob& job) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;
+  for (std::size_t i = 0; i < job.jobs.size(); ++i)
+    for (const std::string& warning : job.jobs[i].scene.description.warnings) {
+      const auto known =
+          std::find_if(all.begin(), all.end(), [&](const auto& w) { return w.first == warning; });
+      auto& where = known == all.end()
+                        ? all.emplace_back(warning, std::vector<std::string>{}).second
+                        : known->second;
+      where.push_back(job.parts[i].name);
+    }
+  std::vector<std::string> lines;
+  for (const auto& [warning, where] : all)
+    lines.push_back(where.size() == job.jobs.size()
+                        ? warning
+                        : fmt::format("{}: {}", fmt::join(where, ", "), warning));
+  return lines;
 }
 
 std::vector<double> spacings_of(const CostRequest& request, const Scene& scene) {
@@ -117,6 +145,22 @@ const EnsembleJob& job_of(const CostJob& study, const CostPart& wanted) {
   throw std::logic_error("no part " + wanted.name);
 }
 
+/// A variant beside its rung tells an effect only where both drew the same.
+void require_pairs(const CostJob& study) {
+  for (std::size_t i = 0; i < study.parts.size(); ++i) {
+    const CostPart& part = study.parts[i];
+    if (part.variant.empty()) continue;
+    CostPart twin = part;
+    twin.variant.clear();
+    const EnsembleJob& rung = job_of(study, {name_of(twin), {}, 0, {}, false});
+    const std::string why = why_no_pairs(rung.design, study.jobs[i].design);
+    require(why.empty(),
+            fmt::format("--variant {}: members are no pairs of those without it ({}). Change a key "
+                        "that is one number.",
+                        part.variant, why));
+  }
+}
+
 struct Found {
   std::vector<CostPart> parts;
   std::map<std::string, MemberStore> stores;  // by the part's name
@@ -134,7 +178,7 @@ std::vector<CostPart> rungs_of(const std::vector<CostPart>& parts, const std::st
 }
 
 LadderAccuracy ladder_of(const Found& found, const std::string& formulation,
-                         const Scenario& scenario, CancelFlag cancel) {
+                         const LadderQuestions& questions, CancelFlag cancel) {
   const std::vector<CostPart> parts = rungs_of(found.parts, formulation);
   std::vector<Rung> rungs;
   for (const CostPart& part : parts) rungs.push_back({part.spacing_m, &found.of(part)});
@@ -145,18 +189,17 @@ LadderAccuracy ladder_of(const Found& found, const std::string& formulation,
     displaced = &found.of(part);
     while (parts[twin].spacing_m != part.spacing_m) ++twin;
   }
-  LadderQuestions questions{looked_at, scenario.hazard.thickness_m, scenario.ensemble.seed};
   return ladder_accuracy(formulation, rungs, displaced, twin, questions, cancel);
 }
 
-void look_beside(CostStudy& study, const Found& found) {
+void look_beside(CostStudy& study, const Found& found, const std::vector<std::string>& results) {
   for (const CostPart& part : found.parts) {
     if (part.variant.empty()) continue;
     CostPart twin = part;
     twin.variant.clear();
     const MemberParts &rung = found.of({name_of(twin), {}, 0, {}, false}), &other = found.of(part);
     study.variants.push_back({part.variant, part.formulation, part.spacing_m,
-                              seconds_ratio(rung, other), changes(rung, other, looked_at)});
+                              seconds_ratio(rung, other), changes(rung, other, results)});
   }
   const auto finest = [&](const LadderAccuracy& ladder) -> const MemberParts& {
     return found.of(rungs_of(found.parts, ladder.formulation).back());
@@ -164,7 +207,7 @@ void look_beside(CostStudy& study, const Found& found) {
   for (std::size_t i = 1; i < study.ladders.size(); ++i)
     study.models.push_back(
         {study.ladders.front().formulation, study.ladders[i].formulation,
-         changes(finest(study.ladders.front()), finest(study.ladders[i]), looked_at)});
+         changes(finest(study.ladders.front()), finest(study.ladders[i]), results)});
 }
 
 }  // namespace
@@ -191,6 +234,7 @@ CostJob prepare_cost(const CostRequest& request, Observer& observer) {
     }
     study.jobs.push_back(prepare_ensemble(r, quiet));
   }
+  require_pairs(study);
   return study;
 }
 
@@ -209,21 +253,19 @@ CostStudy compute_cost(const CostJob& job, Observer& observer, const std::atomic
     study.members = static_cast<int>(part.design.n_members());
     found.stores.emplace(job.parts[i].name,
                          members_of(part.folder, part.manifest, part.design, {}, cancel));
-    for (const std::string& warning : part.scene.description.warnings)
-      if (const std::string line = job.parts[i].name + ": " + warning;
-          !job.parts[i].displaced &&
-          std::find(study.warnings.begin(), study.warnings.end(), line) == study.warnings.end())
-        study.warnings.push_back(line);
   }
+  study.warnings = warnings_of(job);
   const Scenario& scenario = job.jobs.front().scene.scenario;
+  const LadderQuestions questions{results_of(job.request), scenario.hazard.thickness_m,
+                                  scenario.ensemble.seed};
   observer.maps_begin();
   std::vector<std::string> done;
   for (const CostPart& part : job.parts) {
     if (std::find(done.begin(), done.end(), part.formulation) != done.end()) continue;
     done.push_back(part.formulation);
-    study.ladders.push_back(ladder_of(found, part.formulation, scenario, cancel));
+    study.ladders.push_back(ladder_of(found, part.formulation, questions, cancel));
   }
-  look_beside(study, found);
+  look_beside(study, found, questions.results);
   return study;
 }
 

@@ -23,7 +23,8 @@ struct CostRequest {
   std::vector<std::string> formulations;  ///< empty: the one that the scene is computed in
   /// "key=value": the scene with that change, at the middle spacing of the first formulation.
   std::vector<std::string> variants;
-  std::string command;  ///< how the user asked for it
+  std::vector<std::string> results;  ///< of scalar_table(), looked at besides the usual ones
+  std::string command;               ///< how the user asked for it
 };
 
 /// One ensemble of the study.
@@ -57,7 +58,7 @@ struct CostStudy {
   std::vector<ModelDifference> models;  ///< each formulation beside the first
   int planned_members = 0;              ///< ensemble.members of the scenario
   int members = 0;                      ///< at each spacing
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;    ///< of the scenes, with the parts that they are of
 };
 
 /// The ensembles of a study, begun and not computed. Everything that can be wrong with one of them

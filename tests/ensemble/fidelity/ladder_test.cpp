@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t n_members = 12;
 const std::vector<double> spacings{8, 6, 4};
+const std::vector<std::string> both{"runout_m", "reached_area_m2"};
 
 /// Run-out 1000 (1 + draw / 5) + 10 d, area 5000 + 3 d^2, seconds 100 d^-3; flow over the first
 /// 10 + d / 2 columns of one row, half a metre thick.
@@ -103,30 +104,34 @@ TEST(ALadder, LeavesMembersOutThatOneSpacingLacks) {
   made.compare();
   EXPECT_EQ(made.accuracy.members.size(), n_members - 1);
   EXPECT_EQ(made.accuracy.results[0].n_members, static_cast<std::int64_t>(n_members - 2));
+  EXPECT_EQ(made.accuracy.results[1].n_members, static_cast<std::int64_t>(n_members - 2));
   EXPECT_EQ(made.accuracy.n_asked, static_cast<std::int64_t>(n_members));
 }
 
 TEST(TheCheapestSpacing, IsTheCoarsestWithinTheError) {
-  Made made;
-  made.accuracy.maps.clear();
+  const Made made;
   const LadderAccuracy& a = made.accuracy;
   const double scale = a.results[0].scale();
-  const Choice choice = cheapest_for(a, 50 / scale);
+  const Choice choice = cheapest_for(a, both, 50 / scale);
   EXPECT_NEAR(choice.spacing_m, 5, 0.05);
   EXPECT_LE(choice.spacing_m, 5.0001);
   EXPECT_EQ(choice.predicted.of, "runout_m");
   EXPECT_NEAR(choice.member_cpu_s, 100 * std::pow(choice.spacing_m, -3), 1e-6);
-  EXPECT_TRUE(cheapest_for(a, 1).coarsest);
-  const Choice none = cheapest_for(a, 10 / scale);
+  EXPECT_TRUE(cheapest_for(a, both, 1).coarsest);
+  const Choice none = cheapest_for(a, both, 10 / scale);
   EXPECT_TRUE(std::isnan(none.spacing_m));
   EXPECT_NEAR(none.finer_spacing_m, 1, 1e-3);
 }
 
 TEST(TheCheapestSpacing, LooksAtMapsToo) {
   const Made made;
-  const Choice choice = cheapest_for(made.accuracy, 0.2);
-  EXPECT_EQ(choice.predicted.of, "map above 0.1 m");
+  const std::vector<std::string> all{"runout_m", "map"};
+  const Choice choice = cheapest_for(made.accuracy, all, 0.2);
+  EXPECT_EQ(choice.predicted.of, "map");
   EXPECT_NEAR(choice.predicted.error, 0.2, 0.005);
+  const Choice none = cheapest_for(made.accuracy, all, 0.1);
+  EXPECT_TRUE(std::isnan(none.spacing_m));
+  EXPECT_TRUE(std::isnan(none.finer_spacing_m));  // no order for maps
 }
 
 /// Against a search over a fine table of error^2 = (10 d / L)^2 + (s / L)^2 / n, n = T d^3 / 100.
