@@ -45,7 +45,7 @@ double spacing_by_orders(const LadderAccuracy& ladder, std::span<const std::stri
     if (!is_asked(what, r.name) || r.relative_error(spacing) <= wanted) continue;
     if (!r.refinement.converges) return nan_d;
     spacing = std::min(spacing, std::pow(wanted * r.scale() / std::abs(r.refinement.coefficient),
-                                         1 / r.refinement.order));
+                                         1 / r.refinement.used_order));
   }
   return spacing < ladder.spacings_m.back() ? spacing : nan_d;
 }

@@ -10,7 +10,8 @@
 namespace sturz {
 namespace {
 
-constexpr double least_order = 0.5, most_order = 3;
+// No scheme here is of a higher order than two: a larger one that fits is not its own.
+constexpr double least_order = 0.5, most_order = 3, order_of_scheme = 2;
 constexpr int n_resamplings = 200;
 
 struct Fit {
@@ -63,6 +64,12 @@ Fit best_fit(std::span<const double> spacings, std::span<const double> means) {
   return straight_fit(spacings, means, 0.5 * (low + high));
 }
 
+/// What errors are told by: the fit, or that of order two where the fit is steeper (Eca and
+/// Hoekstra 2014).
+Fit extrapolated(std::span<const double> spacings, std::span<const double> means, const Fit& fit) {
+  return fit.order > order_of_scheme ? straight_fit(spacings, means, order_of_scheme) : fit;
+}
+
 /// Means that go one way all along, with an order that a scheme may have.
 bool is_converging(std::span<const double> means, const Fit& fit) {
   for (std::size_t l = 2; l < means.size(); ++l)
@@ -103,7 +110,7 @@ void resample(Refinement& r, const std::vector<std::vector<double>>& values, std
     const Fit fit = best_fit(r.spacings_m, means);
     if (!is_converging(means, fit)) continue;
     orders.push_back(fit.order);
-    limits.push_back(fit.limit);
+    limits.push_back(extrapolated(r.spacings_m, means, fit).limit);
   }
   r.resampled_converging = static_cast<double>(orders.size()) / n_resamplings;
   r.order_90 = middle_90(std::move(orders));
@@ -123,7 +130,7 @@ void scatter_errors(Refinement& r) {
 }  // namespace
 
 double Refinement::error_at(double spacing_m) const {
-  if (converges) return std::abs(coefficient) * std::pow(spacing_m, order);
+  if (converges) return std::abs(coefficient) * std::pow(spacing_m, used_order);
   if (spacings_m.empty() || spacing_m <= spacings_m.back())
     return errors.empty() ? nan_d : errors.back();
   for (std::size_t l = 1; l < spacings_m.size(); ++l) {
@@ -151,9 +158,11 @@ Refinement refine(std::span<const double> spacings_m,
     r.converges = is_converging(r.means, fit);
     resample(r, values, seed);
     if (r.converges) {
+      const Fit used = extrapolated(spacings_m, r.means, fit);
       r.order = fit.order;
-      r.coefficient = fit.coefficient;
-      r.limit = fit.limit;
+      r.used_order = used.order;
+      r.coefficient = used.coefficient;
+      r.limit = used.limit;
       for (const double mean : r.means) r.errors.push_back(std::abs(mean - r.limit));
       return r;
     }

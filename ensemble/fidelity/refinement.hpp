@@ -24,10 +24,11 @@ struct Refinement {
   /// finest mean stands for the limit, order and coefficient are NaN, and errors rest on how far
   /// the means scatter.
   bool converges = false;
-  double order = nan_d;             ///< p
-  double coefficient = nan_d;       ///< a, in the result's unit per m^p
-  double limit = nan_d;             ///< Q0
-  Interval order_90, limit_90;      ///< 90 % intervals by drawing the members anew
+  double order = nan_d;         ///< p that fits best
+  double used_order = nan_d;    ///< the same, at most two: limit and coefficient are of this one
+  double coefficient = nan_d;   ///< a, in the result's unit per m^p
+  double limit = nan_d;         ///< Q0
+  Interval order_90, limit_90;  ///< 90 % intervals by drawing the members anew
   double resampled_converging = 0;  ///< share of those draws that converge too
   std::vector<double> means;        ///< [n_spacings] over the members
   std::vector<double> errors;  ///< [n_spacings] distance of each mean from the limit, estimated

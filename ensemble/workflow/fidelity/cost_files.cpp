@@ -30,6 +30,7 @@ Json result_json(const ResultAccuracy& r) {
           {"means", numbers(f.means)},
           {"converges", f.converges},
           {"order", number(f.order)},
+          {"used_order", number(f.used_order)},
           {"order_90", interval(f.order_90)},
           {"limit", number(f.limit)},
           {"limit_90", interval(f.limit_90)},
