@@ -19,7 +19,8 @@ std::vector<std::string> named_files(const Scenario& scenario) {
   for (const KeyInfo& key : schema()) {
     KeyValue value = key.get(scenario);
     for_each_path(key, value, [&](std::string& path) {
-      if (!path.empty()) names.push_back((fs::path(scenario.directory) / path).string());
+      if (!path.empty())
+        names.push_back(fs::absolute(fs::path(scenario.directory) / path).string());
     });
   }
   return names;
