@@ -29,6 +29,13 @@ std::vector<std::string> names_of(std::span<const BatchKey> keys) {
   return names;
 }
 
+/// "a-0123abcd" would be taken for results of "a".
+bool ends_like_results(const std::string& text) {
+  constexpr std::size_t digits = 8;
+  return text.size() > digits && text[text.size() - digits - 1] == '-' &&
+         text.find_first_not_of("0123456789abcdef", text.size() - digits) == std::string::npos;
+}
+
 bool is_name(const std::string& text) {
   return !text.empty() && text.size() <= 100 && text.front() != '.' && text.front() != '-' &&
          std::all_of(text.begin(), text.end(), [](char c) {
@@ -156,6 +163,10 @@ class BatchReader {
     const auto text = read_text(path, "a name", node, problems_);
     if (!text) return;
     job.name = *text;
+    if (ends_like_results(*text))
+      problems_.push_back({node.at, fmt::format("{} = {} (ends as a folder of results does, in '-' "
+                                                "and eight hexadecimal digits). Choose another.",
+                                                path, *text)});
     if (!is_name(*text))
       problems_.push_back({node.at, fmt::format("{} = {} (must be letters, digits, '.', '_' and "
                                                 "'-', at most 100 of them: folders are called so).",

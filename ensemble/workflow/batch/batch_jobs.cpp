@@ -93,8 +93,8 @@ class Expansion {
       job.set.push_back({"ensemble.members", std::to_string(entry.members), entry.at});
     job.scene = {(near_ / entry.scenario).lexically_normal().string(), overrides_of(job.set),
                  cache_};
-    job.base =
-        entry.folder.empty() ? jobs_.root / entry.name : (near_ / entry.folder).lexically_normal();
+    job.base = entry.folder.empty() ? jobs_.root / entry.name
+                                    : (fs::absolute(near_) / entry.folder).lexically_normal();
     if (!job.base.has_filename()) job.base = job.base.parent_path();
     return job;
   }
@@ -143,7 +143,7 @@ BatchJobs read_batch_jobs(const fs::path& list, const SpeedCache& cache,
                           const std::vector<std::string>& only) {
   BatchJobs jobs;
   jobs.spec = read_batch(list);
-  const fs::path near = list.parent_path();
+  const fs::path near = fs::absolute(list).parent_path();  // a timer calls from anywhere
   jobs.root =
       jobs.spec.results.empty() ? near / default_folder(list.string()) : near / jobs.spec.results;
   jobs.root = jobs.root.lexically_normal();

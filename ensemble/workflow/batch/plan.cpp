@@ -257,7 +257,8 @@ std::vector<fs::path> results_of(const fs::path& base) {
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(base.parent_path(), failed)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix) || !is_hash(std::string_view(name).substr(prefix.size())))
+    if (entry.is_symlink(failed) || !name.starts_with(prefix) ||
+        !is_hash(std::string_view(name).substr(prefix.size())))
       continue;
     std::error_code no_manifest;
     const auto written = fs::last_write_time(OutputFolder{entry.path()}.manifest(), no_manifest);
