@@ -57,8 +57,9 @@ class Expansion {
   Expansion(const fs::path& list, BatchJobs& jobs, SpeedCache cache)
       : near_(list.parent_path()), jobs_(jobs), cache_(std::move(cache)) {}
 
-  void add(const BatchEntry& entry) {
+  void add(const BatchEntry& entry, bool wanted) {
     BatchJob job = job_of(entry);
+    job.wanted = wanted;
     // The entry without a feature, so that its layer can be asked.
     if (entry.each_feature || entry.features.empty())
       if (!read_into(job, entry, problems_)) return;
@@ -140,12 +141,13 @@ std::string at_places_in_list(const std::string& lines, const BatchJob& job) {
 }
 
 BatchJobs read_batch_jobs(const fs::path& list, const SpeedCache& cache,
-                          const std::vector<std::string>& only) {
+                          const std::vector<std::string>& only, const fs::path& results) {
   BatchJobs jobs;
   jobs.spec = read_batch(list);
   const fs::path near = fs::absolute(list).parent_path();  // a timer calls from anywhere
   jobs.root =
       jobs.spec.results.empty() ? near / default_folder(list.string()) : near / jobs.spec.results;
+  if (!results.empty()) jobs.root = fs::absolute(results);
   jobs.root = jobs.root.lexically_normal();
   if (!jobs.root.has_filename()) jobs.root = jobs.root.parent_path();
   if (!jobs.spec.stop_file.empty()) jobs.stop_file = near / jobs.spec.stop_file;
@@ -154,8 +156,7 @@ BatchJobs read_batch_jobs(const fs::path& list, const SpeedCache& cache,
                         [&](const BatchEntry& entry) { return entry.name == name; }),
             fmt::format("--only {} (the list has no job of that name).", name));
   Expansion expansion(list, jobs, cache);
-  for (const BatchEntry& entry : jobs.spec.jobs)
-    if (is_wanted(entry, only)) expansion.add(entry);
+  for (const BatchEntry& entry : jobs.spec.jobs) expansion.add(entry, is_wanted(entry, only));
   expansion.check();
   return jobs;
 }

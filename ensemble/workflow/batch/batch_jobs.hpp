@@ -20,6 +20,7 @@ struct BatchJob {
   std::filesystem::path base;   ///< of its results: their hash comes after it
   std::vector<BatchValue> set;  ///< as scene.overrides, with their places in the list
   Scenario scenario;            ///< with overrides and defaults
+  bool wanted = true;           ///< named by `only`, or that is empty
   std::string failure;          ///< why it cannot even be told what it is; mostly empty
 };
 
@@ -32,10 +33,12 @@ struct BatchJobs {
 
 /// Reads the list and every scenario that it names; nothing is loaded or computed yet.
 /// \param only names of jobs; empty: all. That of an entry stands for all its features.
+/// \param results in the place of what the list says; empty: that
 /// \throws SetupError with everything that is wrong with the list and the scenarios, one a line,
 ///   each with file, line and key; IoError when the list cannot be read
 BatchJobs read_batch_jobs(const std::filesystem::path& list, const SpeedCache&,
-                          const std::vector<std::string>& only);
+                          const std::vector<std::string>& only,
+                          const std::filesystem::path& results = {});
 
 /// Problems of a scene whose place is an override ("--set key: ...") at their place in the list.
 std::string at_places_in_list(const std::string& lines, const BatchJob&);
