@@ -155,13 +155,15 @@ class Batch {
     BatchRow& row = done_.rows[i];
     bool begun = false;
     while (true) {
-      if (const StopReason reason = guard.look()) {
-        if (reason.cause == StopCause::memory && begun) return too_much_memory(i, reason, guard);
-        if (!may_go_on(reason, guard)) {
-          done_.stop = guard.look();
-          if (!done_.stop) done_.stop = reason;
-          return;
-        }
+      StopReason reason = guard.look();
+      if (reason.cause == StopCause::memory && !begun) {  // of the job before; let go meanwhile
+        guard.clear();
+        reason = guard.look();
+      }
+      if (reason.cause == StopCause::memory) return too_much_memory(i, reason, guard);
+      if (reason && !may_go_on(reason, guard)) {
+        done_.stop = guard.look();
+        return;
       }
       if (!std::exchange(begun, true)) observer_.job_begins(plan, i, plans_.size());
       remember(plan, JobEnd::running, "");
@@ -203,10 +205,6 @@ class Batch {
 
   /// Waits for the window where that is wanted. \return false: the batch ends
   bool may_go_on(const StopReason& reason, Guard& guard) {
-    if (reason.cause == StopCause::memory) {  // of the job before; let go meanwhile
-      guard.clear();
-      return !guard.look();
-    }
     if (reason.cause != StopCause::window || !jobs_.spec.wait) return false;
     const auto begin = Clock::now();
     observer_.waits(guard.minutes_to_wait());

@@ -2,9 +2,10 @@
 #include "ensemble/workflow/batch/batch_features.hpp"
 
 #include "engine/core/error.hpp"
-#include "io/batch/release_features.hpp"
+#include "io/batch/layer_features.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace sturz::workflow {
 namespace {
@@ -25,13 +26,16 @@ std::string as_name(std::string text) {
 
 std::vector<FeatureJob> feature_jobs(const BatchEntry& entry, const Scenario& scenario) {
   std::vector<std::string> features = entry.features;
-  if (entry.each_feature) features = release_features(scenario);
+  if (entry.each_feature) features = layer_features(scenario);
   if (features.empty()) return {FeatureJob{}};
   std::vector<FeatureJob> jobs;
   for (const std::string& feature : features) {
     std::string name = feature;
     std::erase(name, '"');
-    jobs.push_back({"." + as_name(name), {{"release.feature", feature, entry.features_at}}});
+    FeatureJob& job = jobs.emplace_back();
+    job.suffix = '.';
+    job.suffix += as_name(std::move(name));
+    job.extra = {{"release.feature", feature, entry.features_at}};
   }
   return jobs;
 }

@@ -9,8 +9,8 @@
 
 namespace sturz {
 
-/// "1", "2", ...: their numbers in the order of the file, as release.feature takes them.
+/// Their identifiers (FID) in the order of the file, as release.feature takes them.
 /// \throws SetupError when the scene has no release.polygon, or its layer cannot be opened
-std::vector<std::string> release_features(const Scenario&);
+std::vector<std::string> layer_features(const Scenario&);
 
 }  // namespace sturz

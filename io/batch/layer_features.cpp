@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/batch/release_features.hpp"
+#include "io/batch/layer_features.hpp"
 
 #include "engine/core/error.hpp"
 #include "io/site/polygon_layer.hpp"
 
 namespace sturz {
 
-std::vector<std::string> release_features(const Scenario& scenario) {
+std::vector<std::string> layer_features(const Scenario& scenario) {
   require(!scenario.release.polygon.empty(),
           "features: each (the scenario has no release.polygon whose features could be told "
           "apart). Remove it.");
@@ -16,10 +16,10 @@ std::vector<std::string> release_features(const Scenario& scenario) {
   request.layer = scenario.release.layer;
   request.directory = scenario.directory;
   const PolygonLayer open = open_polygon_layer(request);
-  std::vector<std::string> numbers;
-  for (GIntBig i = 1; i <= open.layer->GetFeatureCount(); ++i) numbers.push_back(std::to_string(i));
-  require(!numbers.empty(), open.label + ": the layer is empty (there is no feature to compute).");
-  return numbers;
+  std::vector<std::string> ids;
+  for (const auto& feature : *open.layer) ids.push_back(std::to_string(feature->GetFID()));
+  require(!ids.empty(), open.label + ": the layer is empty (there is no feature to compute).");
+  return ids;
 }
 
 }  // namespace sturz
