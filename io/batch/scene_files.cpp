@@ -45,7 +45,7 @@ void add_parts(const std::string& file, std::set<std::string>& files) {
     const OpenDataset open =
         open_dataset(file, file, GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY);
     for (const std::string& part : files_of(*open.dataset)) files.insert(part);
-  } catch (const SetupError&) {  // whoever reads it says why
+  } catch (const SetupError&) {  // what reads it says why
   }
 }
 

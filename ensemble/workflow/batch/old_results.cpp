@@ -41,7 +41,7 @@ std::vector<fs::path> remove_old_results(const fs::path& base, const fs::path& c
       fs::remove(OutputFolder{folder}.manifest());
       fs::remove_all(folder);
       removed.push_back(folder);
-    } catch (const SetupError&) {  // somebody works there: the next time
+    } catch (const SetupError&) {  // a process works there: with the next call
     } catch (const fs::filesystem_error&) {
     }
   }
