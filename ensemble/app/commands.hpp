@@ -8,6 +8,7 @@ struct Grammar;
 
 void add_run(Grammar&);
 void add_ensemble(Grammar&);
+void add_batch(Grammar&);
 void add_calibrate(Grammar&);
 void add_sensitivity(Grammar&);
 void add_merge(Grammar&);
@@ -23,8 +24,9 @@ void add_print_help(Grammar&);
 
 /// In the order in which help, manual page and completion name them.
 inline constexpr void (*sub_commands[])(Grammar&) = {
-    add_run,  add_ensemble, add_calibrate, add_sensitivity, add_merge,  add_risk,  add_compare,
-    add_cost, add_describe, add_terrain,   add_schema,      add_report, add_cases, add_print_help,
+    add_run,     add_ensemble, add_batch,   add_calibrate, add_sensitivity,
+    add_merge,   add_risk,     add_compare, add_cost,      add_describe,
+    add_terrain, add_schema,   add_report,  add_cases,     add_print_help,
 };
 
 }  // namespace sturz::app

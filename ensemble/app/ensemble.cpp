@@ -15,6 +15,7 @@
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/members/until_converged.hpp"
+#include "ensemble/workflow/members/utilisation.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "scenarios/schema/number_text.hpp"
 
@@ -146,6 +147,21 @@ int how_it_ended(const workflow::MembersRun& run, Console& console) {
   return ok;
 }
 
+/// How much of the cores the members had, and why not more.
+void tell_utilisation(const workflow::Utilisation& u, Console& console) {
+  const std::string text = workflow::utilisation_text(u), why = workflow::low_utilisation(u);
+  if (text.empty()) return;
+  console.event(json_text(nlohmann::ordered_json{{"event", "utilisation"},
+                                                 {"fraction", u.fraction()},
+                                                 {"core_s", u.core_s},
+                                                 {"wall_s", u.wall_s},
+                                                 {"cores", u.cores},
+                                                 {"low_because", why}}));
+  console.say("Utilisation: " + text);
+  if (!why.empty())
+    console.warn("cores were idle more than half of the time; likely because " + why + ".");
+}
+
 int ensemble(const Options& options, Console& console) {
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request_of(options), observer);
@@ -157,6 +173,7 @@ int ensemble(const Options& options, Console& console) {
                  : workflow::run_ensemble(job, observer, interrupt_flag());
   console.clear_progress();
   if (const int code = how_it_ended(run, console); code != ok) return code;
+  tell_utilisation(workflow::utilisation_of(job, run), console);
   if (!options.shard.empty()) return shard_verdict(job, run, options.shard, console);
   return verdict(workflow::make_maps(job, observer, interrupt_flag()), console);
 }

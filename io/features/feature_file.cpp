@@ -111,15 +111,21 @@ bool write_table(GDALDataset& dataset, const FeatureTable& table) {
 }  // namespace
 
 void write_geopackage(const std::filesystem::path& file, const FeatureTable& table) {
+  write_geopackage(file, std::span(&table, 1));
+}
+
+void write_geopackage(const std::filesystem::path& file, std::span<const FeatureTable> tables) {
   const GdalScope scope;
   const FixedDate date;
-  const InMemory memory(&table);
+  const InMemory memory(tables.data());
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
   if (driver == nullptr)
     throw IoError(fmt::format("{}: this build of GDAL cannot write GeoPackage.", file.string()));
   {
     const DatasetPtr dataset(driver->Create(memory.name(), 0, 0, 0, GDT_Unknown, nullptr));
-    if (dataset == nullptr || !write_table(*dataset, table)) fail(file);
+    if (dataset == nullptr) fail(file);
+    for (const FeatureTable& table : tables)
+      if (!write_table(*dataset, table)) fail(file);
   }
   vsi_l_offset size = 0;
   const MemoryBytes bytes(VSIGetMemFileBuffer(memory.name(), &size, true), &VSIFree);

@@ -2,41 +2,23 @@
 #include "reports/page/report.hpp"
 
 #include "engine/core/error.hpp"
-#include "reports/figures/codec.hpp"
 #include "reports/page/bundle.hpp"
+#include "reports/page/page_head.hpp"
 #include "reports/page/payload.hpp"
 #include "reports/page/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <optional>
 
 namespace sturz {
 namespace {
 
-/// 'sha256-<base64>' as a Content-Security-Policy wants it.
-std::string policy_hash(std::string_view hex) {
-  std::vector<std::uint8_t> bytes(hex.size() / 2);
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    std::from_chars(hex.data() + 2 * i, hex.data() + 2 * i + 2, bytes[i], 16);
-  return "'sha256-" + base64(bytes) + "'";
-}
-
 std::string head_html(const ReportInput& input) {
   const std::string script =
       report_has_script() ? policy_hash(bundled_script_sha256()) : std::string("'none'");
-  return fmt::format(
-             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-             "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-             "script-src {}; style-src {}; img-src data: blob:\">\n"
-             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-             "<meta name=\"color-scheme\" content=\"light dark\">\n"
-             "<meta name=\"generator\" content=\"sturz\">\n<title>{}</title>\n<style>",
-             script, policy_hash(bundled_style_sha256()),
-             html_escape(input.title.empty() ? "sturz report" : input.title + " \u2013 sturz")) +
-         std::string(bundled_style()) + "</style>\n</head>\n";
+  return page_head(input.title.empty() ? "sturz report" : input.title + " \u2013 sturz", script);
 }
 
 /// Links to the parts that are there.

@@ -24,6 +24,24 @@ std::string bits_of(double value) {
   return fmt::format("{:016x}", std::bit_cast<std::uint64_t>(value));
 }
 
+/// Of the keys that count.
+template <class Counts>
+std::vector<std::string> differences_in(const Scenario& before, const Scenario& now,
+                                        const Counts& counts) {
+  std::vector<std::string> found;
+  for (const KeyInfo& key : schema()) {
+    if (!counts(key)) continue;
+    const KeyValue was = key.get(before), is = key.get(now);
+    if (without_file_names(key, was) == without_file_names(key, is)) continue;
+    const auto text = [](const KeyValue& v) {
+      const std::string words = value_text(v);
+      return words.empty() ? std::string("absent") : words;
+    };
+    found.push_back(fmt::format("{}: {} -> {}", key.path, text(was), text(is)));
+  }
+  return found;
+}
+
 }  // namespace
 
 bool changes_members(const KeyInfo& key) {
@@ -37,18 +55,14 @@ bool changes_members(const KeyInfo& key) {
 }
 
 std::vector<std::string> differences(const Scenario& before, const Scenario& now) {
-  std::vector<std::string> found;
-  for (const KeyInfo& key : schema()) {
-    if (!changes_members(key)) continue;
-    const KeyValue was = key.get(before), is = key.get(now);
-    if (without_file_names(key, was) == without_file_names(key, is)) continue;
-    const auto text = [](const KeyValue& v) {
-      const std::string words = value_text(v);
-      return words.empty() ? std::string("absent") : words;
-    };
-    found.push_back(fmt::format("{}: {} -> {}", key.path, text(was), text(is)));
-  }
-  return found;
+  return differences_in(before, now, changes_members);
+}
+
+std::vector<std::string> differences_of_maps(const Scenario& before, const Scenario& now) {
+  return differences_in(before, now, [](const KeyInfo& key) {
+    return !changes_members(key) && key.path != "ensemble.members" &&
+           key.path != "numerics.max_wall_time_s" && !key.path.starts_with("terrain.window.");
+  });
 }
 
 void require_same_scene(const OutputFolder& folder, const Scenario& now,

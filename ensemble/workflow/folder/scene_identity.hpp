@@ -24,6 +24,10 @@ bool changes_members(const KeyInfo&);
 /// Each difference between two scenes that changes what a member computes, as "key: old -> new".
 std::vector<std::string> differences(const Scenario& before, const Scenario& now);
 
+/// Each difference that only changes what is made of the members: thresholds, titles, what was
+/// observed. The number of members and limits of time are none.
+std::vector<std::string> differences_of_maps(const Scenario& before, const Scenario& now);
+
 /// \param inputs what was read of today's files; what the folder's members read besides is read
 ///   again, see changed_inputs()
 /// \throws SetupError with every difference when the folder was begun with another scene or other

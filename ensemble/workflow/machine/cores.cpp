@@ -2,6 +2,7 @@
 #include "ensemble/workflow/machine/cores.hpp"
 
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,13 @@ double available_memory_bytes() {
   while (info >> name >> kib && std::getline(info, unit))
     if (name == "MemAvailable:") return kib * 1024;
   return 0;
+}
+
+double resident_memory_bytes() {
+  std::ifstream info("/proc/self/statm");
+  double pages_in_all = 0, pages_held = 0;
+  if (!(info >> pages_in_all >> pages_held)) return 0;
+  return pages_held * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 }  // namespace sturz::workflow

@@ -11,4 +11,7 @@ int available_cores();
 /// Memory that new work may take without swapping [bytes]; 0 when the system does not say.
 double available_memory_bytes();
 
+/// Memory that this process holds now [bytes]; 0 when the system does not say.
+double resident_memory_bytes();
+
 }  // namespace sturz::workflow

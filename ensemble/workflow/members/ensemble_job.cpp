@@ -158,7 +158,8 @@ void begin_with_first_look(EnsembleJob& job, bool begun) {
 
 void share_machine(EnsembleJob& job, Observer& observer) {
   const int wanted_workers = job.wanted_workers;
-  const int cores = available_cores();
+  const int available = available_cores();
+  const int cores = job.max_cores > 0 ? std::min(job.max_cores, available) : available;
   const auto n = static_cast<int>(std::clamp<std::size_t>(job.to_do.size(), 1, 1 << 20));
   if (wanted_workers > cores)
     observer.warning(
@@ -168,13 +169,17 @@ void share_machine(EnsembleJob& job, Observer& observer) {
   job.workers = std::min({wanted_workers > 0 ? wanted_workers : cores, cores, n});
   const auto memory = static_cast<double>(job.scene.description.memory_bytes);
   const double free = available_memory_bytes();
-  if (memory > 0 && free > 0 && memory * job.workers > 0.9 * free) {
-    const int fewer = std::max(1, static_cast<int>(0.9 * free / memory));
+  const double allowed = job.max_memory_bytes - resident_memory_bytes();
+  const bool limited = job.max_memory_bytes > 0 && (free <= 0 || allowed < 0.9 * free);
+  const double room = limited ? std::max(1.0, allowed) : 0.9 * free;
+  if (memory > 0 && room > 0 && memory * job.workers > room) {
+    const int fewer = std::max(1, static_cast<int>(room / memory));
     if (fewer < job.workers) {
       observer.warning(
           fmt::format("{} members at a time instead of {}: each needs {:.0f} MB and {:.0f} "
-                      "MB are free.",
-                      fewer, job.workers, memory / 1e6, free / 1e6));
+                      "MB are {}.",
+                      fewer, job.workers, memory / 1e6, (limited ? room : free) / 1e6,
+                      limited ? "allowed" : "free"));
       job.workers = fewer;
     }
   }
@@ -264,6 +269,8 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   // What a rule saw of the members is not what they will be.
   if (find_work(job, shard, 0, observer) > 0 && !job.growth) job.manifest.stop.reset();
   job.wanted_workers = request.workers;
+  job.max_cores = request.max_cores;
+  job.max_memory_bytes = request.max_memory_bytes;
   share_machine(job, observer);
   return job;
 }

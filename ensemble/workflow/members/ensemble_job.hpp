@@ -26,6 +26,8 @@ struct EnsembleRequest {
   std::filesystem::path folder;  ///< of the results; a begun one of the same scene goes on
   int members = 0;               ///< 0: as the scenario says
   int workers = 0;               ///< members at a time; 0: all cores available to the process
+  int max_cores = 0;             ///< members at a time times threads of each; 0: all available
+  double max_memory_bytes = 0;   ///< of the whole process; 0: what is free
   Shard shard;
   bool retry_failed = false;  ///< compute failed members again
   /// Stop as soon as the largest half width of P(reached) is no more than this, see
@@ -57,6 +59,8 @@ struct EnsembleJob {
   std::int64_t finished_before = 0;  ///< of this call's share
   bool retry_failed = false;         ///< failed members are to do
   int wanted_workers = 0;            ///< 0: all cores available to the process
+  int max_cores = 0;                 ///< 0: all available
+  double max_memory_bytes = 0;       ///< 0: what is free
   int workers = 1;                   ///< members at a time
   int threads = 1;                   ///< of each member
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();

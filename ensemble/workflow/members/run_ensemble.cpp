@@ -6,9 +6,19 @@
 #include "ensemble/workflow/members/member_summary.hpp"
 #include "io/members/member_file.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace sturz::workflow {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+}  // namespace
 
 MemberResult run_member(const EnsembleJob& job, std::int64_t member,
                         const std::atomic<bool>& cancel) {
@@ -43,14 +53,18 @@ MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
     return run_member(job, member, stop);
   };
   callbacks.store = [&](const MemberResult& result) {
+    const auto begin = Clock::now();
     store_member(job, result);
+    run.storing_s += seconds_since(begin);
     run.computed.push_back(summary_of(result));
     observer.member_stored(result);
   };
   callbacks.on_progress = [&](const RunnerProgress& progress) {
     observer.ensemble_progress(progress, job.finished_before);
   };
+  const auto begin = Clock::now();
   RunReport report = run_members(plan, callbacks, cancel);
+  run.wall_s = seconds_since(begin);
   run.finished = job.finished_before + report.progress.n_done;
   run.total = job.finished_before + report.progress.n_total;
   run.failed = std::move(report.failed);

@@ -22,6 +22,8 @@ struct MembersRun {
   bool interrupted = false;             ///< cancelled before all were finished
   std::string stop_error;  ///< why the run stopped by itself, as RunReport says; empty: it did not
   std::optional<StopRecord> stop;  ///< of a stop rule, when it came to its end
+  double wall_s = 0;               ///< of computing members
+  double storing_s = 0;            ///< of that, writing them
 };
 
 /// Runs what is to do. The same request, prepared anew, goes on after whatever stopped this one.

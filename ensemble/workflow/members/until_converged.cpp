@@ -115,6 +115,8 @@ class Rounds final : public Observer {
     };
     append(all_.computed, round.computed);
     append(all_.failed, round.failed);
+    all_.wall_s += round.wall_s;
+    all_.storing_s += round.storing_s;
     all_.finished = job_.finished_before = round.finished;
     all_.interrupted = round.interrupted;
     all_.stop_error = std::move(round.stop_error);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Areas of a map as polygons.
+#pragma once
+
+#include "engine/terrain/raster.hpp"
+
+#include <cstdint>
+#include <string>
+
+namespace sturz {
+
+/// All cells that are set (not 0) as one multi-polygon with holes along the cells' edges, as ISO
+/// WKB; cells that touch at a corner only are polygons of their own. Empty where none is set.
+/// \throws IoError when the library fails
+std::string cells_as_polygons(const Raster<std::uint8_t>& cells);
+
+}  // namespace sturz

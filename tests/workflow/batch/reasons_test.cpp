@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/batch/reasons.hpp"
+
+#include "ensemble/workflow/batch/batch_features.hpp"
+#include "ensemble/workflow/batch/batch_figures.hpp"
+#include "ensemble/workflow/members/utilisation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace sturz::workflow {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(Reasons, FilesAreNamedWithTheirKey) {
+  const InputIdentity before{"terrain.raster", "dem.tif", "10 x 10", {{"0/0", "aa"}}};
+  InputIdentity now = before;
+  now.parts["0/0"] = "bb";
+  EXPECT_THAT(changed_files(input_differences({before}, {now})),
+              ElementsAre("dem.tif changed (terrain.raster)"));
+  EXPECT_THAT(changed_files({"something else entirely"}), ElementsAre("something else entirely"));
+}
+
+TEST(Reasons, OnlyInputsOfMapsAreInputsOfMaps) {
+  const InputIdentity dem{"terrain.raster", "dem.tif", "", {{"0/0", "aa"}}};
+  const InputIdentity houses{"assets.file", "houses.gpkg", "", {{"features", "aa"}}};
+  InputIdentity other_dem = dem, other_houses = houses;
+  other_dem.parts["0/0"] = "bb";
+  other_houses.parts["features"] = "bb";
+  EXPECT_THAT(changed_map_inputs({dem, houses}, {other_dem, other_houses}),
+              ElementsAre("houses.gpkg changed (assets.file)"));
+}
+
+TEST(Reasons, AnotherProgramIsNamedByVersionOrCommit) {
+  const Build mine = this_build();
+  EXPECT_EQ(other_program({mine}), "");
+  EXPECT_EQ(other_program({{"0.0.1", "abc"}, mine}), "program 0.0.1 -> " + mine.version);
+  EXPECT_THAT(other_program({{mine.version, "abc"}}), HasSubstr("(abc) -> "));
+}
+
+TEST(Reasons, ManyAreCounted) {
+  EXPECT_EQ(joined({"a", "b"}), "a; b");
+  EXPECT_EQ(joined({"a", "b", "c", "d", "e", "f"}), "a; b; c; d and 2 more");
+}
+
+TEST(Features, EachIsAJobWithItsOverride) {
+  BatchEntry entry;
+  EXPECT_EQ(feature_jobs(entry, {}).size(), 1u) << "without features: the scenario as it is";
+  entry.features = {"3", "\"upper part\""};
+  const auto jobs = feature_jobs(entry, {});
+  ASSERT_EQ(jobs.size(), 2u);
+  EXPECT_EQ(jobs[0].suffix, ".3");
+  EXPECT_EQ(jobs[1].suffix, ".upper_part");
+  EXPECT_EQ(jobs[1].extra.at(0).key, "release.feature");
+  EXPECT_EQ(jobs[1].extra.at(0).value, "\"upper part\"");
+}
+
+TEST(Figures, CellsAreReachedFromTheirLevelOn) {
+  Grid grid;
+  grid.n_cols = 5;
+  grid.n_rows = 1;
+  Raster<float> p(grid);
+  p.values = {0.0F, 0.05F, 0.1F, 0.5F, nan_f};
+  EXPECT_THAT(cells_reached(p, 0).values, ElementsAre(0, 1, 1, 1, 0));
+  EXPECT_THAT(cells_reached(p, 0.1).values, ElementsAre(0, 0, 1, 1, 0));
+  EXPECT_THAT(cells_reached(p, 0.5).values, ElementsAre(0, 0, 0, 1, 0));
+}
+
+/// 16 members of 10 s on 4 cores, one thread each.
+Utilisation well_used() {
+  Utilisation u;
+  u.members = 16;
+  u.workers = u.cores = 4;
+  u.threads = 1;
+  u.core_s = u.busy_s = 160;
+  u.longest_s = 10;
+  u.wall_s = 41;
+  return u;
+}
+
+TEST(Utilisation, IsSaidAndNotBlamedWhereItIsGood) {
+  EXPECT_NEAR(well_used().fraction(), 160.0 / 164, 1e-12);
+  EXPECT_THAT(utilisation_text(well_used()), HasSubstr("98 % of 4 cores"));
+  EXPECT_EQ(low_utilisation(well_used()), "");
+  EXPECT_EQ(utilisation_text({}), "");
+}
+
+TEST(Utilisation, TheLikelyCauseIsNamed) {
+  Utilisation long_one = well_used();
+  long_one.longest_s = 100;
+  long_one.wall_s = 110;
+  EXPECT_THAT(low_utilisation(long_one), HasSubstr("one member took"));
+  Utilisation disk = well_used();
+  disk.wall_s = 100;
+  disk.storing_s = 60;
+  EXPECT_THAT(low_utilisation(disk), HasSubstr("the disk is slow"));
+  Utilisation busy = well_used();
+  busy.wall_s = 100;
+  busy.busy_s = 400;
+  EXPECT_THAT(low_utilisation(busy), HasSubstr("other work on this machine"));
+  Utilisation few = well_used();
+  few.members = 5;
+  few.core_s = few.busy_s = 50;
+  few.wall_s = 26;
+  few.longest_s = 12;
+  EXPECT_THAT(low_utilisation(few), HasSubstr("5 members for 4 cores are few"));
+  Utilisation one = well_used();
+  one.workers = 1;
+  one.wall_s = 160;
+  EXPECT_THAT(low_utilisation(one), HasSubstr("1 member at a time"));
+  few.wall_s = 9;
+  few.core_s = few.busy_s = 10;
+  EXPECT_EQ(low_utilisation(few), "") << "ten seconds tell nothing";
+}
+
+}  // namespace
+}  // namespace sturz::workflow
