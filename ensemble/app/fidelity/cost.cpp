@@ -9,8 +9,8 @@
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/workflow/fidelity/cost_files.hpp"
 #include "ensemble/workflow/fidelity/cost_study.hpp"
+#include "ensemble/workflow/fidelity/cost_words.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
-#include "ensemble/workflow/readable.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -27,6 +27,7 @@ namespace {
 
 using workflow::CostQuestions;
 using workflow::CostStudy;
+using workflow::share_text;
 
 struct Options {
   std::string scenario;
@@ -61,10 +62,6 @@ workflow::CostRequest request_of(const Options& o) {
   return request;
 }
 
-std::string percent(double share, const char* format = "{:.1f} %") {
-  return std::isfinite(share) ? fmt::format(fmt::runtime(format), 100 * share) : "unknown";
-}
-
 std::string order_text(const Refinement& f) {
   if (!f.converges) return "none";
   if (!std::isfinite(f.order_90.low)) return fmt::format("{:.2f}", f.order);
@@ -86,84 +83,14 @@ void say_table(const LadderAccuracy& ladder, Console& console) {
   line("CPU s a member", seconds, fmt::format("{:.1f}", ladder.seconds.exponent));
   for (const ResultAccuracy& r : ladder.results) {
     std::vector<std::string> cells;
-    for (const double d : ladder.spacings_m) cells.push_back(percent(r.relative_error(d)));
+    for (const double d : ladder.spacings_m) cells.push_back(share_text(r.relative_error(d)));
     line(r.name, cells, order_text(r.refinement));
   }
   for (const MapAccuracy& m : ladder.maps) {
     std::vector<std::string> cells;
-    for (const double e : m.relative_errors) cells.push_back(percent(e));
+    for (const double e : m.relative_errors) cells.push_back(share_text(e));
     line(fmt::format("map > {:g} m", m.threshold_m), cells, "");
   }
-}
-
-/// What the table cannot say.
-void say_notes(const LadderAccuracy& ladder, Console& console) {
-  std::string without;
-  double noise = 0;
-  bool looked = false;
-  for (const ResultAccuracy& r : ladder.results) {
-    if (!r.refinement.converges) without += (without.empty() ? "" : ", ") + r.name;
-    if (!std::isfinite(r.noise)) continue;
-    looked = true;
-    noise = std::max(noise, r.noise / r.scale());
-  }
-  if (!ladder.not_told.empty())
-    console.say(
-        fmt::format("  Not told: {}. Every member was cut off, by an edge or its end time, "
-                    "at one spacing or another.",
-                    fmt::join(ladder.not_told, ", ")));
-  for (const ResultAccuracy& r : ladder.results)
-    if (r.n_members < static_cast<std::int64_t>(ladder.members.size()))
-      console.say(
-          fmt::format("  {} is told by {} members: the others were cut off, by an edge or "
-                      "their end time.",
-                      r.name, r.n_members));
-  if (!without.empty())
-    console.say("  No order: at these spacings the means of " + without +
-                " approach no limit; their errors are guessed from the range of the means.");
-  if (looked)
-    console.say(fmt::format("  A displacement of 1e-7 of the values moves a member by up to {}.",
-                            percent(noise, "{:.2g} %")));
-}
-
-void say_choice(const LadderAccuracy& ladder, const CostQuestions& questions, Console& console) {
-  const Choice choice = cheapest_for(ladder, questions.wanted, questions.wanted_error);
-  const std::string wanted = percent(questions.wanted_error, "{:g} %");
-  if (std::isfinite(choice.spacing_m))
-    console.say(fmt::format(
-        "  Within {}: {:.3g} m{}, about {} of one core a member (largest: {}, {})", wanted,
-        choice.spacing_m, choice.coarsest ? " or coarser (the coarsest that was computed)" : "",
-        workflow::duration_text(choice.member_cpu_s), choice.predicted.of,
-        percent(choice.predicted.error)));
-  else if (std::isfinite(choice.finer_spacing_m))
-    console.say(
-        fmt::format("  Within {}: finer than was computed; by the orders about {:.2g} m, {} "
-                    "of one core a member (extrapolated)",
-                    wanted, choice.finer_spacing_m,
-                    workflow::duration_text(ladder.seconds.at(choice.finer_spacing_m))));
-  else
-    console.say(
-        fmt::format("  Within {}: not at these spacings ({} is {} off at the finest), and "
-                    "no order says where. Add finer ones.",
-                    wanted, choice.predicted.of, percent(choice.predicted.error)));
-}
-
-void say_split(const CostStudy& study, const LadderAccuracy& ladder, const CostQuestions& questions,
-               Console& console) {
-  const double core_s = workflow::core_seconds(study, ladder, questions);
-  const Split best = best_split(ladder, core_s);
-  if (!std::isfinite(best.error)) return;
-  const auto words = [](const Split& s) {
-    return fmt::format("{:.0f} members at {:.3g} m are {} off (resolution {}, sampling {})",
-                       s.members, s.spacing_m, percent(s.error), percent(s.resolution),
-                       percent(s.sampling));
-  };
-  console.say(fmt::format(
-      "  Best for {} of one core{}: {}", workflow::duration_text(core_s),
-      questions.core_s > 0 ? "" : " (the planned members at the finest spacing)", words(best)));
-  const Split finest = split_at(ladder, core_s, ladder.spacings_m.back());
-  if (std::isfinite(finest.error) && finest.error > 1.1 * best.error)
-    console.say("  against: " + words(finest));
 }
 
 void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
@@ -173,9 +100,9 @@ void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
   console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", "", "sampling", "resolution", "model"));
   for (const workflow::Certainty& c :
        workflow::certainty_at(study, i, finest, study.planned_members))
-    console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", c.result, percent(c.sampling),
-                            percent(c.resolution),
-                            std::isfinite(c.model) ? percent(c.model) : "?"));
+    console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", c.result, share_text(c.sampling),
+                            share_text(c.resolution),
+                            std::isfinite(c.model) ? share_text(c.model) : "?"));
   if (study.models.empty()) console.say("  ?: no other formulation was computed (--formulations)");
 }
 
@@ -193,18 +120,16 @@ void say_all(const CostStudy& study, const CostQuestions& questions, Console& co
         "{}: about how far means are off, of {} of {} members drawn alike at every spacing",
         ladder.formulation, ladder.members.size(), study.members));
     say_table(ladder, console);
-    say_notes(ladder, console);
-    say_choice(ladder, questions, console);
-    say_split(study, ladder, questions, console);
+    for (const std::string& sentence : workflow::ladder_sentences(study, i, questions))
+      console.say("  " + sentence);
     say_certainty(study, i, console);
   }
   for (const workflow::ModelDifference& m : study.models) {
-    console.say(fmt::format("{} less {}, each at its finest, with the same values:", m.to, m.from));
+    console.say(workflow::title_of(m) + ":");
     say_changes(m.changes, console);
   }
   for (const workflow::VariantCost& v : study.variants) {
-    console.say(fmt::format("{} in {} at {:g} m: {:.2f} times the seconds", v.variant,
-                            v.formulation, v.spacing_m, v.seconds_ratio));
+    console.say(workflow::title_of(v));
     say_changes(v.changes, console);
   }
 }
@@ -225,7 +150,8 @@ int cost(const Options& options, Console& console) {
   console.clear_progress();
   say_all(study, questions, console);
   for (const std::string& warning : study.warnings) console.warn(warning);
-  console.say("In " + study.folder.string() + ": cost.json, cost.csv, and a folder per ensemble");
+  console.say("In " + study.folder.string() +
+              ": cost.html (look here first), cost.json, cost.csv, and a folder per ensemble");
   nlohmann::ordered_json done{{"event", "done"}, {"folder", study.folder.string()}};
   done["cost"] = nlohmann::ordered_json::parse(workflow::cost_json_text(study, questions));
   console.event(json_text(done));

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/fidelity/cost_files.hpp"
 
+#include "ensemble/workflow/fidelity/cost_words.hpp"
+#include "ensemble/workflow/folder/manifest.hpp"
 #include "io/files/text_files.hpp"
+#include "reports/fidelity/cost_page.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -131,6 +134,27 @@ std::string csv_of(const CostStudy& study) {
   return text;
 }
 
+std::string page_of(const CostStudy& study, const CostQuestions& questions) {
+  CostPage page;
+  page.title = study.title.empty() ? study.folder.filename().string() : study.title;
+  page.when = utc_now();
+  page.program = build_text(this_build());
+  page.planned_members = study.planned_members;
+  page.wanted_error = questions.wanted_error;
+  page.warnings = study.warnings;
+  for (std::size_t i = 0; i < study.ladders.size(); ++i) {
+    CostPageLadder& ladder = page.ladders.emplace_back();
+    ladder.ladder = &study.ladders[i];
+    ladder.sentences = ladder_sentences(study, i, questions);
+    for (const Certainty& c :
+         certainty_at(study, i, study.ladders[i].spacings_m.back(), study.planned_members))
+      ladder.parts.push_back({c.result, c.sampling, c.resolution, c.model});
+  }
+  for (const ModelDifference& m : study.models) page.changes.push_back({title_of(m), m.changes});
+  for (const VariantCost& v : study.variants) page.changes.push_back({title_of(v), v.changes});
+  return make_cost_page(page);
+}
+
 }  // namespace
 
 double core_seconds(const CostStudy& study, const LadderAccuracy& ladder,
@@ -182,6 +206,7 @@ std::string cost_json_text(const CostStudy& study, const CostQuestions& question
 void write_cost_files(const CostStudy& study, const CostQuestions& questions) {
   write_text_atomic(study.folder / "cost.json", cost_json_text(study, questions));
   write_text_atomic(study.folder / "cost.csv", csv_of(study));
+  write_text_atomic(study.folder / "cost.html", page_of(study, questions));
 }
 
 }  // namespace sturz::workflow

@@ -36,7 +36,8 @@ double core_seconds(const CostStudy&, const LadderAccuracy&, const CostQuestions
 /// Every number; JSON text.
 std::string cost_json_text(const CostStudy&, const CostQuestions&);
 
-/// cost.json, and cost.csv with one line per formulation, spacing and result. \throws IoError
+/// cost.json, cost.csv with one line per formulation, spacing and result, and the page cost.html.
+/// \throws IoError
 void write_cost_files(const CostStudy&, const CostQuestions&);
 
 }  // namespace sturz::workflow

@@ -256,6 +256,7 @@ CostStudy compute_cost(const CostJob& job, Observer& observer, const std::atomic
   }
   study.warnings = warnings_of(job);
   const Scenario& scenario = job.jobs.front().scene.scenario;
+  study.title = scenario.title;
   const LadderQuestions questions{results_of(job.request), scenario.hazard.thickness_m,
                                   scenario.ensemble.seed};
   observer.maps_begin();

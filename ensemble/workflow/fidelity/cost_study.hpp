@@ -51,6 +51,7 @@ struct ModelDifference {
 };
 
 struct CostStudy {
+  std::string title;  ///< of the scene
   std::filesystem::path folder;
   std::vector<CostPart> parts;
   std::vector<LadderAccuracy> ladders;  ///< one per formulation

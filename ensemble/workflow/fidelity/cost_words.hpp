@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a study of what accuracy costs says, in sentences.
+#pragma once
+
+#include "ensemble/workflow/fidelity/cost_files.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+/// "4.2 %", or "unknown".
+std::string share_text(double share);
+
+/// Of one formulation: what is not told and why, the cheapest spacing for the wanted error, the
+/// best split of the computing time. \param i index into study.ladders
+std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,
+                                          const CostQuestions&);
+
+/// "full_stress less depth_averaged, each at its finest, with the same values".
+std::string title_of(const ModelDifference&);
+/// "numerics.cfl=0.1 in depth_averaged at 4 m: 2.10 times the seconds".
+std::string title_of(const VariantCost&);
+
+}  // namespace sturz::workflow
