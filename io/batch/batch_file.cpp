@@ -188,23 +188,31 @@ class BatchReader {
 
 }  // namespace
 
-BatchSpec parse_batch(std::string_view text, const std::string& name) {
-  FileProblems problems;
+BatchSpec parse_batch(std::string_view text, const std::string& name,
+                      std::vector<std::string>& problems) {
+  FileProblems found;
   BatchSpec spec;
-  if (const auto root = parse_yaml(text, name, problems)) spec = BatchReader(problems).read(*root);
+  if (const auto root = parse_yaml(text, name, found)) spec = BatchReader(found).read(*root);
   spec.source = name;
-  std::stable_sort(problems.begin(), problems.end(), [](const auto& a, const auto& b) {
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return std::tuple(a.at.line, a.at.column) < std::tuple(b.at.line, b.at.column);
   });
-  std::vector<std::string> lines;
-  for (const FileProblem& p : problems)
-    lines.push_back(fmt::format("{}: {}", p.at.text(), p.message));
-  require(problems.empty(), fmt::format("{}", fmt::join(lines, "\n")));
+  for (const FileProblem& p : found)
+    problems.push_back(fmt::format("{}: {}", p.at.text(), p.message));
+  std::erase_if(spec.jobs,
+                [](const BatchEntry& job) { return job.name.empty() || job.scenario.empty(); });
   return spec;
 }
 
-BatchSpec read_batch(const std::filesystem::path& file) {
-  return parse_batch(sturz::read_text(file), file.string());
+BatchSpec parse_batch(std::string_view text, const std::string& name) {
+  std::vector<std::string> problems;
+  BatchSpec spec = parse_batch(text, name, problems);
+  require(problems.empty(), fmt::format("{}", fmt::join(problems, "\n")));
+  return spec;
+}
+
+BatchSpec read_batch(const std::filesystem::path& file, std::vector<std::string>& problems) {
+  return parse_batch(sturz::read_text(file), file.string(), problems);
 }
 
 }  // namespace sturz

@@ -53,7 +53,11 @@ struct BatchSpec {
 ///   missing keys, wrong types and ranges, two jobs of one name
 BatchSpec parse_batch(std::string_view text, const std::string& name);
 
-/// \throws SetupError; IoError when the file cannot be read
-BatchSpec read_batch(const std::filesystem::path& file);
+/// The same for who has more to complain of: problems are added, and entries that can be used come.
+BatchSpec parse_batch(std::string_view text, const std::string& name,
+                      std::vector<std::string>& problems);
+
+/// \throws IoError when the file cannot be read
+BatchSpec read_batch(const std::filesystem::path& file, std::vector<std::string>& problems);
 
 }  // namespace sturz

@@ -41,6 +41,17 @@ class BatchEnds : public BatchApp {
   std::vector<std::string> words() const {
     return command({"batch", path("list.yaml"), "-o", path("out"), "--workers", "1"});
   }
+  /// Bytes of all GeoTIFFs of today's results; hazard.nc holds the same, and when it was begun.
+  std::map<std::string, std::string> all_maps() const {
+    std::map<std::string, std::string> maps;
+    for (const std::string& folder : column("folder"))
+      for (const auto& entry : fs::directory_iterator(path("out/" + folder + "/hazard")))
+        if (entry.path().extension() == ".tif") {
+          const std::string name = folder + "/hazard/" + entry.path().filename().string();
+          maps[name] = read("out/" + name);
+        }
+    return maps;
+  }
   /// All that is a function of the results: without what tells of the calls.
   std::vector<std::map<std::string, std::string>> results() const {
     auto rows = summary();
@@ -71,9 +82,7 @@ TEST_F(BatchEnds, KillsAtRandomInstantsLeaveNoTrace) {
   const std::chrono::duration<double> whole = Clock::now() - begin;
   const auto undisturbed = results();
   const std::string outlines = read("out/outlines.gpkg");
-  std::vector<std::string> maps;
-  for (const auto& row : undisturbed)
-    maps.push_back(read("out/" + row.at("folder") + "/hazard.nc"));
+  const auto maps = all_maps();
   fs::remove_all(path("out"));
   std::mt19937 random(20261130);
   for (int i = 0; i < 8; ++i) {
@@ -86,8 +95,8 @@ TEST_F(BatchEnds, KillsAtRandomInstantsLeaveNoTrace) {
   ASSERT_EQ(last.exit_code, 0) << last.err;
   EXPECT_EQ(results(), undisturbed);
   EXPECT_EQ(read("out/outlines.gpkg"), outlines);
-  for (std::size_t i = 0; i < maps.size(); ++i)
-    EXPECT_TRUE(read("out/" + undisturbed[i].at("folder") + "/hazard.nc") == maps[i]) << i;
+  EXPECT_GT(maps.size(), 10u);
+  EXPECT_TRUE(all_maps() == maps);
   for (const auto& entry : fs::recursive_directory_iterator(path("out")))
     EXPECT_NE(entry.path().extension(), ".part") << entry.path();
 }

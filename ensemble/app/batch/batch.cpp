@@ -41,10 +41,22 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 /// The jobs' own words, each with the job's name, and where the batch is.
 class BatchConsole final : public workflow::BatchObserver {
  public:
-  explicit BatchConsole(Console& console) : console_(console), members_(console) {}
+  /// \param nice of the command line; -1: as the list says
+  BatchConsole(Console& console, int nice) : console_(console), members_(console), nice_(nice) {}
 
+  /// A job's warnings stand in its log and on its page; a timer's mail says what failed.
   void warning(std::string_view text) override {
-    console_.warn(job_.empty() ? std::string(text) : fmt::format("{}: {}", job_, text));
+    if (job_.empty())
+      console_.warn(text);
+    else if (console_.json() || console_.shows_progress())
+      console_.warn(fmt::format("{}: {}", job_, text));
+    else
+      console_.note(text);
+  }
+  /// Threads begin with what their parent has, so before the first of the work.
+  void list_read(const BatchSpec& spec) override {
+    const int nice = nice_ >= 0 ? nice_ : spec.nice;
+    if (nice > 0) setpriority(PRIO_PROCESS, 0, nice);
   }
   void folder_ready(const workflow::OutputFolder& folder) override {
     members_.folder_ready(folder);
@@ -87,6 +99,7 @@ class BatchConsole final : public workflow::BatchObserver {
  private:
   Console& console_;
   ConsoleObserver members_;
+  int nice_;
   std::string job_;
 };
 
@@ -205,12 +218,8 @@ int tell_end(const BatchDone& done, Console& console) {
 }
 
 int batch(const Options& options, Console& console) {
-  const workflow::BatchRequest request = request_of(options);
-  const int nice = options.nice >= 0 ? options.nice : read_batch(options.list).nice;
-  // Threads begin with what their parent has, so before the first of the work.
-  if (nice > 0) setpriority(PRIO_PROCESS, 0, nice);
-  BatchConsole observer(console);
-  const BatchDone done = workflow::run_batch(request, observer, interrupt_flag());
+  BatchConsole observer(console, options.nice);
+  const BatchDone done = workflow::run_batch(request_of(options), observer, interrupt_flag());
   if (!options.dry_run) return tell_end(done, console);
   tell_plan(done, console);
   return done.count(RowState::failed) > 0 ? too_many_failed : ok;

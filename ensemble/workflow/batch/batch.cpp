@@ -81,6 +81,7 @@ class Batch {
   }
 
   BatchDone run() {
+    observer_.list_read(jobs_.spec);
     if (!request_.dry_run) lock_ = FolderLock::alone({jobs_.root}, request_.command);
     state_ = BatchState::read(state_file());
     plan_all();

@@ -78,6 +78,8 @@ struct BatchDone {
 /// What a batch tells besides what its jobs tell.
 class BatchObserver : public Observer {
  public:
+  /// The list is read and all of it understood; nothing has begun.
+  virtual void list_read(const BatchSpec&) {}
   virtual void job_planned(const PlannedJob&, std::size_t /*i*/, std::size_t /*n*/) {}
   virtual void job_begins(const PlannedJob&, std::size_t /*i*/, std::size_t /*n*/) {}
   virtual void job_ended(const BatchRow&) {}

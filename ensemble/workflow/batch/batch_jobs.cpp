@@ -54,8 +54,11 @@ bool read_into(BatchJob& job, const BatchEntry& entry, Problems& problems) {
 
 class Expansion {
  public:
-  Expansion(const fs::path& list, BatchJobs& jobs, SpeedCache cache)
-      : near_(list.parent_path()), jobs_(jobs), cache_(std::move(cache)) {}
+  Expansion(const fs::path& list, BatchJobs& jobs, SpeedCache cache,
+            const std::vector<std::string>& problems_of_list)
+      : near_(list.parent_path()), jobs_(jobs), cache_(std::move(cache)) {
+    for (const std::string& problem : problems_of_list) problems_.add(problem);
+  }
 
   void add(const BatchEntry& entry, bool wanted) {
     BatchJob job = job_of(entry);
@@ -143,7 +146,8 @@ std::string at_places_in_list(const std::string& lines, const BatchJob& job) {
 BatchJobs read_batch_jobs(const fs::path& list, const SpeedCache& cache,
                           const std::vector<std::string>& only, const fs::path& results) {
   BatchJobs jobs;
-  jobs.spec = read_batch(list);
+  std::vector<std::string> problems;
+  jobs.spec = read_batch(list, problems);
   const fs::path near = fs::absolute(list).parent_path();  // a timer calls from anywhere
   jobs.root =
       jobs.spec.results.empty() ? near / default_folder(list.string()) : near / jobs.spec.results;
@@ -152,10 +156,10 @@ BatchJobs read_batch_jobs(const fs::path& list, const SpeedCache& cache,
   if (!jobs.root.has_filename()) jobs.root = jobs.root.parent_path();
   if (!jobs.spec.stop_file.empty()) jobs.stop_file = near / jobs.spec.stop_file;
   for (const std::string& name : only)
-    require(std::any_of(jobs.spec.jobs.begin(), jobs.spec.jobs.end(),
-                        [&](const BatchEntry& entry) { return entry.name == name; }),
-            fmt::format("--only {} (the list has no job of that name).", name));
-  Expansion expansion(list, jobs, cache);
+    if (std::none_of(jobs.spec.jobs.begin(), jobs.spec.jobs.end(),
+                     [&](const BatchEntry& entry) { return entry.name == name; }))
+      problems.push_back(fmt::format("--only {} (the list has no job of that name).", name));
+  Expansion expansion(list, jobs, cache, problems);
   for (const BatchEntry& entry : jobs.spec.jobs) expansion.add(entry, is_wanted(entry, only));
   expansion.check();
   return jobs;

@@ -45,7 +45,7 @@ std::string at_least_text(const BatchFigures& figures) {
   constexpr std::array<const char*, 3> names{"q05", "q50", "q95"};
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (figures.at_least[i]) text += (text.empty() ? "" : " ") + std::string(names[i]);
+    if (figures.at_least[i]) text += fmt::format("{}{}", text.empty() ? "" : " ", names[i]);
   return text;
 }
 

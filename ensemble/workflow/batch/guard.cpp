@@ -25,8 +25,11 @@ int minute_now() {
 
 }  // namespace
 
-double free_disk_bytes(const std::filesystem::path& folder) {
+double free_disk_bytes(const std::filesystem::path& wanted) {
   std::error_code failed;
+  std::filesystem::path folder = wanted;
+  while (!std::filesystem::exists(folder, failed) && folder.has_relative_path())
+    folder = folder.parent_path();
   const auto space = std::filesystem::space(folder, failed);
   return failed ? std::numeric_limits<double>::infinity() : static_cast<double>(space.available);
 }

@@ -61,7 +61,8 @@ class Guard {
   std::jthread watcher_;
 };
 
-/// Bytes that this user may still write there; infinite when the system does not say.
+/// Bytes that this user may still write there, or where the folder would lie; infinite when the
+/// system does not say.
 double free_disk_bytes(const std::filesystem::path&);
 
 }  // namespace sturz::workflow

@@ -128,7 +128,7 @@ fs::path new_folder(const BatchJob& job, const Today& today) {
       job.single_run ? "" : design_hash(today.design), build_text(this_build()));
   constexpr std::size_t prefix = 7, digits = 8;  // after "sha256:"
   fs::path folder = job.base;
-  folder += "-" + text_checksum(text).substr(prefix, digits);
+  folder += fmt::format("-{}", text_checksum(text).substr(prefix, digits));
   std::error_code ignored;
   fs::path free = folder;
   // Only after changes beyond the part of the ground that is read first.
