@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -20,6 +22,19 @@ constexpr std::array paints{"centre", "front", "rear", "transition"};
 std::string share(double value) {
   if (!std::isfinite(value)) return "\u2013";
   return shown_number(100 * value, 2) + "\u00A0%";
+}
+
+/// As people call a result; others by the words of their column.
+std::string result_words(const std::string& name) {
+  static const std::map<std::string, std::string> known{
+      {"runout_m", "run-out"},
+      {"reached_area_m2", "area reached"},
+      {"com_travel_m", "way of the centre of mass"},
+      {"max_speed_m_s", "largest speed"},
+      {"max_thickness_m", "largest thickness"},
+      {"max_energy_j_m2", "largest kinetic energy per area"}};
+  const auto found = known.find(name);
+  return found == known.end() ? words_without_unit(name) : found->second;
 }
 
 std::string spacing_text(double spacing_m) { return shown_number(spacing_m, 3) + "\u00A0m"; }
@@ -80,7 +95,7 @@ std::vector<Chart> charts_of(const CostPage& page) {
     for (const ResultAccuracy& r : l.ladder->results)
       if (std::find(names.begin(), names.end(), r.name) == names.end()) names.push_back(r.name);
   for (const std::string& name : names)
-    charts.push_back({words_without_unit(name), lines_of_result(page, name)});
+    charts.push_back({result_words(name), lines_of_result(page, name)});
   if (auto lines = lines_of_map(page); !lines.empty())
     charts.push_back(
         {fmt::format("map of thickness above {} m",
@@ -134,7 +149,7 @@ std::string table_of(const LadderAccuracy& ladder) {
     cells.clear();
     for (const double d : ladder.spacings_m) cells.push_back(share(r.relative_error(d)));
     const Refinement& f = r.refinement;
-    row(words_without_unit(r.name), cells,
+    row(result_words(r.name), cells,
         !f.converges ? std::string("none")
         : std::isfinite(f.order_90.low)
             ? fmt::format("{} <small>{} \u2013 {}</small>", shown_number(f.order),
@@ -161,7 +176,7 @@ std::string parts_of(const CostPageLadder& l, int planned_members) {
         "<tr><th scope=\"row\">{}</th><td class=\"n\" data-label=\"sampling\">{}</td><td "
         "class=\"n\" data-label=\"resolution\">{}</td><td class=\"n\" data-label=\"model\">{}</td>"
         "</tr>",
-        html_escape(words_without_unit(p.result)), share(p.sampling), share(p.resolution),
+        html_escape(result_words(p.result)), share(p.sampling), share(p.resolution),
         share(p.model));
   return html + "</tbody></table></div>";
 }
@@ -196,7 +211,7 @@ std::string changes_html(const CostPage& page) {
           "<tr><th scope=\"row\">{}</th><td class=\"n\" data-label=\"by\">{} <small>{}</small></td>"
           "<td class=\"n\" data-label=\"standard error\">{}</td><td class=\"n\" "
           "data-label=\"pairs\">{}</td></tr>",
-          html_escape(words_without_unit(c.name)), html_escape(with_unit(c.mean, c.units)),
+          html_escape(result_words(c.name)), html_escape(with_unit(c.mean, c.units)),
           share(c.mean / std::abs(c.rung_mean)), html_escape(with_unit(c.standard_error, c.units)),
           c.n_members);
     html += "</tbody></table></div></section>\n";
