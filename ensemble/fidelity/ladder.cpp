@@ -2,46 +2,14 @@
 #include "ensemble/fidelity/ladder.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/censoring/scalar_censoring.hpp"
+#include "ensemble/fidelity/valid_members.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace sturz {
 namespace {
-
-using ByNumber = std::map<std::int64_t, const MemberSummary*>;
-
-ByNumber valid_members(const MemberParts& source) {
-  ByNumber found;
-  for (const MemberSummary& m : source.members())
-    if (is_valid(m.outcome)) found.emplace(m.member, &m);
-  return found;
-}
-
-const ScalarInfo& scalar_named(const std::string& name) {
-  const auto table = scalar_table();
-  const auto found =
-      std::find_if(table.begin(), table.end(), [&](const ScalarInfo& s) { return name == s.name; });
-  expect(found != table.end(), "a result of scalar_table()");
-  return *found;
-}
-
-bool is_known(const MemberSummary& m, double MemberScalars::*field) {
-  return known(field, m.censoring) == Known::exactly && std::isfinite(m.scalars.*field);
-}
-
-/// Numbers of the members that are valid in all of them.
-std::vector<std::int64_t> common(std::span<const ByNumber> sources) {
-  std::vector<std::int64_t> numbers;
-  for (const auto& [number, summary] : sources.front())
-    if (std::all_of(sources.begin(), sources.end(),
-                    [n = number](const ByNumber& s) { return s.contains(n); }))
-      numbers.push_back(number);
-  return numbers;
-}
 
 double deviation(std::span<const double> values) {
   if (values.size() < 2) return nan_d;
@@ -175,7 +143,7 @@ LadderAccuracy ladder_accuracy(std::string formulation, std::span<const Rung> ru
     ladder.n_asked =
         std::max(ladder.n_asked, static_cast<std::int64_t>(rung.members->members().size()));
   }
-  ladder.members = common(by_number);
+  ladder.members = common_members(by_number);
   require(
       !ladder.members.empty(),
       ladder.formulation +

@@ -242,8 +242,9 @@ std::string make_cost_page(const CostPage& page) {
              "<header class=\"top\"><p class=\"kind\">What accuracy costs</p><h1>{}</h1><p "
              "class=\"origin\">{} \u00B7 {}</p></header>\n",
              html_escape(page.title), html_escape(page.when), html_escape(page.program)) +
-         warnings_html(page) + charts_html(page) + ladders_html(page) + changes_html(page) +
-         reading_html + "</main>\n</body>\n</html>\n";
+         warnings_html(page) + charts_html(page) +
+         (page.multilevel.empty() ? "" : "<p>" + html_escape(page.multilevel) + "</p>\n") +
+         ladders_html(page) + changes_html(page) + reading_html + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace sturz

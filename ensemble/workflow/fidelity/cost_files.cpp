@@ -117,6 +117,19 @@ Json ladder_json(const CostStudy& study, std::size_t i, const CostQuestions& que
   return json;
 }
 
+Json multilevel_json(const MultilevelForecast& f) {
+  Json results = Json::array();
+  for (std::size_t r = 0; r < f.results.size(); ++r)
+    results.push_back({{"name", f.results[r]},
+                       {"squared_correlations", numbers(f.squared_correlations[r])},
+                       {"gain", number(f.gain.gains[r])}});
+  Json used = Json::array();
+  for (std::size_t i = 0; i < f.gain.levels.size(); ++i)
+    used.push_back({{"name", f.levels[f.gain.levels[i]]}, {"members", number(f.gain.members[i])}});
+  return {{"levels", f.levels}, {"member_cpu_s", f.cost_s}, {"results", results},
+          {"used", used},       {"gain", f.gain.gain},      {"gain_90", interval(f.gain.gain_90)}};
+}
+
 std::string csv_of(const CostStudy& study) {
   std::string text =
       "formulation,spacing_m,member_cpu_s,result,units,mean,relative_error,member_rms_to_finest,"
@@ -150,6 +163,7 @@ std::string page_of(const CostStudy& study, const CostQuestions& questions) {
          certainty_at(study, i, study.ladders[i].spacings_m.back(), study.planned_members))
       ladder.parts.push_back({c.result, c.sampling, c.resolution, c.model});
   }
+  page.multilevel = multilevel_sentence(study);
   for (const ModelDifference& m : study.models) page.changes.push_back({title_of(m), m.changes});
   for (const VariantCost& v : study.variants) page.changes.push_back({title_of(v), v.changes});
   return make_cost_page(page);
@@ -200,6 +214,7 @@ std::string cost_json_text(const CostStudy& study, const CostQuestions& question
   for (const ModelDifference& m : study.models)
     json["models"].push_back(
         {{"from", m.from}, {"to", m.to}, {"changes", changes_json(m.changes)}});
+  json["multilevel"] = study.multilevel ? multilevel_json(*study.multilevel) : Json(nullptr);
   return json.dump(2) + "\n";
 }
 

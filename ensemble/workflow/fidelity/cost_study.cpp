@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/comparison/member_pairs.hpp"
+#include "ensemble/fidelity/level_values.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
@@ -210,6 +211,38 @@ void look_beside(CostStudy& study, const Found& found, const std::vector<std::st
          changes(finest(study.ladders.front()), finest(study.ladders[i]), results)});
 }
 
+/// All rungs, the dearest first; of more than eight the cheapest of each formulation stay.
+void look_at_levels(CostStudy& study, const Found& found, const LadderQuestions& questions,
+                    CancelFlag cancel) {
+  std::vector<std::pair<double, CostPart>> rungs;
+  for (const LadderAccuracy& ladder : study.ladders) {
+    const std::vector<CostPart> parts = rungs_of(found.parts, ladder.formulation);
+    for (std::size_t l = 0; l < parts.size(); ++l)
+      rungs.emplace_back(ladder.member_cpu_s[l], parts[l]);
+  }
+  std::sort(rungs.begin(), rungs.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  while (rungs.size() > 8) rungs.erase(rungs.begin() + 1);
+  MultilevelForecast forecast;
+  std::vector<const MemberParts*> levels;
+  for (const auto& [seconds, part] : rungs) {
+    forecast.levels.push_back(part.name);
+    forecast.cost_s.push_back(seconds);
+    levels.push_back(&found.of(part));
+  }
+  const double threshold = questions.thickness_m.empty() ? 0.1 : questions.thickness_m.front();
+  const std::vector<std::string> headline{"runout_m", "reached_area_m2", "com_travel_m"};
+  const std::vector<LevelValues> values = level_values(levels, headline, threshold, cancel);
+  if (values.empty()) return;
+  for (const LevelValues& r : values) {
+    forecast.results.push_back(r.name);
+    auto& row = forecast.squared_correlations.emplace_back();
+    for (std::size_t l = 0; l < levels.size(); ++l) row.push_back(squared_correlation(r, l));
+  }
+  forecast.gain = multilevel_gain(values, forecast.cost_s, questions.seed);
+  study.multilevel = std::move(forecast);
+}
+
 }  // namespace
 
 CostJob prepare_cost(const CostRequest& request, Observer& observer) {
@@ -267,6 +300,7 @@ CostStudy compute_cost(const CostJob& job, Observer& observer, const std::atomic
     study.ladders.push_back(ladder_of(found, part.formulation, questions, cancel));
   }
   look_beside(study, found, questions.results);
+  look_at_levels(study, found, questions, cancel);
   return study;
 }
 

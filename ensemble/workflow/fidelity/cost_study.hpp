@@ -4,11 +4,13 @@
 
 #include "ensemble/fidelity/choice.hpp"
 #include "ensemble/fidelity/ladder.hpp"
+#include "ensemble/fidelity/multilevel_gain.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/observer.hpp"
 
 #include <atomic>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,16 +52,26 @@ struct ModelDifference {
   std::vector<Change> changes;
 };
 
+/// What an estimate would save that corrects many cheap members by few of the dearest rung.
+struct MultilevelForecast {
+  std::vector<std::string> levels;   ///< names of the parts, the dearest rung first
+  std::vector<double> cost_s;        ///< [levels] seconds of a member
+  std::vector<std::string> results;  ///< and `map`
+  std::vector<std::vector<double>> squared_correlations;  ///< [results][levels] with the first
+  MultilevelGain gain;                                    ///< its levels are indices into these
+};
+
 struct CostStudy {
   std::string title;  ///< of the scene
   std::filesystem::path folder;
   std::vector<CostPart> parts;
   std::vector<LadderAccuracy> ladders;  ///< one per formulation
   std::vector<VariantCost> variants;
-  std::vector<ModelDifference> models;  ///< each formulation beside the first
-  int planned_members = 0;              ///< ensemble.members of the scenario
-  int members = 0;                      ///< at each spacing
-  std::vector<std::string> warnings;    ///< of the scenes, with the parts that they are of
+  std::vector<ModelDifference> models;           ///< each formulation beside the first
+  std::optional<MultilevelForecast> multilevel;  ///< nothing where under eight members tell
+  int planned_members = 0;                       ///< ensemble.members of the scenario
+  int members = 0;                               ///< at each spacing
+  std::vector<std::string> warnings;             ///< of the scenes, with the parts that they are of
 };
 
 /// The ensembles of a study, begun and not computed. Everything that can be wrong with one of them

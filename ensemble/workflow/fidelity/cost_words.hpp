@@ -17,6 +17,9 @@ std::string share_text(double share);
 std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,
                                           const CostQuestions&);
 
+/// What a multilevel estimate would save; empty where nothing tells.
+std::string multilevel_sentence(const CostStudy&);
+
 /// "full_stress less depth_averaged, each at its finest, with the same values".
 std::string title_of(const ModelDifference&);
 /// "numerics.cfl=0.1 in depth_averaged at 4 m: 2.10 times the seconds".

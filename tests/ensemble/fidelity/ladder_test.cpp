@@ -4,11 +4,13 @@
 
 #include "engine/core/random.hpp"
 #include "ensemble/fidelity/choice.hpp"
+#include "ensemble/fidelity/level_values.hpp"
 #include "tests/support/memory_members.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace sturz::test {
@@ -153,6 +155,41 @@ TEST(TheBestSplit, BalancesResolutionAndSampling) {
     EXPECT_NEAR(split.error, std::hypot(split.resolution, split.sampling), 1e-12);
   }
   EXPECT_TRUE(std::isnan(best_split(made.accuracy, 0.1).error));
+}
+
+TEST(LevelValues, LineUpWhatAllLevelsKnow) {
+  Made made;
+  std::vector<const MemberParts*> levels;
+  for (const MemoryMembers& rung : made.rungs) levels.push_back(&rung);
+  std::reverse(levels.begin(), levels.end());
+  const auto all = level_values(levels, both, 0.1);
+  ASSERT_EQ(all.size(), 2U);  // every member covers the same cells: no cell is uncertain
+  EXPECT_EQ(all[0].name, "runout_m");
+  ASSERT_EQ(all[0].values[0].size(), n_members);
+  EXPECT_NEAR(all[0].values[2][4] - all[0].values[0][4], 40, 1e-9);
+  EXPECT_NEAR(squared_correlation(all[0], 2), 1, 1e-9);
+}
+
+/// Members 0 .. 5 come one cell farther than the others, at every level.
+TEST(LevelValues, MapsKeepTheCellsInDoubt) {
+  std::vector<MemoryMembers> made;
+  std::vector<const MemberParts*> levels;
+  for (const double d : {4.0, 8.0}) {
+    MemoryMembers& rung = made.emplace_back(small_grid(1, 40));
+    for (std::size_t k = 0; k < n_members; ++k) {
+      MemberResult m = member(k, d);
+      if (k < 6) m.layer(PeakLayer::thickness)[12] = 0.5F;
+      rung.add(m);
+    }
+  }
+  for (const MemoryMembers& rung : made) levels.push_back(&rung);
+  const auto all = level_values(levels, {}, 0.1);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].name, "map");
+  EXPECT_EQ(all[0].n_cells, 1U);
+  EXPECT_EQ(all[0].values[0][2], 1);
+  EXPECT_EQ(all[0].values[0][8], 0);
+  EXPECT_EQ(all[0].values[1][8], 1);  // 14 cells at 8 m
 }
 
 TEST(Changes, ComePairByPair) {
