@@ -197,6 +197,13 @@ std::string ladders_html(const CostPage& page) {
   return html;
 }
 
+std::string multilevel_html(const CostPage& page) {
+  std::string html;
+  for (const std::string& sentence : page.multilevel)
+    html += "<p>" + html_escape(sentence) + "</p>\n";
+  return html;
+}
+
 std::string changes_html(const CostPage& page) {
   std::string html;
   for (const CostPageChange& change : page.changes) {
@@ -242,9 +249,8 @@ std::string make_cost_page(const CostPage& page) {
              "<header class=\"top\"><p class=\"kind\">What accuracy costs</p><h1>{}</h1><p "
              "class=\"origin\">{} \u00B7 {}</p></header>\n",
              html_escape(page.title), html_escape(page.when), html_escape(page.program)) +
-         warnings_html(page) + charts_html(page) +
-         (page.multilevel.empty() ? "" : "<p>" + html_escape(page.multilevel) + "</p>\n") +
-         ladders_html(page) + changes_html(page) + reading_html + "</main>\n</body>\n</html>\n";
+         warnings_html(page) + charts_html(page) + multilevel_html(page) + ladders_html(page) +
+         changes_html(page) + reading_html + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace sturz

@@ -34,7 +34,7 @@ struct CostPage {
   int planned_members = 0;
   double wanted_error = 0.05;
   std::vector<CostPageLadder> ladders;
-  std::string multilevel;  ///< a sentence; may be empty
+  std::vector<std::string> multilevel;  ///< sentences; may be empty
   std::vector<CostPageChange> changes;
   std::vector<std::string> warnings;
 };

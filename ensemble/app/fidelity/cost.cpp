@@ -124,8 +124,8 @@ void say_all(const CostStudy& study, const CostQuestions& questions, Console& co
       console.say("  " + sentence);
     say_certainty(study, i, console);
   }
-  if (const std::string text = workflow::multilevel_sentence(study); !text.empty())
-    console.say(text);
+  for (const workflow::MultilevelForecast& f : study.multilevel)
+    console.say(workflow::multilevel_sentence(f));
   for (const workflow::ModelDifference& m : study.models) {
     console.say(workflow::title_of(m) + ":");
     say_changes(m.changes, console);

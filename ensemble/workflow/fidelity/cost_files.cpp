@@ -163,7 +163,8 @@ std::string page_of(const CostStudy& study, const CostQuestions& questions) {
          certainty_at(study, i, study.ladders[i].spacings_m.back(), study.planned_members))
       ladder.parts.push_back({c.result, c.sampling, c.resolution, c.model});
   }
-  page.multilevel = multilevel_sentence(study);
+  for (const MultilevelForecast& f : study.multilevel)
+    page.multilevel.push_back(multilevel_sentence(f));
   for (const ModelDifference& m : study.models) page.changes.push_back({title_of(m), m.changes});
   for (const VariantCost& v : study.variants) page.changes.push_back({title_of(v), v.changes});
   return make_cost_page(page);
@@ -214,7 +215,9 @@ std::string cost_json_text(const CostStudy& study, const CostQuestions& question
   for (const ModelDifference& m : study.models)
     json["models"].push_back(
         {{"from", m.from}, {"to", m.to}, {"changes", changes_json(m.changes)}});
-  json["multilevel"] = study.multilevel ? multilevel_json(*study.multilevel) : Json(nullptr);
+  json["multilevel"] = Json::array();
+  for (const MultilevelForecast& f : study.multilevel)
+    json["multilevel"].push_back(multilevel_json(f));
   return json.dump(2) + "\n";
 }
 

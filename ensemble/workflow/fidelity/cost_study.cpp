@@ -223,24 +223,33 @@ void look_at_levels(CostStudy& study, const Found& found, const LadderQuestions&
   std::sort(rungs.begin(), rungs.end(),
             [](const auto& a, const auto& b) { return a.first > b.first; });
   while (rungs.size() > 8) rungs.erase(rungs.begin() + 1);
-  MultilevelForecast forecast;
+  std::vector<std::string> names;
+  std::vector<double> cost_s;
   std::vector<const MemberParts*> levels;
   for (const auto& [seconds, part] : rungs) {
-    forecast.levels.push_back(part.name);
-    forecast.cost_s.push_back(seconds);
+    names.push_back(part.name);
+    cost_s.push_back(seconds);
     levels.push_back(&found.of(part));
   }
   const double threshold = questions.thickness_m.empty() ? 0.1 : questions.thickness_m.front();
   const std::vector<std::string> headline{"runout_m", "reached_area_m2", "com_travel_m"};
-  const std::vector<LevelValues> values = level_values(levels, headline, threshold, cancel);
-  if (values.empty()) return;
-  for (const LevelValues& r : values) {
-    forecast.results.push_back(r.name);
-    auto& row = forecast.squared_correlations.emplace_back();
-    for (std::size_t l = 0; l < levels.size(); ++l) row.push_back(squared_correlation(r, l));
+  std::vector<LevelValues> numbers = level_values(levels, headline, threshold, cancel);
+  std::vector<LevelValues> map;
+  if (!numbers.empty() && numbers.back().name == map_word) {
+    map.push_back(std::move(numbers.back()));
+    numbers.pop_back();
   }
-  forecast.gain = multilevel_gain(values, forecast.cost_s, questions.seed);
-  study.multilevel = std::move(forecast);
+  for (const std::vector<LevelValues>& values : {numbers, map}) {
+    if (values.empty()) continue;
+    MultilevelForecast forecast{names, cost_s, {}, {}, {}};
+    for (const LevelValues& r : values) {
+      forecast.results.push_back(r.name);
+      auto& row = forecast.squared_correlations.emplace_back();
+      for (std::size_t l = 0; l < levels.size(); ++l) row.push_back(squared_correlation(r, l));
+    }
+    forecast.gain = multilevel_gain(values, cost_s, questions.seed);
+    study.multilevel.push_back(std::move(forecast));
+  }
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 
 #include <atomic>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,11 +66,13 @@ struct CostStudy {
   std::vector<CostPart> parts;
   std::vector<LadderAccuracy> ladders;  ///< one per formulation
   std::vector<VariantCost> variants;
-  std::vector<ModelDifference> models;           ///< each formulation beside the first
-  std::optional<MultilevelForecast> multilevel;  ///< nothing where under eight members tell
-  int planned_members = 0;                       ///< ensemble.members of the scenario
-  int members = 0;                               ///< at each spacing
-  std::vector<std::string> warnings;             ///< of the scenes, with the parts that they are of
+  std::vector<ModelDifference> models;  ///< each formulation beside the first
+  /// For run-out, area and centre of mass together, and for the map; without what under eight
+  /// members tell.
+  std::vector<MultilevelForecast> multilevel;
+  int planned_members = 0;            ///< ensemble.members of the scenario
+  int members = 0;                    ///< at each spacing
+  std::vector<std::string> warnings;  ///< of the scenes, with the parts that they are of
 };
 
 /// The ensembles of a study, begun and not computed. Everything that can be wrong with one of them

@@ -100,25 +100,22 @@ std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,
   return lines;
 }
 
-std::string multilevel_sentence(const CostStudy& study) {
-  if (!study.multilevel) return {};
-  const MultilevelForecast& f = *study.multilevel;
-  if (f.gain.levels.size() < 2)
-    return fmt::format(
-        "Cheaper members would not help {}: their correlation is too low for what "
-        "they cost.",
-        f.levels.front());
+std::string multilevel_sentence(const MultilevelForecast& f) {
   std::string with;
   for (std::size_t i = 1; i < f.gain.levels.size(); ++i)
     with += fmt::format("{}{:.3g} of {}", i > 1 ? " and " : "", f.gain.members[i],
                         f.levels[f.gain.levels[i]]);
-  std::string each;
-  for (std::size_t r = 0; r < f.results.size(); ++r)
-    each += fmt::format(", {} 1/{:.3g}", f.results[r], f.gain.gains[r]);
+  const std::string what =
+      fmt::format("Forecast of a multilevel estimate of {}", fmt::join(f.results, ", "));
+  if (with.empty())
+    return fmt::format(
+        "{}: cheaper members would not help those of {}, their correlation is too "
+        "low for what they cost.",
+        what, f.levels.front());
   return fmt::format(
-      "Forecast of a multilevel estimate: {} beside each member of {} give the same "
-      "sampling error for 1/{:.3g} of the seconds (90 %: 1/{:.3g} to 1/{:.3g}{}).",
-      with, f.levels.front(), f.gain.gain, f.gain.gain_90.low, f.gain.gain_90.high, each);
+      "{}: {} beside each member of {} give the same sampling error for 1/{:.3g} of "
+      "the seconds (90 %: 1/{:.3g} to 1/{:.3g}).",
+      what, with, f.levels.front(), f.gain.gain, f.gain.gain_90.low, f.gain.gain_90.high);
 }
 
 std::string title_of(const ModelDifference& m) {

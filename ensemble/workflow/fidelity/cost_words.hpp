@@ -17,8 +17,8 @@ std::string share_text(double share);
 std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,
                                           const CostQuestions&);
 
-/// What a multilevel estimate would save; empty where nothing tells.
-std::string multilevel_sentence(const CostStudy&);
+/// What a multilevel estimate would save.
+std::string multilevel_sentence(const MultilevelForecast&);
 
 /// "full_stress less depth_averaged, each at its finest, with the same values".
 std::string title_of(const ModelDifference&);
