@@ -66,6 +66,13 @@ Scene load_scene(const SceneRequest& request) {
   Scene scene;
   ScenarioFile file = read_scenario_file(request.file, request.overrides);
   scene.scenario = std::move(file.scenario);
+  require(
+      !scene.scenario.release.each_feature,
+      at_their_places("release.each_feature: makes a region of the scene (one ensemble for each "
+                      "feature; only `sturz ensemble`, `describe` and `merge` know regions). "
+                      "Name one of them with release.feature and set release.each_feature: "
+                      "false.",
+                      file.positions));
   scene.medians = median_scenario(scene.scenario);
   load_files(scene, file.positions);
   for (std::string& note : material_notes(scene.scenario))
@@ -75,6 +82,7 @@ Scene load_scene(const SceneRequest& request) {
   d = scene.ground->computed(
       [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
   d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(), scene.inputs.warnings.end());
+  if (!request.predicts) return scene;
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;

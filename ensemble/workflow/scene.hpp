@@ -20,6 +20,7 @@ struct SceneRequest {
   std::string file;                    ///< scenario file
   std::vector<std::string> overrides;  ///< "key=value"
   SpeedCache speed_cache;              ///< for the prediction of seconds
+  bool predicts = true;                ///< false: seconds are not asked for, 0 then
 };
 
 struct Scene {
@@ -32,7 +33,7 @@ struct Scene {
 
 /// Reads, overrides, validates, loads and describes. Everything that can be wrong with the user's
 /// data is found here, before a folder is made or a step computed.
-/// \throws SetupError
+/// \throws SetupError; also for a region, which is as many scenes as its layer has features
 Scene load_scene(const SceneRequest&);
 
 /// The description in sentences, as `describe` prints it and reports keep it.
