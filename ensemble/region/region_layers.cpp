@@ -62,7 +62,7 @@ RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> of,
     region.layers.untouched.push_back(0);
   };
   using enum Quantity;
-  add(made("highest_probability_of_reach", {reached, Statistic::probability},
+  add(made(likeliest_source_layer, {reached, Statistic::probability},
            "probability that the cell is reached if its likeliest source releases", "1",
            "largest p of a source, p = its members that reach the cell / its valid members" + cut));
   add(made("probability_of_any_hit", {Quantity::sources, Statistic::probability},

@@ -13,6 +13,9 @@
 
 namespace sturz {
 
+/// The map of the largest probability of any one source: what a page of a region shows first.
+inline constexpr const char* likeliest_source_layer = "highest_probability_of_reach";
+
 /// A source that reaches a cell, and how often.
 struct SourceHit {
   std::uint32_t source = 0;  ///< place in SourceLists::sources

@@ -2,6 +2,7 @@
 #include "ensemble/workflow/region/region_job.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
@@ -117,6 +118,40 @@ RegionJob prepare_region(const EnsembleRequest& request, Observer& observer) {
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
   share_cores(job, observer);
+  return job;
+}
+
+RegionJob reopen_region(const std::filesystem::path& folder, Observer& observer,
+                        CancelFlag cancel) {
+  RegionJob job;
+  job.folder.root = folder;
+  require(is_region(folder) && std::filesystem::exists(job.folder.scenario()),
+          fmt::format("{} is no region (manifest.json says so, or scenario.yaml is missing).",
+                      folder.string()));
+  job.scenario = read_scenario(job.folder.scenario());
+  job.request.scene.file = job.folder.scenario().string();
+  job.request.command = "merge " + folder.string();
+  job.lock = FolderLock::alone(job.folder, job.request.command);
+  job.manifest = Manifest::read(job.folder.manifest());
+  require_own_scenario(job.folder, job.manifest, job.scenario);
+  job.sources = release_features(job.scenario);
+  find_typical(job.request.scene, job);
+  Scenario of_source = job.scenario;
+  of_source.release.each_feature = false;
+  job.design = saved_design(job.folder, job.manifest, of_source);
+  for (const std::string& source : job.sources) {
+    cancel.check();
+    const OutputFolder own = source_folder(job.folder, source);
+    if (failure_of(job.folder, source) || !std::filesystem::exists(own.scenario())) continue;
+    const FinishedFolder finished = open_finished(own.root, observer);
+    require(
+        finished.inputs != nullptr && finished.changed.empty(),
+        fmt::format("{}: its members were computed from other inputs. Take these changes "
+                    "back:{}",
+                    own.root.string(),
+                    finished.inputs ? as_lines(finished.changed) : "\n  " + finished.unreadable));
+  }
+  observer.folder_ready(job.folder);
   return job;
 }
 

@@ -10,6 +10,7 @@
 #include "ensemble/workflow/region/region_folder.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,6 +39,11 @@ struct RegionJob {
 /// is told when it is opened.
 /// \throws SetupError; when no feature makes a scene, the first one's reason; IoError
 RegionJob prepare_region(const EnsembleRequest&, Observer&);
+
+/// A region whose members were computed before, for its maps: nothing of it is begun anew.
+/// \throws SetupError when it is none, when its scenario was changed, when a source's inputs are
+///   not what its members were computed from; Cancelled
+RegionJob reopen_region(const std::filesystem::path& folder, Observer&, CancelFlag cancel = {});
 
 /// What a region will be, and take: some of its sources looked at.
 struct RegionDescription {

@@ -129,8 +129,9 @@ void StoredMembers::read_part(std::size_t index, PeakLayer layer, const Window& 
   read_member_part(*last_reader_, member.window, layer, part, out);
 }
 
-Raster<std::uint8_t> StoredMembers::release_cells(const Window& part, CancelFlag cancel) const {
-  Raster<std::uint8_t> covered(grid_of(part, grid_));
+Raster<std::uint8_t> StoredMembers::release_cells(const Grid& map, const Window& part, int joined,
+                                                  CancelFlag cancel) const {
+  Raster<std::uint8_t> covered(map);
   std::vector<float> arrival;
   std::vector<bool> looked_at(sources_.size(), false);
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -144,8 +145,8 @@ Raster<std::uint8_t> StoredMembers::release_cells(const Window& part, CancelFlag
     for (std::size_t c = 0; c < arrival.size(); ++c) {
       const auto n_cols = static_cast<std::size_t>(own.n_cols);
       if (arrival[c] == 0)
-        covered.at(own.row0 - part.row0 + static_cast<int>(c / n_cols),
-                   own.col0 - part.col0 + static_cast<int>(c % n_cols)) = 1;
+        covered.at((own.row0 - part.row0 + static_cast<int>(c / n_cols)) / joined,
+                   (own.col0 - part.col0 + static_cast<int>(c % n_cols)) / joined) = 1;
     }
   }
   return covered;

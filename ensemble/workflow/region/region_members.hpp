@@ -50,8 +50,10 @@ class StoredMembers final : public MemberParts {
   const std::vector<std::string>& missing() const { return missing_; }
   /// Of the members of all sources.
   const std::string& hash() const { return hash_; }
-  /// Cells that some valid member covers at its start, on `part` of the grid.
-  Raster<std::uint8_t> release_cells(const Window& part, CancelFlag cancel) const;
+  /// Cells that the first valid member of each source covers at its start.
+  /// \param map cells that join `joined` x `joined` of the grid, from `part` on
+  Raster<std::uint8_t> release_cells(const Grid& map, const Window& part, int joined,
+                                     CancelFlag cancel) const;
 
   std::vector<RegionSource> region_sources() const;
   const std::vector<std::uint32_t>& source_of_valid() const { return source_of_valid_; }
