@@ -7,7 +7,6 @@
 #include "ensemble/workflow/readable.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
-#include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
 #include "scenarios/checks/idle_keys.hpp"
 #include "scenarios/materials/materials.hpp"
@@ -16,16 +15,11 @@
 
 #include <fmt/core.h>
 
-#include <map>
 #include <sstream>
 #include <utility>
 
 namespace sturz::workflow {
 
-namespace {
-
-/// "file:line:column: " in front of lines that begin with a key, where the file says it or the
-/// block that it is in.
 std::string at_their_places(const std::string& lines, const std::map<std::string, Position>& at) {
   std::string placed;
   std::istringstream in(lines);
@@ -42,6 +36,8 @@ std::string at_their_places(const std::string& lines, const std::map<std::string
   }
   return placed;
 }
+
+namespace {
 
 /// Inputs and table of a scene, with what is wrong with either of them in one message.
 void load_files(Scene& scene, const std::map<std::string, Position>& at) {

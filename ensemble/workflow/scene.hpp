@@ -6,9 +6,11 @@
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/machine/machine_speed.hpp"
 #include "ensemble/workflow/members/growing_ground.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/scene_inputs.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +32,10 @@ struct Scene {
   std::shared_ptr<GrowingGround> ground;  ///< the same for members, and more where they need it
   SceneDescription description;           ///< of the medians
 };
+
+/// "file:line:column: " in front of lines that begin with a key, where the file says it or the
+/// block that it is in.
+std::string at_their_places(const std::string& lines, const std::map<std::string, Position>& at);
 
 /// Reads, overrides, validates, loads and describes. Everything that can be wrong with the user's
 /// data is found here, before a folder is made or a step computed.

@@ -20,6 +20,18 @@
 namespace sturz::workflow {
 namespace {
 
+/// Scenario and sources; what is wrong with them is told with its place in the file.
+void read_region(const SceneRequest& scene, RegionJob& job) {
+  ScenarioFile file = read_scenario_file(scene.file, scene.overrides);
+  job.scenario = std::move(file.scenario);
+  try {
+    job.sources = release_features(job.scenario);
+    for (const std::string& source : job.sources) source_file_name(source);
+  } catch (const SetupError& problem) {
+    throw SetupError(at_their_places(problem.what(), file.positions));
+  }
+}
+
 /// The first source whose scene can be loaded. What is wrong with the raster, say, is wrong with
 /// every one.
 void find_typical(const SceneRequest& scene, RegionJob& job) {
@@ -101,9 +113,7 @@ RegionJob prepare_region(const EnsembleRequest& request, Observer& observer) {
   const SceneRequest scene = scene_of(request);
   RegionJob job;
   job.request = request;
-  job.scenario = read_scenario(scene.file, scene.overrides);
-  job.sources = release_features(job.scenario);
-  for (const std::string& source : job.sources) source_file_name(source);  // refused before a step
+  read_region(scene, job);
   job.folder.root = request.folder;
   holds_results(job.folder, "region");  // refuses what is not ours before anything is computed
   find_typical(scene, job);
@@ -158,8 +168,7 @@ RegionJob reopen_region(const std::filesystem::path& folder, Observer& observer,
 RegionDescription describe_region(const SceneRequest& request, double trial_s, CancelFlag cancel) {
   constexpr std::size_t most_looked_at = 5;
   RegionJob job;
-  job.scenario = read_scenario(request.file, request.overrides);
-  job.sources = release_features(job.scenario);
+  read_region(request, job);
   find_typical(request, job);
   RegionDescription d;
   d.n_sources = job.sources.size();
