@@ -129,7 +129,7 @@ def check(folder):
     """Three cells: where most sources come, where one is likely, where a few may come."""
     region = Region(folder)
     number = region.maps["number_of_sources"][:]
-    highest = region.maps["highest_probability_of_reach"][:]
+    highest = region.maps["highest_probability_of_a_hit"][:]
     wanted = [np.where(np.isfinite(number), number, -1),
               np.where((number == 1) & (highest < 1), highest, -1),
               np.where((number >= 3) & (number <= 5) & (highest < 0.7), highest, -1)]
@@ -179,7 +179,7 @@ def naive(folder):
         number += p > 0
     print("| map | cells that some source reaches | largest difference from member files |")
     print("|---|---|---|")
-    for name, values in (("highest_probability_of_reach", highest), ("probability_of_any_hit", 1 - none),
+    for name, values in (("highest_probability_of_a_hit", highest), ("probability_of_any_hit", 1 - none),
                          ("expected_number_of_sources", expected), ("number_of_sources", number)):
         stored = np.nan_to_num(region.maps[name][:])
         print(f"| `{name}` | {int((number > 0).sum()):,} | {np.abs(stored - values).max():.2g} |")

@@ -14,7 +14,7 @@
 namespace sturz {
 
 /// The map of the largest probability of any one source: what a page of a region shows first.
-inline constexpr const char* likeliest_source_layer = "highest_probability_of_reach";
+inline constexpr const char* likeliest_source_layer = "highest_probability_of_a_hit";
 
 /// A source that reaches a cell, and how often.
 struct SourceHit {

@@ -141,15 +141,6 @@ TEST(Validate, KeysWithoutTheirFileAreContradictions) {
   EXPECT_EQ(messages(s).size(), 6u) << "thickness from an attribute and from thickness_m clash too";
 }
 
-TEST(Validate, AFeatureIsOneOfALayer) {
-  Scenario s = pile();
-  s.release.feature = "3";
-  s.release.feature_key = "name";
-  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("release.feature (only release.polygon has")));
-  s.release.feature.clear();
-  EXPECT_THAT(messages(s), ElementsAre(HasSubstr("release.feature_key (says by what")));
-}
-
 TEST(Validate, InternalFrictionIsGivenOnce) {
   Scenario s = pile();
   s.grains->friction.emplace();

@@ -18,7 +18,7 @@
 namespace sturz::workflow {
 namespace {
 
-/// Keeps what preparing a source says: it happens on the workers, where nobody may be told.
+/// Keeps what preparing a source says: it happens on the workers, where no observer may be called.
 class Kept final : public Observer {
  public:
   void warning(std::string_view text) override { warnings.emplace_back(text); }

@@ -12,8 +12,9 @@ std::vector<std::string> release_features(const Scenario& scenario) {
   const PolygonRequest request = release_polygon_request(scenario);
   PolygonLayer layer = open_polygon_layer(request);
   std::vector<std::string> names = feature_names(layer, request);
-  require(!names.empty(), layer.label + ": has no features (a region needs one at least). Draw the "
-                                        "release polygons.");
+  require(!names.empty(), layer.label +
+                              ": has no features (a region needs one at least). Draw the "
+                              "release polygons.");
   return names;
 }
 

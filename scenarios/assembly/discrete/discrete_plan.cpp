@@ -3,9 +3,9 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "scenarios/assembly/placement_seed.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/assembly/speed/expected_speed.hpp"
+#include "scenarios/placement_seed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>

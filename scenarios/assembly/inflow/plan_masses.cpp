@@ -3,7 +3,7 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
-#include "scenarios/assembly/placement_seed.hpp"
+#include "scenarios/placement_seed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>

@@ -135,7 +135,7 @@ TEST(RegionMaps, AreSumsOverSources) {
     for (int col = 0; col < 31; ++col) {
       const Naive naive(made, row, col);
       SCOPED_TRACE(testing::Message() << row << ", " << col);
-      EXPECT_EQ(value(maps, "highest_probability_of_reach", row, col), float(naive.highest));
+      EXPECT_EQ(value(maps, "highest_probability_of_a_hit", row, col), float(naive.highest));
       EXPECT_EQ(value(maps, "probability_of_any_hit", row, col), float(1 - naive.none));
       EXPECT_EQ(value(maps, "probability_of_any_hit_shared_values", row, col), float(naive.rows));
       EXPECT_EQ(value(maps, "expected_number_of_sources", row, col), float(naive.expected));

@@ -2,8 +2,12 @@
 // One feature of a polygon layer as the source.
 #include "io/gdal/gdal_vector.hpp"
 #include "io/scenario/scenario_file.hpp"
-#include "scenarios/assembly/placement_seed.hpp"
+#include "scenarios/catalogue.hpp"
+#include "scenarios/checks/validate.hpp"
+#include "scenarios/placement_seed.hpp"
 #include "tests/io/io_fixture.hpp"
+
+#include <algorithm>
 
 namespace sturz::test {
 namespace {
@@ -82,6 +86,46 @@ TEST_F(ReleaseFeature, PlacesOfParticlesDifferFromFeatureToFeature) {
   b.release.feature = "2";
   EXPECT_NE(placement_seed(a), placement_seed(b));
   EXPECT_EQ(placement_seed(Scenario{}), Scenario{}.ensemble.seed);
+}
+
+TEST_F(ReleaseFeature, IsOneOfAPolygonLayer) {
+  Scenario s = pile();
+  const auto messages = [&s] {
+    std::string all;
+    for (const auto& problem : validate(s)) all += problem.message + "\n";
+    return all;
+  };
+  s.release.feature = "3";
+  s.release.feature_key = "name";
+  EXPECT_THAT(messages(), HasSubstr("release.feature (only release.polygon has"));
+  s.release.feature.clear();
+  EXPECT_THAT(messages(), HasSubstr("release.feature_key (says by what"));
+  s.release.box.reset();
+  s.release.paraboloid.reset();
+  s.release.cylinder.reset();
+  s.release.thickness_m.reset();
+  s.release.volume_m3.reset();
+  s.release.polygon = "a.gpkg";
+  s.release.volume_attribute = "v";
+  s.release.each_feature = true;
+  EXPECT_EQ(messages(), "");
+  s.release.feature = "3";
+  EXPECT_THAT(messages(), HasSubstr("release.each_feature (release.feature names one"));
+  s.release.thickness = ThicknessDirection::normal;
+  EXPECT_THAT(messages(), HasSubstr("release.volume_attribute (its thickness is the volume over"));
+}
+
+TEST_F(ReleaseFeature, AVolumeOfItsOwnIsSpreadOverItsArea) {
+  request.volume_attribute = "n";
+  const PolygonRelease all = read("", "");
+  EXPECT_TRUE(all.is_thickness);
+  EXPECT_NEAR(all.volume_m3, 7 + 9 + 9, 1e-9);
+  const PolygonRelease scarp = read("scarp", "name");
+  EXPECT_NEAR(scarp.volume_m3, 7, 1e-12);
+  EXPECT_NEAR(*std::max_element(scarp.pattern.values.begin(), scarp.pattern.values.end()),
+              7.0 / 400, 1e-12);
+  request.volume_attribute = "name";
+  EXPECT_THAT(refusal("scarp", "name"), HasSubstr("(release.volume_attribute) holds no numbers"));
 }
 
 TEST_F(ReleaseFeature, ItsKeyIsText) {
