@@ -16,7 +16,7 @@ namespace sturz::workflow {
 namespace {
 
 /// The lists in the cells of a page: each source with its largest probability of the joined cells.
-SourceLists joined_lists(const SourceLists& lists, const Grid& coarse, int joined) {
+SourceLists joined_lists(SourceLists lists, const Grid& coarse, int joined) {
   if (joined == 1) return lists;
   struct Hit {
     std::int64_t cell;
@@ -118,8 +118,7 @@ RegionShown shown_region(const RegionJob& job, const StoredMembers& members,
 void write_region_page(const RegionJob& job, const StoredMembers& members, SourceLists lists,
                        LayerStack coarse, const Window& extent, CancelFlag cancel) {
   RegionShown shown = shown_region(job, members, lists);
-  shown.lists = joined_lists(lists, coarse.grid, coarse.joined);
-  lists = {};
+  shown.lists = joined_lists(std::move(lists), coarse.grid, coarse.joined);
   name_likeliest(coarse, shown.lists);
   for (std::string& name : shown.lists.sources) name = as_utf8(name);
   const Raster<double> ground = page_ground(job.typical, coarse.grid);
