@@ -7,6 +7,7 @@
 
 #include <cctype>
 #include <string>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -78,16 +79,18 @@ RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> of,
            "number of sources of which some member reaches the cell", "1", "p > 0" + cut));
   add(likeliest_layer(of));
   if (quantiles.empty()) return region;
-  for (const PeakLayer source :
-       {PeakLayer::thickness, PeakLayer::speed, PeakLayer::energy, PeakLayer::pressure}) {
-    Layer layer =
-        made(std::string(info(source).name) + "_largest_quantile",
-             {quantity_of(source), Statistic::source_quantile},
-             fmt::format("largest of the sources' quantiles of {}", info(source).long_name),
-             map_unit(source).name,
-             "if that source releases: over all its valid members, 0 where one did not "
-             "come" +
-                 cut);
+  constexpr std::pair<PeakLayer, const char*> peaks[] = {{PeakLayer::thickness, "thickness"},
+                                                         {PeakLayer::speed, "speed"},
+                                                         {PeakLayer::energy, "energy"},
+                                                         {PeakLayer::pressure, "pressure"}};
+  for (const auto& [source, word] : peaks) {
+    Layer layer = made(
+        std::string(word) + "_largest_quantile", {quantity_of(source), Statistic::source_quantile},
+        fmt::format("largest of the sources' quantiles of {}", info(source).long_name),
+        map_unit(source).name,
+        "if that source releases: over all its valid members, 0 where one did not "
+        "come" +
+            cut);
     layer.cell_methods = "time: maximum";
     layer.axis = LayerAxis{"quantile", "", "1", {quantiles.begin(), quantiles.end()}};
     add(std::move(layer));
