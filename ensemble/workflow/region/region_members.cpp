@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <utility>
 
@@ -32,6 +33,13 @@ MemberSummary slim(const MemberSummary& member, std::int64_t number) {
   kept.scalars = member.scalars;
   kept.window = member.window;
   return kept;
+}
+
+std::string without_numbers(const std::string& text) {
+  std::string words;
+  for (const char c : text)
+    if (std::strchr("0123456789.", c) == nullptr) words += c;
+  return words;
 }
 
 Window hull(const Window& a, const Window& b) {
@@ -87,7 +95,10 @@ void StoredMembers::add(const OutputFolder& region, const std::string& source, s
   warn_of_problems(store, "It counts as missing.", observer);
   if (const auto what = what_is_missing(store, planned); !what.empty())
     missing_.push_back(fmt::format("source {}: {}", source, what));
-  for (const std::string& warning : manifest.warnings) ++warnings_[warning];
+  for (const std::string& warning : manifest.warnings) {
+    Warned& warned = warnings_[without_numbers(warning)];
+    if (warned.sources++ == 0) warned.first = fmt::format("source {}: {}", source, warning);
+  }
   for (const MemberSummary& m : store.members()) {
     const bool valid = is_valid(m.outcome);
     ++state.finished;

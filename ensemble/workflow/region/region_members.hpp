@@ -44,8 +44,12 @@ class StoredMembers final : public MemberParts {
                  std::span<float> out) const override;
 
   const std::vector<SourceState>& sources() const { return sources_; }
-  /// How often each warning of a source's scene was given, by its text.
-  const std::map<std::string, std::int64_t>& warnings() const { return warnings_; }
+  struct Warned {
+    std::int64_t sources = 0;
+    std::string first;  ///< "source A: its words and numbers"
+  };
+  /// Warnings of the sources' scenes, by their words: those that differ in numbers alone are one.
+  const std::map<std::string, Warned>& warnings() const { return warnings_; }
   /// "source A: 2 of 8 members are missing (3, 4)", one for each of which some are.
   const std::vector<std::string>& missing() const { return missing_; }
   /// Of the members of all sources.
@@ -70,7 +74,7 @@ class StoredMembers final : public MemberParts {
   std::vector<SourceState> sources_;
   std::vector<std::uint32_t> source_of_valid_;
   std::vector<std::int64_t> row_of_valid_;
-  std::map<std::string, std::int64_t> warnings_;
+  std::map<std::string, Warned> warnings_;
   std::vector<std::string> missing_;
   std::string hash_;
   Grid grid_;

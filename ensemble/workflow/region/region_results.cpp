@@ -99,13 +99,13 @@ std::pair<SourceLists, std::string> write_region_file(const RegionJob& job,
 std::vector<std::string> warning_lines(const StoredMembers& members) {
   constexpr std::size_t most = 8;
   std::vector<std::pair<std::int64_t, std::string>> all;
-  for (const auto& [text, n] : members.warnings()) all.emplace_back(n, text);
+  for (const auto& [words, w] : members.warnings()) all.emplace_back(w.sources, w.first);
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
-    lines.push_back(
-        fmt::format("{} of {} sources: {}", all[i].first, members.sources().size(), all[i].second));
+    lines.push_back(fmt::format("{} of {} sources, such as {}", all[i].first,
+                                members.sources().size(), all[i].second));
   if (all.size() > most)
     lines.push_back(fmt::format("{} other warnings of single sources stand in their manifest.json",
                                 all.size() - most));
