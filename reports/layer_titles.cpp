@@ -2,6 +2,7 @@
 #include "reports/layer_titles.hpp"
 
 #include "reports/page/text.hpp"
+#include "scenarios/layers/source_lists.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,8 @@ std::string title(Quantity q) {
       return "Intensity";
     case Quantity::members:
       return "Members";
+    case Quantity::sources:
+      return "Sources";
     case Quantity::other:
       break;
   }
@@ -46,10 +49,11 @@ std::string plane_label(const Layer& layer, std::size_t plane) {
   if (meaning.intensity != IntensityClass::none) return std::string(to_string(meaning.intensity));
   if (layer.axis.values.empty()) {
     if (meaning.quantity == Quantity::reached) return std::string(to_string(meaning.quantity));
+    if (meaning.quantity == Quantity::sources) return words(layer.name);
     return std::string(to_string(meaning.statistic));
   }
   const double value = layer.axis.values[plane];
-  if (meaning.statistic == Statistic::quantile)
+  if (meaning.statistic == Statistic::quantile || meaning.statistic == Statistic::source_quantile)
     return value == 0.5 ? "median" : shown_number(100 * value) + "\u00A0% quantile";
   return (meaning.statistic == Statistic::probability ? ">\u00A0" : "") +
          with_unit(value, layer.axis.units);
@@ -60,13 +64,19 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
   const std::string what = title(meaning.quantity);
   std::string lower = what;
   lower[0] = static_cast<char>(lower[0] - 'A' + 'a');
-  if (meaning.quantity == Quantity::other || meaning.quantity == Quantity::members) {
-    const std::string base = layer.long_name.empty() ? words(layer.name) : layer.long_name;
+  if (meaning.quantity == Quantity::other || meaning.quantity == Quantity::members ||
+      meaning.quantity == Quantity::sources) {
+    std::string base = layer.long_name.empty() ? words(layer.name) : layer.long_name;
+    if (meaning.quantity == Quantity::sources && base[0] >= 'a' && base[0] <= 'z')
+      base[0] = static_cast<char>(base[0] - 'a' + 'A');
     return layer.axis.values.empty() ? base : base + ", " + plane_label(layer, plane);
   }
   switch (meaning.statistic) {
     case Statistic::probability:
-      if (meaning.quantity == Quantity::reached) return "Probability that the flow arrives";
+      if (meaning.quantity == Quantity::reached)
+        return layer.name == likeliest_source_layer
+                   ? "Probability that the likeliest source arrives"
+                   : "Probability that the flow arrives";
       if (meaning.quantity == Quantity::left)
         return "Probability that mass leaves the known terrain";
       if (meaning.quantity == Quantity::intensity)
@@ -77,6 +87,8 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
     case Statistic::quantile:
       return what + ", " +
              (layer.axis.values.empty() ? std::string("quantile") : plane_label(layer, plane));
+    case Statistic::source_quantile:
+      return what + ", " + plane_label(layer, plane) + " of the worst source";
     case Statistic::mean:
       return what + ", mean of members";
     case Statistic::peak:

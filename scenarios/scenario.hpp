@@ -88,7 +88,11 @@ struct ReleaseCylinder {
 struct ReleaseSpec {
   std::string polygon;              ///< any OGR polygon layer
   std::string layer;                ///< layer name inside `polygon`; empty: the first
+  std::string feature;              ///< the one feature that is the source; empty: all of them
+  std::string feature_key;          ///< field of `polygon` that names features; empty: their FID
+  bool each_feature = false;        ///< a region: an ensemble for each of them
   std::string thickness_attribute;  ///< field of `polygon` with a thickness in metres
+  std::string volume_attribute;     ///< field of `polygon` with a bulk volume in m3
   std::string thickness_raster;     ///< metres; nodata means zero
   double thickness_factor = 1;      ///< of `thickness_raster`: -1 where depths count downward
   std::string crs;                  ///< where the release file has none

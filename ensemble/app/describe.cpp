@@ -5,6 +5,7 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/forecast_json.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/app/region/region.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/cost_warnings.hpp"
@@ -12,6 +13,7 @@
 #include "ensemble/workflow/forecast/forecast.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/ensemble_warnings.hpp"
+#include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/scene.hpp"
 #include "scenarios/schema/schema.hpp"
 #include "scenarios/schema/value_text.hpp"
@@ -120,7 +122,9 @@ std::vector<std::string> all_warnings(const Scene& scene, const DesignTable& des
 
 int describe(const Options& options, Console& console) {
   const workflow::SpeedCache cache = speed_cache(options.measure_again);
-  Scene scene = workflow::load_scene({options.scenario, options.set, cache});
+  const workflow::SceneRequest request{options.scenario, options.set, cache};
+  if (workflow::is_region(request)) return region_describe(request, console);
+  Scene scene = workflow::load_scene(request);
   const DesignTable design = design_of(scene);
   const workflow::Forecast forecast = forecast_for(scene, design, cache);
   const std::vector<std::string> warnings = all_warnings(scene, design, forecast);

@@ -8,6 +8,7 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/forecast_json.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/app/region/region.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/app/verdict.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"
@@ -16,6 +17,7 @@
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/members/until_converged.hpp"
 #include "ensemble/workflow/members/utilisation.hpp"
+#include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "scenarios/schema/number_text.hpp"
 
@@ -163,8 +165,10 @@ void tell_utilisation(const workflow::Utilisation& u, Console& console) {
 }
 
 int ensemble(const Options& options, Console& console) {
+  const workflow::EnsembleRequest request = request_of(options);
+  if (workflow::is_region(request.scene)) return region_ensemble(request, options.shard, console);
   ConsoleObserver observer(console);
-  EnsembleJob job = workflow::prepare_ensemble(request_of(options), observer);
+  EnsembleJob job = workflow::prepare_ensemble(request, observer);
   const auto forecast =
       workflow::forecast_of(job, speed_cache(), process_seconds(), observer, interrupt_flag());
   announce(job, options, forecast, console);

@@ -8,12 +8,16 @@
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/app/region/region.hpp"
 #include "ensemble/app/verdict.hpp"
 #include "ensemble/hazard/hazard_layers.hpp"
+#include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/weighted_maps.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+
+#include <filesystem>
 
 namespace sturz::app {
 namespace {
@@ -45,6 +49,8 @@ int weighted(const Options& options, Console& console) {
 }
 
 int merge(const Options& options, Console& console) {
+  if (options.posterior.empty() && workflow::is_region(std::filesystem::path(options.folder)))
+    return region_merge(options.folder, options.partial, console);
   if (!options.posterior.empty()) return weighted(options, console);
   ConsoleObserver observer(console);
   return verdict(

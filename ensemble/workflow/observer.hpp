@@ -7,6 +7,7 @@
 #include "ensemble/stopping/stop_rule.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace sturz::workflow {
@@ -30,6 +31,8 @@ class Observer {
   virtual void ensemble_progress(const RunnerProgress&, std::int64_t /*finished_before*/) {}
   /// The member, valid or not, is safely in its file.
   virtual void member_stored(const MemberResult&) {}
+  /// The same of a region's member; `member_stored` is not called for it.
+  virtual void source_member_stored(const std::string& /*source*/, const MemberResult&) {}
   /// A stop rule looked at the map, and whether it goes on. A run that goes on looks again at what
   /// was looked at before.
   virtual void looked(const StopRecord&) {}

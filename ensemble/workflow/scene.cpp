@@ -7,7 +7,6 @@
 #include "ensemble/workflow/readable.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
-#include "io/scenario/scenario_file.hpp"
 #include "io/site/scene_inputs.hpp"
 #include "scenarios/checks/idle_keys.hpp"
 #include "scenarios/materials/materials.hpp"
@@ -16,16 +15,11 @@
 
 #include <fmt/core.h>
 
-#include <map>
 #include <sstream>
 #include <utility>
 
 namespace sturz::workflow {
 
-namespace {
-
-/// "file:line:column: " in front of lines that begin with a key, where the file says it or the
-/// block that it is in.
 std::string at_their_places(const std::string& lines, const std::map<std::string, Position>& at) {
   std::string placed;
   std::istringstream in(lines);
@@ -42,6 +36,8 @@ std::string at_their_places(const std::string& lines, const std::map<std::string
   }
   return placed;
 }
+
+namespace {
 
 /// Inputs and table of a scene, with what is wrong with either of them in one message.
 void load_files(Scene& scene, const std::map<std::string, Position>& at) {
@@ -66,6 +62,13 @@ Scene load_scene(const SceneRequest& request) {
   Scene scene;
   ScenarioFile file = read_scenario_file(request.file, request.overrides);
   scene.scenario = std::move(file.scenario);
+  require(
+      !scene.scenario.release.each_feature,
+      at_their_places("release.each_feature: makes a region of the scene (one ensemble for each "
+                      "feature; only `sturz ensemble`, `describe` and `merge` know regions). "
+                      "Name one of them with release.feature and set release.each_feature: "
+                      "false.",
+                      file.positions));
   scene.medians = median_scenario(scene.scenario);
   load_files(scene, file.positions);
   for (std::string& note : material_notes(scene.scenario))
@@ -75,6 +78,7 @@ Scene load_scene(const SceneRequest& request) {
   d = scene.ground->computed(
       [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
   d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(), scene.inputs.warnings.end());
+  if (!request.predicts) return scene;
   d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
                         updates_per_second(d.formulation, request.speed_cache);
   return scene;

@@ -6,9 +6,11 @@
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/machine/machine_speed.hpp"
 #include "ensemble/workflow/members/growing_ground.hpp"
+#include "io/scenario/scenario_file.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/scene_inputs.hpp"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@ struct SceneRequest {
   std::string file;                    ///< scenario file
   std::vector<std::string> overrides;  ///< "key=value"
   SpeedCache speed_cache;              ///< for the prediction of seconds
+  bool predicts = true;                ///< false: seconds are not asked for, 0 then
 };
 
 struct Scene {
@@ -30,9 +33,13 @@ struct Scene {
   SceneDescription description;           ///< of the medians
 };
 
+/// "file:line:column: " in front of lines that begin with a key, where the file says it or the
+/// block that it is in.
+std::string at_their_places(const std::string& lines, const std::map<std::string, Position>& at);
+
 /// Reads, overrides, validates, loads and describes. Everything that can be wrong with the user's
 /// data is found here, before a folder is made or a step computed.
-/// \throws SetupError
+/// \throws SetupError; also for a region, which is as many scenes as its layer has features
 Scene load_scene(const SceneRequest&);
 
 /// The description in sentences, as `describe` prints it and reports keep it.

@@ -19,7 +19,7 @@ namespace {
 struct Reading {
   const PolygonRequest& request;
   PolygonLayer layer;
-  int thickness_field = -1, start_field = -1;
+  int thickness_field = -1, volume_field = -1, start_field = -1;
   PolygonRelease result;
 };
 
@@ -57,6 +57,20 @@ double thickness_of(const Reading& reading, OGRFeature& feature, const std::stri
   return thickness;
 }
 
+/// From the volume that a field holds.
+double thickness_by_volume(const Reading& reading, OGRFeature& feature,
+                           const PolygonFeature& source) {
+  const std::string& field = reading.request.volume_attribute;
+  require(feature.IsFieldSetAndNotNull(reading.volume_field),
+          fmt::format("{}: {} has no value in '{}'. Give its bulk volume in m3.",
+                      reading.layer.label, source.name, field));
+  const double volume = feature.GetFieldAsDouble(reading.volume_field);
+  require(std::isfinite(volume) && volume > 0,
+          fmt::format("{}: {} has {} = {:g} (a volume must be positive). Give m3.",
+                      reading.layer.label, source.name, field, volume));
+  return volume / source.polygons->get_Area();
+}
+
 double start_of(const Reading& reading, OGRFeature& feature, const std::string& name) {
   const std::string& field = reading.request.start_time_attribute;
   require(feature.IsFieldSetAndNotNull(reading.start_field),
@@ -70,12 +84,14 @@ double start_of(const Reading& reading, OGRFeature& feature, const std::string& 
 }
 
 std::vector<PolygonFeature> read_sources(Reading& reading, const Grid& terrain) {
-  if (reading.thickness_field < 0 && reading.start_field < 0)
+  if (!reading.result.is_thickness && reading.start_field < 0)
     return read_features(reading.layer, reading.request, terrain);
   return read_features(reading.layer, reading.request, terrain,
                        [&](OGRFeature& read, PolygonFeature& feature) {
                          if (reading.thickness_field >= 0)
                            feature.thickness_m = thickness_of(reading, read, feature.name);
+                         if (reading.volume_field >= 0)
+                           feature.thickness_m = thickness_by_volume(reading, read, feature);
                          if (reading.start_field >= 0)
                            feature.start_s = start_of(reading, read, feature.name);
                        });
@@ -128,6 +144,7 @@ void refuse_overlaps(const Reading& reading, const std::vector<PolygonFeature>& 
                           "of them back.",
                           reading.layer.label, sources[i].name, sources[j].name, area,
                           (reading.thickness_field >= 0 ? reading.request.thickness_attribute
+                           : reading.volume_field >= 0  ? reading.request.volume_attribute
                                                         : reading.request.start_time_attribute)));
     }
 }
@@ -158,12 +175,14 @@ void require_inside(const Reading& reading, const PolygonFeature& source, const 
 
 PolygonRelease read_release_polygons(const PolygonRequest& request, const Grid& terrain) {
   const GdalScope scope;
-  Reading reading{request, open_polygon_layer(request), -1, -1, {}};
+  Reading reading{request, open_polygon_layer(request), -1, -1, -1, {}};
   reading.thickness_field = find_field(reading, request.thickness_attribute,
                                        "release.thickness_attribute", "the thickness in metres");
   reading.start_field = find_field(reading, request.start_time_attribute,
                                    "release.start_time_attribute", "the time in seconds");
-  reading.result.is_thickness = reading.thickness_field >= 0;
+  reading.volume_field = find_field(reading, request.volume_attribute, "release.volume_attribute",
+                                    "the bulk volume in m3");
+  reading.result.is_thickness = reading.thickness_field >= 0 || reading.volume_field >= 0;
   std::vector<PolygonFeature> sources = read_sources(reading, terrain);
   if (reading.result.is_thickness || reading.start_field >= 0) {
     refuse_overlaps(reading, sources);

@@ -30,6 +30,8 @@ class LayersFileWriter final : public LayerSink {
   void begin(const LayerStack& about) override;
   void put(std::size_t layer, std::size_t plane, const Window& window,
            std::span<const float> values) override;
+  /// For what else the file is to hold, behind the maps.
+  NetcdfWriter& file() { return file_; }
   /// The history of the member whose maps these are (see history_netcdf.hpp), and the end. How long
   /// it took to compute is not in it: the file says what the mass did, and two machines should
   /// agree on it; computing times are in the member's file. \throws IoError

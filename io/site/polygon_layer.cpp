@@ -6,11 +6,13 @@
 #include "io/gdal/crs.hpp"
 #include "io/gdal/input_files.hpp"
 #include "io/gdal/raster_identity.hpp"
+#include "io/site/release/named_features.hpp"
 #include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -149,7 +151,8 @@ PolygonLayer open_polygon_layer(const PolygonRequest& request) {
   layer.identity.role = request.key;
   layer.identity.file = file.path;
   layer.layer = &choose_layer(layer, request);
-  if (!request.thickness_attribute.empty() || !request.start_time_attribute.empty())
+  if (!request.thickness_attribute.empty() || !request.volume_attribute.empty() ||
+      !request.start_time_attribute.empty() || !request.feature.empty())
     refuse_other_shapes(layer, request);
   return layer;
 }
@@ -158,9 +161,12 @@ std::vector<PolygonFeature> read_features(
     PolygonLayer& layer, const PolygonRequest& request, const Grid& terrain,
     const std::function<void(OGRFeature&, PolygonFeature&)>& read_fields) {
   Reading reading{layer, request, terrain_transform(layer, request, terrain), {}};
+  std::optional<GIntBig> only;
+  if (!request.feature.empty()) only = wanted_feature(layer, request);
   std::vector<PolygonFeature> features;
   layer.layer->ResetReading();
   while (const auto read = OGRFeatureUniquePtr(layer.layer->GetNextFeature())) {
+    if (only && read->GetFID() != *only) continue;
     PolygonFeature feature;
     feature.name = fmt::format("feature {}", read->GetFID());
     const OGRGeometry* geometry = read->GetGeometryRef();

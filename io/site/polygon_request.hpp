@@ -10,7 +10,10 @@ struct PolygonRequest {
   std::string path;                     ///< as written; relative paths start at `directory`
   std::string layer;                    ///< empty: the first
   std::string thickness_attribute;      ///< numeric field [m]; empty: shares only
+  std::string volume_attribute;         ///< numeric field [m3]; empty: none
   std::string start_time_attribute;     ///< numeric field [s]; empty: none
+  std::string feature;                  ///< the only one that is read; empty: all
+  std::string feature_field;            ///< whose value `feature` is; empty: the FID
   std::string key = "release.polygon";  ///< scenario key, for messages
   std::string directory;
   std::string crs;                      ///< replaces the layer's own system; empty: not given

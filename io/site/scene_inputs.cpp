@@ -167,8 +167,9 @@ void load_polygon(Loading& loading) {
   loading.inputs.release_cover = std::make_shared<const Raster<double>>(std::move(read.cover));
   loading.inputs.notes.push_back(
       fmt::format("{}: area {:.9g} m2, area x {} {:.9g} m3, on the terrain's cells {:.9g} m3",
-                  loading.release_label, read.area_m2, spec.thickness_attribute, read.volume_m3,
-                  raster_sum(*loading.inputs.release)));
+                  loading.release_label, read.area_m2,
+                  spec.thickness_attribute.empty() ? "volume over area" : spec.thickness_attribute,
+                  read.volume_m3, raster_sum(*loading.inputs.release)));
 }
 
 void load_thickness_raster(Loading& loading) {

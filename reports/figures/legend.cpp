@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/figures/legend.hpp"
 
+#include "scenarios/layers/source_lists.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,6 +73,7 @@ Ramp ramp_of(const LayerMeaning& meaning) {
     case Quantity::intensity:
       return Ramp::hazard;
     case Quantity::members:
+    case Quantity::sources:
     case Quantity::other:
       return Ramp::neutral;
     default:
@@ -78,9 +81,29 @@ Ramp ramp_of(const LayerMeaning& meaning) {
   }
 }
 
+/// Hues a golden angle apart: neighbours in the list differ, and none returns.
+std::vector<Rgb> unordered_colours(std::size_t n) {
+  std::vector<Rgb> colours;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double hue = std::fmod(0.6180339887498949 * static_cast<double>(i) + 0.58, 1.0) * 6;
+    // Three values and two strengths in turn, for readers who see few hues.
+    const double value = std::array{0.85, 0.62, 0.45}[i % 3], strength = i % 2 == 0 ? 0.75 : 0.5;
+    const auto channel = [&](double shift) {
+      const double k = std::fmod(shift + hue, 6.0);
+      const double share = std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+      return static_cast<std::uint8_t>(std::lround(255 * value * (1 - strength * share)));
+    };
+    colours.push_back({channel(5), channel(3), channel(1)});
+  }
+  return colours;
+}
+
 /// One class of each number, in greys: which field has which colour is not the program's to say.
 void name_classes(Legend& legend, const Layer& layer) {
-  const auto colours = ramp_colours(Ramp::neutral, static_cast<int>(layer.classes.size()));
+  legend.nominal = layer.meaning.quantity == Quantity::sources;
+  const auto colours = legend.nominal
+                           ? unordered_colours(layer.classes.size())
+                           : ramp_colours(Ramp::neutral, static_cast<int>(layer.classes.size()));
   for (std::size_t i = 0; i < layer.classes.size(); ++i)
     legend.classes.push_back({static_cast<double>(layer.classes[i].value),
                               fmt::format("{}: {}", layer.classes[i].value, layer.classes[i].words),
@@ -107,8 +130,14 @@ void dress_difference(Legend& legend) {
 std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
   if (layer.meaning.statistic == Statistic::difference)
     return "Difference of the shares of the valid simulations";
-  if (layer.meaning.statistic == Statistic::probability) return "Share of the valid simulations";
-  const bool named = layer.meaning.quantity != Quantity::other;
+  if (layer.meaning.statistic == Statistic::probability) {
+    if (layer.meaning.quantity == Quantity::sources) return "Probability if every source releases";
+    return layer.name == likeliest_source_layer
+               ? "Probability if the cell's likeliest source releases"
+               : "Share of the valid simulations";
+  }
+  const bool named =
+      layer.meaning.quantity != Quantity::other && layer.meaning.quantity != Quantity::sources;
   return (named ? title(layer.meaning.quantity) : words(layer.name)) +
          (unit.label.empty() ? "" : " [" + unit.label + "]");
 }
@@ -118,6 +147,10 @@ std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
 int Legend::class_of(float stored) const {
   if (std::isnan(stored) || (clear_zero && (diverging ? stored == 0 : stored <= 0))) return -1;
   const double shown = unit.factor * static_cast<double>(stored);
+  if (nominal) {
+    const auto place = std::lround(shown - classes.front().lower);
+    return place >= 0 && place < std::ssize(classes) ? static_cast<int>(place) : -1;
+  }
   int found = 0;
   for (std::size_t i = 1; i < classes.size(); ++i)
     if (shown >= classes[i].lower - 1e-6 * std::abs(classes[i].lower)) found = static_cast<int>(i);

@@ -24,6 +24,7 @@ struct Legend {
   DisplayUnit unit;
   bool probability = false;  ///< shown in per cent
   bool clear_zero = true;    ///< cells with 0 are not painted (NaN never is)
+  bool nominal = false;      ///< values are names: their order means nothing
   bool diverging = false;    ///< values below 0 are painted as those above are
   std::vector<LegendClass> classes;
 

@@ -9,6 +9,7 @@
 #include "reports/figures/legend.hpp"
 #include "reports/figures/motion_charts.hpp"
 #include "reports/page/headline.hpp"
+#include "reports/page/region_payload.hpp"
 #include "reports/page/sections.hpp"
 
 #include <nlohmann/json.hpp>
@@ -109,6 +110,7 @@ Json legend_json(const Legend& legend) {
           {"unitFactor", legend.unit.factor},
           {"probability", legend.probability},
           {"clearZero", legend.clear_zero},
+          {"nominal", legend.nominal},
           {"classes", classes}};
 }
 
@@ -316,6 +318,8 @@ std::string report_payload(const ReportInput& input, const MapScene* scene,
             {"single", input.hazard == nullptr},
             {"runout", median_json(h.runout_m)}};
   page["members"] = members_json(input);
+  if (input.region != nullptr && scene != nullptr)
+    page["region"] = sources_json(*input.region, *scene);
   if (input.history != nullptr) page["motion"] = motion_json(*input.history);
   page["convergence"] = convergence_json(input.convergence);
   if (scene != nullptr && maps != nullptr && default_layer(*maps) != nullptr)

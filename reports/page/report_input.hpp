@@ -11,6 +11,7 @@
 #include "ensemble/hazard/convergence.hpp"
 #include "ensemble/scores/score_table.hpp"
 #include "scenarios/layers/layer_stack.hpp"
+#include "scenarios/layers/source_lists.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -62,6 +63,23 @@ struct PosteriorShown {
   std::vector<std::string> ridges, warnings;           ///< sentences
 };
 
+/// The sources of a region, whose maps are those of all of them.
+struct RegionShown {
+  struct Source {
+    std::string name;
+    std::string failure;                               ///< why it has no members; empty: it has
+    std::int64_t planned = 0, valid = 0, cut_off = 0;  ///< members
+    double release_volume_m3 = std::numeric_limits<double>::quiet_NaN();
+    double possible_area_m2 = 0;   ///< that some member reaches
+    double likely_area_m2 = 0;     ///< that half of the members reach
+    double likeliest_area_m2 = 0;  ///< where no other source is more probable
+  };
+  std::vector<Source> sources;       ///< in the order of the features
+  SourceLists lists;                 ///< on the cells of ReportInput::hazard
+  std::int64_t members_planned = 0;  ///< of each source
+  double touched_area_m2 = 0;        ///< that some source reaches
+};
+
 struct ReportInput {
   std::string title;
   std::string scenario_yaml;
@@ -94,6 +112,7 @@ struct ReportInput {
   std::int64_t nearest_member = 0;                ///< its number
   const Assets* assets = nullptr;             ///< what may be hit; null: the scene names nothing
   const RiskTable* risk = nullptr;            ///< of these assets
+  const RegionShown* region = nullptr;        ///< null: one ensemble; else `members` is empty
   const PosteriorShown* posterior = nullptr;  ///< null: nothing was calibrated
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };

@@ -44,11 +44,11 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
     Quantity quantity;
     Statistic statistic;
   };
-  static constexpr Wish wishes[] = {{Quantity::thickness, Statistic::quantile},
-                                    {Quantity::energy, Statistic::probability},
-                                    {Quantity::speed, Statistic::quantile},
-                                    {Quantity::arrival, Statistic::quantile},
-                                    {Quantity::deposit, Statistic::quantile}};
+  static constexpr Wish wishes[] = {
+      {Quantity::thickness, Statistic::quantile},     {Quantity::sources, Statistic::value},
+      {Quantity::energy, Statistic::source_quantile}, {Quantity::energy, Statistic::probability},
+      {Quantity::speed, Statistic::quantile},         {Quantity::arrival, Statistic::quantile},
+      {Quantity::deposit, Statistic::quantile}};
   const std::vector<const Layer*> shown = shown_layers(maps);
   std::vector<const Layer*> chosen{default_layer(maps)};
   for (const Wish& wish : wishes)
@@ -56,8 +56,12 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
       const LayerMeaning& m = layer->meaning;
       if (m.quantity == wish.quantity && m.statistic == wish.statistic) chosen.push_back(layer);
     }
+  // A still picture has a palette of 256.
+  std::erase_if(chosen, [](const Layer* layer) { return layer->classes.size() > 200; });
   for (const Layer* layer : shown)
-    if (std::find(chosen.begin(), chosen.end(), layer) == chosen.end()) chosen.push_back(layer);
+    if (layer->classes.size() <= 200 &&
+        std::find(chosen.begin(), chosen.end(), layer) == chosen.end())
+      chosen.push_back(layer);
   if (chosen.size() > max_still_figures) chosen.resize(max_still_figures);
   return chosen;
 }
@@ -102,8 +106,10 @@ std::string crs_name(const std::string& wkt) {
 
 std::string map_html(const ReportInput& input, const MapScene* scene, const LayerStack* maps) {
   const bool hazard = input.hazard != nullptr;
-  std::string html =
-      fmt::format("<section id=\"maps\"><h2>{}</h2>", hazard ? "Hazard maps" : "Maps of the run");
+  std::string html = fmt::format("<section id=\"maps\"><h2>{}</h2>", input.region != nullptr
+                                                                         ? "Maps of all sources"
+                                                                     : hazard ? "Hazard maps"
+                                                                              : "Maps of the run");
   if (scene == nullptr || maps == nullptr || default_layer(*maps) == nullptr)
     return html +
            "<p class=\"empty\">There is no map to show: no member left a valid one.</p></section>";

@@ -82,10 +82,34 @@ std::string provenance_html(const ReportInput& input) {
   return html + "</section>";
 }
 
+namespace {
+
+std::vector<std::string> region_reading() {
+  return {
+      "Every probability holds if a source releases: it is the share of that source\u2019s valid "
+      "simulations, \u201Cgiven the ranges in the scenario file\u201D. Nothing here says how often "
+      "or how probably a source fails.",
+      "\u201CThe likeliest source\u201D: the largest of the sources\u2019 probabilities. "
+      "\u201CAny hit, independent\u201D: 1 \u2212 \u220F(1 \u2212 p), if all sources release, each "
+      "with uncertain values of its own. \u201CAny hit, the same values\u201D: if all release and "
+      "the uncertain values are the same everywhere, as these simulations were drawn; it is never "
+      "less than the likeliest source\u2019s and can be far below the independent one. The truth "
+      "lies where between them the sources share their ground and water.",
+      "Quantiles of the worst source: of each source\u2019s quantile the largest. They are no "
+      "quantiles over all sources.",
+      "With few simulations of each source a probability is coarse: of 8, no value lies between 0 "
+      "and 12.5 %, and 0 of 8 may be up to 32 % (95 % interval).",
+  };
+}
+
+}  // namespace
+
 std::string reading_html(const ReportInput& input) {
   const std::string level = percent_text(interval_confidence);
   std::vector<std::string> lines;
-  if (input.hazard != nullptr) {
+  if (input.region != nullptr) {
+    lines = region_reading();
+  } else if (input.hazard != nullptr) {
     lines = {
         ("Probability is the share of the valid simulations (members): it answers \u201Cgiven the "
          "ranges in the scenario file\u201D, not \u201Chow often does such a slide occur\u201D. It "

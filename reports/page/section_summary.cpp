@@ -76,7 +76,10 @@ std::string header_html(const ReportInput& input, const Headline& h) {
     if (text.empty()) return;
     origin += (origin.empty() ? "" : " \u00B7 ") + text;
   };
-  if (input.hazard != nullptr)
+  if (input.region != nullptr)
+    add(fmt::format("Region of {} source{}, {} members each", input.region->sources.size(),
+                    input.region->sources.size() == 1 ? "" : "s", input.region->members_planned));
+  else if (input.hazard != nullptr)
     add(fmt::format("Ensemble of {} member{}", of_planned(input, h.n_members),
                     h.n_members == 1 ? "" : "s"));
   else
@@ -89,16 +92,18 @@ std::string header_html(const ReportInput& input, const Headline& h) {
   return fmt::format(
       "<header class=\"top\"><p class=\"kind\">{}</p><h1>{}</h1><p "
       "class=\"origin\">{}</p></header>",
-      input.hazard != nullptr ? "Hazard map report" : "Simulation report",
+      input.region != nullptr   ? "Regional hazard map report"
+      : input.hazard != nullptr ? "Hazard map report"
+                                : "Simulation report",
       html_escape(input.title.empty() ? "Untitled scene" : input.title), html_escape(origin));
 }
 
 std::string warnings_html(const ReportInput& input, const Headline& h) {
   std::vector<std::string> lines;
   const int lost = h.n_members - h.n_valid;
-  if (h.n_members == 0)
+  if (h.n_members == 0 && input.region == nullptr)
     lines.emplace_back("No member has finished yet: this page holds no results.");
-  else if (h.n_valid == 0)
+  else if (h.n_valid == 0 && h.n_members > 0)
     lines.push_back(
         h.n_members == 1
             ? std::string("The run is not valid: its maps must not be used.")
@@ -205,6 +210,30 @@ std::string time_card(const ReportInput& input, const Headline& h, bool single) 
               input.elapsed_s > 0 ? duration_text(input.elapsed_s) + " elapsed" : "", pace}));
 }
 
+std::string region_cards(const ReportInput& input) {
+  const RegionShown& region = *input.region;
+  std::int64_t valid = 0, planned = 0, cut = 0, with_members = 0;
+  for (const RegionShown::Source& s : region.sources) {
+    valid += s.valid;
+    cut += s.cut_off;
+    planned += s.planned;
+    with_members += s.valid > 0;
+  }
+  std::string html = "<section aria-label=\"Key numbers\"><dl class=\"cards\">";
+  html += card("Sources", fmt::format("{} of {}", with_members, region.sources.size()),
+               "with valid simulations");
+  html += card("Valid simulations", fmt::format("{} of {}", valid, planned),
+               joined({fmt::format("{} of each source", region.members_planned),
+                       cut > 0 ? fmt::format("{} cut off", cut) : ""}));
+  html += card("Area that some source reaches", area_text(region.touched_area_m2),
+               "cells that any simulation touched");
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < region.lists.cells.size(); ++i)
+    most = std::max(most, region.lists.begin[i + 1] - region.lists.begin[i]);
+  html += card("Most sources at one cell", std::to_string(most), "with P > 0");
+  return html + card("Elapsed", duration_text(input.elapsed_s), "all sources") + "</dl></section>";
+}
+
 double cell_of(const ReportInput& input) {
   const LayerStack* maps = input.hazard != nullptr ? input.hazard : input.peaks;
   return maps != nullptr ? maps->grid.cell_m : nan_d;
@@ -213,6 +242,7 @@ double cell_of(const ReportInput& input) {
 }  // namespace
 
 std::string headline_html(const ReportInput& input, const Headline& h) {
+  if (input.region != nullptr) return region_cards(input);
   if (h.n_members == 0) return {};
   std::string html = "<section aria-label=\"Key numbers\"><dl class=\"cards\">";
   const bool single = input.hazard == nullptr && h.n_members == 1;

@@ -67,11 +67,18 @@ bool has_own_source(const TerrainSpec& t) {
 
 /// Thickness and volume of a source that is only an outline.
 void check_outline(const ReleaseSpec& r, const std::string& source, Problems& problems) {
-  const bool attribute = !r.thickness_attribute.empty();
+  const bool attribute = !r.thickness_attribute.empty() || !r.volume_attribute.empty();
+  if (!r.thickness_attribute.empty() && !r.volume_attribute.empty())
+    problems.push_back({"release.volume_attribute",
+                        "release.volume_attribute (release.thickness_attribute gives the thickness "
+                        "too). Keep one of them."});
   if (attribute && r.thickness_m)
-    problems.push_back({"release.thickness_m",
-                        "release.thickness_m (release.thickness_attribute "
-                        "gives the thickness too). Keep one of them."});
+    problems.push_back(
+        {"release.thickness_m",
+         "release.thickness_m (" +
+             std::string(r.thickness_attribute.empty() ? "release.volume_attribute"
+                                                       : "release.thickness_attribute") +
+             " gives the thickness too). Keep one of them."});
   if (r.thickness_m && r.volume_m3)
     problems.push_back({"release.volume_m3",
                         "release.volume_m3 (release.thickness_m fixes the "
@@ -124,6 +131,33 @@ void check_source(const Scenario& s, Problems& problems) {
                         "brings its bed and its source). Remove it."});
 }
 
+/// What only the features of a polygon layer can say.
+void check_features(const ReleaseSpec& r, Problems& problems) {
+  const bool polygon = !r.polygon.empty();
+  const auto refuse = [&](const std::string& key, const std::string& why) {
+    problems.push_back({key, key + " (" + why});
+  };
+  const char* const no_file =
+      "only release.polygon has features). Remove it or name the polygon "
+      "file.";
+  if (!r.feature.empty() && !polygon) refuse("release.feature", no_file);
+  if (r.each_feature && !polygon) refuse("release.each_feature", no_file);
+  if (!r.volume_attribute.empty() && !polygon) refuse("release.volume_attribute", no_file);
+  if (!r.volume_attribute.empty() && r.thickness == ThicknessDirection::normal)
+    refuse("release.volume_attribute",
+           "its thickness is the volume over the area in the map, so vertical). Remove "
+           "release.thickness: normal.");
+  if (!r.volume_attribute.empty() && r.volume_m3)
+    refuse("release.volume_attribute",
+           "release.volume_m3 scales all features to one volume). Keep one of them.");
+  if (!r.feature.empty() && r.each_feature)
+    refuse("release.each_feature", "release.feature names one of them). Keep one of the two.");
+  if (!r.feature_key.empty() && r.feature.empty() && !r.each_feature)
+    refuse("release.feature_key",
+           "says by what release.feature is found, and no feature is named). Add release.feature "
+           "or release.each_feature, or remove it.");
+}
+
 void check_companions(const ReleaseSpec& r, Problems& problems) {
   const bool polygon = !r.polygon.empty();
   if (!r.layer.empty() && !polygon)
@@ -172,6 +206,7 @@ void check_terrain_and_release(const Scenario& s, Problems& problems) {
   check_terrain(s.terrain, problems);
   check_source(s, problems);
   check_companions(s.release, problems);
+  check_features(s.release, problems);
   check_floor(s, problems);
 }
 

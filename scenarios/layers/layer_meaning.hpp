@@ -21,6 +21,7 @@ enum class Quantity {
   liquid,     ///< volume of liquid over area
   intensity,  ///< a class of thickness and speed together
   members,    ///< of the ensemble
+  sources,    ///< of a region: which of them come, how many, how likely one of them
   other
 };
 
@@ -33,8 +34,10 @@ enum class Statistic {
   peak,  ///< of one member: largest over time; of an arrival the first, of deposit and erosion the
          ///< last
   count,
-  difference,  ///< of two probabilities, -1 .. 1, or an end of its interval
-  value        ///< none of these
+  difference,       ///< of two probabilities, -1 .. 1, or an end of its interval
+  source_quantile,  ///< quantiles of the source of a region that has the largest, at the levels
+                    ///< of the axis
+  value             ///< none of these
 };
 
 /// Which class an intensity is about.
@@ -48,7 +51,7 @@ constexpr auto words_of(Quantity) {
       Word{energy, "energy"},   Word{pressure, "pressure"},   Word{arrival, "arrival"},
       Word{deposit, "deposit"}, Word{left, "left"},           Word{eroded, "eroded"},
       Word{solid, "solid"},     Word{liquid, "liquid"},       Word{intensity, "intensity"},
-      Word{members, "members"}, Word{other, "other"}};
+      Word{members, "members"}, Word{sources, "sources"},     Word{other, "other"}};
 }
 constexpr auto words_of(Statistic) {
   using enum Statistic;
@@ -60,6 +63,7 @@ constexpr auto words_of(Statistic) {
                     Word{peak, "peak"},
                     Word{count, "count"},
                     Word{difference, "difference"},
+                    Word{source_quantile, "source_quantile"},
                     Word{value, "value"}};
 }
 constexpr auto words_of(IntensityClass) {

@@ -49,7 +49,8 @@ std::string plane_name(const Layer& layer, std::size_t plane) {
   std::string stem = layer.name, end;
   if (layer.axis.values.empty()) return stem + suffix_of(layer.units);
   const double value = layer.axis.values[plane];
-  if (layer.meaning.statistic == Statistic::quantile) {
+  if (layer.meaning.statistic == Statistic::quantile ||
+      layer.meaning.statistic == Statistic::source_quantile) {
     cut(stem, "_quantile");
     return stem + "_p" + percentage(value) + suffix_of(layer.units);
   }

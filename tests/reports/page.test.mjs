@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pages in a real browser: no errors, no requests, maps and charts that react.
-//   STURZ_PAGES     folder with ensemble.html, cut.html, single.html, empty.html
+//   STURZ_PAGES     folder with ensemble.html, cut.html, single.html, empty.html, region.html
 //   STURZ_MODULES   folder whose node_modules holds playwright-core
 //   STURZ_CHROMIUM  the browser; the test is skipped with a message when it is missing
 import assert from 'node:assert/strict';
@@ -73,7 +73,7 @@ async function clickMap(page, fx, fy) {
 }
 
 test('every page opens without errors or requests', {skip}, async () => {
-  for (const name of ['ensemble', 'single', 'cut', 'empty']) {
+  for (const name of ['ensemble', 'single', 'cut', 'empty', 'region']) {
     const {page, trouble, close} = await open(name);
     if (name !== 'empty') await liveMap(page);
     await page.waitForTimeout(300);
@@ -119,6 +119,26 @@ test('hover tells the value, a click draws the exceedance curve', {skip}, async 
   assert.match(await page.textContent('.cell-box'), />\s100\skJ\/m²\d+\s%\d+\s% – \d+\s%/);
   await clickMap(page, 0.04, 0.9);
   assert.match(await page.textContent('.cell-box'), /No valid member came here/);
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
+test('a region tells which sources reach a cell', {skip}, async () => {
+  const {page, trouble, close} = await open('region');
+  await liveMap(page);
+  assert.equal(await page.textContent('.map-title'),
+               'Probability that the likeliest source arrives');
+  assert.match(await page.textContent('.cell-box'), /which sources reach it/);
+  await clickMap(page, 0.40, 0.46);
+  assert.match(await page.textContent('.hover'), /north <gully> \d+/);
+  assert.match(await page.textContent('.cell-box'), /Reached by 2 sources/);
+  assert.match(await page.textContent('.cell-box'), /(north <gully>|south gully)\d+\s%/);
+  await clickMap(page, 0.04, 0.9);
+  assert.match(await page.textContent('.cell-box'), /No source reaches this cell/);
+  await page.click('[data-key="sources"]');
+  await page.click('[data-key="value"]');
+  assert.match(await page.textContent('.pickers'), /most likely source/);
+  assert.match(await page.textContent('#sources'), /nowhere.*beyond the terrain/);
   assert.deepEqual(trouble, []);
   await close();
 });

@@ -25,6 +25,18 @@ void ConsoleObserver::ensemble_progress(const RunnerProgress& progress,
   console_.progress(ensemble_bar(progress, finished_before, console_.columns()));
 }
 
+void ConsoleObserver::source_member_stored(const std::string& source, const MemberResult& result) {
+  console_.note(fmt::format("source {}, member {} {}{}{} ({:.1f} s)", source, result.member,
+                            to_string(result.outcome), result.reason.empty() ? "" : ": ",
+                            result.reason, result.scalars.wall_s));
+  console_.event(json_text(nlohmann::json{{"event", "member"},
+                                          {"source", source},
+                                          {"member", result.member},
+                                          {"outcome", to_string(result.outcome)},
+                                          {"reason", result.reason},
+                                          {"wall_s", result.scalars.wall_s}}));
+}
+
 void ConsoleObserver::member_stored(const MemberResult& result) {
   const MemberScalars& s = result.scalars;
   console_.note(fmt::format("member {} {}{}{} ({:.1f} s, front {:.0f} m)", result.member,

@@ -5,6 +5,8 @@
 #include "ensemble/app/console/console.hpp"
 #include "ensemble/workflow/observer.hpp"
 
+#include <string>
+
 namespace sturz::app {
 
 class ConsoleObserver final : public workflow::Observer {
@@ -16,6 +18,7 @@ class ConsoleObserver final : public workflow::Observer {
   void run_progress(const Progress&) override;
   void ensemble_progress(const RunnerProgress&, std::int64_t finished_before) override;
   void member_stored(const MemberResult&) override;
+  void source_member_stored(const std::string& source, const MemberResult&) override;
   void looked(const StopRecord&) override;
   void maps_begin() override;
 

@@ -168,7 +168,7 @@ std::vector<std::pair<std::string, std::string>> Manifest::lines() const {
     for (const Build& build : builds) all += (all.empty() ? "" : ", ") + build_text(build);
     out.emplace_back("members computed by", all);
   }
-  if (kind == "ensemble") {
+  if (kind != "run") {
     out.emplace_back("design", fmt::format("{}, {} members, seed {}", design, members, seed));
     if (!weighting.empty()) out.emplace_back("weighting", weighting);
     if (stop) out.emplace_back("stop rule", stop_text(*stop));

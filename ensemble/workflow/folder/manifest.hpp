@@ -25,7 +25,7 @@ Build this_build();
 
 /// What a results folder says about how it came to be: manifest.json.
 struct Manifest {
-  std::string kind;     ///< "ensemble" or "run"
+  std::string kind;     ///< "ensemble", "region" or "run"
   std::string started;  ///< UTC, ISO 8601
   std::string command;
   std::string design;

@@ -76,9 +76,9 @@ OpenedEnsemble open_ensemble(const std::filesystem::path& folder, Observer& obse
   const FinishedFolder& finished = opened.finished;
   const std::string where = folder.string();
   require(finished.manifest.kind == "ensemble",
-          fmt::format("{} holds a single run (an ensemble is needed). Name the folder that "
-                      "`sturz ensemble` wrote.",
-                      where));
+          fmt::format("{} holds no ensemble but a {} (an ensemble is needed). Name the folder that "
+                      "`sturz ensemble` wrote, of a region that of one source.",
+                      where, finished.manifest.kind));
   require(
       finished.inputs != nullptr,
       fmt::format("{}: its input files cannot be read (they say where the ground is known). Put "

@@ -21,17 +21,10 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace sturz::workflow {
 namespace {
-
-/// The wanted number of members is the last override.
-SceneRequest scene_of(const EnsembleRequest& request) {
-  SceneRequest scene = request.scene;
-  if (request.members > 0)
-    scene.overrides.push_back(fmt::format("ensemble.members={}", request.members));
-  return scene;
-}
 
 /// Keeps what the folder knows of its past, and says what may surprise.
 void continue_folder(EnsembleJob& job, Observer& observer) {
@@ -40,23 +33,10 @@ void continue_folder(EnsembleJob& job, Observer& observer) {
   job.design = continued_design(job.folder, before, job.scene.scenario, job.design);
   Manifest& now = job.manifest;
   now.design_hash_before = design_hash(saved_design(job.folder, before, job.scene.scenario));
-  now.started = before.started;
   now.inputs = with_known_parts(now.inputs, before.inputs);
-  now.compute_s = before.compute_s;
   if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
-  now.hazard_hash = before.hazard_hash;
-  now.maps_of = before.maps_of;
   if (!job.growth && before.members == job.design.n_members()) now.stop = before.stop;
-  now.builds = before.builds;
-  if (now.builds.empty()) now.builds.push_back({before.version, before.git_commit});
-  const Build mine = this_build();
-  if (std::find(now.builds.begin(), now.builds.end(), mine) != now.builds.end()) return;
-  observer.warning(fmt::format(
-      "{} was begun by {}, this is {}: members of both will stand side by side, and their results "
-      "may differ. manifest.json names both. To have all members from this program, choose another "
-      "folder with --out.",
-      job.folder.root.string(), build_text(now.builds.back()), build_text(mine)));
-  now.builds.push_back(mine);
+  take_past(now, before, job.folder, observer);
 }
 
 /// Order matters. The manifest comes before the design, whose hash it holds, old and new: killed in
@@ -156,6 +136,31 @@ void begin_with_first_look(EnsembleJob& job, bool begun) {
 
 }  // namespace
 
+SceneRequest scene_of(const EnsembleRequest& request) {
+  SceneRequest scene = request.scene;
+  if (request.members > 0)  // the last override
+    scene.overrides.push_back(fmt::format("ensemble.members={}", request.members));
+  return scene;
+}
+
+void take_past(Manifest& now, const Manifest& before, const OutputFolder& folder,
+               Observer& observer) {
+  now.started = before.started;
+  now.compute_s = before.compute_s;
+  now.hazard_hash = before.hazard_hash;
+  now.maps_of = before.maps_of;
+  now.builds = before.builds;
+  if (now.builds.empty()) now.builds.push_back({before.version, before.git_commit});
+  const Build mine = this_build();
+  if (std::find(now.builds.begin(), now.builds.end(), mine) != now.builds.end()) return;
+  observer.warning(fmt::format(
+      "{} was begun by {}, this is {}: members of both will stand side by side, and their results "
+      "may differ. manifest.json names both. To have all members from this program, choose another "
+      "folder with --out.",
+      folder.root.string(), build_text(now.builds.back()), build_text(mine)));
+  now.builds.push_back(mine);
+}
+
 void share_machine(EnsembleJob& job, Observer& observer) {
   const int wanted_workers = job.wanted_workers;
   const int available = available_cores();
@@ -224,14 +229,19 @@ void keep_what_is_read(EnsembleJob& job) {
 }
 
 EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer) {
-  const Shard shard = request.shard;
+  const Shard& shard = request.shard;
   require(shard.k >= 1 && shard.k <= shard.n,
           fmt::format("shard {}/{} (must be k/n with 1 <= k <= n).", shard.k, shard.n));
   // Before the wanted number of members is held against a design that cannot grow.
   if (request.until_half_width)
     require_growing(read_scenario(request.scene.file, request.scene.overrides), shard);
+  return prepare_ensemble(request, load_scene(scene_of(request)), observer);
+}
+
+EnsembleJob prepare_ensemble(const EnsembleRequest& request, Scene scene, Observer& observer) {
+  const Shard shard = request.shard;
   EnsembleJob job;
-  job.scene = load_scene(scene_of(request));
+  job.scene = std::move(scene);
   job.design = new_design(job.scene.scenario);
   if (request.until_half_width) {
     job.growth = {*request.until_half_width, job.design, look_counts(job.design.n_members()), {}};

@@ -72,6 +72,16 @@ struct EnsembleJob {
 /// \throws SetupError; IoError when the folder cannot be written
 EnsembleJob prepare_ensemble(const EnsembleRequest&, Observer&);
 
+/// The same of a scene that was loaded already, as request.scene says.
+EnsembleJob prepare_ensemble(const EnsembleRequest&, Scene, Observer&);
+
+/// The request's scene, of so many members as it wants.
+SceneRequest scene_of(const EnsembleRequest&);
+
+/// What a manifest keeps of the folder's past: when it was begun, its time, maps and programs.
+/// Warns when another program began it. Part of prepare_ensemble.
+void take_past(Manifest& now, const Manifest& before, const OutputFolder&, Observer&);
+
 /// Workers, and threads of each, for what is to do: their product never exceeds the cores, nor
 /// workers times memory the machine. Part of prepare_ensemble.
 void share_machine(EnsembleJob&, Observer&);

@@ -20,7 +20,8 @@ MergeInput open_for_maps(const MergeRequest& request, Observer& observer, Cancel
   FinishedFolder finished = open_finished(request.folder, observer);
   const std::string where = request.folder.string();
   require(finished.manifest.kind == "ensemble",
-          fmt::format("{} holds a single run (there is nothing to merge).", where));
+          fmt::format("{} holds no ensemble but a {} (there is nothing to merge).", where,
+                      finished.manifest.kind));
   require(finished.inputs != nullptr,
           fmt::format("{}: its input files cannot be read (maps say 0 only where the ground is "
                       "known, so they need the terrain). Put the files back where scenario.yaml "

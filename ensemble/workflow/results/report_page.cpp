@@ -11,6 +11,7 @@
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/seal.hpp"
@@ -184,6 +185,9 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
                                    CancelFlag cancel) {
+  require(!is_region(folder),
+          fmt::format("{} is a region, whose page is made with its maps. Use `sturz merge`.",
+                      folder.string()));
   FinishedFolder finished = open_finished(folder, observer);
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now

@@ -14,7 +14,10 @@ inline PolygonRequest release_polygon_request(const Scenario& scenario) {
   PolygonRequest request;
   request.path = spec.polygon;
   request.layer = spec.layer;
+  request.feature = spec.feature;
+  request.feature_field = spec.feature_key;
   request.thickness_attribute = spec.thickness_attribute;
+  request.volume_attribute = spec.volume_attribute;
   request.start_time_attribute = spec.start_time_attribute;
   request.directory = scenario.directory;
   request.crs = spec.crs;

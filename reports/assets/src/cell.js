@@ -107,7 +107,42 @@ function peakTable(planes, at) {
   return table;
 }
 
-export function createCellPanel(box, page, planes) {
+/** Sources with their probabilities, the most probable first. */
+function sourceTable(list) {
+  const most = 40;
+  const table = named('table', 'plain cell-table');
+  const body = table.createTBody();
+  for (const {name, p} of list.slice(0, most)) {
+    const row = body.insertRow();
+    row.append(named('th', '', name), named('td', 'n', percentText(p)));
+  }
+  if (list.length > most) {
+    const row = body.insertRow();
+    row.append(named('th', '', `and ${list.length - most} more`), named('td', 'n', ''));
+  }
+  return table;
+}
+
+/** What comes to a cell of a region: its sources, and values of all of them together. */
+function regionPanel(box, list, planes, at) {
+  if (list.length === 0) {
+    box.append(named('p', 'note', 'No source reaches this cell.'));
+    return;
+  }
+  const n = list.length;
+  box.append(named('p', 'cell-line', 'Reached by ', named('b', '', `${n} source${n > 1 ? 's' : ''}`),
+                   ', each with its probability if it releases:'),
+             sourceTable(list));
+  const together = planes.filter((p) => p.layer.quantity === 'sources' && !p.layer.legend.nominal);
+  if (together.length > 0)
+    box.append(named('p', 'chart-title', 'If all release'), peakTable(together, at));
+  const worst = planes.filter((p) => p.layer.statistic === 'source_quantile');
+  if (worst.length > 0)
+    box.append(named('p', 'chart-title', 'Quantiles of the worst source'),
+               quantileTable(worst, at));
+}
+
+export function createCellPanel(box, page, planes, sources = null) {
   const of = (statistic, quantity) => planes.filter(
       (p) => p.layer.statistic === statistic && (!quantity || p.layer.quantity === quantity));
   const curves = [...new Set(planes.filter((p) => p.layer.statistic === 'probability' &&
@@ -119,7 +154,8 @@ export function createCellPanel(box, page, planes) {
 
   const draw = () => {
     if (!shown) {
-      box.replaceChildren(named('p', 'note', page.single
+      box.replaceChildren(named('p', 'note', sources
+          ? 'Click a cell to see which sources reach it.' : page.single
           ? 'Click a cell to read all its peaks.'
           : 'Click a cell to see its exceedance curve and quantiles.'));
       return;
@@ -128,6 +164,10 @@ export function createCellPanel(box, page, planes) {
     const place = `x ${Math.round(coordinate[0])}, y ${Math.round(coordinate[1])}` +
         (Number.isFinite(height) ? `, ${Math.round(height)} m` : '');
     box.replaceChildren(named('h4', '', 'At this cell ', named('small', '', place)));
+    if (sources) {
+      regionPanel(box, sources.at(at), planes, at);
+      return;
+    }
     const touched = at >= 0 &&
         (reached ? reached.values[at] > 0 : planes.some((p) => p.values[at] > 0));
     if (!touched) {

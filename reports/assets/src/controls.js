@@ -3,9 +3,10 @@
 import {createCellPanel} from './cell.js';
 import {cellIndex, classOf, numberText, percentText, unpack, valueText, wilson} from './data.js';
 import {createMap} from './map.js';
+import {loadSources} from './sources.js';
 
 const statisticNames = {
-  probability: 'Probability', quantile: 'Quantile', mean: 'Mean', peak: 'Peak', value: 'Value',
+  probability: 'Probability', quantile: 'Quantile', source_quantile: 'Quantile of the worst source', mean: 'Mean', peak: 'Peak', value: 'Value',
 };
 const boundNames = {lower: 'lower end', upper: 'upper end'};
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
@@ -64,6 +65,7 @@ async function loadPlanes(maps) {
 export async function startMaps(page) {
   const maps = page.maps;
   const planes = await loadPlanes(maps);
+  const sources = await loadSources(page.region, maps.cells.cols);
   const heights = maps.ground ? await unpack(maps.ground, maps.ground.grid.cols) : null;
   const app = document.getElementById('map-app');
   app.hidden = false;
@@ -93,7 +95,7 @@ export async function startMaps(page) {
                       element('div', {class: 'map-box'}, target, northArrow(), hover, wheelHint), comment),
               element('aside', {class: 'map-side'}, legendBox, switches, cellBox)));
 
-  const cellPanel = createCellPanel(cellBox, page, planes);
+  const cellPanel = createCellPanel(cellBox, page, planes, sources);
   const reached = planes.find((p) => p.layer.quantity === 'reached');
   let current = planes.find((p) => p.layer === maps.layers[maps.start]);
   let bound = 'value';
@@ -120,6 +122,12 @@ export async function startMaps(page) {
     hover.append(element('b', {}, text), ` x ${Math.round(x)} y ${Math.round(y)}`);
     const z = groundHeight(coordinate);
     if (Number.isFinite(z)) hover.append(` · ground ${numberText(Math.round(z))} m`);
+    if (sources) {
+      const list = sources.at(at);
+      const shown = list.slice(0, 3).map(({name, p}) => `${name} ${percentText(p)}`);
+      if (list.length > 3) shown.push(`${list.length} sources in all`);
+      if (list.length > 0) hover.append(element('span', {class: 'hover-sources'}, shown.join(' · ')));
+    }
     const k = at < 0 ? -1 : classOf(legend, value);
     if (k >= 0) legendBox.querySelector(`[data-class="${k}"]`)?.classList.add('on');
   };
@@ -142,11 +150,14 @@ export async function startMaps(page) {
 
   const drawLegend = (legend) => {
     const list = element('ul', {class: 'legend'});
-    legend.classes.forEach((c, k) => {
+    const listed = legend.nominal ? legend.classes.slice(0, 12) : legend.classes;
+    listed.forEach((c, k) => {
       const swatch = element('span', {class: 'swatch'});
       swatch.style.background = c.colour;
       list.append(element('li', {'data-class': k}, swatch, c.label));
     });
+    if (listed.length < legend.classes.length)
+      list.append(element('li', {}, `… ${legend.classes.length} in all`));
     const marks = element('ul', {class: 'legend marks'});
     if (maps.release.length > 0)
       marks.append(element('li', {}, element('span', {class: 'swatch release'}), 'release'));

@@ -43,6 +43,7 @@ export function extentOf(grid) {
 export function classOf(legend, stored) {
   if (Number.isNaN(stored) || (legend.clearZero && stored <= 0)) return -1;
   const shown = stored * legend.unitFactor;
+  if (legend.nominal) return Math.round(shown - legend.classes[0].lower);
   let found = 0;
   for (let i = 1; i < legend.classes.length; i++) {
     const lower = legend.classes[i].lower;
@@ -81,5 +82,6 @@ export function percentText(p) {
 export function valueText(legend, stored) {
   if (Number.isNaN(stored)) return '–';
   if (legend.probability) return percentText(stored);
+  if (legend.nominal) return legend.classes[classOf(legend, stored)]?.label ?? '–';
   return `${numberText(stored * legend.unitFactor)} ${legend.unit}`.trim().replace(' ', '\u00a0');
 }

@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "scenarios/assembly/scene_plan.hpp"
 #include "scenarios/assembly/speed/expected_speed.hpp"
+#include "scenarios/placement_seed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ GrainPacking grain_packing(const Scenario& s, std::int64_t member) {
   packing.solid_fraction = s.grains->solid_fraction.value;
   packing.size_spread = spec_of(s).size_spread;
   packing.jitter = s.numerics.jitter;
-  packing.seed = s.ensemble.seed;
+  packing.seed = placement_seed(s);
   packing.member = member;
   return packing;
 }

@@ -3,6 +3,7 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/error.hpp"
+#include "scenarios/placement_seed.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ void plan_masses(const Scenario& s, const SceneInputs& in, const Raster<double>&
   StaggeredRelease starts =
       staggered_release(s, in, plan.bed, thickness,
                         {s.numerics.spacing_m, plan.bulk_density_kg_m3, s.numerics.jitter,
-                         s.ensemble.seed, member, plan.formulation.depth_averaged});
+                         placement_seed(s), member, plan.formulation.depth_averaged});
   expect(starts.n_later() == 0 || plan.formulation.depth_averaged, "only columns start later");
   plan.later = later_columns(starts, s, plan.bed);
   plan.n_present = starts.n_present;

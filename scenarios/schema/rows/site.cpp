@@ -82,10 +82,23 @@ void add_release(std::vector<KeyInfo>& keys) {
                           "Polygon layer that outlines the source, any format that OGR reads."));
   keys.push_back(text_key(release, &ReleaseSpec::layer, "release.layer", text,
                           "Layer inside release.polygon; the first when absent."));
+  keys.push_back(text_key(release, &ReleaseSpec::feature, "release.feature", text,
+                          "The one feature of release.polygon that is the source, by its value of "
+                          "feature_key or its FID; all of them when absent."));
+  keys.push_back(text_key(release, &ReleaseSpec::feature_key, "release.feature_key", text,
+                          "Field of release.polygon that names its features, each by a value of "
+                          "its own; the FID (feature number) of the file when absent."));
+  keys.push_back(key(release, &ReleaseSpec::each_feature,
+                     {"release.each_feature", flag, "", -no_limit, no_limit,
+                      "Whether each feature of release.polygon is a source of its own: a region, "
+                      "one ensemble for each and maps of all together."}));
   keys.push_back(text_key(release, &ReleaseSpec::thickness_attribute, "release.thickness_attribute",
                           text,
                           "Field of release.polygon that holds each polygon's thickness in "
                           "metres."));
+  keys.push_back(text_key(release, &ReleaseSpec::volume_attribute, "release.volume_attribute", text,
+                          "Field of release.polygon that holds each polygon's bulk volume in m3; "
+                          "its vertical thickness is that over its area."));
   keys.push_back(text_key(release, &ReleaseSpec::thickness_raster, "release.thickness_raster", path,
                           "Raster of the source thickness in metres; nodata means zero."));
   keys.push_back(key(release, &ReleaseSpec::thickness_factor,
