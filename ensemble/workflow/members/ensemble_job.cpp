@@ -23,14 +23,6 @@
 namespace sturz::workflow {
 namespace {
 
-/// The wanted number of members is the last override.
-SceneRequest scene_of(const EnsembleRequest& request) {
-  SceneRequest scene = request.scene;
-  if (request.members > 0)
-    scene.overrides.push_back(fmt::format("ensemble.members={}", request.members));
-  return scene;
-}
-
 /// Keeps what the folder knows of its past, and says what may surprise.
 void continue_folder(EnsembleJob& job, Observer& observer) {
   require_same_scene(job.folder, job.scene.scenario, job.scene.inputs.identities);
@@ -41,6 +33,7 @@ void continue_folder(EnsembleJob& job, Observer& observer) {
   now.started = before.started;
   now.inputs = with_known_parts(now.inputs, before.inputs);
   now.compute_s = before.compute_s;
+  if (now.shards == 0) now.shards = before.shards;
   if (!before.scene_hash.empty()) now.scene_hash = before.scene_hash;  // nothing differs
   now.hazard_hash = before.hazard_hash;
   now.maps_of = before.maps_of;
@@ -154,6 +147,13 @@ void begin_with_first_look(EnsembleJob& job, bool begun) {
 
 }  // namespace
 
+SceneRequest scene_of(const EnsembleRequest& request) {
+  SceneRequest scene = request.scene;
+  if (request.members > 0)
+    scene.overrides.push_back(fmt::format("ensemble.members={}", request.members));
+  return scene;
+}
+
 void share_machine(EnsembleJob& job, Observer& observer) {
   const int wanted_workers = job.wanted_workers;
   const int cores = available_cores();
@@ -237,6 +237,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   for (std::string& warning : ensemble_warnings(job.scene, job.design))
     job.scene.description.warnings.push_back(std::move(warning));
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
+  job.manifest.shards = shard.n > 1 ? shard.n : request.planned_shards;
   job.manifest.scenario_hash = scenario_hash(job.scene.scenario);
   job.manifest.scene_hash = scene_hash(job.scene.scenario, job.scene.inputs.identities);
 
@@ -260,6 +261,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
   if (find_work(job, shard, 0, observer) > 0 && !job.growth) job.manifest.stop.reset();
   job.wanted_workers = request.workers;
   share_machine(job, observer);
+  job.lock->say_workers(job.workers);
   return job;
 }
 

@@ -43,6 +43,7 @@ MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
     return run_member(job, member, stop);
   };
   callbacks.store = [&](const MemberResult& result) {
+    job.lock->require_ours();
     store_member(job, result);
     run.computed.push_back(summary_of(result));
     observer.member_stored(result);
