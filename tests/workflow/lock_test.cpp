@@ -213,7 +213,7 @@ TEST_F(Lock, SaysHowManyMembersAreComputedAtATime) {
   const auto found = workflow::holder_in(path("out/lock.json"));
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->workers, 3);
-  EXPECT_EQ(found->beat_s, 10);
+  EXPECT_EQ(found->beat_s, 5);
 }
 
 TEST_F(Lock, ATokenThatIsNoNameOfAFileIsDamage) {

@@ -48,10 +48,12 @@ std::string how_to_resume(const Manifest& manifest, const std::filesystem::path&
       fmt::format("sturz {} -o {}", manifest.command, shell_word(folder.string()));
   if (manifest.shards <= 1)
     return fmt::format("Resume with the command that computed them: {}", command);
+  const bool one = missing.size() == 1;
   std::string text = fmt::format(
-      "Shards {} of {} are not finished. Resume with the command that "
-      "computed them: {} --shard {}/{}",
-      ranges_text(missing), manifest.shards, command, missing.front(), manifest.shards);
+      "Shard{} {} of {} {} not finished. Resume with the command that computed them: {} --shard "
+      "{}/{}",
+      one ? "" : "s", ranges_text(missing), manifest.shards, one ? "is" : "are", command,
+      missing.front(), manifest.shards);
   if (missing.size() > 1)
     text += fmt::format(", and --shard K/{} with K = {}", manifest.shards,
                         ranges_text(missing.subspan(1)));

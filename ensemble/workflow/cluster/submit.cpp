@@ -50,7 +50,7 @@ class SubmitLock {
   SubmitLock& operator=(const SubmitLock&) = delete;
 
  private:
-  static constexpr std::chrono::seconds beat{10};
+  static constexpr std::chrono::seconds beat{5};
   fs::path file_;
   std::string token_;
   Heartbeat heart_;

@@ -26,7 +26,7 @@ std::string new_token() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-constexpr std::chrono::seconds beat{10};
+constexpr std::chrono::seconds beat{5};
 
 LockHolder me(const std::string& purpose, bool brief) {
   return {this_process(), utc_now(),   purpose,

@@ -6,7 +6,7 @@
 ///
 /// The locks of shards are only made under lock.json, so the two kinds never miss each other. Locks
 /// of processes that are gone are taken over (lock_file.hpp says when they are). One of another
-/// machine is listened to first: a beat of its heart, and it is refused; a minute and a half of
+/// machine is listened to first: a beat of its heart, and it is refused; a minute of
 /// silence, and it is gone. A shard whose lock was taken over goes on all the same, because members
 /// come out the same whatever computes them; who is alone in a folder must not.
 #pragma once

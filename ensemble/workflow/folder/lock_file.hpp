@@ -33,7 +33,7 @@ struct LockHolder {
 
   /// So long without a touch, and the process counts as gone [s].
   double silence_s() const { return beats_missed * beat_s; }
-  static constexpr int beats_missed = 9;
+  static constexpr int beats_missed = 12;
 };
 
 /// Nothing when there is no lock of that name, alive or not. Writes nothing.
