@@ -17,7 +17,7 @@ LAYOUT = ("bin/sturz", "share/sturz/cases/zhangjiawan/scenario.yaml", "share/stu
           "share/sturz/cases/template/scenario.yaml", "share/man/man1/sturz.1.gz",
           "share/bash-completion/completions/sturz", "share/doc/sturz/README.md",
           "share/doc/sturz/LICENSE", "share/doc/sturz/copyright", "share/doc/sturz/CITATION.cff",
-          "share/doc/sturz/docs/user_guide.md")
+          "share/doc/sturz/docs/user_guide.md", "share/doc/sturz/docs/examples/cluster/Snakefile")
 
 
 class Install(unittest.TestCase):

@@ -12,9 +12,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
+#include <regex>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -26,11 +26,11 @@ namespace {
 /// Which shard a lock is of; nothing: another file.
 std::optional<Shard> shard_of_lock(const std::string& name) {
   if (name == "lock.json") return Shard{1, 1};
-  Shard shard;
-  int end = 0;
-  const int read = std::sscanf(name.c_str(), "lock_%d_of_%d.json%n", &shard.k, &shard.n, &end);
-  if (read != 2 || end != static_cast<int>(name.size()) || shard.k < 1 || shard.k > shard.n)
-    return std::nullopt;
+  static const std::regex form(R"(lock_(\d{1,7})_of_(\d{1,7})\.json)");
+  std::smatch parts;
+  if (!std::regex_match(name, parts, form)) return std::nullopt;
+  const Shard shard{std::stoi(parts[1]), std::stoi(parts[2])};
+  if (shard.k < 1 || shard.k > shard.n) return std::nullopt;
   return shard;
 }
 
