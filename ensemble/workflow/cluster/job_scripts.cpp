@@ -52,13 +52,12 @@ echo "$(date -u +%FT%TZ) ${SLURM_JOB_ID:-} on ${SLURMD_NODENAME:-}, started ${SL
 "${command[@]}" &
 child=$!
 if [ -n "$stopped" ]; then kill -USR1 "$child" 2>/dev/null; fi
-wait "$child"
-code=$?
-while [ "$code" -gt 128 ]; do
+code=127 over=
+while [ -z "$over" ] && [ "$code" -gt 126 ]; do
+  kill -0 "$child" 2>/dev/null || over=1
   wait "$child"
-  again=$?
-  if [ "$again" -eq 127 ]; then break; fi
-  code=$again
+  now=$?
+  if [ "$now" -ne 127 ]; then code=$now; fi
 done
 
 if [ "$stopped" = limit ] && [ "$code" -eq 3 ]; then

@@ -72,7 +72,7 @@ std::vector<QueuedTask> Slurm::queued(std::span<const std::string> names) const 
     if (std::getline(fields, task.job, '|') && std::getline(fields, number, '|') &&
         std::getline(fields, task.name, '|') && std::getline(fields, task.state)) {
       task.task = number_or_zero(number);
-      all.push_back(task);
+      if (task.state != "COMPLETING") all.push_back(task);  // over, its node is cleaned up
     }
   }
   return all;

@@ -66,7 +66,7 @@ std::string new_name(const fs::path& folder) {
 
 /// The jobs of a call that was killed before its record was complete: held, so nothing of them
 /// runs.
-void cancel_half_submitted(const Slurm& slurm, const Submission& record, const fs::path& file,
+void cancel_half_submitted(const Slurm& slurm, Submission record, const fs::path& file,
                            Observer& observer) {
   if (record.complete) return;
   // What the killed call had just sent may still be on its way.
@@ -82,6 +82,8 @@ void cancel_half_submitted(const Slurm& slurm, const Submission& record, const f
       half.insert(task.job);
   const std::vector<std::string> jobs(half.begin(), half.end());
   slurm.cancel(jobs);
+  record.complete = true;  // nothing is left that it does not say
+  write_submission(file, record);
   observer.warning(fmt::format(
       "an earlier `sturz submit` was stopped half-way; {}. This call submits anew.",
       jobs.empty()
