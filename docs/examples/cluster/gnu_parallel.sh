@@ -5,6 +5,6 @@
 set -euo pipefail
 : "${STURZ:=sturz}" "${SCENE:?a scenario file}" "${OUT:?a folder}" "${SHARDS:=16}"
 
-parallel --jobs "${JOBS:-2}" --retries 2 --joblog "$OUT.log" --resume-failed "$STURZ" ensemble "$SCENE" -o "$OUT" --workers 1 --shard "{}/$SHARDS" ::: $(seq "$SHARDS")
+parallel --quote --jobs "${JOBS:-2}" --retries 2 --joblog "$OUT.log" --resume-failed "$STURZ" ensemble "$SCENE" -o "$OUT" --workers 1 --shard "{}/$SHARDS" ::: $(seq "$SHARDS")
 
 "$STURZ" merge "$OUT"

@@ -61,6 +61,17 @@ void begin_folder(const EnsembleJob& job) {
   save_scenario(job.folder, job.scene.scenario);
 }
 
+/// A thousand shards may begin at once, one after the other: what stands there is not written
+/// again.
+bool stands_there(const EnsembleJob& job) {
+  const Manifest before = Manifest::read(job.folder.manifest());
+  const Manifest& now = job.manifest;
+  return before.shards == now.shards && before.members == now.members &&
+         before.inputs == now.inputs && before.builds == now.builds &&
+         before.scene_hash == now.scene_hash && before.design_hash == now.design_hash &&
+         read_text(job.folder.scenario()) == write_scenario(job.scene.scenario, job.folder.root);
+}
+
 /// Members of this call's share that are not finished. \param from the first that is looked at
 /// \return how many of them failed before
 std::size_t find_work(EnsembleJob& job, const Shard& shard, std::int64_t from, Observer& observer) {
@@ -252,7 +263,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
     job.manifest.builds = {this_build()};
   job.manifest.members = job.design.n_members();
   job.manifest.design_hash = design_hash(job.design);
-  begin_folder(job);
+  if (!begun || shard.n == 1 || !stands_there(job)) begin_folder(job);
   keep_what_is_read(job);
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
