@@ -61,7 +61,7 @@ SlurmdUser=root
 AuthType=auth/munge
 CryptoType=crypto/munge
 # cred_expire: a requeued job would otherwise wait two minutes before it starts again
-AuthInfo=socket={base}/munge/socket,cred_expire=2
+AuthInfo=socket={base}/munge/socket,cred_expire=5
 SlurmctldPidFile={base}/run/slurmctld.pid
 SlurmdPidFile={base}/run/slurmd.%n.pid
 SlurmctldLogFile={base}/log/slurmctld.log

@@ -8,7 +8,6 @@
 #include "ensemble/workflow/scene.hpp"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
