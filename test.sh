@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs what the tests need, builds everything and runs what a change must pass:
-#   release     warnings are errors; all tests labelled style, unit, physics or hard
+#   release     warnings are errors; all tests labelled style, unit, cluster, physics or hard
 #   clang-tidy  over the files that changed (scripts/tidy.sh)
 #   asan        the unit tests of engine, scenarios, io, designs and hazard maps under
 #               AddressSanitizer and UBSan (clang, -O1)
@@ -65,7 +65,7 @@ record() {
 stage_release() {
   build release all
   # Tests that time something carry RUN_SERIAL, so ctest gives them the machine.
-  for label in style unit physics hard; do tests release "$label" -L "^${label}\$"; done
+  for label in style unit cluster physics hard; do tests release "$label" -L "^${label}\$"; done
 }
 
 stage_tidy() { record tidy scripts/tidy.sh; }

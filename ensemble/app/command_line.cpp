@@ -3,6 +3,7 @@
 
 #include "engine/core/cancel.hpp"
 #include "engine/core/error.hpp"
+#include "ensemble/app/cluster/task_shard.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
@@ -41,7 +42,7 @@ void build(Grammar& grammar) {
   program.get_formatter()->column_width(34);
   program.footer(
       "Exit codes: 0 done, 1 usage or scenario error, 2 too many failed members, "
-      "3 interrupted (resumable).");
+      "3 stopped, run the same again.");
   for (const auto add : sub_commands) add(grammar);
 }
 
@@ -123,6 +124,7 @@ int command_line(int argc, char** argv) {
     return usage_or_scenario_error;
   }
   watch_for_interrupts(grammar.json);
+  tell_scheduler_job();
   Console console(grammar.json);
   const int code = guarded(grammar.action, console);
   return after_output(after_signals(code, console));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // sturz ensemble: draw or read the design, run what is not finished, make the maps.
 #include "engine/core/error.hpp"
+#include "ensemble/app/cluster/task_shard.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
 #include "ensemble/app/console/interrupt.hpp"
@@ -12,6 +13,7 @@
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/app/verdict.hpp"
 #include "ensemble/workflow/calibration/posterior_files.hpp"
+#include "ensemble/workflow/cluster/shard_layout.hpp"
 #include "ensemble/workflow/forecast/ensemble_forecast.hpp"
 #include "ensemble/workflow/members/ensemble_job.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
@@ -19,12 +21,10 @@
 #include "ensemble/workflow/members/utilisation.hpp"
 #include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/maps.hpp"
-#include "scenarios/schema/number_text.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <optional>
 
 namespace sturz::app {
@@ -34,7 +34,8 @@ struct Options {
   std::string scenario;
   std::vector<std::string> set;  ///< "key=value"
   MembersOptions of;
-  std::string shard;           ///< "k/n", 1 <= k <= n; empty: everything
+  std::string shard;           ///< "k/n" or "auto/n"; empty: everything
+  int first_task = 1;          ///< number of the task that computes shard 1
   bool retry_failed = false;   ///< compute failed members again
   double until_converged = 0;  ///< half width of P(reached); 0: no stop rule
   std::string asset;           ///< name of the one that the rule looks at; empty: the map
@@ -44,25 +45,16 @@ struct Options {
 
 using workflow::EnsembleJob;
 
-workflow::Shard shard_of(const std::string& text) {
-  if (text.empty()) return {};
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const long long k = parse_integer(text.substr(0, slash)).value_or(0);
-  const long long n = parse_integer(text.substr(std::min(slash + 1, text.size()))).value_or(0);
-  require(k >= 1 && k <= n && n <= 1000000,
-          fmt::format("--shard {} (must be K/N with 1 <= K <= N, such as 2/8).", text));
-  return {static_cast<int>(k), static_cast<int>(n)};
-}
-
 /// The command as manifest and log keep it.
 std::string command_text(const Options& o) {
-  std::string text = "ensemble " + o.scenario;
-  for (const std::string& set : o.set) text += " --set " + set;
+  using workflow::shell_word;
+  std::string text = "ensemble " + shell_word(o.scenario);
+  for (const std::string& set : o.set) text += " --set " + shell_word(set);
   if (o.of.members > 0) text += fmt::format(" -n {}", o.of.members);
   if (o.until_converged > 0) text += fmt::format(" --until-converged {}", o.until_converged);
-  if (!o.asset.empty()) text += " --asset " + o.asset;
+  if (!o.asset.empty()) text += " --asset " + shell_word(o.asset);
   if (o.at_most > 0) text += fmt::format(" --at-most {}", o.at_most);
-  if (!o.posterior.empty()) text += " --posterior " + o.posterior;
+  if (!o.posterior.empty()) text += " --posterior " + shell_word(o.posterior);
   return text;
 }
 
@@ -164,7 +156,12 @@ void tell_utilisation(const workflow::Utilisation& u, Console& console) {
     console.warn("cores were idle more than half of the time; likely because " + why + ".");
 }
 
-int ensemble(const Options& options, Console& console) {
+int ensemble(const Options& given, Console& console) {
+  Options options = given;
+  if (!given.shard.empty()) {
+    const workflow::Shard shard = shard_of(given.shard, given.first_task);
+    options.shard = fmt::format("{}/{}", shard.k, shard.n);
+  }
   const workflow::EnsembleRequest request = request_of(options);
   if (workflow::is_region(request.scene)) return region_ensemble(request, options.shard, console);
   ConsoleObserver observer(console);
@@ -210,8 +207,14 @@ void add_ensemble(Grammar& grammar) {
       ->check(CLI::Range(1, 100000000));
   parser
       .add_option("--shard", options.shard,
-                  "Compute only part K of N of the members and no maps; `merge` makes them")
+                  "Compute only part K of N of the members and no maps; `merge` makes them. auto/N "
+                  "takes K from SLURM_ARRAY_TASK_ID or HQ_TASK_ID")
       ->type_name("K/N");
+  parser
+      .add_option("--first-task", options.first_task,
+                  "With --shard auto/N: number of the task that computes shard 1 (default 1)")
+      ->type_name("NUMBER")
+      ->check(CLI::Range(0, 1000000));
   parser.add_flag("--retry-failed", options.retry_failed,
                   "Compute members again that failed, for instance at a wall-time limit");
   parser

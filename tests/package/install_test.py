@@ -18,7 +18,8 @@ LAYOUT = ("bin/sturz", "share/sturz/cases/zhangjiawan/scenario.yaml", "share/stu
           "share/bash-completion/completions/sturz", "share/doc/sturz/README.md",
           "share/doc/sturz/LICENSE", "share/doc/sturz/copyright", "share/doc/sturz/CITATION.cff",
           "share/doc/sturz/docs/user_guide.md", "share/doc/sturz/examples/slopes.yaml",
-          "share/doc/sturz/examples/sturz-batch.service", "share/doc/sturz/examples/sturz-batch.cron")
+          "share/doc/sturz/examples/sturz-batch.service", "share/doc/sturz/examples/sturz-batch.cron",
+          "share/doc/sturz/docs/examples/cluster/Snakefile")
 
 
 class Install(unittest.TestCase):

@@ -2,6 +2,7 @@
 // One process in a results folder, or several shards; what dead ones leave is no obstacle.
 #include "engine/core/error.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
+#include "ensemble/workflow/folder/lock/heartbeat.hpp"
 #include "ensemble/workflow/folder/lock_file.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
@@ -9,7 +10,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <functional>
+#include <thread>
 
 namespace sturz::test {
 namespace {
@@ -124,13 +127,93 @@ TEST_F(Lock, AProcessOfTheSameNumberIsNotTheSame) {
   EXPECT_EQ(refusal(), "not refused");
 }
 
-TEST_F(Lock, AnotherMachineCannotBeAsked) {
+TEST_F(Lock, AnotherMachineThatNeverBeatsCannotBeJudged) {
   for (const char* other : {"host", "machine", "pids"}) {
-    leave([&](nlohmann::json& lock) { lock[other] = "another one"; });
+    leave([&](nlohmann::json& lock) {
+      lock[other] = "another one";
+      lock.erase("beat_s");  // as versions before wrote it
+    });
     EXPECT_THAT(refusal(), HasSubstr("delete " + path("out/lock.json").string())) << other;
     std::filesystem::remove(path("out/lock.json"));
   }
   EXPECT_EQ(refusal(), "not refused");
+}
+
+TEST_F(Lock, AnotherMachineIsGoneWhenItHasBeenSilent) {
+  leave([](nlohmann::json& lock) { lock["host"] = "another one"; });
+  const auto silence = std::chrono::seconds(100);
+  std::filesystem::last_write_time(path("out/lock.json"),
+                                   std::filesystem::file_time_type::clock::now() - silence);
+  EXPECT_EQ(refusal(), "not refused");
+  leave([](nlohmann::json& lock) {
+    lock["host"] = "another one";
+    lock["beat_s"] = 0.1;
+  });
+  EXPECT_EQ(refusal(), "not refused") << "a second of listening, and it was silent";
+}
+
+TEST_F(Lock, AnotherMachineThatBeatsIsNotDisturbed) {
+  leave([](nlohmann::json& lock) {
+    lock["host"] = "another one";
+    lock["beat_s"] = 0.5;
+  });
+  workflow::Heartbeat other(std::chrono::milliseconds(100));
+  other.keep(path("out/lock.json"),
+             nlohmann::json::parse(read("out/lock.json")).at("token").get<std::string>());
+  const std::string refused = refusal();
+  EXPECT_THAT(refused, HasSubstr("Its lock beats"));
+  EXPECT_THAT(refused, HasSubstr("on another one since"));
+  EXPECT_FALSE(other.lost());
+}
+
+TEST_F(Lock, ARequeuedJobDoesNotWaitForItsOwnEarlierStart) {
+  auto zombie = std::make_unique<Child>([where = folder()] {
+    workflow::this_process_is_of("slurm/test/17", 0);
+    static std::shared_ptr<FolderLock> held;
+    held = FolderLock::shard(where, {2, 3}, "test");
+    held->others_may_come();
+    return true;
+  });
+  ASSERT_TRUE(zombie->worked());
+  const auto started = [&](const char* job, int restarts) {
+    return Child([where = folder(), job, restarts] {
+             workflow::this_process_is_of(job, restarts);
+             FolderLock::shard(where, {2, 3}, "test");
+             return true;
+           })
+        .worked();
+  };
+  EXPECT_FALSE(started("slurm/test/17", 0)) << "the same start twice";
+  EXPECT_FALSE(started("slurm/test/18", 1)) << "another job";
+  EXPECT_FALSE(started("", 1)) << "no job";
+  EXPECT_TRUE(started("slurm/test/17", 1));
+}
+
+TEST_F(Lock, WhoIsTakenForGoneKnowsItAndLeavesTheNewLockAlone) {
+  const auto held = FolderLock::alone(folder(), "test");
+  held->require_ours();
+  const auto lock = nlohmann::json::parse(read("out/lock.json"));
+  workflow::Heartbeat heart(std::chrono::milliseconds(10));
+  heart.keep(path("out/lock.json"), lock.at("token").get<std::string>());
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(heart.lost());
+  auto other = lock;
+  other["token"] = "0123456789abcdef";
+  write("out/lock.json", other.dump());
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!heart.lost() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_TRUE(heart.lost());
+  EXPECT_EQ(read("out/lock.json"), other.dump());
+}
+
+TEST_F(Lock, SaysHowManyMembersAreComputedAtATime) {
+  const auto held = FolderLock::alone(folder(), "test");
+  held->say_workers(3);
+  const auto found = workflow::holder_in(path("out/lock.json"));
+  ASSERT_TRUE(found.has_value());
+  EXPECT_EQ(found->workers, 3);
+  EXPECT_EQ(found->beat_s, 5);
 }
 
 TEST_F(Lock, ATokenThatIsNoNameOfAFileIsDamage) {

@@ -45,8 +45,9 @@ TEST_F(MergeWorkflow, ShardsGiveTheBitsOfOneRun) {
 
 TEST_F(MergeWorkflow, NamesWhatIsMissingUnlessToldToGoOn) {
   run_shard(1, 2);
-  EXPECT_THAT(refusal("out"), HasSubstr("3 of 6 members are missing (1, 3, 5). Resume with the "
-                                        "command that computed them"));
+  EXPECT_THAT(refusal("out"), HasSubstr("3 of 6 members are missing (1, 3, 5). Shard 2 of 2 is not "
+                                        "finished. Resume with the command that computed them: "));
+  EXPECT_THAT(refusal("out"), HasSubstr("out --shard 2/2; or make maps from the others"));
   EXPECT_FALSE(exists("out/hazard.nc"));
   Recorder heard;
   const workflow::MapsMade made = workflow::merge_members({path("out"), true}, heard);

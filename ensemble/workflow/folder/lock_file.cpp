@@ -33,6 +33,10 @@ std::string text_of(const LockHolder& holder) {
                     {"boot", p.boot},
                     {"pids", p.pids},
                     {"start", p.start},
+                    {"job", p.job},
+                    {"restarts", p.restarts},
+                    {"beat_s", holder.beat_s},
+                    {"workers", holder.workers},
                     {"token", holder.token}};
   return all.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
@@ -53,6 +57,10 @@ std::optional<LockHolder> parsed(const std::string& text) {
     h.purpose = all.at("purpose").get<std::string>();
     h.brief = all.at("brief").get<bool>();
     h.token = all.at("token").get<std::string>();
+    p.job = all.value("job", "");  // older versions know nothing of these
+    p.restarts = all.value("restarts", std::int64_t{0});
+    h.beat_s = all.value("beat_s", 0.0);
+    h.workers = all.value("workers", 0);
     // It becomes part of a file's name.
     if (h.token.empty() || h.token.find_first_not_of("0123456789abcdef") != std::string::npos)
       return std::nullopt;
@@ -62,23 +70,21 @@ std::optional<LockHolder> parsed(const std::string& text) {
   }
 }
 
-/// Nothing when the file is not there (any more).
-std::optional<LockHolder> holder_in(const fs::path& file) {
-  constexpr int tries = 20;  // without hard links a lock is empty for a moment
-  for (int i = 0; i < tries; ++i) {
-    try {
-      if (auto holder = parsed(read_text(file))) return holder;
-    } catch (const IoError&) {
-      struct stat about {};
-      if (::lstat(file.c_str(), &about) != 0 && errno == ENOENT) return std::nullopt;
-      throw;
-    }
-    ::usleep(20000);
-  }
-  throw SetupError(
-      fmt::format("{}: not a lock that sturz wrote, or damaged (it says who works in "
-                  "the folder). Delete it when no process does.",
-                  file.string()));
+/// How long a lock has not been touched, by the file system's own clock: that of a file which is
+/// made beside it now [s]. Below zero when that clock was set back.
+double silent_seconds(const fs::path& file) {
+  AtomicFile now(file);
+  now.write(std::as_bytes(std::span("now")));
+  const auto touched = last_touch(file), written = last_touch(now.part());
+  if (!touched || !written) return 0;
+  return std::chrono::duration<double>(*written - *touched).count();
+}
+
+bool is_gone(const fs::path& file, const LockHolder& holder) {
+  if (replaces(holder.process)) return true;
+  const Liveness known = liveness_of(holder.process);
+  if (known != Liveness::unknown) return known == Liveness::gone;
+  return holder.beat_s > 0 && silent_seconds(file) > holder.silence_s();
 }
 
 /// True when `file` is `text` now, made by us; false when something has that name already.
@@ -112,7 +118,7 @@ bool take_over(const fs::path& file, const LockHolder& stale, const LockHolder& 
   fs::path claim = file;
   claim += "." + stale.token;
   if (!create_whole(claim, text_of(mine))) {
-    if (const auto other = holder_in(claim); other && liveness_of(other->process) == Liveness::gone)
+    if (const auto other = holder_in(claim); other && is_gone(claim, *other))
       ::unlink(claim.c_str());  // killed in here; the next look begins anew
     return false;
   }
@@ -125,22 +131,47 @@ bool take_over(const fs::path& file, const LockHolder& stale, const LockHolder& 
 
 }  // namespace
 
+std::optional<LockHolder> holder_in(const fs::path& file) {
+  constexpr int tries = 20;  // without hard links a lock is empty for a moment
+  for (int i = 0; i < tries; ++i) {
+    try {
+      if (auto holder = parsed(read_text(file))) return holder;
+    } catch (const IoError&) {
+      struct stat about {};
+      if (::lstat(file.c_str(), &about) != 0 && errno == ENOENT) return std::nullopt;
+      throw;
+    }
+    ::usleep(20000);
+  }
+  throw SetupError(
+      fmt::format("{}: not a lock that sturz wrote, or damaged (it says who works in "
+                  "the folder). Delete it when no process does.",
+                  file.string()));
+}
+
+std::optional<std::chrono::nanoseconds> last_touch(const fs::path& file) {
+  struct stat about {};
+  if (::stat(file.c_str(), &about) != 0) return std::nullopt;
+  return std::chrono::seconds(about.st_mtim.tv_sec) +
+         std::chrono::nanoseconds(about.st_mtim.tv_nsec);
+}
+
 std::optional<LockHolder> live_holder(const fs::path& file) {
   auto holder = holder_in(file);
-  if (holder && liveness_of(holder->process) == Liveness::gone) holder.reset();
+  if (holder && is_gone(file, *holder)) holder.reset();
   return holder;
 }
 
 std::optional<LockHolder> take_lock(const fs::path& file, const LockHolder& mine) {
   constexpr int tries = 100;  // each fails only when another process was faster in between
   for (int i = 0; i < tries; ++i) {
-    if (create_whole(file, text_of(mine))) {
-      remember_unfinished(file);  // not before: it may be of another process
+    const auto holder = holder_in(file);  // looking is cheap: many shards may wait for one lock
+    if (!holder) {
+      if (!create_whole(file, text_of(mine))) continue;  // another one was faster
+      remember_unfinished(file);                         // not before: it may be of another process
       return std::nullopt;
     }
-    auto holder = holder_in(file);
-    if (!holder) continue;  // given back just now
-    if (liveness_of(holder->process) != Liveness::gone) return holder;
+    if (!is_gone(file, *holder)) return holder;
     if (take_over(file, *holder, mine)) {
       remember_unfinished(file);
       return std::nullopt;
@@ -151,6 +182,11 @@ std::optional<LockHolder> take_lock(const fs::path& file, const LockHolder& mine
       fmt::format("{} changes hands all the time (several processes want the folder). "
                   "Try again.",
                   file.string()));
+}
+
+void rewrite_lock(const fs::path& file, const LockHolder& mine) {
+  if (const auto holder = holder_in(file); holder && holder->token == mine.token)
+    write_text_atomic(file, text_of(mine));
 }
 
 void drop_lock(const fs::path& file, const std::string& token) noexcept {

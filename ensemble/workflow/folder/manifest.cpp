@@ -44,6 +44,7 @@ void Manifest::write(const fs::path& file) {
               {"design", design},
               {"seed", seed},
               {"members", members},
+              {"shards", shards},
               {"spacing_m", spacing_m},
               {"inputs", inputs_json},
               {"description", description},
@@ -149,6 +150,8 @@ Manifest Manifest::read(const fs::path& file) {
       m.builds.push_back(
           {build.at("version").get<std::string>(), build.at("git_commit").get<std::string>()});
     m.censored = all.value("censored", "");
+    if (all.contains("shards")) m.shards = whole<int>(file, all, "shards");
+    if (m.shards < 0) not_a_manifest(file, "shards is below zero");
     m.stop = stop_from(file, all);
   } catch (const json::exception& problem) {
     not_a_manifest(file, problem.what());

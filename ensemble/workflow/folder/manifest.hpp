@@ -30,7 +30,8 @@ struct Manifest {
   std::string command;
   std::string design;
   std::uint64_t seed = 0;
-  std::int64_t members = 0;                               ///< planned
+  std::int64_t members = 0;  ///< planned
+  int shards = 0;            ///< into which the members were divided last; 0: they never were
   std::vector<InputIdentity> inputs;                      ///< what was read of each file
   std::vector<std::string> description, notes, warnings;  ///< as `describe` says them
   double spacing_m = 0;

@@ -40,8 +40,19 @@ ProcessState state_of(std::int64_t pid) {
   return found;
 }
 
+struct Job {
+  std::string name;
+  std::int64_t restarts = 0;
+};
+Job& own_job() {
+  static Job job;
+  return job;
+}
+
 ProcessIdentity identify() {
   ProcessIdentity me;
+  me.job = own_job().name;
+  me.restarts = own_job().restarts;
   char host[256] = {};
   gethostname(host, sizeof host - 1);
   me.host = host;
@@ -60,6 +71,15 @@ const ProcessIdentity& this_process() {
   static ProcessIdentity me = identify();
   if (me.pid != getpid()) me = identify();  // a child of fork()
   return me;
+}
+
+void this_process_is_of(const std::string& job, std::int64_t restarts) {
+  own_job() = {job, restarts};
+}
+
+bool replaces(const ProcessIdentity& earlier) {
+  const ProcessIdentity& me = this_process();
+  return !me.job.empty() && me.job == earlier.job && me.restarts > earlier.restarts;
 }
 
 Liveness liveness_of(const ProcessIdentity& other) {

@@ -15,10 +15,18 @@ struct ProcessIdentity {
   std::int64_t pid = 0;
   std::uint64_t start = 0;  ///< when it began, in ticks since the machine's start; tells a process
                             ///< from a later one with the same number
+  std::string job;          ///< of a scheduler, "slurm/CLUSTER/123"; empty: started by hand
+  std::int64_t restarts = 0;  ///< how often the scheduler had begun that job anew
   bool operator==(const ProcessIdentity&) const = default;
 };
 
 const ProcessIdentity& this_process();
+/// Told once, before anything is locked: which job of a scheduler this process belongs to.
+void this_process_is_of(const std::string& job, std::int64_t restarts);
+
+/// True when the scheduler has given up on `earlier` and begun the same job anew as this process.
+/// What it gave up on may still compute, on a machine that it cannot reach.
+bool replaces(const ProcessIdentity& earlier);
 
 enum class Liveness {
   alive,

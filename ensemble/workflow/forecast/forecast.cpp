@@ -163,6 +163,12 @@ void add_elapsed(Forecast& f) {
 
 }  // namespace
 
+Range members_memory(const Scene& scene, int workers) {
+  return Range::within(static_cast<double>(scene.description.memory_bytes) * workers +
+                           program_bytes + terrain_bytes(scene),
+                       memory_factor);
+}
+
 Forecast forecast(const Scene& scene, const ForecastRequest& request) {
   const SceneDescription& d = scene.description;
   const bool ensemble = request.design != nullptr && request.design->n_members() > 0;
@@ -183,8 +189,7 @@ Forecast forecast(const Scene& scene, const ForecastRequest& request) {
   f.median_s = Range::within(f.tried ? trial.median->cpu_s : d.predicted_seconds, factor);
   f.median_steps = Range::within(f.tried ? trial.median->steps : d.n_steps, factor);
   f.member_s = f.median_s;
-  f.memory_bytes = Range::within(
-      static_cast<double>(d.memory_bytes) + program_bytes + terrain_bytes(scene), memory_factor);
+  f.memory_bytes = members_memory(scene, 1);
   if (ensemble && f.tried_members > 0) {
     add_members(request, trial, f);
     request.cancel.check();

@@ -58,6 +58,9 @@ struct Forecast {
 /// Without a trial: a factor of four. \throws Cancelled
 Forecast forecast(const Scene&, const ForecastRequest&);
 
+/// What so many members at a time take, with the program and the terrain, without maps [bytes].
+Range members_memory(const Scene&, int workers);
+
 /// The forecast in sentences: a line for a member, and for an ensemble those of its parts.
 std::vector<std::string> forecast_lines(const Forecast&);
 

@@ -50,6 +50,17 @@ void begin_folder(const EnsembleJob& job) {
   save_scenario(job.folder, job.scene.scenario);
 }
 
+/// A thousand shards may begin at once, one after the other: what stands there is not written
+/// again.
+bool stands_there(const EnsembleJob& job) {
+  const Manifest before = Manifest::read(job.folder.manifest());
+  const Manifest& now = job.manifest;
+  return before.shards == now.shards && before.members == now.members &&
+         before.inputs == now.inputs && before.builds == now.builds &&
+         before.scene_hash == now.scene_hash && before.design_hash == now.design_hash &&
+         read_text(job.folder.scenario()) == write_scenario(job.scene.scenario, job.folder.root);
+}
+
 /// Members of this call's share that are not finished. \param from the first that is looked at
 /// \return how many of them failed before
 std::size_t find_work(EnsembleJob& job, const Shard& shard, std::int64_t from, Observer& observer) {
@@ -147,6 +158,7 @@ void take_past(Manifest& now, const Manifest& before, const OutputFolder& folder
                Observer& observer) {
   now.started = before.started;
   now.compute_s = before.compute_s;
+  if (now.shards == 0) now.shards = before.shards;
   now.hazard_hash = before.hazard_hash;
   now.maps_of = before.maps_of;
   now.builds = before.builds;
@@ -257,6 +269,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Scene scene, Observ
     for (std::string& warning : posterior_warnings(request.posterior, found_at(job.scene)))
       job.scene.description.warnings.push_back(std::move(warning));
   job.manifest = manifest_of(job.scene, "ensemble", request.command);
+  job.manifest.shards = shard.n > 1 ? shard.n : request.planned_shards;
   job.manifest.scenario_hash = scenario_hash(job.scene.scenario);
   job.manifest.scene_hash = scene_hash(job.scene.scenario, job.scene.inputs.identities);
 
@@ -271,7 +284,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Scene scene, Observ
     job.manifest.builds = {this_build()};
   job.manifest.members = job.design.n_members();
   job.manifest.design_hash = design_hash(job.design);
-  begin_folder(job);
+  if (!begun || shard.n == 1 || !stands_there(job)) begin_folder(job);
   keep_what_is_read(job);
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
@@ -282,6 +295,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Scene scene, Observ
   job.max_cores = request.max_cores;
   job.max_memory_bytes = request.max_memory_bytes;
   share_machine(job, observer);
+  job.lock->say_workers(job.workers);
   return job;
 }
 

@@ -29,6 +29,7 @@ struct EnsembleRequest {
   int max_cores = 0;             ///< members at a time times threads of each; 0: all available
   double max_memory_bytes = 0;   ///< of the whole process; 0: what is free
   Shard shard;
+  int planned_shards = 0;     ///< into which others will divide the members; 0: not known here
   bool retry_failed = false;  ///< compute failed members again
   /// Stop as soon as the largest half width of P(reached) is no more than this, see
   /// run_until_converged(); `members` is the most then. Not for shards.
@@ -65,6 +66,9 @@ struct EnsembleJob {
   int threads = 1;                   ///< of each member
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 };
+
+/// The scene with the wanted number of members as its last override.
+SceneRequest scene_of(const EnsembleRequest&);
 
 /// Reads and checks the scene, then begins the results folder or finds out what is left to do in
 /// it. Nothing is written before everything that the user could have wrong has been looked at.

@@ -54,6 +54,7 @@ MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
   };
   callbacks.store = [&](const MemberResult& result) {
     const auto begin = Clock::now();
+    job.lock->require_ours();
     store_member(job, result);
     run.storing_s += seconds_since(begin);
     run.computed.push_back(summary_of(result));

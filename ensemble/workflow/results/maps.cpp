@@ -146,6 +146,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
 }
 
 MapsMade make_maps(EnsembleJob& job, Observer& observer, CancelFlag cancel) {
+  job.lock->require_ours();
   job.manifest.compute_s += seconds_since(job.begin);
   // Members may have read more of the raster than the first look did.
   job.manifest.inputs = with_known_parts(job.manifest.inputs, job.scene.ground->identities());

@@ -2,6 +2,7 @@
 #include "ensemble/workflow/results/merge.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/workflow/cluster/shard_layout.hpp"
 #include "ensemble/workflow/folder/finished_folder.hpp"
 #include "ensemble/workflow/folder/folder_lock.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
@@ -11,6 +12,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -39,11 +41,13 @@ MergeInput open_for_maps(const MergeRequest& request, Observer& observer, Cancel
   MemberStore store = members_of(finished.folder, finished.manifest, design, {}, cancel);
   warn_of_problems(store, "It counts as missing.", observer);
   const std::string missing = what_is_missing(store, design.n_members());
-  require(
-      missing.empty() || request.partial,
-      fmt::format("{}: {}. Resume with the command that computed them (`sturz ensemble`, or their "
-                  "shards), or make maps from the others with --partial.",
-                  where, missing));
+  if (!missing.empty() && !request.partial) {
+    const auto shards = missing_shards(
+        shard_states(store.members(), design.n_members(), std::max(1, finished.manifest.shards)));
+    throw SetupError(fmt::format("{}: {}. {}; or make maps from the others with --partial.", where,
+                                 missing,
+                                 how_to_resume(finished.manifest, request.folder, shards)));
+  }
   require(!store.members().empty(),
           fmt::format("{} has no finished member (maps need at least one).", where));
   if (!missing.empty()) observer.warning(missing + "; the maps are made from the others.");
@@ -54,6 +58,7 @@ MergeInput open_for_maps(const MergeRequest& request, Observer& observer, Cancel
 
 MapsMade merge_members(const MergeRequest& request, Observer& observer, CancelFlag cancel) {
   MergeInput of = open_for_maps(request, observer, cancel);
+  of.lock->require_ours();
   FinishedFolder& finished = of.finished;
   return make_maps(
       {finished.folder, finished.manifest, finished.scenario, of.design, *finished.inputs},
