@@ -97,7 +97,7 @@ template <class Keep>
 void CellStatistics::sort_where(std::span<const float> values, Keep keep) {
   sorted_.clear();
   std::copy_if(values.begin(), values.end(), std::back_inserter(sorted_), keep);
-  std::sort(sorted_.begin(), sorted_.end());
+  sorter_.sort(sorted_);
 }
 
 }  // namespace sturz

@@ -5,6 +5,7 @@
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/member_cells.hpp"
+#include "ensemble/hazard/sorted_values.hpp"
 #include "ensemble/hazard/wilson.hpp"
 
 #include <span>
@@ -39,6 +40,7 @@ class CellStatistics {
   LayerBlock block_;
   std::vector<ProbabilityBounds> bounds_;  // of each possible number of hits
   std::vector<float> sorted_;              // scratch
+  ValueSorter sorter_;
 };
 
 }  // namespace sturz

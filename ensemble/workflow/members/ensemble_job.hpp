@@ -9,6 +9,7 @@
 #include "ensemble/workflow/folder/shard.hpp"
 #include "ensemble/workflow/observer.hpp"
 #include "ensemble/workflow/scene.hpp"
+#include "io/members/member_writer.hpp"
 #include "scenarios/assets/assets.hpp"
 
 #include <chrono>
@@ -28,6 +29,7 @@ struct EnsembleRequest {
   int workers = 0;               ///< members at a time; 0: all cores available to the process
   Shard shard;
   bool retry_failed = false;  ///< compute failed members again
+  bool packs = false;         ///< members in packs however few there are; a begun folder stays as is
   /// Stop as soon as the largest half width of P(reached) is no more than this, see
   /// run_until_converged(); `members` is the most then. Not for shards.
   std::optional<double> until_half_width;
@@ -50,6 +52,7 @@ struct EnsembleJob {
   Manifest manifest;
   DesignTable design;
   std::optional<Growth> growth;  ///< under a stop rule
+  std::shared_ptr<MemberWriter> writer;  ///< keeps members in the folder
   std::vector<std::int64_t> to_do;
   std::int64_t finished_before = 0;  ///< of this call's share
   bool retry_failed = false;         ///< failed members are to do
