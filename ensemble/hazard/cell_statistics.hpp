@@ -5,7 +5,7 @@
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/member_cells.hpp"
-#include "ensemble/hazard/sorted_values.hpp"
+#include "ensemble/hazard/sorting/sorted_values.hpp"
 #include "ensemble/hazard/wilson.hpp"
 
 #include <span>

@@ -12,9 +12,9 @@
 
 namespace sturz {
 
-/// Goes over an extent in passes. A pass takes as many of the next blocks as will fit by the windows
-/// of the members, and gives up those at its end, for the next pass, when what it holds grows beyond
-/// the bound all the same.
+/// Goes over an extent in passes. A pass takes as many of the next blocks as will fit by the
+/// windows of the members, and gives up those at its end, for the next pass, when what it holds
+/// grows beyond the bound all the same.
 class TouchedRecords {
  public:
   /// \param windows of the members that will be added, in any order
@@ -61,9 +61,9 @@ class TouchedRecords {
   std::vector<PeakLayer> layers_;
   std::size_t memory_bytes_;
   std::size_t n_block_cols_ = 0, n_blocks_ = 0;
-  std::vector<double> bounds_;                      // of each block: cells of members' windows
-  double filled_ = 1;                               // share of them that the last pass held
-  RowCount first_ = 0, end_ = 0;                    // of this pass
+  std::vector<double> bounds_;    // of each block: cells of members' windows
+  double filled_ = 1;             // share of them that the last pass held
+  RowCount first_ = 0, end_ = 0;  // of this pass
   std::size_t first_block_ = 0;
   std::vector<Block> blocks_;  // of this pass, from first_block_
   std::size_t bytes_ = 0;

@@ -33,7 +33,8 @@ class MemberWriter {
   virtual void sync() = 0;
 };
 
-/// Nothing is made before the first member. \param shard k and n of those that this process computes
+/// Nothing is made before the first member. \param shard k and n of those that this process
+/// computes
 std::unique_ptr<MemberWriter> member_writer(const std::filesystem::path& folder, MemberLayout,
                                             PackName shard = {});
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/hazard/sorted_values.hpp"
+#include "ensemble/hazard/sorting/sorted_values.hpp"
 
 #include <gtest/gtest.h>
 

@@ -36,7 +36,7 @@ Track track_of(std::int64_t member, int edge) {
   t.length = static_cast<int>(scale * between(60, 160));
   t.half_width = scale * between(8, 20);
   t.lean = between(-0.3, 0.3);
-  const double room = 70 * scale;
+  const double room = 80 * scale;
   const bool same_place = member % 2 == 0;
   t.row = same_place ? 0.3 * edge : between(1, edge - t.length - 2);
   t.col = same_place ? 0.5 * edge : between(room, edge - room);

@@ -155,8 +155,7 @@ void begin_with_first_look(EnsembleJob& job, bool begun) {
 }
 
 std::shared_ptr<MemberWriter> writer_of(const EnsembleJob& job, const EnsembleRequest& request) {
-  const std::int64_t planned =
-      job.growth ? job.growth->whole.n_members() : job.design.n_members();
+  const std::int64_t planned = job.growth ? job.growth->whole.n_members() : job.design.n_members();
   const auto folder = job.folder.members();
   const MemberLayout layout = layout_of(folder, request.packs ? most_member_files + 1 : planned);
   return member_writer(folder, layout, {request.shard.k, request.shard.n});

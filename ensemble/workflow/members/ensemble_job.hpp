@@ -29,7 +29,7 @@ struct EnsembleRequest {
   int workers = 0;               ///< members at a time; 0: all cores available to the process
   Shard shard;
   bool retry_failed = false;  ///< compute failed members again
-  bool packs = false;         ///< members in packs however few there are; a begun folder stays as is
+  bool packs = false;  ///< members in packs however few there are; a begun folder stays as is
   /// Stop as soon as the largest half width of P(reached) is no more than this, see
   /// run_until_converged(); `members` is the most then. Not for shards.
   std::optional<double> until_half_width;
@@ -51,7 +51,7 @@ struct EnsembleJob {
   OutputFolder folder;
   Manifest manifest;
   DesignTable design;
-  std::optional<Growth> growth;  ///< under a stop rule
+  std::optional<Growth> growth;          ///< under a stop rule
   std::shared_ptr<MemberWriter> writer;  ///< keeps members in the folder
   std::vector<std::int64_t> to_do;
   std::int64_t finished_before = 0;  ///< of this call's share

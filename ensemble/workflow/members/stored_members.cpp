@@ -53,9 +53,8 @@ std::vector<fs::path> extract_members(const ExtractRequest& request, Observer& o
                                       CancelFlag cancel) {
   MemberFilter filter;
   filter.wanted = [&](std::int64_t member) {
-    return std::any_of(request.members.begin(), request.members.end(), [&](const MemberRange& r) {
-      return member >= r.first && member <= r.last;
-    });
+    return std::any_of(request.members.begin(), request.members.end(),
+                       [&](const MemberRange& r) { return member >= r.first && member <= r.last; });
   };
   const MemberStore store = open_store(request.folder, filter, observer, cancel);
   const auto& members = store.members();

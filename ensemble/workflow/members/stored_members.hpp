@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The members of a folder as its files hold them, of whatever scene: listed, or taken out of packs.
+/// The members of a folder as its files hold them, of whatever scene: listed, or taken out of
+/// packs.
 #pragma once
 
 #include "engine/core/cancel.hpp"
@@ -21,7 +22,8 @@ struct StoredMembers {
 };
 
 /// Warns of what is damaged. \throws SetupError when the folder holds no members; Cancelled
-StoredMembers stored_members(const std::filesystem::path& folder, Observer&, CancelFlag cancel = {});
+StoredMembers stored_members(const std::filesystem::path& folder, Observer&,
+                             CancelFlag cancel = {});
 
 /// Both ends included.
 struct MemberRange {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The packs of a folder, of which some hundred are open at a time: an ensemble of a thousand shards
-/// has more of them than a process may open files.
+/// The packs of a folder, of which some hundred are open at a time: an ensemble of a thousand
+/// shards has more of them than a process may open files.
 #pragma once
 
 #include "io/members/packs/pack_file.hpp"
@@ -21,7 +21,7 @@ class OpenPacks {
   explicit OpenPacks(std::vector<std::filesystem::path> paths) : paths_(std::move(paths)) {}
 
   const std::vector<std::filesystem::path>& paths() const { return paths_; }
-  /// From any thread; stays open as long as somebody holds it. \throws IoError
+  /// From any thread; stays open as long as it is held. \throws IoError
   std::shared_ptr<const PackFile> get(std::size_t pack) {
     const std::lock_guard guard(lock_);
     auto& file = open_[pack];

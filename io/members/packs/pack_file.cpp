@@ -49,6 +49,7 @@ class Search {
       const std::span all(bytes.data(), std::min<std::uint64_t>(bytes.size(), size_ - at));
       file_.read(at, all);
       for (std::size_t i = 0; i < std::min(all.size(), block); ++i) {
+        if (at + i < begin_) continue;  // within a tail
         if (head_at(all.subspan(i))) {
           tell(at + i);
           return at + i;
@@ -99,7 +100,8 @@ std::optional<PackName> pack_named(const fs::path& file) {
   PackName found;
   const bool fits = take(left, found.k) && take(left, "_of_") && take(left, found.n) &&
                     take(left, ".") && take(left, found.number) && left == ".pack" &&
-                    found.k >= 1 && found.k <= found.n && found.number >= 1 && name == pack_file_name(found);
+                    found.k >= 1 && found.k <= found.n && found.number >= 1 &&
+                    name == pack_file_name(found);
   return fits ? std::optional(found) : std::nullopt;
 }
 
@@ -139,10 +141,10 @@ void PackFile::read(std::uint64_t offset, std::span<std::byte> out) const {
     const ssize_t n = ::pread(descriptor_, out.data(), out.size(), static_cast<off_t>(offset));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0)
-      throw IoError(fmt::format("{}: cannot be read at byte {} ({}). Run the command that wrote it "
-                                "again.",
-                                path_.string(), offset,
-                                n == 0 ? "it ends there" : std::strerror(errno)));
+      throw IoError(
+          fmt::format("{}: cannot be read at byte {} ({}). Run the command that wrote it "
+                      "again.",
+                      path_.string(), offset, n == 0 ? "it ends there" : std::strerror(errno)));
     out = out.subspan(static_cast<std::size_t>(n));
     offset += static_cast<std::uint64_t>(n);
   }

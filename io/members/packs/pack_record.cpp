@@ -37,20 +37,16 @@ std::vector<std::byte> tail_of(const RecordHead& head) {
 }
 
 void require_sum(std::span<const std::byte> bytes, std::uint32_t sum, const char* what) {
-  if (crc32c(bytes) != sum)
-    throw BadRecord(std::string(what) + " does not fit its checksum");
+  if (crc32c(bytes) != sum) throw BadRecord(std::string(what) + " does not fit its checksum");
 }
 
 }  // namespace
 
-std::vector<std::byte> encode_record(const MemberResult& m, const MemberOrigin& origin) {
-  ByteWriter facts, series, directory, maps;
-  write_facts(facts, m, origin);
-  write_series(series, m);
-  if (has_maps(m)) write_maps(directory, maps, m);
+std::vector<std::byte> sealed_record(std::int64_t member, RecordParts parts) {
+  auto& [facts, series, directory, maps] = parts;
   RecordHead head;
   for (ByteWriter* part : {&facts, &series, &directory, &maps}) part->pad(step);
-  head.member = m.member;
+  head.member = member;
   head.facts = static_cast<std::uint32_t>(size_of(facts));
   head.series = static_cast<std::uint32_t>(size_of(series));
   head.directory = static_cast<std::uint32_t>(size_of(directory));
@@ -62,6 +58,14 @@ std::vector<std::byte> encode_record(const MemberResult& m, const MemberOrigin& 
   for (const ByteWriter* part : {&facts, &series, &directory, &maps}) all.values(part->bytes());
   all.values(std::span<const std::byte>(tail_of(head)));
   return all.take();
+}
+
+std::vector<std::byte> encode_record(const MemberResult& m, const MemberOrigin& origin) {
+  RecordParts parts;
+  write_facts(parts.facts, m, origin);
+  write_series(parts.series, m);
+  if (has_maps(m)) write_maps(parts.directory, parts.maps, m);
+  return sealed_record(m.member, std::move(parts));
 }
 
 std::optional<RecordHead> head_at(std::span<const std::byte> bytes) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One member in a pack: head, facts, series, directory of maps, maps, tail; each with its checksum.
+/// One member in a pack: head, facts, series, directory of maps, maps, tail; each with its
+/// checksum.
 ///
 ///   head (64 bytes)  mark, number of the member, length of everything, checksums of three parts
 ///   facts, series    record_facts.hpp, each filled up to eight bytes
@@ -38,6 +39,12 @@ struct RecordHead {
   std::uint64_t directory_at() const { return series_at() + series; }
   std::uint64_t maps_at() const { return directory_at() + directory; }
 };
+
+/// The four parts of a record, before it has head, tail and sums.
+struct RecordParts {
+  ByteWriter facts, series, directory, maps;
+};
+std::vector<std::byte> sealed_record(std::int64_t member, RecordParts parts);
 
 std::vector<std::byte> encode_record(const MemberResult&, const MemberOrigin&);
 

@@ -200,7 +200,8 @@ void write_facts(ByteWriter& to, const MemberResult& m, const MemberOrigin& orig
   write_grid(to, m.grid);
   write_window(to, has_maps(m) ? m.window : Window{});
   write_seconds(to, m.effect_seconds);
-  for (const std::string* text : {&origin.scene_hash, &origin.engine_version, &origin.engine_commit})
+  for (const std::string* text :
+       {&origin.scene_hash, &origin.engine_version, &origin.engine_commit})
     to.text(*text);
 }
 

@@ -206,7 +206,8 @@ void RecordMaps::take(std::size_t number, std::span<const std::byte> all, const 
     const std::uint64_t cell = run.row * n_cols + run.col;
     const bool sound = run.n > 0 && run.row >= first_row && run.row < first_row + band_rows &&
                        run.row < static_cast<std::uint32_t>(window_.n_rows) && run.col < n_cols &&
-                       run.n <= n_cols - run.col && cell >= before && run.n <= band.n_touched - seen;
+                       run.n <= n_cols - run.col && cell >= before &&
+                       run.n <= band.n_touched - seen;
     if (!sound) throw BadRecord("its maps lie where they cannot");
     before = cell + run.n;
     std::size_t skipped = 0;
@@ -225,7 +226,8 @@ void RecordMaps::take(std::size_t number, std::span<const std::byte> all, const 
     to.resize(out.n_cells, info(layers[l]).untouched);
     const std::size_t place = place_of(layers[l]);
     if (place == kept_.size()) continue;
-    const auto values = all.subspan(runs_bytes(band) + place * layer_bytes(band), layer_bytes(band));
+    const auto values =
+        all.subspan(runs_bytes(band) + place * layer_bytes(band), layer_bytes(band));
     require_sum(values, band.layer_sums[place]);
     for (const Piece& piece : pieces) {
       std::memcpy(&to[at], values.data() + piece.first * sizeof(float), piece.n * sizeof(float));
@@ -241,13 +243,13 @@ void RecordMaps::read(const Read& read, const Window& part, std::span<const Peak
   const auto first = static_cast<std::size_t>((part.row0 - window_.row0) / band_rows);
   const auto end = static_cast<std::size_t>((part.end_row() - 1 - window_.row0) / band_rows) + 1;
   thread_local std::vector<std::byte> bytes_read;  // this is called a million times
-  if (2 * layers.size() > kept_.size()) {  // nearly all of it: in one stroke
+  if (2 * layers.size() > kept_.size()) {          // nearly all of it: in one stroke
     const std::uint64_t from = bands_[first].offset;
     bytes_read.resize(bands_[end - 1].offset + bytes(bands_[end - 1]) - from);
     read(from, bytes_read);
     for (std::size_t b = first; b < end; ++b)
-      take(b, std::span(bytes_read).subspan(bands_[b].offset - from, bytes(bands_[b])), part, layers,
-           out);
+      take(b, std::span(bytes_read).subspan(bands_[b].offset - from, bytes(bands_[b])), part,
+           layers, out);
     return;
   }
   for (std::size_t b = first; b < end; ++b) {  // runs and the layers asked for

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The maps of a member in a pack: touched cells only, in bands of rows that can be read alone.
 ///
-/// A band holds the runs of touched cells of 16 rows and then, layer by layer, a float32 for each of
-/// these cells. A cell is touched where the bits of some layer are not those of an untouched cell,
-/// so maps come back bit for bit. Runs and each layer of a band have checksums of their own, kept in
-/// the directory: what is read is checked, however little it is.
+/// A band holds the runs of touched cells of 16 rows and then, layer by layer, a float32 for each
+/// of these cells. A cell is touched where the bits of some layer are not those of an untouched
+/// cell, so maps come back bit for bit. Runs and each layer of a band have checksums of their own,
+/// kept in the directory: what is read is checked, however little it is.
 ///
 /// Not compressed: shuffle and deflate would save a third of it (ADR 0052) and take longer to undo
 /// than statistics take to make.

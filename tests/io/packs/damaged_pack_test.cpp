@@ -46,7 +46,7 @@ TEST_F(DamagedPack, CutAtAnyByteKeepsTheMembersBeforeAndTakesMoreBehind) {
   ASSERT_THAT(end, SizeIs(3));
   std::mt19937 random(3);
   for (int i = 0; i < 60; ++i) {
-    const std::size_t n = i < 40 ? random() % whole.size()                // anywhere
+    const std::size_t n = i < 40 ? random() % whole.size()                  // anywhere
                                  : end[random() % 3] + random() % 70 - 35;  // about a border
     const std::size_t size = std::min(n, whole.size());
     put(whole.substr(0, size));
@@ -68,8 +68,8 @@ TEST_F(DamagedPack, NamesTheMemberThatWasCutShort) {
   const MemberStore store(members());
   EXPECT_THAT(numbers_of(store), ElementsAre(0));
   ASSERT_THAT(store.problems(), SizeIs(1));
-  EXPECT_THAT(store.problems()[0], AllOf(HasSubstr("1_of_1.001.pack, member 1 at byte"),
-                                         HasSubstr("cut short")));
+  EXPECT_THAT(store.problems()[0],
+              AllOf(HasSubstr("1_of_1.001.pack, member 1 at byte"), HasSubstr("cut short")));
 }
 
 TEST_F(DamagedPack, NoFlippedBitIsReadAndItsMemberIsNamed) {

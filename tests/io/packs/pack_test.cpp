@@ -29,9 +29,10 @@ TEST(Crc32c, IsTheOneOfRfc3720) {
 TEST(PackName, ComesBackAndOthersDoNot) {
   for (const PackName& name : {PackName{1, 1, 1}, PackName{3, 1000, 17}, PackName{2, 2, 1234}})
     EXPECT_EQ(pack_named(pack_file_name(name)), name);
-  for (const char* name : {"", "1_of_1.pack", "1_of_1.1.pack", "01_of_1.001.pack", "2_of_1.001.pack",
-                           "0_of_1.001.pack", "1_of_1.001.pack.part", "1_of_1.-01.pack", "000001.nc",
-                           "1_of_1.000.pack", "99999999999_of_1.001.pack"})
+  for (const char* name :
+       {"", "1_of_1.pack", "1_of_1.1.pack", "01_of_1.001.pack", "2_of_1.001.pack",
+        "0_of_1.001.pack", "1_of_1.001.pack.part", "1_of_1.-01.pack", "000001.nc",
+        "1_of_1.000.pack", "99999999999_of_1.001.pack"})
     EXPECT_FALSE(pack_named(name)) << name;
 }
 
@@ -114,7 +115,8 @@ TEST_F(Packs, OfAnySparseMapComeBackBitForBit) {
   const auto maps = maps_of_member(store, 0);
   for (int l = 0; l < n_peak_layers; ++l)
     if (is_kept(static_cast<PeakLayer>(l), m.censoring, m.scalars)) {
-      EXPECT_TRUE(same_bits(maps[static_cast<std::size_t>(l)], m.layers[static_cast<std::size_t>(l)]));
+      EXPECT_TRUE(
+          same_bits(maps[static_cast<std::size_t>(l)], m.layers[static_cast<std::size_t>(l)]));
     }
   for (int i = 0; i < 200; ++i) {  // parts against the whole
     const int row = static_cast<int>(random() % 70), col = static_cast<int>(random() % 61);
@@ -124,7 +126,8 @@ TEST_F(Packs, OfAnySparseMapComeBackBitForBit) {
     store.read_part(0, PeakLayer::speed, part, got);
     for (int r = part.row0; r < part.end_row(); ++r)
       for (int c = part.col0; c < part.end_col(); ++c)
-        expected.push_back(m.layer(PeakLayer::speed)[static_cast<std::size_t>((r - 3) * 61 + c - 4)]);
+        expected.push_back(
+            m.layer(PeakLayer::speed)[static_cast<std::size_t>((r - 3) * 61 + c - 4)]);
     EXPECT_TRUE(same_bits(got, expected));
   }
 }
@@ -225,7 +228,8 @@ TEST_F(Packs, BeginAboveSomeThousandsAndAFolderStaysAsItBegan) {
 TEST_F(Packs, TellGaugesOfOneMember) {
   append({2});
   write_member(folder() / "files", made_up_member(2));
-  const GaugeResult a = MemberStore(folder() / "files").gauges(0), b = MemberStore(members()).gauges(0);
+  const GaugeResult a = MemberStore(folder() / "files").gauges(0),
+                    b = MemberStore(members()).gauges(0);
   EXPECT_EQ(a.time_s, b.time_s);
   ASSERT_EQ(a.points.size(), b.points.size());
   ASSERT_EQ(a.lines.size(), b.lines.size());

@@ -9,8 +9,8 @@
 namespace sturz {
 
 /// Sorts numbers none of which is negative or undefined; keeps its scratch memory. Few of them by
-/// std::sort, many byte by byte of their bits, whose order is that of the numbers: 7 ns a value where
-/// comparing takes 25 and more.
+/// std::sort, many byte by byte of their bits, whose order is that of the numbers: 7 ns a value
+/// where comparing takes 25 and more.
 class ValueSorter {
  public:
   /// Below this many, clearing the counters costs more than it saves.

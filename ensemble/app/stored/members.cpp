@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sturz members: which members a folder holds, and in which files; one of them as a file of its own.
+// sturz members: which members a folder holds, and in which files; one of them as a file of its
+// own.
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
@@ -74,9 +75,9 @@ int members(const Options& options, Console& console) {
 }  // namespace
 
 void add_members(Grammar& grammar) {
-  auto [parser, options] = add_command(
-      grammar, "members", "List the stored members, or write some as netCDF files of their own",
-      members);
+  auto [parser, options] =
+      add_command(grammar, "members",
+                  "List the stored members, or write some as netCDF files of their own", members);
   parser.add_option("folder", options.folder, "Folder of an ensemble")
       ->type_name("DIR")
       ->required();
