@@ -27,7 +27,7 @@ inline void add_seconds(NamedSeconds& times, std::string_view name, double secon
 class SharedSeconds {
  public:
   SharedSeconds() = default;
-  SharedSeconds(const NamedSeconds& times) {  // NOLINT(google-explicit-constructor): the same thing
+  SharedSeconds(const NamedSeconds& times) {
     if (times.empty()) return;
     std::vector<std::string> names;
     for (const auto& [name, seconds] : times) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <span>
 #include <utility>
 
 namespace sturz {
@@ -116,7 +117,7 @@ void TouchedRecords::put(Block& to, const Piece& piece, const TouchedCells& from
   to.pieces.push_back(piece);
   const std::size_t at = to.values.size(), n = piece.n;
   if (at + n * layers_.size() > to.values.capacity())  // doubling would hold twice the bound
-    to.values.reserve(at + at / 4 + std::max<std::size_t>(n * layers_.size(), 1024));
+    to.values.reserve(at + at / 4 + std::max<std::size_t>(n * layers_.size(), 64));
   to.values.resize(at + n * layers_.size());
   for (std::size_t l = 0; l < layers_.size(); ++l)
     std::memcpy(&to.values[at + l * n], &from.values[l][first], n * sizeof(float));
@@ -179,56 +180,73 @@ void TouchedRecords::keep_rows_below(Block& block, int row) const {
   block.values.shrink_to_fit();
 }
 
+/// Pieces by row, into by_row_; the order of members within a row stays.
+void TouchedRecords::order_by_row(const Block& from) {
+  row_begin_.fill(0);
+  for (const Piece& piece : from.pieces) ++row_begin_[piece.cell / edge + 1];
+  for (std::size_t row = 1; row < row_begin_.size(); ++row) row_begin_[row] += row_begin_[row - 1];
+  by_row_.resize(from.pieces.size());
+  auto next = row_begin_;
+  const float* values = from.values.data();
+  for (const Piece& piece : from.pieces) {
+    by_row_[next[piece.cell / edge]++] = {piece, values};
+    values += piece.n * layers_.size();
+  }
+}
+
 /// By cell, into rows_; the order of members within a cell stays.
-void TouchedRecords::sort(const Block& from, std::size_t block, int first_row, int end_row) {
+void TouchedRecords::sort(const Window& block, int first_row, int end_row) {
   CellRows& rows = rows_;
-  rows.block = block_window(block);
-  rows.window = {rows.block.row0 + first_row, rows.block.col0, end_row - first_row,
-                 rows.block.n_cols};
-  const auto n_cols = static_cast<std::size_t>(rows.block.n_cols);
-  const auto is_in = [&](const Piece& piece) {
-    return piece.cell >= first_row * edge && piece.cell < end_row * edge;
-  };
+  rows.block = block;
+  rows.window = {block.row0 + first_row, block.col0, end_row - first_row, block.n_cols};
+  const auto pieces = std::span(by_row_).subspan(row_begin_[first_row],
+                                                 row_begin_[end_row] - row_begin_[first_row]);
   const auto cell_of = [&](const Piece& piece) {
-    return static_cast<std::size_t>(piece.cell / edge - first_row) * n_cols + piece.cell % edge;
+    return static_cast<std::size_t>(piece.cell / edge - first_row) *
+               static_cast<std::size_t>(block.n_cols) +
+           piece.cell % edge;
   };
   rows.begin.assign(rows.window.n_cells() + 1, 0);
-  for (const Piece& piece : from.pieces)
-    if (is_in(piece))
-      for (std::size_t k = 0, cell = cell_of(piece); k < piece.n; ++k) ++rows.begin[cell + k + 1];
+  for (const auto& [piece, values] : pieces)
+    for (std::size_t k = 0, cell = cell_of(piece); k < piece.n; ++k) ++rows.begin[cell + k + 1];
   for (std::size_t cell = 1; cell < rows.begin.size(); ++cell)
     rows.begin[cell] += rows.begin[cell - 1];
   next_.assign(rows.begin.begin(), rows.begin.end() - 1);
   rows.members.resize(rows.begin.back());
   for (const PeakLayer layer : layers_)
     rows.values[static_cast<std::size_t>(layer)].resize(rows.begin.back());
-  const float* values = from.values.data();
-  for (const Piece& piece : from.pieces) {
-    if (is_in(piece)) {
-      const std::size_t cell = cell_of(piece);
-      for (std::size_t l = 0; l < layers_.size(); ++l) {
-        float* to = rows.values[static_cast<std::size_t>(layers_[l])].data();
-        for (std::size_t k = 0; k < piece.n; ++k) to[next_[cell + k]] = values[l * piece.n + k];
-      }
-      for (std::size_t k = 0; k < piece.n; ++k) rows.members[next_[cell + k]++] = piece.member;
+  for (const auto& [piece, values] : pieces) {
+    std::uint32_t* const next = &next_[cell_of(piece)];
+    for (std::size_t l = 0; l < layers_.size(); ++l) {
+      float* const to = rows.values[static_cast<std::size_t>(layers_[l])].data();
+      const float* const from = values + l * piece.n;
+      for (std::size_t k = 0; k < piece.n; ++k) to[next[k]] = from[k];
     }
-    values += piece.n * layers_.size();
+    for (std::size_t k = 0; k < piece.n; ++k) rows.members[next[k]++] = piece.member;
   }
 }
 
 /// In groups of rows whose touches fit the processor's cache.
 void TouchedRecords::hand_out(std::size_t block, int first_row, int end_row,
                               const std::function<void(const CellRows&)>& visitor) {
-  constexpr std::size_t in_cache = 32768;  // touches
-  const Block& from = blocks_[block - first_block_];
-  std::array<std::size_t, edge> touches{};
-  for (const Piece& piece : from.pieces) touches[piece.cell / edge] += piece.n;
+  constexpr std::size_t in_cache = 16384;  // touches
+  order_by_row(blocks_[block - first_block_]);
+  const auto touches = [&](int row) {
+    std::size_t n = 0;
+    for (std::size_t i = row_begin_[row]; i < row_begin_[row + 1]; ++i) n += by_row_[i].piece.n;
+    return n;
+  };
   int first = first_row;
+  std::size_t n_next = touches(first);
   while (first < end_row) {
     int end = first + 1;
-    for (std::size_t n = touches[first]; end < end_row && n + touches[end] <= in_cache; ++end)
-      n += touches[end];
-    sort(from, block, first, end);
+    std::size_t n = n_next;
+    for (; end < end_row; ++end) {
+      n_next = touches(end);
+      if (n + n_next > in_cache) break;
+      n += n_next;
+    }
+    sort(block_window(block), first, end);
     visitor(rows_);
     first = end;
   }

@@ -6,6 +6,7 @@
 #include "engine/simulation/touched_cells.hpp"
 #include "ensemble/hazard/member_cells.hpp"
 
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -55,7 +56,8 @@ class TouchedRecords {
   void keep_rows_below(Block& block, int row) const;
   void hand_out(std::size_t block, int first_row, int end_row,
                 const std::function<void(const CellRows&)>& visitor);
-  void sort(const Block& from, std::size_t block, int first_row, int end_row);
+  void order_by_row(const Block& from);
+  void sort(const Window& block, int first_row, int end_row);
 
   Window extent_;
   std::vector<PeakLayer> layers_;
@@ -67,8 +69,16 @@ class TouchedRecords {
   std::size_t first_block_ = 0;
   std::vector<Block> blocks_;  // of this pass, from first_block_
   std::size_t bytes_ = 0;
-  CellRows rows_;                    // scratch of hand_out
-  std::vector<std::uint32_t> next_;  // alike
+
+  // Scratch of hand_out.
+  struct Placed {
+    Piece piece;
+    const float* values = nullptr;
+  };
+  std::vector<Placed> by_row_;
+  std::array<std::size_t, MemberCells::block_edge + 1> row_begin_{};  // in by_row_
+  CellRows rows_;
+  std::vector<std::uint32_t> next_;
 };
 
 }  // namespace sturz

@@ -78,6 +78,18 @@ void require_sum(std::span<const std::byte> bytes, std::uint32_t sum) {
   if (crc32c(bytes) != sum) throw BadRecord("its maps do not fit their checksum");
 }
 
+/// The part of a run that lies in the columns and rows of `part`, all counted in the grid.
+TouchedCells::Run clipped(const StoredRun& run, const Window& window, const Window& part,
+                          std::size_t& skipped) {
+  const int row = window.row0 + static_cast<int>(run.row);
+  const int col = window.col0 + static_cast<int>(run.col);
+  const int first = std::max(col, part.col0);
+  const int end = std::min(col + static_cast<int>(run.n), part.end_col());
+  skipped = static_cast<std::size_t>(std::max(first - col, 0));
+  if (row < part.row0 || row >= part.end_row() || end <= first) return {};
+  return {row, first, end - first};
+}
+
 }  // namespace
 
 void write_maps(ByteWriter& directory, ByteWriter& maps, const MemberResult& m) {
@@ -174,18 +186,6 @@ bool RecordMaps::is_exact_for(std::span<const PeakLayer> layers) const {
     return std::find(layers.begin(), layers.end(), l) != layers.end();
   };
   return exact_ && std::all_of(kept_.begin(), kept_.end(), asked);
-}
-
-/// The part of a run that lies in the columns and rows of `part`, all counted in the grid.
-static TouchedCells::Run clipped(const StoredRun& run, const Window& window, const Window& part,
-                                 std::size_t& skipped) {
-  const int row = window.row0 + static_cast<int>(run.row);
-  const int col = window.col0 + static_cast<int>(run.col);
-  const int first = std::max(col, part.col0);
-  const int end = std::min(col + static_cast<int>(run.n), part.end_col());
-  skipped = static_cast<std::size_t>(std::max(first - col, 0));
-  if (row < part.row0 || row >= part.end_row() || end <= first) return {};
-  return {row, first, end - first};
 }
 
 void RecordMaps::take(std::size_t number, std::span<const std::byte> all, const Window& part,
