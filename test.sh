@@ -83,7 +83,7 @@ stage_asan() {
 }
 
 declare -A fuzz_runs=([scenario]=12000 [design]=100000 [hydrograph]=100000 [polygons]=6000 [rasters]=4000 [netcdf]=800
-                      [manifest]=60000 [risk]=60000)
+                      [manifest]=60000 [risk]=60000 [pack]=60000)
 
 stage_fuzz() {
   build asan fuzz

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
+#include "engine/simulation/touched_cells.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -30,6 +31,15 @@ class MemberParts : public MemberSource {
   /// [part.n_rows][part.n_cols]
   virtual void read_part(std::size_t index, PeakLayer layer, const Window& part,
                          std::span<float> out) const = 0;
+
+  /// The cells of `part` that differ from untouched ones in one of these layers. Here from
+  /// read_part(); a source that keeps nothing else is faster.
+  virtual void read_touched(std::size_t index, const Window& part,
+                            std::span<const PeakLayer> layers, TouchedCells& out) const {
+    std::vector<std::vector<float>> dense(layers.size(), std::vector<float>(part.n_cells()));
+    for (std::size_t l = 0; l < layers.size(); ++l) read_part(index, layers[l], part, dense[l]);
+    out.take_touched(part, layers, dense);
+  }
 
   void read_rows(std::size_t index, PeakLayer layer, int row0, int n_rows,
                  std::span<float> out) const override {

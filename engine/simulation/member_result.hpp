@@ -180,7 +180,7 @@ struct MemberSummary {
   std::uint64_t state_hash = 0;
   MemberScalars scalars;
   Window window;
-  NamedSeconds effect_seconds;  ///< may be empty
+  SharedSeconds effect_seconds;  ///< may be empty
 };
 
 /// Finished members, wherever they are kept; implemented by io, handed out by the app.

@@ -37,6 +37,7 @@ struct Options {
   std::string shard;           ///< "k/n" or "auto/n"; empty: everything
   int first_task = 1;          ///< number of the task that computes shard 1
   bool retry_failed = false;   ///< compute failed members again
+  bool packs = false;          ///< members in packs however few there are
   double until_converged = 0;  ///< half width of P(reached); 0: no stop rule
   std::string asset;           ///< name of the one that the rule looks at; empty: the map
   int at_most = 0;             ///< members under that rule; 0: as the scenario says
@@ -55,6 +56,7 @@ std::string command_text(const Options& o) {
   if (!o.asset.empty()) text += " --asset " + shell_word(o.asset);
   if (o.at_most > 0) text += fmt::format(" --at-most {}", o.at_most);
   if (!o.posterior.empty()) text += " --posterior " + shell_word(o.posterior);
+  if (o.packs) text += " --packs";
   return text;
 }
 
@@ -72,6 +74,7 @@ workflow::EnsembleRequest request_of(const Options& o) {
   request.workers = o.of.workers;
   request.shard = shard_of(o.shard);
   request.retry_failed = o.retry_failed;
+  request.packs = o.packs;
   request.command = command_text(o);
   return request;
 }
@@ -217,6 +220,9 @@ void add_ensemble(Grammar& grammar) {
       ->check(CLI::Range(0, 1000000));
   parser.add_flag("--retry-failed", options.retry_failed,
                   "Compute members again that failed, for instance at a wall-time limit");
+  parser.add_flag("--packs", options.packs,
+                  "Keep members in packs of thousands and not in a file each, as ensembles of more "
+                  "than 4096 members are kept anyway; a begun folder goes on as it began");
   parser
       .add_option("--posterior", options.posterior,
                   "Draw the members from what `sturz calibrate` found in this folder")

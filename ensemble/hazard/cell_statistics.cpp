@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/hazard/cell_statistics.hpp"
 
-#include "ensemble/hazard/sample_quantile.hpp"
 #include "ensemble/hazard/swiss_intensity.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <utility>
 
 namespace sturz {
@@ -33,22 +31,23 @@ void CellStatistics::add(const CellRows& rows) {
 }
 
 void CellStatistics::reached(const CellRows& rows, std::size_t i, std::size_t cell) {
-  sort_where(rows.of(PeakLayer::arrival, i), [](float t) { return !std::isnan(t); });
-  put_probability(layers_.reached, 0, cell, static_cast<std::int64_t>(sorted_.size()));
-  if (!sorted_.empty() && layers_.arrival_quantile)
+  keep_where(rows.of(PeakLayer::arrival, i), [](float t) { return !std::isnan(t); });
+  put_probability(layers_.reached, 0, cell, static_cast<std::int64_t>(kept_.size()));
+  if (!kept_.empty() && layers_.arrival_quantile)
     put_quantiles(*layers_.arrival_quantile, cell, 0, 1);
 }
 
 void CellStatistics::quantity(const QuantityLayers& to, const CellRows& rows, std::size_t i,
                               std::size_t cell) {
   const std::span<const float> members = rows.of(to.source, i);
-  sort_where(members, [](float v) { return v > 0; });
-  if (sorted_.empty()) return;  // the layers hold the value of an untouched cell already
+  keep_where(members, [](float v) { return v > 0; });
+  if (kept_.empty()) return;  // the layers hold the value of an untouched cell already
   if (to.exceedance)
     for (std::size_t plane = 0; plane < to.exceedance->thresholds.size(); ++plane) {
-      const auto above =
-          std::upper_bound(sorted_.begin(), sorted_.end(), to.exceedance->thresholds[plane]);
-      put_probability(*to.exceedance, plane, cell, sorted_.end() - above);
+      const float threshold = to.exceedance->thresholds[plane];
+      put_probability(*to.exceedance, plane, cell,
+                      std::count_if(kept_.begin(), kept_.end(),
+                                    [threshold](float v) { return v > threshold; }));
     }
   if (to.mean) {
     double sum = 0;
@@ -56,8 +55,7 @@ void CellStatistics::quantity(const QuantityLayers& to, const CellRows& rows, st
     block_.put(*to.mean, 0, cell, sum / static_cast<double>(n_) * to.units_per_si);
   }
   if (to.quantile)
-    put_quantiles(*to.quantile, cell, static_cast<std::size_t>(n_) - sorted_.size(),
-                  to.units_per_si);
+    put_quantiles(*to.quantile, cell, static_cast<std::size_t>(n_) - kept_.size(), to.units_per_si);
 }
 
 void CellStatistics::intensity(const CellRows& rows, std::size_t i, std::size_t cell) {
@@ -89,15 +87,35 @@ void CellStatistics::put_probability(const ProbabilityLayers& to, std::size_t pl
 void CellStatistics::put_quantiles(std::size_t layer, std::size_t cell, std::size_t n_zeros,
                                    double units_per_si) {
   const std::vector<double>& fractions = layers_.stack.layers[layer].axis.values;
+  places_.clear();
+  ranks_.clear();
+  for (const double fraction : fractions) {
+    places_.emplace_back(kept_.size() + n_zeros, fraction);
+    for (const std::size_t place : {places_.back().below, places_.back().above})
+      if (place >= n_zeros) ranks_.push_back(place - n_zeros);
+  }
+  std::sort(ranks_.begin(), ranks_.end());
+  found_.resize(ranks_.size());
+  finder_.find(kept_, ranks_, found_);
+  const auto x = [&](std::size_t place) {
+    if (place < n_zeros) return 0.0;
+    const auto at = std::lower_bound(ranks_.begin(), ranks_.end(), place - n_zeros);
+    return double{found_[static_cast<std::size_t>(at - ranks_.begin())]};
+  };
   for (std::size_t q = 0; q < fractions.size(); ++q)
-    block_.put(layer, q, cell, sample_quantile(sorted_, n_zeros, fractions[q]) * units_per_si);
+    block_.put(layer, q, cell,
+               places_[q].between(x(places_[q].below), x(places_[q].above)) * units_per_si);
 }
 
 template <class Keep>
-void CellStatistics::sort_where(std::span<const float> values, Keep keep) {
-  sorted_.clear();
-  std::copy_if(values.begin(), values.end(), std::back_inserter(sorted_), keep);
-  std::sort(sorted_.begin(), sorted_.end());
+void CellStatistics::keep_where(std::span<const float> values, Keep keep) {
+  kept_.resize(values.size());
+  std::size_t n = 0;
+  for (const float v : values) {
+    kept_[n] = v;
+    n += static_cast<std::size_t>(keep(v));
+  }
+  kept_.resize(n);
 }
 
 }  // namespace sturz

@@ -5,6 +5,8 @@
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/member_cells.hpp"
+#include "ensemble/hazard/sample_quantile.hpp"
+#include "ensemble/hazard/sorting/rank_finder.hpp"
 #include "ensemble/hazard/wilson.hpp"
 
 #include <span>
@@ -30,15 +32,21 @@ class CellStatistics {
   double share(std::int64_t hits) const;
   void put_probability(const ProbabilityLayers& to, std::size_t plane, std::size_t cell,
                        std::int64_t hits);
+  /// Of kept_ and so many zeros.
   void put_quantiles(std::size_t layer, std::size_t cell, std::size_t n_zeros, double units_per_si);
+  /// Into kept_.
   template <class Keep>
-  void sort_where(std::span<const float> values, Keep keep);
+  void keep_where(std::span<const float> values, Keep keep);
 
   const HazardLayers& layers_;
   std::int64_t n_;
   LayerBlock block_;
   std::vector<ProbabilityBounds> bounds_;  // of each possible number of hits
-  std::vector<float> sorted_;              // scratch
+  // Scratch.
+  std::vector<float> kept_, found_;
+  std::vector<QuantilePlace> places_;
+  std::vector<std::size_t> ranks_;
+  RankFinder finder_;
 };
 
 }  // namespace sturz

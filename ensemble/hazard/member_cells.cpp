@@ -51,27 +51,25 @@ void check_values(std::span<const float> values, PeakLayer layer, std::int64_t m
 class MemberReader {
  public:
   MemberReader(const MemberParts& source, const std::vector<PeakLayer>& layers)
-      : source_(source), layers_(layers), bands_(layers.size()) {}
+      : source_(source), layers_(layers) {}
 
   void collect(std::size_t index, std::uint32_t place, TouchedRecords& records) {
     const MemberSummary& member = source_.members()[index];
-    const Window mine = overlap(member.window, records.rows_ahead());
+    const Window mine = overlap(member.window, records.cells_ahead());
     for (int row = 0; row < mine.n_rows; row += MemberCells::block_edge) {
       const Window band{mine.row0 + row, mine.col0,
                         std::min(MemberCells::block_edge, mine.n_rows - row), mine.n_cols};
-      for (std::size_t l = 0; l < layers_.size(); ++l) {
-        bands_[l].resize(band.n_cells());
-        source_.read_part(index, layers_[l], band, bands_[l]);
-        check_values(bands_[l], layers_[l], member.member);
-      }
-      records.add(place, band, bands_);
+      source_.read_touched(index, band, layers_, cells_);
+      for (std::size_t l = 0; l < layers_.size(); ++l)
+        check_values(cells_.values[l], layers_[l], member.member);
+      records.add(place, cells_);
     }
   }
 
  private:
   const MemberParts& source_;
   const std::vector<PeakLayer>& layers_;
-  std::vector<std::vector<float>> bands_;
+  TouchedCells cells_;
 };
 
 }  // namespace
@@ -84,7 +82,10 @@ MemberCells::MemberCells(const MemberParts& source)
 void MemberCells::visit(const Window& extent, const std::vector<PeakLayer>& layers,
                         std::size_t memory_bytes, CancelFlag cancel,
                         const std::function<void(const CellRows&)>& visitor) const {
-  TouchedRecords records(extent, layers, memory_bytes);
+  std::vector<Window> windows;
+  windows.reserve(indices_.size());
+  for (const std::size_t i : indices_) windows.push_back(source_.members()[i].window);
+  TouchedRecords records(extent, layers, memory_bytes, windows);
   MemberReader reader(source_, layers);
   while (records.next_pass()) {
     for (std::size_t m = 0; m < indices_.size(); ++m) {

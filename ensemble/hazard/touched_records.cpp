@@ -4,7 +4,9 @@
 #include "engine/core/error.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <cstring>
+#include <span>
 #include <utility>
 
 namespace sturz {
@@ -17,27 +19,63 @@ std::size_t blocks_along(int n_cells) {
   return static_cast<std::size_t>((n_cells + edge - 1) / edge);
 }
 
-bool is_untouched(float value, float untouched) {
-  return value == untouched || (std::isnan(value) && std::isnan(untouched));
+/// Bytes of one touch of one cell among many.
+double bytes_per_touch(std::size_t n_layers) {
+  return static_cast<double>(sizeof(float) * n_layers) + 1;
 }
 
 }  // namespace
 
 TouchedRecords::TouchedRecords(const Window& extent, std::vector<PeakLayer> layers,
-                               std::size_t memory_bytes)
+                               std::size_t memory_bytes, std::span<const Window> windows)
     : extent_(extent),
       layers_(std::move(layers)),
       memory_bytes_(memory_bytes),
       n_block_cols_(blocks_along(extent.n_cols)),
-      n_blocks_(n_block_cols_ * blocks_along(extent.n_rows)) {
-  next_length_ = static_cast<RowCount>(n_blocks_) * edge;
+      n_blocks_(n_block_cols_ * blocks_along(extent.n_rows)),
+      bounds_(n_blocks_, 0) {
+  for (const Window& w : windows) {
+    const Window mine = overlap(w, extent_);
+    if (mine.n_cells() == 0) continue;
+    const int last_row = (end_row(mine) - 1 - extent_.row0) / edge;
+    const int last_col = (end_col(mine) - 1 - extent_.col0) / edge;
+    for (int row = (mine.row0 - extent_.row0) / edge; row <= last_row; ++row)
+      for (int col = (mine.col0 - extent_.col0) / edge; col <= last_col; ++col) {
+        const std::size_t block = static_cast<std::size_t>(row) * n_block_cols_ + col;
+        bounds_[block] += static_cast<double>(overlap(mine, block_window(block)).n_cells());
+      }
+  }
+}
+
+/// As far as it will fit, if members fill their windows as they did in the pass before, one row at
+/// least: whole rows of blocks, or blocks of one row. Of others, columns would be read for nothing.
+TouchedRecords::RowCount TouchedRecords::planned_end() const {
+  constexpr double share = 0.8;  // of the bound: a pass that does not fit is read for nothing
+  double left = share * static_cast<double>(memory_bytes_) / bytes_per_touch(layers_.size());
+  const RowCount row_of_blocks = static_cast<RowCount>(n_block_cols_) * edge;
+  const RowCount end_of_row = (first_ / row_of_blocks + 1) * row_of_blocks;
+  RowCount at = first_;
+  while (at < static_cast<RowCount>(n_blocks_) * edge) {
+    const RowCount block = at / edge;
+    const double per_row = filled_ * bounds_[static_cast<std::size_t>(block)] / edge;
+    const auto rows = static_cast<double>((block + 1) * edge - at);
+    if (per_row * rows > left) {
+      at += static_cast<RowCount>(left / per_row);
+      break;
+    }
+    left -= per_row * rows;
+    at = (block + 1) * edge;
+  }
+  if (at >= end_of_row)
+    at = first_ % row_of_blocks == 0 ? at / row_of_blocks * row_of_blocks : end_of_row;
+  return std::max(at, first_ + 1);
 }
 
 bool TouchedRecords::next_pass() {
   first_ = end_;
   const RowCount all = static_cast<RowCount>(n_blocks_) * edge;
   if (first_ >= all) return false;
-  end_ = std::min(all, first_ + next_length_);
+  end_ = planned_end();
   first_block_ = static_cast<std::size_t>(first_ / edge);
   blocks_.clear();
   blocks_.resize(static_cast<std::size_t>((end_ + edge - 1) / edge) - first_block_);
@@ -45,12 +83,20 @@ bool TouchedRecords::next_pass() {
   return true;
 }
 
-Window TouchedRecords::rows_ahead() const {
-  const auto first_row = static_cast<int>(first_block_ / n_block_cols_) * edge;
-  const auto end_row =
-      (static_cast<int>((first_block_ + blocks_.size() - 1) / n_block_cols_) + 1) * edge;
-  return {extent_.row0 + first_row, extent_.col0, std::min(end_row, extent_.n_rows) - first_row,
-          extent_.n_cols};
+Window TouchedRecords::cells_ahead() const {
+  const Window first = block_window(first_block_);
+  const std::size_t last = first_block_ + blocks_.size() - 1;
+  Window all = joined(first, block_window(last));
+  if (last == first_block_) {
+    const RowCount begin = static_cast<RowCount>(first_block_) * edge;
+    const auto from = static_cast<int>(first_ - begin);
+    const auto end = static_cast<int>(std::min<RowCount>(end_ - begin, first.n_rows));
+    return {first.row0 + from, first.col0, std::max(end - from, 0), first.n_cols};
+  }
+  if (last / n_block_cols_ == first_block_ / n_block_cols_) return all;
+  all.col0 = extent_.col0;
+  all.n_cols = extent_.n_cols;
+  return all;
 }
 
 Window TouchedRecords::block_window(std::size_t block) const {
@@ -60,31 +106,43 @@ Window TouchedRecords::block_window(std::size_t block) const {
           std::min(edge, extent_.n_cols - col)};
 }
 
-std::size_t TouchedRecords::bytes_of(const Block& block) const {
-  return block.cells.size() *
-         (sizeof(std::uint32_t) + sizeof(std::uint16_t) + layers_.size() * sizeof(float));
+std::size_t TouchedRecords::bytes_of(const Block& block) {
+  return block.pieces.capacity() * sizeof(Piece) + block.values.capacity() * sizeof(float);
 }
 
-void TouchedRecords::add(std::uint32_t member, const Window& band,
-                         const std::vector<std::vector<float>>& values) {
-  const std::size_t n_layers = layers_.size();
-  for (int row = 0; row < band.n_rows; ++row)
-    for (int col = 0; col < band.n_cols; ++col) {
-      const std::size_t i = static_cast<std::size_t>(row) * band.n_cols + col;
-      bool untouched = true;
-      for (std::size_t l = 0; l < n_layers; ++l)
-        untouched = untouched && is_untouched(values[l][i], info(layers_[l]).untouched);
-      if (untouched) continue;
-      const int y = band.row0 + row - extent_.row0, x = band.col0 + col - extent_.col0;
+/// \param first of the piece's cells among all of `from`
+void TouchedRecords::put(Block& to, const Piece& piece, const TouchedCells& from,
+                         std::size_t first) {
+  bytes_ -= bytes_of(to);
+  to.pieces.push_back(piece);
+  const std::size_t at = to.values.size(), n = piece.n;
+  if (at + n * layers_.size() > to.values.capacity())  // doubling would hold twice the bound
+    to.values.reserve(at + at / 4 + std::max<std::size_t>(n * layers_.size(), 64));
+  to.values.resize(at + n * layers_.size());
+  for (std::size_t l = 0; l < layers_.size(); ++l)
+    std::memcpy(&to.values[at + l * n], &from.values[l][first], n * sizeof(float));
+  bytes_ += bytes_of(to);
+}
+
+void TouchedRecords::add(std::uint32_t member, const TouchedCells& cells) {
+  std::size_t first = 0;
+  for (const TouchedCells::Run& run : cells.runs) {
+    const int y = run.row - extent_.row0;
+    int x = run.col - extent_.col0;
+    for (int left = run.n; left > 0;) {
+      const int n = std::min(left, edge - x % edge);
       const std::size_t block = static_cast<std::size_t>(y / edge) * n_block_cols_ + x / edge;
       const RowCount place = static_cast<RowCount>(block) * edge + y % edge;
-      if (place < first_ || place >= end_) continue;
-      Block& to = blocks_[block - first_block_];
-      to.members.push_back(member);
-      to.cells.push_back(static_cast<std::uint16_t>(y % edge * edge + x % edge));
-      for (std::size_t l = 0; l < n_layers; ++l) to.values.push_back(values[l][i]);
-      bytes_ += sizeof(std::uint32_t) + sizeof(std::uint16_t) + n_layers * sizeof(float);
+      if (place >= first_ && place < end_)
+        put(blocks_[block - first_block_],
+            {member, static_cast<std::uint16_t>(y % edge * edge + x % edge),
+             static_cast<std::uint16_t>(n)},
+            cells, first);
+      first += static_cast<std::size_t>(n);
+      left -= n;
+      x += n;
     }
+  }
   make_room();
 }
 
@@ -103,66 +161,111 @@ void TouchedRecords::make_room() {
                     static_cast<int>(end_ - static_cast<RowCount>(first_block_) * edge));
     bytes_ = bytes_of(blocks_.front());
   }
-  // The next pass looks a little farther than this one came, not over everything again.
-  next_length_ = std::max<RowCount>(2 * (end_ - first_), 1);
 }
 
 void TouchedRecords::keep_rows_below(Block& block, int row) const {
-  const std::size_t n_layers = layers_.size();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < block.cells.size(); ++i) {
-    if (block.cells[i] >= row * edge) continue;
-    block.cells[kept] = block.cells[i];
-    block.members[kept] = block.members[i];
-    std::copy_n(&block.values[i * n_layers], n_layers, &block.values[kept * n_layers]);
-    ++kept;
+  std::size_t kept = 0, from = 0, to = 0;
+  for (const Piece& piece : block.pieces) {
+    const std::size_t n = piece.n * layers_.size();
+    if (piece.cell < row * edge) {
+      block.pieces[kept++] = piece;
+      std::copy_n(&block.values[from], n, &block.values[to]);  // never forward
+      to += n;
+    }
+    from += n;
   }
-  block.cells.resize(kept);
-  block.members.resize(kept);
-  block.values.resize(kept * n_layers);
-  block.cells.shrink_to_fit();
-  block.members.shrink_to_fit();
+  block.pieces.resize(kept);
+  block.values.resize(to);
+  block.pieces.shrink_to_fit();
   block.values.shrink_to_fit();
 }
 
-/// By cell; the order of members within a cell stays.
-CellRows TouchedRecords::sorted(std::size_t number, int first_row, int end_row) const {
-  const Block& from = blocks_[number - first_block_];
-  CellRows rows;
-  rows.block = block_window(number);
-  rows.window = {rows.block.row0 + first_row, rows.block.col0, end_row - first_row,
-                 rows.block.n_cols};
-  const auto cell_of = [&](std::size_t i) {
-    const int row = from.cells[i] / edge - first_row, col = from.cells[i] % edge;
-    return static_cast<std::size_t>(row) * rows.window.n_cols + col;
+/// Pieces by row, into by_row_; the order of members within a row stays.
+void TouchedRecords::order_by_row(const Block& from) {
+  row_begin_.fill(0);
+  for (const Piece& piece : from.pieces) ++row_begin_[piece.cell / edge + 1];
+  for (std::size_t row = 1; row < row_begin_.size(); ++row) row_begin_[row] += row_begin_[row - 1];
+  by_row_.resize(from.pieces.size());
+  auto next = row_begin_;
+  const float* values = from.values.data();
+  for (const Piece& piece : from.pieces) {
+    by_row_[next[piece.cell / edge]++] = {piece, values};
+    values += piece.n * layers_.size();
+  }
+}
+
+/// By cell, into rows_; the order of members within a cell stays.
+void TouchedRecords::sort(const Window& block, int first_row, int end_row) {
+  CellRows& rows = rows_;
+  rows.block = block;
+  rows.window = {block.row0 + first_row, block.col0, end_row - first_row, block.n_cols};
+  const auto pieces = std::span(by_row_).subspan(row_begin_[first_row],
+                                                 row_begin_[end_row] - row_begin_[first_row]);
+  const auto cell_of = [&](const Piece& piece) {
+    return static_cast<std::size_t>(piece.cell / edge - first_row) *
+               static_cast<std::size_t>(block.n_cols) +
+           piece.cell % edge;
   };
   rows.begin.assign(rows.window.n_cells() + 1, 0);
-  for (std::size_t i = 0; i < from.cells.size(); ++i) ++rows.begin[cell_of(i) + 1];
+  for (const auto& [piece, values] : pieces)
+    for (std::size_t k = 0, cell = cell_of(piece); k < piece.n; ++k) ++rows.begin[cell + k + 1];
   for (std::size_t cell = 1; cell < rows.begin.size(); ++cell)
     rows.begin[cell] += rows.begin[cell - 1];
-  std::vector<std::uint32_t> next(rows.begin.begin(), rows.begin.end() - 1);
-  rows.members.resize(from.cells.size());
+  next_.assign(rows.begin.begin(), rows.begin.end() - 1);
+  rows.members.resize(rows.begin.back());
   for (const PeakLayer layer : layers_)
-    rows.values[static_cast<std::size_t>(layer)].resize(from.cells.size());
-  for (std::size_t i = 0; i < from.cells.size(); ++i) {
-    const std::uint32_t to = next[cell_of(i)]++;
-    rows.members[to] = from.members[i];
-    for (std::size_t l = 0; l < layers_.size(); ++l)
-      rows.values[static_cast<std::size_t>(layers_[l])][to] = from.values[i * layers_.size() + l];
+    rows.values[static_cast<std::size_t>(layer)].resize(rows.begin.back());
+  for (const auto& [piece, values] : pieces) {
+    std::uint32_t* const next = &next_[cell_of(piece)];
+    for (std::size_t l = 0; l < layers_.size(); ++l) {
+      float* const to = rows.values[static_cast<std::size_t>(layers_[l])].data();
+      const float* const from = values + l * piece.n;
+      for (std::size_t k = 0; k < piece.n; ++k) to[next[k]] = from[k];
+    }
+    for (std::size_t k = 0; k < piece.n; ++k) rows.members[next[k]++] = piece.member;
   }
-  return rows;
+}
+
+/// In groups of rows whose touches fit the processor's cache.
+void TouchedRecords::hand_out(std::size_t block, int first_row, int end_row,
+                              const std::function<void(const CellRows&)>& visitor) {
+  constexpr std::size_t in_cache = 16384;  // touches
+  order_by_row(blocks_[block - first_block_]);
+  const auto touches = [&](int row) {
+    std::size_t n = 0;
+    for (std::size_t i = row_begin_[row]; i < row_begin_[row + 1]; ++i) n += by_row_[i].piece.n;
+    return n;
+  };
+  int first = first_row;
+  std::size_t n_next = touches(first);
+  while (first < end_row) {
+    int end = first + 1;
+    std::size_t n = n_next;
+    for (; end < end_row; ++end) {
+      n_next = touches(end);
+      if (n + n_next > in_cache) break;
+      n += n_next;
+    }
+    sort(block_window(block), first, end);
+    visitor(rows_);
+    first = end;
+  }
 }
 
 void TouchedRecords::hand_out(const std::function<void(const CellRows&)>& visitor) {
+  double bound = 0, held = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const std::size_t number = first_block_ + b;
     const RowCount block_first = static_cast<RowCount>(number) * edge;
     const int n_rows = block_window(number).n_rows;
     const auto first = static_cast<int>(std::max<RowCount>(first_ - block_first, 0));
     const auto end = static_cast<int>(std::min<RowCount>(end_ - block_first, n_rows));
-    if (first < end) visitor(sorted(number, first, end));
-    blocks_[b] = Block{};  // sorted() doubles what a block takes: let go one by one
+    if (first < end) hand_out(number, first, end, visitor);
+    bound += bounds_[number] * std::max(end - first, 0) / edge;
+    held += static_cast<double>(blocks_[b].values.size()) / static_cast<double>(layers_.size());
+    blocks_[b] = Block{};
   }
+  if (bound > 0 && held > 0) filled_ = std::min(1.0, held / bound);
 }
 
 }  // namespace sturz

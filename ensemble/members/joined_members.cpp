@@ -33,4 +33,9 @@ void JoinedMembers::read_part(std::size_t index, PeakLayer layer, const Window& 
   ensembles_[ensemble_[index]]->read_part(index_in_[index], layer, part, out);
 }
 
+void JoinedMembers::read_touched(std::size_t index, const Window& part,
+                                 std::span<const PeakLayer> layers, TouchedCells& out) const {
+  ensembles_[ensemble_[index]]->read_touched(index_in_[index], part, layers, out);
+}
+
 }  // namespace sturz

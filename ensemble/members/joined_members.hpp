@@ -19,6 +19,8 @@ class JoinedMembers final : public MemberParts {
   const Grid& grid() const override { return ensembles_.front()->grid(); }
   void read_part(std::size_t index, PeakLayer layer, const Window& part,
                  std::span<float> out) const override;
+  void read_touched(std::size_t index, const Window& part, std::span<const PeakLayer> layers,
+                    TouchedCells& out) const override;
 
   std::size_t n_ensembles() const { return ensembles_.size(); }
   /// Ensemble of each valid member, in the order in which MemberCells counts them.

@@ -72,14 +72,26 @@ std::string row(const DesignTable& design, const MemberSummary& m, const ScoreTa
 
 std::string members_csv(const DesignTable& design, std::span<const MemberSummary> members,
                         const ScoreTable* scores) {
+  std::string text;
+  members_csv(design, members, scores, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
+void members_csv(const DesignTable& design, std::span<const MemberSummary> members,
+                 const ScoreTable* scores, const std::function<void(std::string_view)>& put) {
+  constexpr std::size_t piece = std::size_t{1} << 18;
   std::vector<const MemberSummary*> ordered;
   for (const MemberSummary& m : members) ordered.push_back(&m);
   std::sort(ordered.begin(), ordered.end(),
             [](const auto* a, const auto* b) { return a->member < b->member; });
   std::string text = header(design, scores);
-  for (const MemberSummary* m : ordered)
+  for (const MemberSummary* m : ordered) {
     text += row(design, *m, scores, static_cast<std::size_t>(m - members.data()));
-  return text;
+    if (text.size() < piece) continue;
+    put(text);
+    text.clear();
+  }
+  put(text);
 }
 
 }  // namespace sturz

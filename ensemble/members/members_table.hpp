@@ -6,8 +6,10 @@
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/scores/score_table.hpp"
 
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace sturz {
 
@@ -22,5 +24,8 @@ namespace sturz {
 /// \throws SetupError if a member is not in the design
 std::string members_csv(const DesignTable& design, std::span<const MemberSummary> members,
                         const ScoreTable* scores = nullptr);
+/// The same in pieces of some hundred kB: of a hundred thousand members it has 100 MB.
+void members_csv(const DesignTable& design, std::span<const MemberSummary> members,
+                 const ScoreTable* scores, const std::function<void(std::string_view)>& put);
 
 }  // namespace sturz

@@ -127,20 +127,26 @@ void AtomicFile::commit() {
   // A late error of close() would come too late to matter: fsync has passed.
   ::close(descriptor_);
   descriptor_ = -1;
-  const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;  // some network folders cannot be opened; the rename stands
-  ::fsync(folder);
-  ::close(folder);
+  sync_folder(folder_of(target_));
 }
 
-void AtomicFile::fail(const char* what, int code) const {
-  const fs::path folder = folder_of(target_);
+void sync_folder(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;  // some network folders cannot be opened; the rename stands
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+void AtomicFile::fail(const char* what, int code) const { fail_to_write(what, target_, code); }
+
+void fail_to_write(const char* what, const fs::path& target, int code) {
+  const fs::path folder = folder_of(target);
   if (code == ENOENT)
     throw IoError(fmt::format("{} {} (there is no folder {}). Make it first.", what,
-                              target_.string(), folder.string()));
+                              target.string(), folder.string()));
   const bool about_space = code == ENOSPC || code == EDQUOT || code == EIO;
   throw IoError(fmt::format("{} {} ({}{}). {}; files already there are unharmed.", what,
-                            target_.string(), code == 0 ? "the disk refuses" : std::strerror(code),
+                            target.string(), code == 0 ? "the disk refuses" : std::strerror(code),
                             about_space || code == 0 ? free_space_text(folder) : "",
                             cure_of(code)));
 }

@@ -41,6 +41,13 @@ class AtomicFile {
 /// All of `bytes` as the new content of `target`. \throws IoError
 void write_bytes_atomic(const std::filesystem::path& target, std::span<const std::byte> bytes);
 
+/// What a system call said of a file, in words, with what the user can do about it.
+/// \param what "cannot write" \param code errno, 0: not known
+[[noreturn]] void fail_to_write(const char* what, const std::filesystem::path& target, int code);
+
+/// Makes a folder's list of names durable, as far as its file system does that.
+void sync_folder(const std::filesystem::path& folder);
+
 /// Makes a folder with its parents; one that exists is fine. \throws IoError
 void make_folder(const std::filesystem::path& folder);
 

@@ -243,7 +243,7 @@ MemberResult read_member(const std::filesystem::path& path) {
   m.history = read_history(file);
   m.gauges = read_gauges(file);
   m.pass_seconds = read_seconds(file, passes_attribute, seconds_attribute);
-  m.effect_seconds = std::move(s.effect_seconds);
+  m.effect_seconds = s.effect_seconds.named();
   if (m.window.n_cells() == 0) return m;
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);

@@ -26,7 +26,10 @@ class Kills : public App {
                                  "members: 6", "members: 12"));
   }
   std::vector<std::string> ensemble(const std::string& out) const {
-    return command({"ensemble", path("scene.yaml"), "-o", path(out), "--workers", "1"});
+    std::vector<std::string> words{"ensemble", path("scene.yaml"), "-o",
+                                   path(out),  "--workers",        "1"};
+    if (packs_) words.emplace_back("--packs");
+    return command(words);
   }
   /// Seconds of the program for nothing: what a busy machine adds to every answer.
   double start_seconds() const {
@@ -77,9 +80,13 @@ class Kills : public App {
       EXPECT_NE(entry.path().extension(), ".part") << entry.path();
     EXPECT_FALSE(exists(b + "/lock.json"));
   }
+  /// Members, then merges and pages, are stopped so often; the end must be that of a whole run.
+  void leave_no_trace(int n_members_stopped, int n_maps_stopped);
+
+  bool packs_ = false;
 };
 
-TEST_F(Kills, AtTwentyRandomInstantsLeaveNoTrace) {
+void Kills::leave_no_trace(int n_members_stopped, int n_maps_stopped) {
   const auto begin = Clock::now();
   ASSERT_EQ(run_process(ensemble("whole"), path(""), environment()).exit_code, 0);
   const double whole_s = seconds_since(begin), slack_s = 5 * start_seconds();
@@ -89,17 +96,25 @@ TEST_F(Kills, AtTwentyRandomInstantsLeaveNoTrace) {
   std::mt19937 random(20261129);
   const auto share = [&] { return std::uniform_real_distribution<>(0, 1)(random); };
   const int signals[] = {SIGTERM, SIGKILL, SIGINT};
-  for (int i = 0; i < 14; ++i) {
+  for (int i = 0; i < n_members_stopped; ++i) {
     if (i % 5 == 0) fs::remove_all(path("out"));  // from the start, and where the last one stopped
     stop_at(ensemble("out"), signals[i % 3], whole_s * share(), slack_s);
   }
   ASSERT_EQ(run_process(ensemble("out"), path(""), environment()).exit_code, 0);
-  for (int i = 0; i < 6; ++i)
-    stop_at(command({i < 4 ? "merge" : "report", path("out")}), signals[i % 3], merge_s * share(),
-            slack_s);
+  for (int i = 0; i < n_maps_stopped; ++i)
+    stop_at(command({i % 6 < 4 ? "merge" : "report", path("out")}), signals[i % 3],
+            merge_s * share(), slack_s);
   const Ended merged = sturz({"merge", path("out")});
   ASSERT_EQ(merged.exit_code, 0) << merged.err;
   expect_same("whole", "out");
+  EXPECT_EQ(n_members("out"), packs_ ? 0U : 12U);
+}
+
+TEST_F(Kills, AtTwentyRandomInstantsLeaveNoTrace) { leave_no_trace(14, 6); }
+
+TEST_F(Kills, OfAnEnsembleInPacksLeaveNoTrace) {
+  packs_ = true;
+  leave_no_trace(8, 3);
 }
 
 }  // namespace

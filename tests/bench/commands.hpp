@@ -17,7 +17,11 @@ struct Options {
   double end_time_s = 60;       ///< simulated time of an ensemble's member
   bool full = false;            ///< of `hard`: all random members instead of 20
   std::string states = "both";  ///< of `hard`: dense | all | both
-  double fail_below = 0;        ///< least throughput of the dense slide over the reference loop
+  int cells = 1000;             ///< of `merge`: edge of the grid
+  std::string folder;           ///< of `merge`: where its packs lie meanwhile; empty: /tmp
+  /// Least throughput of the dense slide over the reference loop; of `merge`, least speed over that
+  /// of reading every map.
+  double fail_below = 0;
 };
 
 /// How fast is one core, and where does the time go?
@@ -34,6 +38,8 @@ Report absent_effects(const Options&);
 Report liquid(const Options&);
 /// Are the bits of every shipped scene still the same, on every instruction set and thread count?
 Report hashes(const Options&);
+/// What do a hundred thousand members cost to keep, read and merge?
+Report merge(const Options&);
 /// Does it survive what wants to break it, and by which margin?
 Report hard(const Options&);
 

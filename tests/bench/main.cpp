@@ -32,6 +32,7 @@ constexpr Command commands[] = {
     {"absent-effects", "What effects cost that are not there", sturz::bench::absent_effects},
     {"liquid", "A dam break of liquid: particle-updates per second of one core",
      sturz::bench::liquid},
+    {"merge", "Members in packs: written, read, merged", sturz::bench::merge},
     {"hashes", "State hash of every shipped scene: what must not change", sturz::bench::hashes},
     {"hard", "Hard cases and random members against their bounds", sturz::bench::hard}};
 
@@ -49,7 +50,9 @@ void add_options(CLI::App& app, Options& o, Files& files) {
   app.add_option("--most", o.most, "Largest scene of scaling")->check(CLI::Range(2e3, 2e6));
   app.add_option("--threads", o.threads, "Threads or workers; 0: all")->check(CLI::Range(0, 256));
   app.add_option("--members", o.members, "Full-stress members; four times as many of columns")
-      ->check(CLI::Range(1, 10000));
+      ->check(CLI::Range(1, 10000000));
+  app.add_option("--cells", o.cells, "merge: edge of the grid")->check(CLI::Range(100, 20000));
+  app.add_option("--folder", o.folder, "merge: where its packs lie meanwhile");
   app.add_option("--end-time", o.end_time_s, "Simulated time of a member [s]")
       ->check(CLI::Range(0.1, 1e4));
   app.add_flag("--full", o.full, "hard: all random members");

@@ -207,9 +207,15 @@ def netcdf_seeds(_root, build, _scratch):
         yield bytes(range(which, 200, 7))
 
 
+def pack_seeds(_root, _build, _scratch):
+    for n in (1, 30, 90, 250, 700):  # which of the three kinds, and numbers for it, from the end
+        yield bytes((7 * k * k + n) % 256 for k in range(n))
+        yield bytes(n)
+
+
 SEEDS = {"scenario": scenario_seeds, "design": design_seeds, "hydrograph": hydrograph_seeds,
          "risk": risk_seeds,
-         "manifest": manifest_seeds,
+         "manifest": manifest_seeds, "pack": pack_seeds,
          "rasters": raster_seeds, "polygons": polygon_seeds, "netcdf": netcdf_seeds}
 
 

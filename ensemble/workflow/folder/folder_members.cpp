@@ -18,8 +18,9 @@ MemberOrigin origin_of(const Manifest& manifest, const DesignTable& design, std:
 
 MemberStore members_of(const OutputFolder& folder, const Manifest& manifest,
                        const DesignTable& design, std::function<bool(std::int64_t)> wanted,
-                       CancelFlag cancel) {
+                       CancelFlag cancel, PackName shard) {
   MemberFilter filter;
+  filter.shard = shard;
   filter.wanted = std::move(wanted);
   filter.refusal = [&](const MemberSummary& member, const MemberOrigin& origin) -> std::string {
     if (member.member >= design.n_members())

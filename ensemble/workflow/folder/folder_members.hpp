@@ -19,9 +19,11 @@ MemberOrigin origin_of(const Manifest&, const DesignTable&, std::int64_t member)
 
 /// Members whose file is whole, that were computed from this scene and their row of the design, by
 /// a program that the manifest knows. The others are named in problems() and count as absent.
-/// \param wanted only these are looked at; empty: all \throws Cancelled
+/// \param wanted only these are looked at; empty: all \param shard to which all wanted ones belong
+/// \throws Cancelled
 MemberStore members_of(const OutputFolder&, const Manifest&, const DesignTable&,
-                       std::function<bool(std::int64_t)> wanted = {}, CancelFlag cancel = {});
+                       std::function<bool(std::int64_t)> wanted = {}, CancelFlag cancel = {},
+                       PackName shard = {});
 
 /// Warns of each problem, of many only the first few and their number.
 /// \param consequence what follows from it, a sentence

@@ -17,7 +17,7 @@ namespace {
 void require_no_orphans(const OutputFolder& folder) {
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(folder.members(), failed))
-    require(entry.path().extension() != ".nc",
+    require(entry.path().extension() != ".nc" && entry.path().extension() != ".pack",
             fmt::format("{} holds members but no scenario.yaml (they may belong to another scene). "
                         "Choose another folder with --out.",
                         folder.root.string()));

@@ -7,6 +7,8 @@
 #include "ensemble/workflow/machine/temporary_folder.hpp"
 #include "io/files/io_error.hpp"
 #include "io/members/member_file.hpp"
+#include "io/members/member_writer.hpp"
+#include "io/members/packs/pack_record.hpp"
 #include "io/site/hazard_grid.hpp"
 #include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/ground.hpp"
@@ -45,9 +47,11 @@ double coarsest(const SceneDescription& d) {
 /// The scene at `coarser` times the spacing and the maps' cell, to compute members of.
 class Twin {
  public:
-  Twin(const Scene& scene, double coarser, const TrialLimits& limits)
+  /// \param packed members are kept in packs
+  Twin(const Scene& scene, double coarser, const TrialLimits& limits, bool packed)
       : scene_(scene),
         coarser_(coarser),
+        packed_(packed),
         limits_(limits),
         ground_(scene.scenario, inputs_of(scene, coarser)) {
     if (coarser_ > 1) described_ = describe_on_ground(at_spacing(scene.medians));
@@ -142,17 +146,14 @@ class Twin {
                                   result.layer(PeakLayer::arrival).end(),
                                   [](float arrival) { return !std::isnan(arrival); }));
     m.window = in_the_scene(result.window);
-    const TemporaryFolder folder;
     const double begin = thread_cpu_seconds();
-    write_member(folder.path(), result);
+    m.file_bytes = stored_bytes(result);
     const double written_s = thread_cpu_seconds() - begin;
-    m.file_bytes = size_of(folder.path(), result.member);
     if (coarser_ > 1 && result.window.n_cells() > 0) {  // what a file has besides does not grow
       MemberResult bare = result;
       bare.window = {result.window.row0, result.window.col0, 1, 1};
       for (auto& layer : bare.layers) layer.resize(std::min<std::size_t>(layer.size(), 1));
-      write_member(folder.path(), bare);
-      const double fixed = size_of(folder.path(), result.member);
+      const double fixed = stored_bytes(bare);
       m.file_bytes = fixed + cells * std::max(0.0, m.file_bytes - fixed);
     }
     m.cpu_s = cpu_s * updates + written_s;
@@ -166,12 +167,16 @@ class Twin {
                           scene_.inputs.hazard_grid);
   }
 
-  static double size_of(const fs::path& folder, std::int64_t member) {
-    return static_cast<double>(fs::file_size(folder / member_file_name(member)));
+  double stored_bytes(const MemberResult& result) const {
+    if (packed_) return static_cast<double>(encode_record(result, {}).size());
+    const TemporaryFolder folder;
+    write_member(folder.path(), result);
+    return static_cast<double>(fs::file_size(folder.path() / member_file_name(result.member)));
   }
 
   const Scene& scene_;
   double coarser_;
+  bool packed_;
   TrialLimits limits_;
   GrowingGround ground_;  // of its own: the scene's manifest names only what members read
   SceneDescription described_;
@@ -236,6 +241,7 @@ Trial try_members(const Scene& scene, const DesignTable* design, const TrialLimi
     const double c = std::clamp(coarser * std::pow(takes_s / may_take_s, 1 / power), 1.0, most);
     return c < hardly_coarser ? 1.0 : c;
   };
+  const bool packed = design != nullptr && design->n_members() > most_member_files;
   const auto timed = [&](Twin& twin, const Scenario& numbers) {
     const auto start = Clock::now();
     const double begin = thread_cpu_seconds();
@@ -249,14 +255,14 @@ Trial try_members(const Scene& scene, const DesignTable* design, const TrialLimi
   };
   try {
     trial.coarser = for_cost(1, d.predicted_seconds, 0.15 * limits.budget_s);
-    auto twin = std::make_unique<Twin>(scene, trial.coarser, limits);
+    auto twin = std::make_unique<Twin>(scene, trial.coarser, limits, packed);
     auto [ended, took_s] = timed(*twin, scene.medians);
     if (!ended) return trial;
     const double share_s = 0.75 * limits.budget_s / (design != nullptr ? wanted_members + 1 : 1);
     const double better = for_cost(trial.coarser, took_s, share_s);
     if (better < 0.85 * trial.coarser) {
       const double promised_s = trial.median->cpu_s;
-      auto finer = std::make_unique<Twin>(scene, better, limits);
+      auto finer = std::make_unique<Twin>(scene, better, limits, packed);
       const auto [ended_too, finer_took_s] = timed(*finer, scene.medians);
       if (ended_too) {
         trial.surprise = std::exp(std::abs(std::log(promised_s / trial.median->cpu_s)));

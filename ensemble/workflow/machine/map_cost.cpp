@@ -12,6 +12,7 @@
 #include "io/files/text_files.hpp"
 #include "io/members/member_file.hpp"
 #include "io/members/member_store.hpp"
+#include "io/members/member_writer.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
 
@@ -39,7 +40,8 @@ constexpr NamedSpeed named_speeds[] = {
     {"seconds_per_member", &MapSpeed::seconds_per_member},
     {"seconds_per_touch", &MapSpeed::seconds_per_touch},
     {"seconds_per_plane", &MapSpeed::seconds_per_plane},
-    {"seconds_per_plane_cell", &MapSpeed::seconds_per_plane_cell}};
+    {"seconds_per_plane_cell", &MapSpeed::seconds_per_plane_cell},
+    {"seconds_per_packed_member", &MapSpeed::seconds_per_packed_member}};
 
 /// Computing time of the process: files are compressed by threads of their own.
 double process_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -73,7 +75,7 @@ double touched_cells(const MemberResult& m) {
 
 struct Trial {
   double touches = 0;
-  double open_s = 0, statistics_s = 0, files_s = 0;
+  double open_s = 0, open_packed_s = 0, statistics_s = 0, files_s = 0;
 };
 
 /// Swallows maps: statistics alone.
@@ -116,8 +118,12 @@ Trial measure(const fs::path& folder, int edge) {
     const MemberResult m = made_up_member(k, edge);
     trial.touches += touched_cells(m);
     write_member(folder / "members", m);
+    PackWriter(folder / "packs", {}).append(m, {});
   }
+  const double begin_packed = process_seconds();
+  const MemberStore packed(folder / "packs");
   const double begin = process_seconds();
+  trial.open_packed_s = begin - begin_packed;
   const MemberStore store(folder / "members");
   const double opened = process_seconds();
   NoSink nothing;
@@ -142,6 +148,8 @@ MapSpeed measured() {
       std::max((large.statistics_s - small.statistics_s) / (large.touches - small.touches), 1e-9);
   speed.seconds_per_member =
       std::max((small.open_s + large.open_s) / (2.0 * n_trial_members), 1e-6);
+  speed.seconds_per_packed_member =
+      std::max((small.open_packed_s + large.open_packed_s) / (2.0 * n_trial_members), 1e-6);
   const double more_cells = planes * (large_edge * large_edge - small_edge * small_edge);
   speed.seconds_per_plane_cell = std::max((large.files_s - small.files_s) / more_cells, 1e-10);
   speed.seconds_per_plane = std::max(small.files_s / planes, 1e-6);
@@ -202,15 +210,22 @@ MapCost predict_map_cost(const MapWork& work, const MapSpeed& speed) {
   const double plane_cells = work.planes * work.cells;
   constexpr double bytes_per_touch = 6 + n_peak_layers * sizeof(float);
   constexpr auto most_records = static_cast<double>(MemberCells::default_memory_bytes);
-  const double passes = std::max(1.0, bytes_per_touch * touches / (0.75 * most_records));
+  const bool packed = work.members > most_member_files;
+  // Of a pack, a pass reads nothing but the bands of rows that it keeps.
+  const double passes =
+      packed ? 1 : std::max(1.0, bytes_per_touch * touches / (0.75 * most_records));
   MapCost cost;
-  cost.seconds = static_cast<double>(work.members) * speed.seconds_per_member * (1 + passes) +
+  cost.seconds = static_cast<double>(work.members) *
+                     (packed ? speed.seconds_per_packed_member : speed.seconds_per_member) *
+                     (1 + passes) +
                  touches * speed.seconds_per_touch + work.planes * speed.seconds_per_plane +
                  plane_cells * speed.seconds_per_plane_cell;
   const double page = std::min(work.cells, static_cast<double>(page_cells)) * work.planes;
   constexpr double bytes_per_page_cell = 4;
+  constexpr double bytes_per_member = 1e3;  // its numbers, without its maps
   cost.memory_bytes = program_bytes + std::min(bytes_per_touch * touches, most_records) +
-                      bytes_per_page_cell * page;
+                      bytes_per_page_cell * page +
+                      bytes_per_member * static_cast<double>(work.members);
   // As compressed as maps are of which a flow covers a third: docs/studies/forecasts.md.
   constexpr double page_bytes = 550e3, bytes_per_plane = 5.5e3, bytes_per_plane_cell = 1.57,
                    bytes_per_row = 1e3;

@@ -11,10 +11,11 @@ namespace sturz::workflow {
 
 /// Computing time on this machine for the parts of making maps.
 struct MapSpeed {
-  double seconds_per_member = 0;      ///< opening its file, reading its scalars
-  double seconds_per_touch = 0;       ///< one cell of one member: reading, sorting, statistics
-  double seconds_per_plane = 0;       ///< one map: its file, style and picture, however small
-  double seconds_per_plane_cell = 0;  ///< one cell of one map: writing and reading it
+  double seconds_per_member = 0;         ///< opening its file, reading its scalars
+  double seconds_per_touch = 0;          ///< one cell of one member: reading, sorting, statistics
+  double seconds_per_plane = 0;          ///< one map: its file, style and picture, however small
+  double seconds_per_plane_cell = 0;     ///< one cell of one map: writing and reading it
+  double seconds_per_packed_member = 0;  ///< as seconds_per_member, in a pack
 };
 
 /// What the maps are made of.

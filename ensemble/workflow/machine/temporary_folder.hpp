@@ -14,7 +14,9 @@ namespace sturz::workflow {
 /// scope.
 class TemporaryFolder {
  public:
-  TemporaryFolder() : path_(std::filesystem::temp_directory_path() / name()) {}
+  /// \param in a folder; empty: that of temporary files
+  explicit TemporaryFolder(const std::filesystem::path& in = {})
+      : path_((in.empty() ? std::filesystem::temp_directory_path() : in) / name()) {}
   ~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);

@@ -64,9 +64,11 @@ bool stands_there(const EnsembleJob& job) {
 /// Members of this call's share that are not finished. \param from the first that is looked at
 /// \return how many of them failed before
 std::size_t find_work(EnsembleJob& job, const Shard& shard, std::int64_t from, Observer& observer) {
-  const MemberStore store = members_of(job.folder, job.manifest, job.design, [&](std::int64_t k) {
+  const auto is_mine = [&](std::int64_t k) {
     return k >= from && k < job.design.n_members() && k % shard.n == shard.k - 1;
-  });
+  };
+  const MemberStore store =
+      members_of(job.folder, job.manifest, job.design, is_mine, {}, {shard.k, shard.n});
   warn_of_problems(store, "It is computed again.", observer);
   std::set<std::int64_t> finished;
   std::size_t again = 0;
@@ -143,6 +145,13 @@ void begin_with_first_look(EnsembleJob& job, bool begun) {
   }
   job.design = first_rows(job.growth->whole, n);
   job.scene.scenario.ensemble.members = static_cast<int>(n);
+}
+
+std::shared_ptr<MemberWriter> writer_of(const EnsembleJob& job, const EnsembleRequest& request) {
+  const std::int64_t planned = job.growth ? job.growth->whole.n_members() : job.design.n_members();
+  const auto folder = job.folder.members();
+  const MemberLayout layout = layout_of(folder, request.packs ? most_member_files + 1 : planned);
+  return member_writer(folder, layout, {request.shard.k, request.shard.n});
 }
 
 }  // namespace
@@ -289,6 +298,7 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Scene scene, Observ
   job.lock->others_may_come();
   observer.folder_ready(job.folder);
   job.retry_failed = request.retry_failed;
+  job.writer = writer_of(job, request);
   // What a rule saw of the members is not what they will be.
   if (find_work(job, shard, 0, observer) > 0 && !job.growth) job.manifest.stop.reset();
   job.wanted_workers = request.workers;

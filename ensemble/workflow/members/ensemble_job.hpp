@@ -9,6 +9,7 @@
 #include "ensemble/workflow/folder/shard.hpp"
 #include "ensemble/workflow/observer.hpp"
 #include "ensemble/workflow/scene.hpp"
+#include "io/members/member_writer.hpp"
 #include "scenarios/assets/assets.hpp"
 
 #include <chrono>
@@ -31,6 +32,7 @@ struct EnsembleRequest {
   Shard shard;
   int planned_shards = 0;     ///< into which others will divide the members; 0: not known here
   bool retry_failed = false;  ///< compute failed members again
+  bool packs = false;  ///< members in packs however few there are; a begun folder stays as is
   /// Stop as soon as the largest half width of P(reached) is no more than this, see
   /// run_until_converged(); `members` is the most then. Not for shards.
   std::optional<double> until_half_width;
@@ -55,7 +57,8 @@ struct EnsembleJob {
   OutputFolder folder;
   Manifest manifest;
   DesignTable design;
-  std::optional<Growth> growth;  ///< under a stop rule
+  std::optional<Growth> growth;          ///< under a stop rule
+  std::shared_ptr<MemberWriter> writer;  ///< keeps members in the folder
   std::vector<std::int64_t> to_do;
   std::int64_t finished_before = 0;  ///< of this call's share
   bool retry_failed = false;         ///< failed members are to do

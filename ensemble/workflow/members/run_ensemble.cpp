@@ -4,7 +4,6 @@
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/member_order.hpp"
 #include "ensemble/workflow/members/member_summary.hpp"
-#include "io/members/member_file.hpp"
 
 #include <chrono>
 #include <utility>
@@ -34,11 +33,11 @@ MemberResult run_member(const EnsembleJob& job, std::int64_t member,
 void store_member(const EnsembleJob& job, const MemberResult& result) {
   const MemberOrigin origin = origin_of(job.manifest, job.design, result.member);
   if (result.grid.n_cells() > 0) {
-    write_member(job.folder.members(), result, origin);
+    job.writer->write(result, origin);
   } else {  // it failed before it knew its maps
     MemberResult with_grid = result;
     with_grid.grid = job.scene.inputs.hazard_grid;
-    write_member(job.folder.members(), with_grid, origin);
+    job.writer->write(with_grid, origin);
   }
 }
 
@@ -71,6 +70,11 @@ MembersRun run_ensemble(const EnsembleJob& job, Observer& observer,
   run.failed = std::move(report.failed);
   run.interrupted = report.interrupted;
   run.stop_error = std::move(report.stop_error);
+  try {
+    job.writer->sync();
+  } catch (const SetupError& error) {
+    if (run.stop_error.empty()) run.stop_error = error.what();
+  }
   return run;
 }
 

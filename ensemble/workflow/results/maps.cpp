@@ -11,7 +11,7 @@
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
-#include "io/files/text_files.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
@@ -21,6 +21,8 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <span>
+#include <string_view>
 
 namespace sturz::workflow {
 namespace fs = std::filesystem;
@@ -49,6 +51,14 @@ void add_scores(MapsMade& made, const MemberStore& store, const SceneInputs& inp
   if (!inputs.event) return;
   made.scores = score_members(store, inputs.event, cancel);
   for (const MemberSummary& m : store.members()) made.numbers.push_back(m.member);
+}
+
+void write_members_csv(const OutputFolder& folder, const DesignTable& design,
+                       const MemberStore& store, const MapsMade& made) {
+  AtomicFile file(folder.members_csv());
+  members_csv(design, store.members(), made.scores ? &*made.scores : nullptr,
+              [&](std::string_view piece) { file.write(std::as_bytes(std::span(piece))); });
+  file.commit();
 }
 
 /// Until they are whole, no page is written over half of them.
@@ -97,8 +107,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
 
   forget_maps(folder, manifest);
   add_scores(made, store, inputs, cancel);
-  write_text_atomic(folder.members_csv(),
-                    members_csv(design, store.members(), made.scores ? &*made.scores : nullptr));
+  write_members_csv(folder, design, store, made);
   const auto risk = find_risk(store, inputs, cancel);
   write_asset_files(folder, risk, grid);
   const GaugeFindings gauges = find_gauges(store, scenario, cancel);

@@ -34,7 +34,7 @@ namespace {
 NamedSeconds sum_of_effects(std::span<const MemberSummary> members) {
   NamedSeconds sums;
   for (const MemberSummary& m : members) {
-    for (const auto& [name, seconds] : m.effect_seconds) add_seconds(sums, name, seconds);
+    for (const auto& [name, seconds] : m.effect_seconds.named()) add_seconds(sums, name, seconds);
     if (m.effect_seconds.empty() && m.scalars.wall_s > 0)
       add_seconds(sums, "members that do not say", m.scalars.wall_s);
   }

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// sturz members: which members a folder holds, and in which files; one of them as a file of its
+// own.
+#include "engine/core/error.hpp"
+#include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/console/interrupt.hpp"
+#include "ensemble/app/console/json_text.hpp"
+#include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/grammar.hpp"
+#include "ensemble/workflow/members/stored_members.hpp"
+#include "scenarios/schema/number_text.hpp"
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace sturz::app {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string extract;  ///< "17" or "3,17,20-25"; empty: list
+  std::string out;      ///< folder of the extracted files; empty: DIR/extracted
+};
+
+workflow::MemberRange range_of(const std::string& text) {
+  const std::size_t dash = text.find('-');
+  const auto first = parse_integer(text.substr(0, dash));
+  const auto last = dash == std::string::npos ? first : parse_integer(text.substr(dash + 1));
+  require(first && last && *first >= 0 && *last >= *first,
+          fmt::format("--extract {} (must be numbers of members and ranges, such as 17 or "
+                      "3,17,20-25).",
+                      text));
+  return {*first, *last};
+}
+
+std::vector<workflow::MemberRange> ranges_of(std::string text) {
+  std::vector<workflow::MemberRange> ranges;
+  while (!text.empty()) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    ranges.push_back(range_of(text.substr(0, comma)));
+    text.erase(0, comma + 1);
+  }
+  return ranges;
+}
+
+int members(const Options& options, Console& console) {
+  ConsoleObserver observer(console);
+  if (!options.extract.empty()) {
+    const auto files = workflow::extract_members(
+        {options.folder, ranges_of(options.extract), options.out}, observer, interrupt_flag());
+    for (const auto& file : files) {
+      console.say(file.string());
+      console.event(json_text(nlohmann::ordered_json{{"event", "file"}, {"path", file.string()}}));
+    }
+    return ok;
+  }
+  require(options.out.empty(), "-o (without --extract). Say which members: --extract 17 -o DIR");
+  const auto found = workflow::stored_members(options.folder, observer, interrupt_flag());
+  console.say(fmt::format("{} members, {} of them not valid, in {} files of their own and {} packs",
+                          found.n_members, found.n_failed, found.n_files, found.packs.size()));
+  for (const auto& [file, n] : found.packs)
+    console.say(fmt::format("  {}  {} members", file.string(), n));
+  console.event(json_text(nlohmann::ordered_json{{"event", "done"},
+                                                 {"members", found.n_members},
+                                                 {"failed", found.n_failed},
+                                                 {"files", found.n_files},
+                                                 {"packs", found.packs.size()},
+                                                 {"damaged", found.n_damaged}}));
+  return ok;
+}
+
+}  // namespace
+
+void add_members(Grammar& grammar) {
+  auto [parser, options] =
+      add_command(grammar, "members",
+                  "List the stored members, or write some as netCDF files of their own", members);
+  parser.add_option("folder", options.folder, "Folder of an ensemble")
+      ->type_name("DIR")
+      ->required();
+  parser
+      .add_option("--extract", options.extract,
+                  "Members to write as netCDF files, such as 17 or 3,17,20-25")
+      ->type_name("NUMBERS");
+  parser.add_option("-o,--out", options.out, "Folder of these files (default: DIR/extracted)")
+      ->type_name("DIR");
+  add_json(grammar, parser);
+}
+
+}  // namespace sturz::app
