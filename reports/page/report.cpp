@@ -42,6 +42,7 @@ std::string head_html(const ReportInput& input) {
 /// Links to the parts that are there.
 std::string navigation_html(const std::string& body) {
   static constexpr std::pair<const char*, const char*> parts[] = {{"maps", "Maps"},
+                                                                  {"phases", "Grains and liquid"},
                                                                   {"assets", "Assets"},
                                                                   {"observed", "Observed"},
                                                                   {"posterior", "Calibration"},
@@ -84,12 +85,12 @@ std::string make_report(const ReportInput& input) {
   if (maps != nullptr && maps->grid.n_cells() > 0) scene = make_map_scene(*maps, input.elevation);
   const MapScene* shown = scene ? &*scene : nullptr;
 
-  const std::string body = banner_html(input, h) + warnings_html(input, h) +
-                           headline_html(input, h) + map_html(input, shown, maps) +
-                           assets_html(input) + observed_html(input, h) + posterior_html(input) +
-                           motion_html(input) + gauges_html(input) + charts_html(input, h) +
-                           members_html(input, h) + computation_html(input, h) +
-                           provenance_html(input) + reading_html(input);
+  const std::string body =
+      banner_html(input, h) + warnings_html(input, h) + headline_html(input, h) +
+      map_html(input, shown, maps) + phases_html(input) + assets_html(input) +
+      observed_html(input, h) + posterior_html(input) + motion_html(input) + gauges_html(input) +
+      charts_html(input, h) + members_html(input, h) + computation_html(input, h) +
+      provenance_html(input) + reading_html(input);
   std::string page = head_html(input) + "<body>\n<main>\n" + header_html(input, h) +
                      navigation_html(body) + body + "\n</main>\n";
   if (report_has_script())

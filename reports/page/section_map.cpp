@@ -44,7 +44,9 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
     Quantity quantity;
     Statistic statistic;
   };
-  static constexpr Wish wishes[] = {{Quantity::thickness, Statistic::quantile},
+  static constexpr Wish wishes[] = {{Quantity::solid_reached, Statistic::probability},
+                                    {Quantity::liquid_reached, Statistic::probability},
+                                    {Quantity::thickness, Statistic::quantile},
                                     {Quantity::energy, Statistic::probability},
                                     {Quantity::speed, Statistic::quantile},
                                     {Quantity::arrival, Statistic::quantile},

@@ -24,6 +24,8 @@ std::string map_html(const ReportInput& input, const MapScene* scene, const Laye
 std::string motion_html(const ReportInput& input);
 /// Arrivals, peaks and discharges at the scene's gauges; empty text where it has none.
 std::string gauges_html(const ReportInput& input);
+/// Grains and liquid beside each other and together; empty text where they are not told apart.
+std::string phases_html(const ReportInput& input);
 /// Share of members, intensities, damage and loss at each asset; empty text where the scene has
 /// none.
 std::string assets_html(const ReportInput& input);
