@@ -47,6 +47,18 @@ TEST(MemberResult, TheScalarTableNamesEveryFieldOnceInOrder) {
   EXPECT_EQ(names.size() * sizeof(double), sizeof(MemberScalars));
 }
 
+TEST(MemberResult, ConcernsAMaterialByWhatLeftOfIt) {
+  MemberScalars m;
+  using C = Censoring;
+  EXPECT_EQ(censoring_of(Phase::grains, m, C::left_terrain), C::left_terrain) << "not told apart";
+  m.solid_lost_fraction = 0, m.liquid_lost_fraction = 1e-9;
+  EXPECT_EQ(censoring_of(Phase::both, m, C::left_and_moving), C::left_and_moving);
+  EXPECT_EQ(censoring_of(Phase::grains, m, C::left_terrain), C::none);
+  EXPECT_EQ(censoring_of(Phase::grains, m, C::left_and_moving), C::still_moving);
+  EXPECT_EQ(censoring_of(Phase::liquid, m, C::left_and_moving), C::left_and_moving);
+  EXPECT_EQ(censoring_of(Phase::liquid, m, C::none), C::none);
+}
+
 TEST(MemberResult, UnitsAgreeWithTheNames) {
   const std::pair<const char*, const char*> endings[] = {
       {"_m2_s2", "m2 s-2"}, {"_m_s", "m s-1"}, {"_j_m2", "J m-2"}, {"_m2", "m2"}, {"_m3", "m3"},
