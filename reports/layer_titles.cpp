@@ -78,7 +78,7 @@ std::string plane_label(const Layer& layer, std::size_t plane) {
   const LayerMeaning& meaning = layer.meaning;
   if (meaning.intensity != IntensityClass::none) return std::string(to_string(meaning.intensity));
   if (layer.axis.values.empty()) {
-    if (is_reach(meaning.quantity)) return "reached";
+    if (is_whether_reached(meaning.quantity)) return "reached";
     return std::string(to_string(meaning.statistic));
   }
   const double value = layer.axis.values[plane];

@@ -68,7 +68,7 @@ Window map_extent(const Window& touched, const Grid& grid);
 ///   deposit_mean, deposit_quantile [m]
 ///   probability_of_high_intensity, probability_of_medium_intensity
 /// and where grains and liquid move apart, for P in solid, liquid:
-///   probability_of_P_reach, ..._lower, ..._upper
+///   the share of members of which P reaches the cell, with its bounds
 ///   P_arrival_quantile [s]
 ///   P_X_exceedance, ..._mean, ..._quantile for the four X
 ///   liquid_fraction_quantile               over the members that reach the cell only

@@ -194,7 +194,7 @@ std::vector<FrontMark> front_marks(const LayerStack& maps) {
   for (const Layer* layer : shown_layers(maps)) {
     const LayerMeaning& m = layer->meaning;
     const Phase phase = phase_of(m.quantity);
-    const bool share = is_reach(m.quantity) && m.statistic == Statistic::probability;
+    const bool share = is_whether_reached(m.quantity) && m.statistic == Statistic::probability;
     const bool time = is_arrival(m.quantity) && m.statistic == Statistic::peak;
     if (phase == Phase::both || (!share && !time)) continue;
     Raster<std::uint8_t> reached(maps.grid, 0);

@@ -105,7 +105,7 @@ constexpr Phase phase_of(Quantity q) {
   return Phase::both;
 }
 /// Whether anything comes, and when: of the whole flow or of one material.
-constexpr bool is_reach(Quantity q) {
+constexpr bool is_whether_reached(Quantity q) {
   return q == Quantity::reached || q == Quantity::solid_reached || q == Quantity::liquid_reached;
 }
 constexpr bool is_arrival(Quantity q) {

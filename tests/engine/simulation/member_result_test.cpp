@@ -26,10 +26,13 @@ TEST(MemberResult, EveryLayerHasItsOwnNameAndUnit) {
   EXPECT_STREQ(info(PeakLayer::deposit).name, "deposit_thickness");
 }
 
-TEST(MemberResult, OnlyArrivalIsUndefinedWhereNothingCame) {
+TEST(MemberResult, OnlyWhatNeedsAFlowIsUndefinedWhereNothingCame) {
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);
-    EXPECT_EQ(std::isnan(info(layer).untouched), layer == PeakLayer::arrival);
+    const bool needs_flow = layer == PeakLayer::arrival || layer == PeakLayer::solid_arrival ||
+                            layer == PeakLayer::liquid_arrival ||
+                            layer == PeakLayer::liquid_fraction;
+    EXPECT_EQ(std::isnan(info(layer).untouched), needs_flow) << info(layer).name;
   }
 }
 
