@@ -149,12 +149,15 @@ std::vector<std::string> censoring_sentences(const CensoringReport& r) {
             "Where all of it would lie at rest is not known."
           : "What they reached counts, as a lower bound: they may have gone farther, faster and "
             "thicker. Where all of it would lie at rest is not known.");
-  if (r.phases && r.left() > 0 && (r.grains.left == 0 || r.liquid.left == 0))
+  if (r.phases && r.left() > 0 && (r.grains.left == 0 || r.liquid.left == 0)) {
+    const char* kept = r.grains.left == 0 ? "grains" : "liquid";
+    const std::int64_t cut = r.grains.left == 0 ? r.grains.censored : r.liquid.censored;
     lines.insert(lines.end() - 1,
-                 fmt::format("No {} left: what is said of {} alone is cut off in {} only.",
-                             r.grains.left == 0 ? "grains" : "liquid",
-                             r.grains.left == 0 ? "grains" : "liquid",
-                             r.grains.left == 0 ? r.grains.censored : r.liquid.censored));
+                 cut == 0 ? fmt::format("No {0} left: what is said of {0} alone is whole.", kept)
+                          : fmt::format("No {0} left: what is said of {0} alone is cut off only "
+                                        "where the flow still moved ({1}).",
+                                        kept, cut));
+  }
   std::string cure;
   if (r.left() > 0)
     cure = "take terrain that is known there, too (a larger terrain.raster, or holes filled)";

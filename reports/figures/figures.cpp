@@ -115,8 +115,8 @@ std::string fronts_svg(const Frame& frame, const std::vector<FrontMark>& fronts)
         svg += fmt::format(
             "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"{1}\"/>"
             "<path d=\"{0}\" fill=\"none\" stroke=\"{2}\" stroke-width=\"{3}\"/>",
-            path_of(frame, front.lines), phase == Phase::liquid ? 5.2 : 2.6,
-            phase == Phase::liquid ? "#00798c" : "#7a3b00", phase == Phase::liquid ? 3.6 : 1.6);
+            path_of(frame, front.lines), phase == Phase::liquid ? 5.4 : 2.4,
+            phase == Phase::liquid ? "#00798c" : "#7a3b00", phase == Phase::liquid ? 4.4 : 1.5);
   return svg;
 }
 

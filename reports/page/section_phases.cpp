@@ -84,7 +84,7 @@ std::string phases_html(const ReportInput& input) {
   if (!known) return {};
   const bool single = input.hazard == nullptr && input.members.size() == 1;
   std::string html =
-      "<section id=\"phases\"><h2>Grains and liquid</h2><div class=\"table-box short\" "
+      "<section id=\"phases\"><h2>Grains and liquid</h2><div class=\"table-box short whole\" "
       "tabindex=\"0\"><table class=\"plain phases\"><thead><tr><th></th><th scope=\"col\">of</th>";
   if (single) {
     html += "<th scope=\"col\" class=\"n\">value</th>";

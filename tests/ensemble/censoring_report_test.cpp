@@ -85,7 +85,7 @@ TEST(CensoringReport, SaysWhichMaterialLeftAndHowMuchOfIt) {
   EXPECT_DOUBLE_EQ(r.liquid.largest_lost_fraction, 0.4);
   EXPECT_THAT(text_of(r), HasSubstr("up to 12 % of a simulation's mass: grains in 0, liquid in 2 "
                                     "(up to 40 % of a simulation's liquid)."));
-  EXPECT_THAT(text_of(r), HasSubstr("No grains left"));
+  EXPECT_THAT(text_of(r), HasSubstr("No grains left: what is said of grains alone is whole."));
   EXPECT_THAT(one_line(r), HasSubstr("; grains left in 0, liquid in 2)"));
   all.push_back(wet_member(0.05, 0.2));
   r = censoring_report(all, 0.05);

@@ -168,6 +168,11 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
     sc.liquid_reached_area_m2 = sc.reached_area_m2;
     sc.max_solid_thickness_m = 0.5 * sc.max_thickness_m;
     sc.max_liquid_thickness_m = 0.5 * sc.max_thickness_m;
+    sc.max_solid_speed_m_s = 0.9 * sc.max_speed_m_s, sc.max_liquid_speed_m_s = sc.max_speed_m_s;
+    sc.max_solid_energy_j_m2 = 0.5 * sc.max_energy_j_m2;
+    sc.max_liquid_energy_j_m2 = 0.4 * sc.max_energy_j_m2;
+    sc.max_solid_pressure_pa = 0.6 * sc.max_pressure_pa;
+    sc.max_liquid_pressure_pa = 0.4 * sc.max_pressure_pa;
     sc.solid_lost_fraction = sc.solid_lost_mass_kg = sc.liquid_lost_mass_kg = 0;
     sc.liquid_lost_fraction = 2 * sc.lost_fraction;
   }

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
   write(directory / "cut.html", sturz::make_report(cut.ensemble_input()));
 
   auto phases_scene = scene;
-  phases_scene.phases = true, phases_scene.edge = 0.75;
+  phases_scene.phases = true, phases_scene.edge = 0.55;
   const auto phases = make_up_results(phases_scene);
   write(directory / "phases.html", sturz::make_report(phases.ensemble_input()));
   write(directory / "phases_single.html", sturz::make_report(phases.single_input()));

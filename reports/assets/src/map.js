@@ -152,12 +152,12 @@ function marksLayer(maps, leftValues) {
     source.addFeature(outline);
   }
   // The liquid's line is the wider one below: where both run together both are seen.
-  for (const [kind, colour, width] of [['liquid', '#00798c', 4], ['grains', '#7a3b00', 2]]) {
+  for (const [kind, colour, width] of [['liquid', '#00798c', 5], ['grains', '#7a3b00', 2]]) {
     for (const front of maps.fronts.filter((f) => f.kind === kind)) {
       const line = new Feature(new MultiLineString(
           front.lines.map(([x0, y0, x1, y1]) => [[x0, y0], [x1, y1]])));
       line.setStyle([
-        new Style({stroke: new Stroke({color: 'rgba(255,255,255,0.8)', width: width + 1.6})}),
+        new Style({stroke: new Stroke({color: 'rgba(255,255,255,0.8)', width: width + 1.2})}),
         new Style({stroke: new Stroke({color: colour, width})}),
       ]);
       source.addFeature(line);
