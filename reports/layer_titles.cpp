@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace sturz {
 std::string title(Quantity q) {
@@ -38,17 +39,49 @@ std::string title(Quantity q) {
       return "Members";
     case Quantity::sources:
       return "Sources";
+    case Quantity::solid_reached:
+      return "Reached by grains";
+    case Quantity::solid_speed:
+      return "Speed of the grains";
+    case Quantity::solid_energy:
+      return "Kinetic energy of the grains per area";
+    case Quantity::solid_pressure:
+      return "Dynamic pressure of the grains";
+    case Quantity::solid_arrival:
+      return "Arrival time of grains";
+    case Quantity::liquid_reached:
+      return "Reached by liquid";
+    case Quantity::liquid_speed:
+      return "Speed of the liquid";
+    case Quantity::liquid_energy:
+      return "Kinetic energy of the liquid per area";
+    case Quantity::liquid_pressure:
+      return "Dynamic pressure of the liquid";
+    case Quantity::liquid_arrival:
+      return "Arrival time of liquid";
+    case Quantity::liquid_fraction:
+      return "Share of liquid in the flow's volume";
     case Quantity::other:
       break;
   }
   return "Other";
 }
 
+std::string short_title(Quantity q) {
+  if (q == Quantity::liquid_fraction) return "Share of liquid";
+  std::string name(to_string(q));
+  if (q == Quantity::solid || q == Quantity::liquid) name = "thickness";
+  for (const std::string_view material : {"solid_", "liquid_"})
+    if (name.starts_with(material)) name.erase(0, material.size());
+  name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  return name;
+}
+
 std::string plane_label(const Layer& layer, std::size_t plane) {
   const LayerMeaning& meaning = layer.meaning;
   if (meaning.intensity != IntensityClass::none) return std::string(to_string(meaning.intensity));
   if (layer.axis.values.empty()) {
-    if (meaning.quantity == Quantity::reached) return std::string(to_string(meaning.quantity));
+    if (is_whether_reached(meaning.quantity)) return "reached";
     if (meaning.quantity == Quantity::sources) return words(layer.name);
     return std::string(to_string(meaning.statistic));
   }
@@ -77,6 +110,8 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
         return layer.name == likeliest_source_layer
                    ? "Probability that the likeliest source arrives"
                    : "Probability that the flow arrives";
+      if (meaning.quantity == Quantity::solid_reached) return "Probability that grains arrive";
+      if (meaning.quantity == Quantity::liquid_reached) return "Probability that liquid arrives";
       if (meaning.quantity == Quantity::left)
         return "Probability that mass leaves the known terrain";
       if (meaning.quantity == Quantity::intensity)
@@ -92,7 +127,8 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
     case Statistic::mean:
       return what + ", mean of members";
     case Statistic::peak:
-      return meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::deposit ||
+      if (meaning.quantity == Quantity::liquid_fraction) return what + " when it was thickest";
+      return is_arrival(meaning.quantity) || meaning.quantity == Quantity::deposit ||
                      meaning.quantity == Quantity::left || meaning.quantity == Quantity::eroded
                  ? what
                  : "Peak " + lower;

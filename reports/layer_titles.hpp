@@ -11,6 +11,8 @@ namespace sturz {
 
 /// "Flow thickness", "Kinetic energy per area", ...
 std::string title(Quantity quantity);
+/// "Thickness", "Energy", ...: where it is said already which material it is of.
+std::string short_title(Quantity quantity);
 
 /// "reached", "> 0.5 m", "5 % quantile": the title of one plane of a layer, without its quantity.
 std::string plane_label(const Layer& layer, std::size_t plane);

@@ -30,15 +30,26 @@ enum class PeakLayer {
   left,
   eroded,
   solid,
-  liquid
+  liquid,
+  solid_speed,
+  solid_energy,
+  solid_pressure,
+  solid_arrival,
+  liquid_speed,
+  liquid_energy,
+  liquid_pressure,
+  liquid_arrival,
+  liquid_fraction
 };
-inline constexpr int n_peak_layers = 10;
+inline constexpr int n_peak_layers = 19;
+/// Of grains and liquid that are told apart, or of both at once.
+inline constexpr bool is_of_materials(PeakLayer layer) { return layer >= PeakLayer::solid; }
 
 struct PeakLayerInfo {
   const char* name;  ///< variable name, e.g. "peak_thickness"
   const char* long_name;
   const char* units;  ///< SI: m, m s-1, J m-2, Pa, s, m
-  float untouched;    ///< value of a cell that the flow never reached: 0, arrival NaN
+  float untouched;    ///< value of a cell that the flow never reached: 0; NaN of what needs a flow
 };
 const PeakLayerInfo& info(PeakLayer);
 /// One number per member. Units are in the names; see scalar_table() for descriptions.
@@ -122,14 +133,37 @@ struct MemberScalars {
   double max_liquid_thickness_m = nan_d;
   double drag_loss_fraction = nan_d;    ///< energy that drag between them took / released energy
   double drag_raised_fraction = nan_d;  ///< mass x time with drag raised to keep the slip solvable
+  // The same; files of scenes without them do not name these.
+  double solid_lost_mass_kg = nan_d;  ///< as lost_mass_kg, of each of the two
+  double liquid_lost_mass_kg = nan_d;
+  double solid_lost_fraction = nan_d;  ///< share of the grains that left the known ground
+  double liquid_lost_fraction = nan_d;
+  double solid_reached_area_m2 = nan_d;  ///< as reached_area_m2, of each of the two
+  double liquid_reached_area_m2 = nan_d;
+  double max_solid_speed_m_s = nan_d;  ///< largest cell value of its peak speed
+  double max_liquid_speed_m_s = nan_d;
+  double max_solid_energy_j_m2 = nan_d;  ///< as max_energy_j_m2, of each of the two
+  double max_liquid_energy_j_m2 = nan_d;
+  double max_solid_pressure_pa = nan_d;  ///< as max_pressure_pa, of the share of each of the two
+  double max_liquid_pressure_pa = nan_d;
 };
 
+/// What a result is of: everything that flows, or one of two materials that are told apart.
+enum class Phase { both, grains, liquid };
+
+/// What of a member's censoring concerns results of a phase: mass that left only where some of it
+/// was of that phase. A member that still moved at its end did so as a whole.
+inline Censoring censoring_of(Phase phase, const MemberScalars& m, Censoring censoring) {
+  const double lost = phase == Phase::grains ? m.solid_lost_fraction : m.liquid_lost_fraction;
+  if (phase == Phase::both || std::isnan(lost)) return censoring;
+  return censoring_of(has_left(censoring) && lost > 0, is_moving(censoring));
+}
+
 /// Whether a member has this layer: `left` is kept only where mass left, `eroded` only where the
-/// flow takes its bed along, `solid` and `liquid` only where they move apart.
+/// flow takes its bed along, those of grains and liquid only where they move apart.
 inline bool is_kept(PeakLayer layer, Censoring censoring, const MemberScalars& scalars) {
   if (layer == PeakLayer::eroded) return !std::isnan(scalars.eroded_volume_m3);
-  if (layer == PeakLayer::solid || layer == PeakLayer::liquid)
-    return !std::isnan(scalars.solid_runout_m);
+  if (is_of_materials(layer)) return !std::isnan(scalars.solid_runout_m);
   return layer != PeakLayer::left || has_left(censoring);
 }
 
@@ -138,6 +172,7 @@ struct ScalarInfo {
   const char* units;
   const char* long_name;
   double MemberScalars::*field;
+  bool sparse = false;  ///< left out of files where no member has it
 };
 /// Every scalar in file order; the one table that CSV, netCDF and report share.
 std::span<const ScalarInfo> scalar_table();

@@ -131,7 +131,7 @@ double PeakMaps::share_of_record(std::span<const MovingSet> sets, double dt_s) c
 }
 
 /// Adds one particle to the cells on the grid that it touches, tile by tile.
-void PeakMaps::add_one(const CellSums& whole) {
+void PeakMaps::add_one(const CellSums& whole, SumTiles& to) const {
   constexpr int edge = SumTiles::edge;
   const Grid& g = settings_.grid;
   const int row1 = std::min(down_.first() + down_.n(), g.n_rows);
@@ -142,9 +142,9 @@ void PeakMaps::add_one(const CellSums& whole) {
     const std::uint32_t rows = ((1U << (next_row - row)) - 1U) << row % edge;
     for (int col = from_col; col < col1;) {
       const int next_col = std::min(col1, (col / edge + 1) * edge);
-      const std::size_t slot = sums_.slot_at(row / edge, col / edge);
-      sums_.mark_rows(slot, rows);
-      CellSums* cells = sums_.cells(slot) + std::ptrdiff_t{edge} * (row % edge) + col % edge;
+      const std::size_t slot = to.slot_at(row / edge, col / edge);
+      to.mark_rows(slot, rows);
+      CellSums* cells = to.cells(slot) + std::ptrdiff_t{edge} * (row % edge) + col % edge;
       const float *down = down_.weights() + (row - down_.first()),
                   *across = across_.weights() + (col - across_.first());
       const int n = next_col - col;
@@ -158,7 +158,7 @@ void PeakMaps::add_one(const CellSums& whole) {
   }
 }
 
-void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
+void PeakMaps::scatter_set(const MovingSet& p, std::size_t set, SumTiles& to) {
   const Grid& g = settings_.grid;
   const Width& widest = widths_[set];
   const double per_cell = 1 / g.cell_m, far = 1.5 * widest.cells + 1;
@@ -180,16 +180,25 @@ void PeakMaps::scatter_set(const MovingSet& p, std::size_t set) {
     const Eigen::Array<double, n_cell_sums, 1> whole{
         mass * volume_per_mass, mass, mass * vx,      mass * vy, mass * vz,
         0.5 * mass * v2,        area, mass * in_first};
-    add_one(whole.cast<float>());
+    add_one(whole.cast<float>(), to);
     if (widest.support_radius)
-      cover_square(x, y, std::sqrt(area));
+      cover_square(x, y, std::sqrt(area), to);
     else
-      cover_cell_of(x, y, half_width);
+      cover_cell_of(x, y, half_width, to);
   }
 }
 
 void PeakMaps::scatter(std::span<const MovingSet> sets) {
-  for (std::size_t k = 0; k < sets.size(); ++k) scatter_set(sets[k], k);
+  for (std::size_t k = 0; k < sets.size(); ++k)
+    scatter_set(sets[k], k, settings_.by_set ? of_set_[k] : sums_);
+  if (!settings_.by_set) return;
+  for (const SumTiles& set : of_set_) sums_.add(set);
+  for (SumTiles& set : of_set_) set.open_as(sums_);
+}
+
+void PeakMaps::clear_sums() {
+  sums_.clear();
+  for (SumTiles& set : of_set_) set.clear();
 }
 
 /// Takes the instant's sums into the peaks.
@@ -204,18 +213,18 @@ void PeakMaps::keep_peaks(double time_s) {
     row.set_intervals(time_s > last_s_ ? static_cast<float>(time_s - last_s_) : 1,
                       last_s_ > before_s_ ? static_cast<float>(last_s_ - before_s_) : 1);
   row.is_odd = n_records_ % 2 != 0;
-  if (settings_.by_set) {
-    row.per_first = row.per_area * static_cast<float>(widths_[0].volume_per_mass);
-    row.per_second = row.per_area * static_cast<float>(widths_[1].volume_per_mass);
-  }
   ++n_records_;
   for (std::size_t slot = 0; slot < sums_.tiles().size(); ++slot) {
     const SumTiles::Open& open = sums_.tiles()[slot];
     PeakTile& peaks = peaks_.at(open.tile_row, open.tile_col);
-    if (settings_.by_set && peaks.first.empty())
-      peaks.first.assign(PeakTile::n_cells, 0), peaks.second.assign(PeakTile::n_cells, 0);
-    if (peaks.n_seen + 1 != n_records_ && peaks.rows_seen != 0)
+    if (settings_.by_set && peaks.of_set.empty()) {
+      peaks.of_set.resize(of_set_.size());
+      peaks.fullest.assign(PeakTile::n_cells, 0), peaks.liquid_fraction = peaks.fullest;
+    }
+    if (peaks.n_seen + 1 != n_records_ && peaks.rows_seen != 0) {
       peaks.last = peaks.before = {}, peaks.rows_seen = 0;
+      for (CellPeaks& set : peaks.of_set) set.last = set.before = {};
+    }
     peaks.n_seen = n_records_;
     peaks.rows_seen |= open.rows;
     for (unsigned rows = peaks.rows_seen; rows != 0; rows &= rows - 1) {
@@ -223,8 +232,26 @@ void PeakMaps::keep_peaks(double time_s) {
       row.keep(sums_.cells(slot) + first, sums_.under(slot) + first,
                static_cast<std::size_t>(first), peaks);
     }
+    if (settings_.by_set) keep_materials(row, slot, peaks);
   }
   before_s_ = last_s_, last_s_ = time_s;
+}
+
+/// Takes what grains and liquid are by themselves into their peaks.
+void PeakMaps::keep_materials(const PeakRow& row, std::size_t slot, PeakTile& peaks) {
+  const SumTiles::Open& open = sums_.tiles()[slot];
+  const CellSums* flow = sums_.cells(slot);
+  for (std::size_t k = 0; k < of_set_.size(); ++k) {
+    const std::size_t own = of_set_[k].slot_at(open.tile_row, open.tile_col);
+    const CellSums* cells = of_set_[k].cells(own);
+    for (unsigned rows = peaks.rows_seen; rows != 0; rows &= rows - 1) {
+      const int first = std::countr_zero(rows) * PeakTile::edge;
+      const auto at = static_cast<std::size_t>(first);
+      row.keep_material(cells + first, flow + first, of_set_[k].under(own) + first, at,
+                        peaks.of_set[k]);
+      if (k == 1) row.keep_liquid_fraction(cells + first, flow + first, at, peaks);
+    }
+  }
 }
 
 /// Of every set, over the cells: how many of its layers the cell's whole thickness is.
@@ -253,11 +280,13 @@ void PeakMaps::record(std::span<const MovingSet> sets, double time_s, bool with_
   const Window w = bounds_of(sets);
   if (w.n_cells() == 0) return;
   sums_.cover(w);
+  if (settings_.by_set)
+    for (SumTiles& set : of_set_) set.cover(w);
   peaks_.cover(w);
   scatter(sets);
   if (with_layers) count_layers(sets);
   keep_peaks(time_s);
-  sums_.clear();
+  clear_sums();
 }
 
 void PeakMaps::keep_deposit() {
@@ -299,8 +328,7 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
   const Window& w = result.window;
   for (int k = 0; k < n_peak_layers; ++k) {
     const auto layer = static_cast<PeakLayer>(k);
-    const bool of_set = layer == PeakLayer::solid || layer == PeakLayer::liquid;
-    if (of_set && !settings_.by_set) continue;
+    if (is_of_materials(layer) && !settings_.by_set) continue;
     result.layer(layer).assign(w.n_cells(), info(layer).untouched);
   }
   Totals totals;
@@ -317,10 +345,7 @@ PeakMaps::Totals PeakMaps::write_layers(MemberResult& result) const {
       result.layer(PeakLayer::pressure)[k] = p.pressure[cell];
       if (reached) result.layer(PeakLayer::arrival)[k] = p.arrival[cell];
       result.layer(PeakLayer::deposit)[k] = p.deposit[cell];
-      if (!p.first.empty()) {
-        result.layer(PeakLayer::solid)[k] = p.first[cell];
-        result.layer(PeakLayer::liquid)[k] = p.second[cell];
-      }
+      if (!p.of_set.empty()) write_materials(p, cell, k, result);
       totals.reached += reached;
       totals.covered += p.covered[cell];
       totals.thickness = std::max(totals.thickness, p.thickness[cell]);
@@ -346,10 +371,12 @@ void PeakMaps::finish(std::span<const MovingSet> final_state, MemberResult& resu
   const Window w = bounds_of(final_state);
   if (w.n_cells() > 0) {
     sums_.cover(w);
+    if (settings_.by_set)
+      for (SumTiles& set : of_set_) set.cover(w);
     peaks_.cover(w);
     scatter(final_state);
     keep_deposit();
-    sums_.clear();
+    clear_sums();
   }
   result.grid = settings_.grid;
   result.window = joined(peaks_.window(), window_of_departures(final_state, settings_.grid));

@@ -9,6 +9,7 @@
 #include "engine/simulation/maps/sum_tiles.hpp"
 #include "engine/simulation/member_result.hpp"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct PeakMapSettings {
   /// Width of a particle with a field "support_radius" (a column) over that radius: one and a half
   /// mean distances of columns, so that a lattice leaves no pattern on the map.
   double width_per_radius = 0.375;
-  bool by_set = false;  ///< of two sets: also the largest thickness of each
+  bool by_set = false;  ///< of two sets, grains and liquid: also the peaks and arrival of each
 };
+
+struct PeakRow;
 
 /// Spreads particles over cells with a quadratic B-spline of width max(dx, cell), normalised to
 /// sum to one (dx: of a depth-averaged column the present mean distance of columns), with the same
@@ -35,6 +38,10 @@ struct PeakMapSettings {
 /// Spreading carries mass two mean distances beyond the last particle; that counts in the layers,
 /// which keep volume, and not in areas, arrival and runout, or a release that never moved would
 /// cover twice its area.
+///
+/// Of grains and liquid that are told apart each has peaks, arrival and cells of its own by the
+/// same rules, as if the other were not there; only its dynamic pressure knows the flow's volume
+/// (PeakRow::keep_material).
 ///
 /// What falls on cells beyond the grid is dropped, not pushed in. Time follows the cells that the
 /// particles touch now, memory those that they ever touched; neither the raster nor the rectangle
@@ -92,22 +99,26 @@ class PeakMaps {
     double area(std::size_t i, double mass) const;
   };
   Totals write_layers(MemberResult&) const;
+  static void write_materials(const PeakTile&, std::size_t cell, std::size_t k, MemberResult&);
   void write_left(std::span<const MovingSet>, MemberResult&) const;
   Width width_of(const MovingSet&) const;
   Window cover(const ParticleSet&, const Width&) const;
   Window bounds_of(std::span<const MovingSet>);
-  void add_one(const CellSums&);
-  void cover_cell_of(double x, double y, double half_width);
-  void cover_square(double x, double y, double side);
+  void add_one(const CellSums&, SumTiles& to) const;
+  void cover_cell_of(double x, double y, double half_width, SumTiles& to) const;
+  void cover_square(double x, double y, double side, SumTiles& to) const;
   void scatter(std::span<const MovingSet>);
-  void scatter_set(const MovingSet&, std::size_t set);
+  void scatter_set(const MovingSet&, std::size_t set, SumTiles& to);
+  void clear_sums();
   void keep_peaks(double time_s);
+  void keep_materials(const PeakRow&, std::size_t slot, PeakTile&);
   void count_layers(std::span<const MovingSet>);
   void keep_deposit();
 
   PeakMapSettings settings_;
   PeakTiles peaks_;
-  SumTiles sums_;  ///< planes: mass of each set, then `Plane` after them
+  SumTiles sums_;                   ///< of all sets
+  std::array<SumTiles, 2> of_set_;  ///< of each, where they are told apart
   std::size_t n_sets_ = 0;
   std::vector<Width> widths_;    ///< [set] of the present instant
   SpreadWeights across_, down_;  ///< of one particle: along a row, along a column

@@ -338,7 +338,7 @@ class Run {
     if (is_valid(result_.outcome) && ledger.lost_mass > 0.01 * ledger.brought_mass()) {
       result_.outcome = Outcome::left_terrain;
       result_.reason = std::to_string(std::lround(100 * ledger.lost_mass / ledger.brought_mass())) +
-                       " % of the mass left the terrain";
+                       " % of the mass left the terrain" + lost_by_phase(result_.scalars);
       if (ledger.leaked_mass > 0) result_.reason += ", some of it through the ground";
     }
   }

@@ -108,7 +108,7 @@ using M = MemberScalars;
 /// ">= 812 m" of a member that is cut off, "812 m so far" where the end may lie either way.
 std::string as_known(const MemberResult& r, double MemberScalars::*field, const std::string& text) {
   if (std::isnan(r.scalars.*field)) return is_censored(r.censoring) ? "not known" : "none";
-  switch (known(field, r.censoring)) {
+  switch (known(field, r.scalars, r.censoring)) {
     case Known::exactly:
       return text;
     case Known::at_least:
@@ -131,6 +131,19 @@ void print_phases(const MemberResult& r, Console& console) {
                   far(&M::liquid_runout_m),
                   as_known(r, &M::drag_loss_fraction, share_text(r.scalars.drag_loss_fraction))),
       console);
+  const auto area = [&r](double MemberScalars::*field) {
+    return as_known(r, field, grouped(r.scalars.*field) + " m2");
+  };
+  print_line("area of each",
+             fmt::format("grains {}, liquid {}", area(&M::solid_reached_area_m2),
+                         area(&M::liquid_reached_area_m2)),
+             console);
+  if (has_left(r.censoring))
+    print_line(
+        "left the terrain",
+        fmt::format("{} of the grains, {} of the liquid", share_text(r.scalars.solid_lost_fraction),
+                    share_text(r.scalars.liquid_lost_fraction)),
+        console);
 }
 
 /// Pore pressure of a mixture.
@@ -206,7 +219,9 @@ void print_gauges(const MemberResult& r, Console& console) {
 std::string done_event(const MemberResult& r, const workflow::RunStored& stored,
                        const workflow::OutputFolder& folder) {
   nlohmann::ordered_json scalars = nlohmann::ordered_json::object();
-  for (const ScalarInfo& scalar : scalar_table()) scalars[scalar.name] = r.scalars.*scalar.field;
+  for (const ScalarInfo& scalar : scalar_table())
+    if (!scalar.sparse || !std::isnan(r.scalars.*scalar.field))
+      scalars[scalar.name] = r.scalars.*scalar.field;
   nlohmann::ordered_json event{{"event", "done"},
                                {"outcome", to_string(r.outcome)},
                                {"censored", to_string(r.censoring)},

@@ -16,17 +16,25 @@
 namespace sturz::app {
 namespace {
 
+nlohmann::json phase_json(const CensoringReport::OfPhase& p) {
+  return {{"members", p.censored},
+          {"left_terrain", p.left},
+          {"largest_lost_fraction", p.largest_lost_fraction}};
+}
+
 nlohmann::json censoring_json(const CensoringReport& r) {
-  return {{"members", r.censored()},
-          {"fraction", r.fraction()},
-          {"settled", r.settled},
-          {"out_of_time", r.still_moving},
-          {"left_terrain", r.left_terrain},
-          {"left_and_moving", r.left_and_moving},
-          {"largest_lost_fraction", r.largest_lost_fraction},
-          {"where", r.where},
-          {"max_censored_fraction", r.accepted_fraction},
-          {"too_many", r.too_many()}};
+  nlohmann::json all{{"members", r.censored()},
+                     {"fraction", r.fraction()},
+                     {"settled", r.settled},
+                     {"out_of_time", r.still_moving},
+                     {"left_terrain", r.left_terrain},
+                     {"left_and_moving", r.left_and_moving},
+                     {"largest_lost_fraction", r.largest_lost_fraction},
+                     {"where", r.where},
+                     {"max_censored_fraction", r.accepted_fraction},
+                     {"too_many", r.too_many()}};
+  if (r.phases) all["grains"] = phase_json(r.grains), all["liquid"] = phase_json(r.liquid);
+  return all;
 }
 
 /// The best three, with all that they are compared by.

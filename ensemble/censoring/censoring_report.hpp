@@ -21,6 +21,14 @@ struct CensoringReport {
   double largest_lost_fraction = 0;  ///< of a member's mass
   double accepted_fraction = 0;      ///< ensemble.max_censored_fraction
   std::string where;                 ///< where mass left, in words; may be empty
+  /// Where grains and liquid are told apart: of each, the members of which some left, those whose
+  /// results of that material alone are cut off, and the largest share of it that left.
+  struct OfPhase {
+    std::int64_t left = 0, censored = 0;
+    double largest_lost_fraction = 0;
+  };
+  bool phases = false;
+  OfPhase grains, liquid;
 
   std::int64_t left() const { return left_terrain + left_and_moving; }
   std::int64_t moving() const { return still_moving + left_and_moving; }

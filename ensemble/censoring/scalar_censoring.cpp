@@ -77,17 +77,36 @@ constexpr std::array rows{
     ScalarCensoring{&M::volume_growth, least, least},
     ScalarCensoring{&M::max_eroded_depth_m, least, least},
     ScalarCensoring{&M::entrainment_loss_fraction, no, no},
-    ScalarCensoring{&M::solid_runout_m, least, least},
-    ScalarCensoring{&M::liquid_runout_m, least, least},
-    ScalarCensoring{&M::solid_front_travel_m, least, least},
-    ScalarCensoring{&M::liquid_front_travel_m, least, least},
-    ScalarCensoring{&M::max_solid_thickness_m, least, least},
-    ScalarCensoring{&M::max_liquid_thickness_m, least, least},
+    ScalarCensoring{&M::solid_runout_m, least, least, Phase::grains},
+    ScalarCensoring{&M::liquid_runout_m, least, least, Phase::liquid},
+    ScalarCensoring{&M::solid_front_travel_m, least, least, Phase::grains},
+    ScalarCensoring{&M::liquid_front_travel_m, least, least, Phase::liquid},
+    ScalarCensoring{&M::max_solid_thickness_m, least, least, Phase::grains},
+    ScalarCensoring{&M::max_liquid_thickness_m, least, least, Phase::liquid},
     ScalarCensoring{&M::drag_loss_fraction, no, no},
     ScalarCensoring{&M::drag_raised_fraction, no, no},
+    ScalarCensoring{&M::solid_lost_mass_kg, yes, least, Phase::grains},
+    ScalarCensoring{&M::liquid_lost_mass_kg, yes, least, Phase::liquid},
+    ScalarCensoring{&M::solid_lost_fraction, yes, least, Phase::grains},
+    ScalarCensoring{&M::liquid_lost_fraction, yes, least, Phase::liquid},
+    ScalarCensoring{&M::solid_reached_area_m2, least, least, Phase::grains},
+    ScalarCensoring{&M::liquid_reached_area_m2, least, least, Phase::liquid},
+    ScalarCensoring{&M::max_solid_speed_m_s, least, least, Phase::grains},
+    ScalarCensoring{&M::max_liquid_speed_m_s, least, least, Phase::liquid},
+    ScalarCensoring{&M::max_solid_energy_j_m2, least, least, Phase::grains},
+    ScalarCensoring{&M::max_liquid_energy_j_m2, least, least, Phase::liquid},
+    ScalarCensoring{&M::max_solid_pressure_pa, least, least, Phase::grains},
+    ScalarCensoring{&M::max_liquid_pressure_pa, least, least, Phase::liquid},
 };
 // A scalar without a row would pass as fully known.
 static_assert(rows.size() * sizeof(double) == sizeof(MemberScalars));
+
+const ScalarCensoring& row_of(double MemberScalars::*field) {
+  const auto* row = std::find_if(rows.begin(), rows.end(),
+                                 [&](const ScalarCensoring& r) { return r.field == field; });
+  expect(row != rows.end(), "scalar_censoring has a row for every scalar");
+  return *row;
+}
 
 }  // namespace
 
@@ -101,17 +120,21 @@ Known weaker(Known left, Known moving, Censoring censoring) {
 }
 
 Known known(double MemberScalars::*field, Censoring censoring) {
-  const auto* row = std::find_if(rows.begin(), rows.end(),
-                                 [&](const ScalarCensoring& r) { return r.field == field; });
-  expect(row != rows.end(), "scalar_censoring has a row for every scalar");
-  return weaker(row->left, row->moving, censoring);
+  const ScalarCensoring& row = row_of(field);
+  return weaker(row.left, row.moving, censoring);
+}
+
+Known known(double MemberScalars::*field, const MemberScalars& of, Censoring censoring) {
+  const ScalarCensoring& row = row_of(field);
+  return weaker(row.left, row.moving, censoring_of(row.of, of, censoring));
 }
 
 std::vector<Observation> observations(std::span<const MemberSummary> members,
                                       double MemberScalars::*field) {
   std::vector<Observation> all;
   for (const MemberSummary& m : members)
-    if (is_valid(m.outcome)) all.push_back({m.scalars.*field, known(field, m.censoring)});
+    if (is_valid(m.outcome))
+      all.push_back({m.scalars.*field, known(field, m.scalars, m.censoring)});
   return all;
 }
 

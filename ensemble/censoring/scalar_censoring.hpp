@@ -15,6 +15,7 @@ namespace sturz {
 struct ScalarCensoring {
   double MemberScalars::*field;
   Known left, moving;
+  Phase of = Phase::both;  ///< mass of the other phase that left does not matter
 };
 /// One row per scalar of scalar_table(), in its order.
 ///   at_least     what can only grow: farthest, fastest, thickest cell so far; cells reached so far
@@ -26,8 +27,10 @@ std::span<const ScalarCensoring> scalar_censoring();
 /// moved.
 Known weaker(Known left, Known moving, Censoring censoring);
 
-/// \throws std::logic_error for a scalar without a row
+/// Of a scalar by itself, whatever left. \throws std::logic_error for a scalar without a row
 Known known(double MemberScalars::*field, Censoring censoring);
+/// Of a member's scalar: those of grains or of liquid by what left of them alone.
+Known known(double MemberScalars::*field, const MemberScalars& of, Censoring censoring);
 
 /// One scalar of every valid member.
 std::vector<Observation> observations(std::span<const MemberSummary> members,

@@ -19,7 +19,9 @@ CellStatistics::CellStatistics(const HazardLayers& layers, std::size_t n_members
 
 void CellStatistics::add(const CellRows& rows) {
   block_.add(rows, [&](std::size_t i, std::size_t cell) {
-    reached(rows, i, cell);
+    for (const ReachLayers& r : layers_.reaches) reached(r, rows, i, cell);
+    if (layers_.liquid_fraction)
+      over_comers(PeakLayer::liquid_fraction, *layers_.liquid_fraction, rows, i, cell);
     for (const QuantityLayers& q : layers_.quantities) quantity(q, rows, i, cell);
     intensity(rows, i, cell);
     if (layers_.mass_left) {
@@ -30,11 +32,17 @@ void CellStatistics::add(const CellRows& rows) {
   });
 }
 
-void CellStatistics::reached(const CellRows& rows, std::size_t i, std::size_t cell) {
-  keep_where(rows.of(PeakLayer::arrival, i), [](float t) { return !std::isnan(t); });
-  put_probability(layers_.reached, 0, cell, static_cast<std::int64_t>(kept_.size()));
-  if (!kept_.empty() && layers_.arrival_quantile)
-    put_quantiles(*layers_.arrival_quantile, cell, 0, 1);
+void CellStatistics::reached(const ReachLayers& to, const CellRows& rows, std::size_t i,
+                             std::size_t cell) {
+  keep_where(rows.of(to.source, i), [](float t) { return !std::isnan(t); });
+  put_probability(to.reached, 0, cell, static_cast<std::int64_t>(kept_.size()));
+  if (!kept_.empty() && to.quantile) put_quantiles(*to.quantile, cell, 0, 1);
+}
+
+void CellStatistics::over_comers(PeakLayer source, std::size_t layer, const CellRows& rows,
+                                 std::size_t i, std::size_t cell) {
+  keep_where(rows.of(source, i), [](float v) { return !std::isnan(v); });
+  if (!kept_.empty()) put_quantiles(layer, cell, 0, 1);
 }
 
 void CellStatistics::quantity(const QuantityLayers& to, const CellRows& rows, std::size_t i,

@@ -25,7 +25,10 @@ class CellStatistics {
   void add(const CellRows& rows);
 
  private:
-  void reached(const CellRows& rows, std::size_t i, std::size_t cell);
+  void reached(const ReachLayers& to, const CellRows& rows, std::size_t i, std::size_t cell);
+  /// Quantiles over the members that have a value.
+  void over_comers(PeakLayer source, std::size_t layer, const CellRows& rows, std::size_t i,
+                   std::size_t cell);
   void quantity(const QuantityLayers& to, const CellRows& rows, std::size_t i, std::size_t cell);
   void intensity(const CellRows& rows, std::size_t i, std::size_t cell);
 

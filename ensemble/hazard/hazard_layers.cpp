@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 namespace sturz {
@@ -45,6 +46,36 @@ const PeakMaps peaks[] = {
     {PeakLayer::pressure, "pressure", &HazardSpec::pressure_kpa},
 };
 
+/// Maps of one material of a flow, in its own words.
+struct MaterialMaps {
+  Phase phase;
+  const char* word;   ///< of the layers' names
+  const char* plain;  ///< "grains"
+  PeakLayer arrival;
+  Quantity reached;
+  std::array<PeakMaps, 4> peaks;
+};
+const MaterialMaps materials[] = {
+    {Phase::grains,
+     "solid",
+     "grains",
+     PeakLayer::solid_arrival,
+     Quantity::solid_reached,
+     {{{PeakLayer::solid, "solid_thickness", &HazardSpec::thickness_m},
+       {PeakLayer::solid_speed, "solid_speed", &HazardSpec::speed_m_s},
+       {PeakLayer::solid_energy, "solid_energy", &HazardSpec::energy_kj_m2},
+       {PeakLayer::solid_pressure, "solid_pressure", &HazardSpec::pressure_kpa}}}},
+    {Phase::liquid,
+     "liquid",
+     "liquid",
+     PeakLayer::liquid_arrival,
+     Quantity::liquid_reached,
+     {{{PeakLayer::liquid, "liquid_thickness", &HazardSpec::thickness_m},
+       {PeakLayer::liquid_speed, "liquid_speed", &HazardSpec::speed_m_s},
+       {PeakLayer::liquid_energy, "liquid_energy", &HazardSpec::energy_kj_m2},
+       {PeakLayer::liquid_pressure, "liquid_pressure", &HazardSpec::pressure_kpa}}}},
+};
+
 /// Says which thickness thresholds the particles cannot resolve; empty if none.
 std::string not_resolved(std::span<const double> thicknesses_m, double spacing_m) {
   std::string list;
@@ -73,7 +104,8 @@ Layer made(std::string name, LayerMeaning meaning, std::string long_name, std::s
 /// more, what lies or comes first at the end may go either way.
 const char* meaning_of_cut(const LayerMeaning& meaning) {
   const bool either_way =
-      meaning.quantity == Quantity::deposit || meaning.quantity == Quantity::arrival ||
+      meaning.quantity == Quantity::deposit || is_arrival(meaning.quantity) ||
+      meaning.quantity == Quantity::liquid_fraction ||
       (meaning.quantity == Quantity::intensity && meaning.intensity == IntensityClass::medium);
   if (meaning.quantity == Quantity::left) return "as far as it was seen";
   if (meaning.quantity == Quantity::deposit)
@@ -100,9 +132,12 @@ class Builder {
         made("number_of_members", {Quantity::members, Statistic::count},
              "valid members of the ensemble", "1", "settled, out of time or left the terrain");
     add(std::move(count), static_cast<float>(n_members_));
-    out_.reached = add_probability(
-        "probability_of_reach", Quantity::reached, "share of members that reach the cell",
-        "reached: smoothed thickness above the runout limit at any time", {}, {});
+    out_.reaches.push_back(
+        {PeakLayer::arrival,
+         add_probability("probability_of_reach", Quantity::reached,
+                         "share of members that reach the cell",
+                         "reached: smoothed thickness above the runout limit at any time", {}, {}),
+         std::nullopt});
     if (extras.left)
       out_.mass_left =
           add(made("probability_of_mass_left", {Quantity::left, Statistic::probability},
@@ -110,20 +145,13 @@ class Builder {
                    rules_.share + "; what lies beyond is not known"),
               0);
     for (const PeakMaps& q : peaks) out_.quantities.push_back(add_peak(q));
-    out_.arrival_quantile = add_quantiles(
-        "arrival", Quantity::arrival, "time until the flow arrives", "s", "",
-        "over the members that reach the cell only; undefined where none does; " + rules_.order,
-        nan_f);
+    out_.reaches.front().quantile =
+        add_over_comers("arrival", Quantity::arrival, "time until the flow arrives", "s");
     out_.quantities.push_back(add_deposit());
     if (extras.eroded)
       out_.quantities.push_back(
           add_peak({PeakLayer::eroded, "eroded_depth", &HazardSpec::eroded_depth_m}));
-    if (extras.phases) {
-      out_.quantities.push_back(
-          add_peak({PeakLayer::solid, "solid_thickness", &HazardSpec::thickness_m}));
-      out_.quantities.push_back(
-          add_peak({PeakLayer::liquid, "liquid_thickness", &HazardSpec::thickness_m}));
-    }
+    if (extras.phases) add_materials(extras);
     add_intensities();
     return std::move(out_);
   }
@@ -207,6 +235,41 @@ class Builder {
     layers.quantile =
         add_quantiles(name, quantity, meaning, unit.name, over_time, rules_.quantiles(), 0);
     return layers;
+  }
+
+  /// Of what only a member that comes has.
+  std::optional<std::size_t> add_over_comers(const std::string& name, Quantity quantity,
+                                             const std::string& meaning, const std::string& units) {
+    return add_quantiles(
+        name, quantity, meaning, units, "",
+        "over the members that reach the cell only; undefined where none does; " + rules_.order,
+        nan_f);
+  }
+
+  /// Each cut off by what left of it alone; both together by either.
+  void add_materials(const HazardExtras& extras) {
+    const std::int64_t of_both = n_censored_;
+    for (const MaterialMaps& m : materials) {
+      n_censored_ = m.phase == Phase::grains ? extras.n_censored_grains : extras.n_censored_liquid;
+      const std::string word = m.word, plain = m.plain;
+      ReachLayers reach;
+      reach.source = m.arrival;
+      reach.reached = add_probability(
+          "probability_of_" + word + "_reach", m.reached,
+          fmt::format("share of members of which {} reach{} the cell", plain,
+                      m.phase == Phase::grains ? "" : "es"),
+          fmt::format("reached: smoothed volume of {} over area above the runout limit at any time",
+                      plain),
+          {}, {});
+      reach.quantile = add_over_comers(
+          word + "_arrival", quantity_of(m.arrival),
+          fmt::format("time until {} arrive{}", plain, m.phase == Phase::grains ? "" : "s"), "s");
+      out_.reaches.push_back(std::move(reach));
+      for (const PeakMaps& q : m.peaks) out_.quantities.push_back(add_peak(q));
+    }
+    n_censored_ = of_both;
+    out_.liquid_fraction = add_over_comers("liquid_fraction", Quantity::liquid_fraction,
+                                           info(PeakLayer::liquid_fraction).long_name, "1");
   }
 
   QuantityLayers add_deposit() {

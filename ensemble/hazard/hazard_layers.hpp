@@ -26,15 +26,22 @@ struct QuantityLayers {
   std::optional<std::size_t> mean, quantile;
 };
 
+/// Whether and when the flow, or one of its materials, comes.
+struct ReachLayers {
+  PeakLayer source = PeakLayer::arrival;  ///< NaN where it does not come
+  ProbabilityLayers reached;
+  std::optional<std::size_t> quantile;  ///< of the time, over the members that come
+};
+
 /// Everything that make_hazard_map fills; indices into `stack.layers`.
 struct HazardLayers {
   LayerStack stack;              ///< without values
   std::vector<float> untouched;  ///< of each layer: a cell of known ground that no member reached
-  ProbabilityLayers reached;
+  std::vector<ReachLayers> reaches;      ///< of the flow first, then of grains and of liquid
   std::optional<std::size_t> mass_left;  ///< where some member's mass crossed the edge
   std::vector<QuantityLayers>
-      quantities;  ///< thickness, speed, energy, pressure, deposit, eroded depth
-  std::optional<std::size_t> arrival_quantile;
+      quantities;  ///< thickness, speed, energy, pressure, deposit, eroded depth; of each material
+  std::optional<std::size_t> liquid_fraction;  ///< quantile over the members that reach the cell
   std::size_t high_intensity = 0, medium_intensity = 0;
 };
 
@@ -43,6 +50,8 @@ struct HazardExtras {
   bool left = false;    ///< mass of some member crossed the edge of the known ground
   bool eroded = false;  ///< the flow takes its bed along
   bool phases = false;  ///< grains and liquid move apart
+  /// Members whose end was not seen as far as grains, and as far as liquid is concerned.
+  std::int64_t n_censored_grains = 0, n_censored_liquid = 0;
   /// Members do not count alike, and are worth so many that do; nothing: they do.
   std::optional<double> effective_members = std::nullopt;
 };

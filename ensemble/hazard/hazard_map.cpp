@@ -59,6 +59,18 @@ void add_attributes(LayerStack& stack, const std::vector<MemberSummary>& members
   add("failed_members", list_of(members, invalid));
   add("out_of_time_members", list_of(members, late));
   add("left_terrain_members", list_of(members, gone));
+  const bool phases = std::any_of(members.begin(), members.end(), [&](const MemberSummary& m) {
+    return valid(m) && is_kept(PeakLayer::solid, m.censoring, m.scalars);
+  });
+  const auto gone_of = [&](Phase phase) {
+    return list_of(members, [&, phase](const MemberSummary& m) {
+      return gone(m) && has_left(censoring_of(phase, m.scalars, m.censoring));
+    });
+  };
+  if (phases) {
+    add("left_terrain_members_of_grains", gone_of(Phase::grains));
+    add("left_terrain_members_of_liquid", gone_of(Phase::liquid));
+  }
   add("formulations", formulations_text(members));
   add("member_rule",
       "members that settled, ran out of time or left the terrain count; diverged, failed and "
@@ -98,6 +110,8 @@ HazardExtras extras_of(const std::vector<MemberSummary>& members) {
     extras.left |= is_kept(PeakLayer::left, m.censoring, m.scalars);
     extras.eroded |= is_kept(PeakLayer::eroded, m.censoring, m.scalars);
     extras.phases |= is_kept(PeakLayer::solid, m.censoring, m.scalars);
+    extras.n_censored_grains += is_censored(censoring_of(Phase::grains, m.scalars, m.censoring));
+    extras.n_censored_liquid += is_censored(censoring_of(Phase::liquid, m.scalars, m.censoring));
   }
   return extras;
 }
@@ -109,7 +123,7 @@ std::vector<PeakLayer> read_layers_of(const HazardExtras& extras) {
     const auto layer = static_cast<PeakLayer>(i);
     if (layer == PeakLayer::left && !extras.left) continue;
     if (layer == PeakLayer::eroded && !extras.eroded) continue;
-    if ((layer == PeakLayer::solid || layer == PeakLayer::liquid) && !extras.phases) continue;
+    if (is_of_materials(layer) && !extras.phases) continue;
     layers.push_back(layer);
   }
   return layers;

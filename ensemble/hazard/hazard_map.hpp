@@ -67,6 +67,11 @@ Window map_extent(const Window& touched, const Grid& grid);
 ///   arrival_quantile [s]                   [quantile][y][x]
 ///   deposit_mean, deposit_quantile [m]
 ///   probability_of_high_intensity, probability_of_medium_intensity
+/// and where grains and liquid move apart, for P in solid, liquid:
+///   the share of members of which P reaches the cell, with its bounds
+///   P_arrival_quantile [s]
+///   P_X_exceedance, ..._mean, ..._quantile for the four X
+///   liquid_fraction_quantile               over the members that reach the cell only
 /// One rule for all: 0 where the ground is known and no member came, NaN where it is not known; an
 /// arrival is NaN where none came. With no valid member every value is NaN and number_of_members
 /// is 0.

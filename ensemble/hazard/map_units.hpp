@@ -14,8 +14,12 @@ struct MapUnit {
 inline MapUnit map_unit(PeakLayer layer) {
   switch (layer) {
     case PeakLayer::energy:
+    case PeakLayer::solid_energy:
+    case PeakLayer::liquid_energy:
       return {"kJ m-2", 1e-3};
     case PeakLayer::pressure:
+    case PeakLayer::solid_pressure:
+    case PeakLayer::liquid_pressure:
       return {"kPa", 1e-3};
     default:
       return {info(layer).units, 1};

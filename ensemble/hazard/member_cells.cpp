@@ -37,9 +37,9 @@ Window hull(const Window& a, const Window& b) {
   return both;
 }
 
-/// Peaks are never negative and never undefined, an arrival time may be undefined.
+/// Peaks are never negative and never undefined; an arrival time, and what needs a flow, may be.
 void check_values(std::span<const float> values, PeakLayer layer, std::int64_t member) {
-  const bool may_be_nan = layer == PeakLayer::arrival;
+  const bool may_be_nan = std::isnan(info(layer).untouched);
   bool good = true;
   for (const float v : values) good &= may_be_nan ? !(v < 0) : v >= 0;
   require(good, fmt::format("member {}: {} holds a value that is negative{} (it cannot be). Delete "

@@ -29,10 +29,22 @@ using Cells = std::vector<std::string>;
 
 std::string line_of(const Cells& cells) { return fmt::format("{}\n", fmt::join(cells, ",")); }
 
-std::string header(const DesignTable& design, const ScoreTable* scores) {
+/// Columns of results: all, but those that only some scenes have where these members have none.
+std::vector<ScalarInfo> scalars_of(std::span<const MemberSummary> members) {
+  std::vector<ScalarInfo> columns;
+  for (const ScalarInfo& scalar : scalar_table())
+    if (!scalar.sparse || std::any_of(members.begin(), members.end(), [&](const MemberSummary& m) {
+          return !std::isnan(m.scalars.*scalar.field);
+        }))
+      columns.push_back(scalar);
+  return columns;
+}
+
+std::string header(const DesignTable& design, std::span<const ScalarInfo> scalars,
+                   const ScoreTable* scores) {
   Cells cells{"member", "outcome", "censored", "reason", "formulation"};
   for (const std::string& key : design.keys) cells.push_back(quoted(key));
-  for (const ScalarInfo& scalar : scalar_table()) cells.emplace_back(scalar.name);
+  for (const ScalarInfo& scalar : scalars) cells.emplace_back(scalar.name);
   if (scores != nullptr) {
     for (const ScoreInfo& score : scores->columns) cells.push_back("score_" + score.name);
     cells.emplace_back("score_bounds");
@@ -48,8 +60,8 @@ void add_scores(const ScoreTable& scores, std::size_t i, Cells& cells) {
   cells.push_back(quoted(bounds_text(scores, i)));
 }
 
-std::string row(const DesignTable& design, const MemberSummary& m, const ScoreTable* scores,
-                std::size_t i) {
+std::string row(const DesignTable& design, std::span<const ScalarInfo> scalars,
+                const MemberSummary& m, const ScoreTable* scores, std::size_t i) {
   require(m.member >= 0 && m.member < design.n_members(),
           fmt::format("member {} is not in the design table of {} members (results of another "
                       "ensemble?). Use the directory that the design was written to.",
@@ -59,7 +71,7 @@ std::string row(const DesignTable& design, const MemberSummary& m, const ScoreTa
   for (const double value : design.values[static_cast<std::size_t>(m.member)])
     cells.push_back(number(value));
   const bool has_result = m.outcome != Outcome::failed && m.outcome != Outcome::cancelled;
-  for (const ScalarInfo& scalar : scalar_table())
+  for (const ScalarInfo& scalar : scalars)
     cells.push_back(has_result ? number(m.scalars.*scalar.field) : std::string());
   if (scores != nullptr) add_scores(*scores, i, cells);
   cells.push_back(quoted(m.binding_limit));
@@ -84,9 +96,10 @@ void members_csv(const DesignTable& design, std::span<const MemberSummary> membe
   for (const MemberSummary& m : members) ordered.push_back(&m);
   std::sort(ordered.begin(), ordered.end(),
             [](const auto* a, const auto* b) { return a->member < b->member; });
-  std::string text = header(design, scores);
+  const std::vector<ScalarInfo> scalars = scalars_of(members);
+  std::string text = header(design, scalars, scores);
   for (const MemberSummary* m : ordered) {
-    text += row(design, *m, scores, static_cast<std::size_t>(m - members.data()));
+    text += row(design, scalars, *m, scores, static_cast<std::size_t>(m - members.data()));
     if (text.size() < piece) continue;
     put(text);
     text.clear();

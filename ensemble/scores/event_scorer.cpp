@@ -254,8 +254,8 @@ void EventScorer::score_lengths(const MemberView& member, const Raster<std::uint
                           const std::optional<Measured>& observed, double M::*field,
                           bool relative) {
     if (observed)
-      compare(name, unit, noun, *observed, member.scalars.*field, known(field, member.censoring),
-              relative, sheet);
+      compare(name, unit, noun, *observed, member.scalars.*field,
+              known(field, member.scalars, member.censoring), relative, sheet);
   };
   scalar("runout_m", "m", "length from crown to toe", e.runout_m, &M::crown_to_toe_length_m, true);
   scalar("h_over_l", "1", "H/L from crown to toe", e.h_over_l, &M::crown_to_toe_ratio, false);

@@ -14,12 +14,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sturz {
 namespace {
 
 constexpr int format_version = 5;
+/// Of members with layers and numbers of grains and of liquid; others are what they were before.
+constexpr int materials_version = 6;
 /// Few rows to a chunk: the statistics read members in bands of rows.
 constexpr int rows_per_chunk = 64, cols_per_chunk = 512;
 
@@ -27,6 +30,10 @@ constexpr const char* passes_attribute = "passes";         // "; "-separated
 constexpr const char* seconds_attribute = "pass_seconds";  // in the same order
 constexpr const char* effects_attribute = "effects";       // as `describe` names them
 constexpr const char* effect_seconds_attribute = "effect_seconds";
+
+int version_of(const MemberScalars& m) {
+  return std::isnan(m.solid_runout_m) ? format_version : materials_version;
+}
 
 bool has_maps(const MemberResult& m) { return m.window.n_cells() > 0 && !m.layers[0].empty(); }
 
@@ -41,7 +48,7 @@ void write_facts(NetcdfWriter& file, const MemberResult& m) {
   file.text(global, "title", fmt::format("Landslide ensemble member {}", m.member));
   file.text(global, "source", "sturz, landslide ensemble runner");
   file.text(global, "history", "written by sturz");
-  file.integer(global, "member_format", format_version);
+  file.integer(global, "member_format", version_of(m.scalars));
   file.integer(global, "member", m.member);
   file.text(global, "outcome", std::string(to_string(m.outcome)));
   file.text(global, "censored", std::string(to_string(m.censoring)));
@@ -67,6 +74,7 @@ void write_origin(NetcdfWriter& file, const MemberOrigin& origin) {
 
 void write_scalars(NetcdfWriter& file, const MemberScalars& scalars) {
   for (const ScalarInfo& scalar : scalar_table()) {
+    if (scalar.sparse && version_of(scalars) != materials_version) continue;
     const int variable = file.variable(scalar.name, NcType::float64, {});
     file.text(variable, "long_name", scalar.long_name);
     file.text(variable, "units", scalar.units);
@@ -163,7 +171,8 @@ void write_member(const std::filesystem::path& folder, const MemberResult& m,
 }
 
 MemberSummary read_member_summary(const NetcdfReader& file) {
-  if (need_integer(file, "member_format") != format_version)
+  const std::int64_t version = need_integer(file, "member_format");
+  if (version != format_version && version != materials_version)
     not_a_member(file, "was written by another version of this program");
   MemberSummary m;
   m.member = need_integer(file, "member");
@@ -183,10 +192,13 @@ MemberSummary read_member_summary(const NetcdfReader& file) {
   if (!hash) not_a_member(file, "has no attribute state_hash");
   m.state_hash = *hash;
   for (const ScalarInfo& scalar : scalar_table()) {
+    if (scalar.sparse && version != materials_version) continue;
     const std::vector<double> value = file.doubles(scalar.name);
     if (value.size() != 1) not_a_member(file, fmt::format("{} is not one number", scalar.name));
     m.scalars.*scalar.field = value[0];
   }
+  if (version_of(m.scalars) != version)
+    not_a_member(file, "was written by another version of this program");
   const auto window = [&](const char* name) {
     const std::int64_t n = need_integer(file, name);
     if (n < 0 || n > std::numeric_limits<int>::max())

@@ -98,18 +98,36 @@ std::string north_arrow(const Frame& frame) {
       x, y, y + 34);
 }
 
+std::string path_of(const Frame& frame, const std::vector<MapLine>& lines) {
+  std::string path;
+  for (const MapLine& l : lines)
+    path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", frame.x(l.x0), frame.y(l.y0), frame.x(l.x1),
+                        frame.y(l.y1));
+  return path;
+}
+
+/// The liquid's line is the wider one below: where both run together both are seen.
+std::string fronts_svg(const Frame& frame, const std::vector<FrontMark>& fronts) {
+  std::string svg;
+  for (const Phase phase : {Phase::liquid, Phase::grains})
+    for (const FrontMark& front : fronts)
+      if (front.phase == phase)
+        svg += fmt::format(
+            "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"{1}\"/>"
+            "<path d=\"{0}\" fill=\"none\" stroke=\"{2}\" stroke-width=\"{3}\"/>",
+            path_of(frame, front.lines), phase == Phase::liquid ? 5.4 : 2.4,
+            phase == Phase::liquid ? "#00798c" : "#7a3b00", phase == Phase::liquid ? 4.4 : 1.5);
+  return svg;
+}
+
 std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks& marks) {
-  std::string outline, cells, observed, nearest;
-  for (const MapLine& l : marks.nearest)
-    nearest += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", frame.x(l.x0), frame.y(l.y0),
-                           frame.x(l.x1), frame.y(l.y1));
+  std::string cells, observed;
+  const std::string nearest = path_of(frame, marks.nearest),
+                    outline = path_of(frame, marks.release);
   for (const auto& ring : marks.observed)
     for (std::size_t i = 0; i < ring.size(); ++i)
       observed += fmt::format("{}{:.1f} {:.1f}", i == 0 ? 'M' : 'L', frame.x(ring[i].x()),
                               frame.y(ring[i].y()));
-  for (const MapLine& l : marks.release)
-    outline += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", frame.x(l.x0), frame.y(l.y0),
-                           frame.x(l.x1), frame.y(l.y1));
   const Grid& g = scene.cells;
   const double side = g.cell_m * frame.scale();
   for (std::size_t i = 0; i < marks.left.size(); ++i) {
@@ -119,7 +137,7 @@ std::string marks_svg(const Frame& frame, const MapScene& scene, const MapMarks&
                          frame.x(g.west_m + static_cast<double>(col) * g.cell_m),
                          frame.y(g.north_m - static_cast<double>(row) * g.cell_m), side);
   }
-  std::string svg;
+  std::string svg = fronts_svg(frame, marks.fronts);
   if (!cells.empty())
     svg += fmt::format(
         "<path d=\"{}\" fill=\"url(#hatch)\" stroke=\"#b3123f\" "
@@ -169,6 +187,29 @@ std::string overlay_svg(const Frame& frame, const MapScene& scene, const LayerSt
 
 }  // namespace
 
+const char* style_word(Phase phase) { return phase == Phase::grains ? "grains" : "liquid"; }
+
+std::vector<FrontMark> front_marks(const LayerStack& maps) {
+  std::vector<FrontMark> fronts;
+  for (const Layer* layer : shown_layers(maps)) {
+    const LayerMeaning& m = layer->meaning;
+    const Phase phase = phase_of(m.quantity);
+    const bool share = is_whether_reached(m.quantity) && m.statistic == Statistic::probability;
+    const bool time = is_arrival(m.quantity) && m.statistic == Statistic::peak;
+    if (phase == Phase::both || (!share && !time)) continue;
+    Raster<std::uint8_t> reached(maps.grid, 0);
+    for (std::size_t k = 0; k < reached.values.size(); ++k)
+      reached.values[k] = share ? layer->values[k] >= 0.5F : !std::isnan(layer->values[k]);
+    FrontMark front{phase, "", cell_outline(reached)};
+    const bool grains = phase == Phase::grains;
+    front.label = share ? fmt::format("{} with a probability of 50\u00A0% or more",
+                                      grains ? "grains arrive" : "liquid arrives")
+                        : fmt::format("reached by {}", grains ? "grains" : "liquid");
+    if (!front.lines.empty()) fronts.push_back(std::move(front));
+  }
+  return fronts;
+}
+
 MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
                    const Raster<std::uint8_t>* release) {
   MapMarks marks;
@@ -176,6 +217,7 @@ MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
   for (const Layer* layer : shown_layers(maps))
     if (layer->meaning.quantity == Quantity::left)
       marks.left = scene_plane(scene, *layer, 0, maps.grid);
+  marks.fronts = front_marks(maps);
   return marks;
 }
 
@@ -191,7 +233,9 @@ std::string nearest_label(std::int64_t member, bool single) {
 std::string marks_legend_html(const MapMarks& marks) {
   const bool left =
       std::any_of(marks.left.begin(), marks.left.end(), [](float v) { return v > 0; });
-  if (marks.release.empty() && marks.observed.empty() && marks.nearest.empty() && !left) return {};
+  if (marks.release.empty() && marks.observed.empty() && marks.nearest.empty() && !left &&
+      marks.fronts.empty())
+    return {};
   std::string html = "<ul class=\"legend marks\">";
   if (!marks.release.empty()) html += "<li><span class=\"swatch release\"></span>release</li>";
   if (!marks.observed.empty())
@@ -200,6 +244,9 @@ std::string marks_legend_html(const MapMarks& marks) {
   if (!marks.nearest.empty())
     html +=
         "<li><span class=\"swatch nearest\"></span>" + html_escape(marks.nearest_label) + "</li>";
+  for (const FrontMark& front : marks.fronts)
+    html += fmt::format("<li><span class=\"swatch front-{}\"></span>{}</li>",
+                        style_word(front.phase), html_escape(front.label));
   if (left) html += "<li><span class=\"swatch left\"></span>mass left the terrain here</li>";
   return html + "</ul>";
 }

@@ -14,6 +14,18 @@
 
 namespace sturz {
 
+/// How far one of two materials comes.
+struct FrontMark {
+  Phase phase = Phase::both;
+  std::string label;
+  std::vector<MapLine> lines;
+};
+/// Of grains and of liquid, where maps tell them apart: the cells that a run reached, or that half
+/// of an ensemble's members reach. A material that comes nowhere has none.
+std::vector<FrontMark> front_marks(const LayerStack& maps);
+/// "grains" or "liquid": what styles call it.
+const char* style_word(Phase phase);
+
 /// What is drawn over every map.
 struct MapMarks {
   std::vector<MapLine> release;                 ///< outline of the cells covered at the start
@@ -21,6 +33,7 @@ struct MapMarks {
   std::string observed_note;                    ///< what they are; may be empty
   std::vector<MapLine> nearest;                 ///< outline of what the member nearest to it covers
   std::string nearest_label;
+  std::vector<FrontMark> fronts;
   std::vector<float> left;  ///< [scene.cells], > 0 where mass left the terrain; may be empty
 };
 /// All but the observed outline and the member nearest to it.

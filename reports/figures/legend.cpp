@@ -66,6 +66,8 @@ Ramp ramp_of(const LayerMeaning& meaning) {
   if (meaning.statistic == Statistic::probability || meaning.is_bound()) return Ramp::hazard;
   switch (meaning.quantity) {
     case Quantity::arrival:
+    case Quantity::solid_arrival:
+    case Quantity::liquid_arrival:
       return Ramp::arrival;
     case Quantity::deposit:
     case Quantity::eroded:
@@ -165,7 +167,8 @@ Legend legend_for(const Layer& layer) {
   legend.probability = (meaning.statistic == Statistic::probability ||
                         meaning.statistic == Statistic::difference || meaning.is_bound()) &&
                        layer.units == "1";
-  legend.clear_zero = meaning.quantity != Quantity::arrival;
+  const bool is_share = meaning.quantity == Quantity::liquid_fraction;
+  legend.clear_zero = !is_arrival(meaning.quantity) && !is_share;
   double largest = 0;
   for (const float v : layer.values)
     if (std::isfinite(v)) largest = std::max(largest, legend.unit.factor * v);
@@ -175,7 +178,7 @@ Legend legend_for(const Layer& layer) {
     dress_difference(legend);
   else if (legend.probability)
     dress(legend, {0, 0.05, 0.1, 0.25, 0.5, 0.75, 0.9}, Ramp::hazard);
-  else if (meaning.quantity == Quantity::arrival || meaning.quantity == Quantity::intensity ||
+  else if (is_arrival(meaning.quantity) || meaning.quantity == Quantity::intensity || is_share ||
            largest <= 0)
     dress(legend, even_classes(largest), ramp_of(meaning));
   else

@@ -109,7 +109,7 @@ MapScene make_map_scene(const LayerStack& maps, const Raster<double>* elevation)
 std::vector<float> scene_plane(const MapScene& scene, const Layer& layer, std::size_t plane,
                                const Grid& results) {
   const Window& w = scene.window;
-  const bool smallest = layer.meaning.quantity == Quantity::arrival;
+  const bool smallest = is_arrival(layer.meaning.quantity);
   std::vector<float> out(scene.cells.n_cells(), nan_f);
   const float* values = layer.values.data() + plane * results.n_cells();
   for (int row = 0; row < w.n_rows; ++row)

@@ -55,6 +55,8 @@ Headline headline(const ReportInput& input) {
     return censored_quantile(observations(input.members, field), 0.5, interval_confidence);
   };
   h.runout_m = median(&MemberScalars::runout_m);
+  h.solid_runout_m = median(&MemberScalars::solid_runout_m);
+  h.liquid_runout_m = median(&MemberScalars::liquid_runout_m);
   h.reached_area_m2 = median(&MemberScalars::reached_area_m2);
   h.crown_to_toe_length_m = median(&MemberScalars::crown_to_toe_length_m);
   h.crown_to_toe_drop_m = median(&MemberScalars::crown_to_toe_drop_m);

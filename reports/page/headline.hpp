@@ -24,7 +24,8 @@ struct Headline {
   int n_members = 0, n_valid = 0;
   std::vector<std::pair<Outcome, int>> outcomes;  ///< those that occur, in the enum's order
   CensoringReport censoring;
-  CensoredEstimate runout_m;  ///< medians of the valid members, from here on
+  CensoredEstimate runout_m;                         ///< medians of the valid members, from here on
+  CensoredEstimate solid_runout_m, liquid_runout_m;  ///< where grains and liquid are told apart
   CensoredEstimate reached_area_m2;
   CensoredEstimate crown_to_toe_length_m;  ///< L, H, H / L
   CensoredEstimate crown_to_toe_drop_m;

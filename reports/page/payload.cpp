@@ -101,6 +101,18 @@ Json nearest_json(const ReportInput& input) {
           {"lines", release_json(input.nearest)}};
 }
 
+/// [{"kind": "grains", "label": ..., "lines": [[x0, y0, x1, y1], ...]}, ...]
+Json fronts_json(const LayerStack& maps) {
+  Json fronts = Json::array();
+  for (const FrontMark& front : front_marks(maps)) {
+    Json lines = Json::array();
+    for (const MapLine& l : front.lines) lines.push_back({l.x0, l.y0, l.x1, l.y1});
+    fronts.push_back(
+        {{"kind", style_word(front.phase)}, {"label", front.label}, {"lines", std::move(lines)}});
+  }
+  return fronts;
+}
+
 Json legend_json(const Legend& legend) {
   Json classes = Json::array();
   for (const auto& c : legend.classes)
@@ -142,6 +154,9 @@ Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& laye
   return {{"name", layer.name},
           {"quantity", to_string(meaning.quantity)},
           {"quantityTitle", title(meaning.quantity)},
+          {"material",
+           phase_of(meaning.quantity) == Phase::both ? "" : style_word(phase_of(meaning.quantity))},
+          {"short", short_title(meaning.quantity)},
           {"statistic", to_string(meaning.statistic)},
           {"longName", layer.long_name},
           {"comment", shown_comment(layer, n_valid)},
@@ -159,10 +174,15 @@ Json maps_json(const ReportInput& input, const MapScene& scene, const LayerStack
     if (layer == first) start = static_cast<int>(layers.size());
     layers.push_back(layer_json(scene, maps, *layer, input, n_valid));
   }
-  return {{"cells", grid_json(scene.cells)},        {"ground", ground_json(scene.ground)},
-          {"view", grid_json(scene.ground.grid)},   {"start", start},
-          {"release", release_json(input.release)}, {"observed", observed_json(input)},
-          {"nearest", nearest_json(input)},         {"layers", std::move(layers)}};
+  return {{"cells", grid_json(scene.cells)},
+          {"ground", ground_json(scene.ground)},
+          {"view", grid_json(scene.ground.grid)},
+          {"start", start},
+          {"release", release_json(input.release)},
+          {"observed", observed_json(input)},
+          {"nearest", nearest_json(input)},
+          {"fronts", fronts_json(maps)},
+          {"layers", std::move(layers)}};
 }
 
 /// Whether the runout grows with sampled key `k`, over the shown members.
@@ -173,7 +193,7 @@ Json agreement_json(const ReportInput& input, const std::vector<std::size_t>& ro
     const MemberSummary& m = input.members[i];
     if (!is_valid(m.outcome)) continue;
     parameter.push_back(input.samples.rows[i][k]);
-    runout.push_back({m.scalars.runout_m, known(&MemberScalars::runout_m, m.censoring)});
+    runout.push_back({m.scalars.runout_m, known(&MemberScalars::runout_m, m.scalars, m.censoring)});
   }
   const RankAgreement found = rank_agreement(parameter, runout);
   return {{"tau", rounded(found.tau)}, {"ordered", found.ordered}, {"pairs", found.pairs}};
@@ -199,7 +219,8 @@ Json members_json(const ReportInput& input) {
     numbers.push_back(input.members[i].member);
     outcomes.push_back(to_string(input.members[i].outcome));
     valid.push_back(is_valid(input.members[i].outcome));
-    cut.push_back(known(&MemberScalars::runout_m, input.members[i].censoring) != Known::exactly);
+    cut.push_back(known(&MemberScalars::runout_m, input.members[i].scalars,
+                        input.members[i].censoring) != Known::exactly);
   }
   const auto column = [&](double MemberScalars::*field) {
     Json values = Json::array();

@@ -23,18 +23,12 @@ std::string head_html(const ReportInput& input) {
 
 /// Links to the parts that are there.
 std::string navigation_html(const std::string& body) {
-  static constexpr std::pair<const char*, const char*> parts[] = {{"maps", "Maps"},
-                                                                  {"sources", "Sources"},
-                                                                  {"assets", "Assets"},
-                                                                  {"observed", "Observed"},
-                                                                  {"posterior", "Calibration"},
-                                                                  {"motion", "Motion"},
-                                                                  {"gauges", "Gauges"},
-                                                                  {"spread", "Spread"},
-                                                                  {"members", "Members"},
-                                                                  {"computation", "Computation"},
-                                                                  {"origin", "Origin"},
-                                                                  {"reading", "Reading"}};
+  static constexpr std::pair<const char*, const char*> parts[] = {
+      {"maps", "Maps"},       {"sources", "Sources"},         {"phases", "Grains and liquid"},
+      {"assets", "Assets"},   {"observed", "Observed"},       {"posterior", "Calibration"},
+      {"motion", "Motion"},   {"gauges", "Gauges"},           {"spread", "Spread"},
+      {"members", "Members"}, {"computation", "Computation"}, {"origin", "Origin"},
+      {"reading", "Reading"}};
   std::string html = "<nav aria-label=\"Parts of this page\">";
   for (const auto& [id, label] : parts)
     if (body.find(fmt::format("<section id=\"{}\"", id)) != std::string::npos)
@@ -69,7 +63,7 @@ std::string make_report(const ReportInput& input) {
 
   const std::string body =
       banner_html(input, h) + warnings_html(input, h) + headline_html(input, h) +
-      map_html(input, shown, maps) + sources_html(input) + assets_html(input) +
+      map_html(input, shown, maps) + sources_html(input) + phases_html(input) + assets_html(input) +
       observed_html(input, h) + posterior_html(input) + motion_html(input) + gauges_html(input) +
       charts_html(input, h) + members_html(input, h) + computation_html(input, h) +
       provenance_html(input) + reading_html(input);

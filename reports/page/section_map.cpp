@@ -44,11 +44,15 @@ std::vector<const Layer*> still_layers(const LayerStack& maps) {
     Quantity quantity;
     Statistic statistic;
   };
-  static constexpr Wish wishes[] = {
-      {Quantity::thickness, Statistic::quantile},     {Quantity::sources, Statistic::value},
-      {Quantity::energy, Statistic::source_quantile}, {Quantity::energy, Statistic::probability},
-      {Quantity::speed, Statistic::quantile},         {Quantity::arrival, Statistic::quantile},
-      {Quantity::deposit, Statistic::quantile}};
+  static constexpr Wish wishes[] = {{Quantity::solid_reached, Statistic::probability},
+                                    {Quantity::liquid_reached, Statistic::probability},
+                                    {Quantity::thickness, Statistic::quantile},
+                                    {Quantity::sources, Statistic::value},
+                                    {Quantity::energy, Statistic::source_quantile},
+                                    {Quantity::energy, Statistic::probability},
+                                    {Quantity::speed, Statistic::quantile},
+                                    {Quantity::arrival, Statistic::quantile},
+                                    {Quantity::deposit, Statistic::quantile}};
   const std::vector<const Layer*> shown = shown_layers(maps);
   std::vector<const Layer*> chosen{default_layer(maps)};
   for (const Wish& wish : wishes)

@@ -37,6 +37,8 @@ constexpr ScalarColumn scalar_columns[] = {
     {"growth V_f/V_0", "1", &MemberScalars::volume_growth, false, true},
     {"runout of grains", "m", &MemberScalars::solid_runout_m, false, true},
     {"runout of liquid", "m", &MemberScalars::liquid_runout_m, false, true},
+    {"grains that left", "1", &MemberScalars::solid_lost_fraction, true, true},
+    {"liquid that left", "1", &MemberScalars::liquid_lost_fraction, true, true},
     {"layers", "1", &MemberScalars::release_layers},
     {"dilated", "1", &MemberScalars::parted_fraction, true},
     {"in transition", "1", &MemberScalars::transition_fraction, true},
@@ -159,7 +161,7 @@ std::string table_row(const ReportInput& input, std::size_t i,
   const bool has_scalars = m.outcome != Outcome::failed && m.outcome != Outcome::cancelled;
   for (const auto& c : columns)
     row += scalar_cell(has_scalars ? factor_of(c) * m.scalars.*c.field : nan_d,
-                       known(c.field, m.censoring));
+                       known(c.field, m.scalars, m.censoring));
   return row + score_cells(input, i) + "</tr>";
 }
 

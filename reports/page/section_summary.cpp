@@ -234,6 +234,13 @@ std::string region_cards(const ReportInput& input) {
   return html + card("Elapsed", duration_text(input.elapsed_s), "all sources") + "</dl></section>";
 }
 
+/// "grains 830 m, liquid 1011 m" where they are told apart.
+std::string runouts_of_each(const Headline& h) {
+  if (!h.censoring.phases) return {};
+  return "grains " + value_text(h.solid_runout_m, metres) + ", liquid " +
+         value_text(h.liquid_runout_m, metres);
+}
+
 double cell_of(const ReportInput& input) {
   const LayerStack* maps = input.hazard != nullptr ? input.hazard : input.peaks;
   return maps != nullptr ? maps->grid.cell_m : nan_d;
@@ -256,10 +263,10 @@ std::string headline_html(const ReportInput& input, const Headline& h) {
                  outcome_counts(input, h));
   if (h.n_valid > 0) {
     html += area_card(input, h, single);
-    html +=
-        median_card("runout", h.runout_m, metres, single,
-                    std::string(single ? "release's centre of mass to the farthest cell; " : "") +
-                        "read to a cell of " + metres(cell_of(input)));
+    html += median_card(
+        "runout", h.runout_m, metres, single,
+        joined({runouts_of_each(h), single ? "release's centre of mass to the farthest cell" : "",
+                "read to a cell of " + metres(cell_of(input))}));
     html += crown_to_toe_card(h, single);
     html += median_card("centre-of-mass travel", h.com_travel_m, metres, single, "");
     html += energy_card(h, single);

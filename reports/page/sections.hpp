@@ -26,6 +26,8 @@ std::string motion_html(const ReportInput& input);
 std::string gauges_html(const ReportInput& input);
 /// Sources of a region with their members and areas; empty text for one ensemble.
 std::string sources_html(const ReportInput& input);
+/// Grains and liquid beside each other and together; empty text where they are not told apart.
+std::string phases_html(const ReportInput& input);
 /// Share of members, intensities, damage and loss at each asset; empty text where the scene has
 /// none.
 std::string assets_html(const ReportInput& input);

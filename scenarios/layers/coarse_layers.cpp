@@ -15,7 +15,7 @@ int factor_for(std::size_t n_cells, std::size_t max_cells) {
 
 /// Whether `now` is shown rather than `before`.
 bool is_more_severe(const LayerMeaning& meaning, float now, float before) {
-  if (meaning.quantity == Quantity::arrival) return now < before;
+  if (is_arrival(meaning.quantity)) return now < before;
   if (meaning.statistic == Statistic::difference) return std::abs(now) > std::abs(before);
   return now > before;
 }

@@ -54,6 +54,7 @@ TEST_F(Fluid, AMudFlowRunsAndKeepsItsMass) {
   EXPECT_LT(m.value("max_speed_m_s", 1e9), 30);
   EXPECT_FALSE(m.at("energy_residual").is_null());
   EXPECT_TRUE(m.at("solid_runout_m").is_null()) << "one material has no phases";
+  EXPECT_FALSE(m.contains("liquid_lost_fraction"));
   EXPECT_TRUE(exists("one/particles/particles.pvd"));
 }
 
@@ -63,8 +64,10 @@ TEST_F(Fluid, ASaturatedSlideRunsAndTellsItsMaterialsApart) {
   EXPECT_NEAR(m.value("released_mass_kg", 0.0), wet, 1e-6 * wet);
   for (const char* error : {"mass_error", "solids_error", "water_error"})
     EXPECT_LE(std::abs(m.value(error, 1.0)), 1e-12) << error;
-  for (const char* extent : {"solid_runout_m", "liquid_runout_m", "max_solid_thickness_m",
-                             "max_liquid_thickness_m", "drag_loss_fraction"})
+  for (const char* extent :
+       {"solid_runout_m", "liquid_runout_m", "max_solid_thickness_m", "max_liquid_thickness_m",
+        "drag_loss_fraction", "solid_reached_area_m2", "liquid_reached_area_m2",
+        "max_solid_pressure_pa", "max_liquid_pressure_pa"})
     EXPECT_GT(m.value(extent, -1.0), 0) << extent;
   const double both = m.value("max_thickness_m", 0.0);
   EXPECT_LT(m.value("max_solid_thickness_m", 1e9), 0.75 * both);

@@ -59,6 +59,45 @@ TEST(CensoringReport, SaysWhatWasCutHowManyWhereAndWhatToDo) {
   EXPECT_THAT(all, HasSubstr("longer numerics.end_time_s"));
 }
 
+MemberSummary wet_member(double grains, double liquid) {
+  const bool left = grains > 0 || liquid > 0;
+  MemberSummary m =
+      member(left ? Outcome::left_terrain : Outcome::settled,
+             left ? Censoring::left_terrain : Censoring::none, 0.7 * grains + 0.3 * liquid);
+  m.scalars.solid_lost_fraction = grains, m.scalars.liquid_lost_fraction = liquid;
+  return m;
+}
+
+std::string text_of(const CensoringReport& r) {
+  std::string all;
+  for (const std::string& sentence : censoring_sentences(r)) all += sentence + " ";
+  return all;
+}
+
+TEST(CensoringReport, SaysWhichMaterialLeftAndHowMuchOfIt) {
+  std::vector<MemberSummary> all(5, wet_member(0, 0));
+  all.push_back(wet_member(0, 0.4));
+  all.push_back(wet_member(0, 0.1));
+  CensoringReport r = censoring_report(all, 0.05);
+  EXPECT_EQ(r.censored(), 2);
+  EXPECT_EQ(r.grains.left, 0);
+  EXPECT_EQ(r.liquid.left, 2);
+  EXPECT_DOUBLE_EQ(r.liquid.largest_lost_fraction, 0.4);
+  EXPECT_THAT(text_of(r), HasSubstr("up to 12 % of a simulation's mass: grains in 0, liquid in 2 "
+                                    "(up to 40 % of a simulation's liquid)."));
+  EXPECT_THAT(text_of(r), HasSubstr("No grains left: what is said of grains alone is whole."));
+  EXPECT_THAT(one_line(r), HasSubstr("; grains left in 0, liquid in 2)"));
+  all.push_back(wet_member(0.05, 0.2));
+  r = censoring_report(all, 0.05);
+  EXPECT_EQ(r.grains.left, 1);
+  EXPECT_EQ(r.liquid.censored, 3);
+  EXPECT_THAT(text_of(r), testing::Not(HasSubstr("No grains left")));
+  EXPECT_THAT(text_of(censoring_report({&all.back(), 1}, 0)),
+              HasSubstr("(5 % of the grains, 20 % of the liquid)."));
+  EXPECT_FALSE(censoring_report(ensemble(), 0.05).phases);
+  EXPECT_THAT(text_of(censoring_report(ensemble(), 0.05)), testing::Not(HasSubstr("liquid")));
+}
+
 TEST(CensoringReport, AdvisesOnlyWhatHelps) {
   const std::vector<MemberSummary> late(2, member(Outcome::out_of_time, Censoring::still_moving));
   std::string all;

@@ -81,7 +81,9 @@ TEST(MembersCsv, HasOneLinePerMemberInAscendingOrder) {
                          "release.volume_m3,"));
   EXPECT_THAT(table[1], StartsWith("0,settled,none,,full_stress,0.1,2000000"));
   const std::size_t width = cells(table[0]).size();
-  EXPECT_EQ(width, 7 + scalar_table().size() + 3);
+  const auto sparse = std::count_if(scalar_table().begin(), scalar_table().end(),
+                                    [](const ScalarInfo& s) { return s.sparse; });
+  EXPECT_EQ(width, 7 + scalar_table().size() - sparse + 3);
   for (const std::string& line : table) EXPECT_EQ(cells(line).size(), width);
 }
 
@@ -110,13 +112,26 @@ TEST(MembersCsv, SaysInAWordWhyAMembersEndWasNotSeen) {
   EXPECT_EQ(row[column(header, "lost_fraction")], "0.25");
 }
 
+TEST(MembersCsv, HasColumnsOfGrainsAndLiquidWhereSomeMemberHasThem) {
+  std::vector<MemberSummary> members = summaries();
+  EXPECT_THAT(members_csv(design(), members), testing::Not(HasSubstr("liquid_lost_fraction")));
+  members[1].scalars.solid_lost_fraction = 0, members[1].scalars.liquid_lost_fraction = 0.2;
+  const auto table = lines(members_csv(design(), members));
+  const auto header = cells(table[0]), row = cells(table[1]), failed = cells(table[2]);
+  EXPECT_EQ(row[column(header, "solid_lost_fraction")], "0");
+  EXPECT_EQ(row[column(header, "liquid_lost_fraction")], "0.2");
+  EXPECT_EQ(failed[column(header, "liquid_lost_fraction")], "");
+}
+
 TEST(MembersCsv, GivesAFailedMemberNoResults) {
   const auto table = lines(members_csv(design(), summaries()));
   const auto header = cells(table[0]), good = cells(table[1]), failed = cells(table[2]);
   EXPECT_EQ(good[column(header, "state_hash")], "0000000000000abc");
   EXPECT_EQ(failed[column(header, "state_hash")], "");
   for (const ScalarInfo& scalar : scalar_table())
-    EXPECT_EQ(failed[column(header, scalar.name)], "") << scalar.name;
+    if (!scalar.sparse) {
+      EXPECT_EQ(failed[column(header, scalar.name)], "") << scalar.name;
+    }
 }
 
 TEST(MembersCsv, RefusesMembersOfAnotherEnsemble) {

@@ -28,6 +28,26 @@ TEST(ScalarCensoring, TellsWhatOnlyGrowsFromWhatMayGoEitherWay) {
   EXPECT_EQ(known(&M::lost_fraction, Censoring::still_moving), Known::at_least);
 }
 
+/// Only slurry left: what is said of grains stands, what is said of both does not.
+TEST(ScalarCensoring, CutsEachMaterialOffByWhatLeftOfItAlone) {
+  using M = MemberScalars;
+  M m;
+  m.solid_lost_fraction = 0, m.liquid_lost_fraction = 0.2;
+  const auto says = [&](double M::*field, Censoring c) { return known(field, m, c); };
+  EXPECT_EQ(says(&M::solid_runout_m, Censoring::left_terrain), Known::exactly);
+  EXPECT_EQ(says(&M::solid_reached_area_m2, Censoring::left_terrain), Known::exactly);
+  EXPECT_EQ(says(&M::liquid_runout_m, Censoring::left_terrain), Known::at_least);
+  EXPECT_EQ(says(&M::runout_m, Censoring::left_terrain), Known::at_least);
+  EXPECT_EQ(says(&M::solid_runout_m, Censoring::left_and_moving), Known::at_least)
+      << "it still moved";
+  m.solid_lost_fraction = 0.01, m.liquid_lost_fraction = 0;
+  EXPECT_EQ(says(&M::solid_runout_m, Censoring::left_terrain), Known::at_least);
+  EXPECT_EQ(says(&M::liquid_runout_m, Censoring::left_terrain), Known::exactly);
+  EXPECT_EQ(says(&M::liquid_runout_m, Censoring::none), Known::exactly);
+  m.solid_lost_fraction = m.liquid_lost_fraction = nan_d;  // not told apart
+  EXPECT_EQ(says(&M::runout_m, Censoring::left_terrain), Known::at_least);
+}
+
 TEST(ScalarCensoring, ObservesValidMembersOnly) {
   std::vector<MemberSummary> members(3);
   members[0].outcome = Outcome::settled;

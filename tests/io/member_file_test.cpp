@@ -96,6 +96,28 @@ TEST_F(MemberFile, AHistoryOfFullLengthIsSmallAndOptional) {
       << "netCDF builds files in blocks of 64 kB: one more at most";
 }
 
+/// Members without grains and liquid apart have the bytes that they had before there were such.
+TEST_F(MemberFile, NamesGrainsAndLiquidOnlyWhereTheyAreApart) {
+  MemberResult m = made_up_member(2);
+  write_member(members(), m);
+  EXPECT_EQ(NetcdfReader(members() / "000002.nc").integer("", "member_format"), 6);
+  MemberScalars& s = m.scalars;
+  for (const ScalarInfo& scalar : scalar_table())
+    if (scalar.sparse) s.*scalar.field = nan_d;
+  s.solid_runout_m = nan_d;
+  for (int k = 0; k < n_peak_layers; ++k)
+    if (const auto layer = static_cast<PeakLayer>(k); is_of_materials(layer))
+      m.layer(layer).clear();
+  write_member(members(), m);
+  const NetcdfReader file(members() / "000002.nc");
+  EXPECT_EQ(file.integer("", "member_format"), 5);
+  for (const std::string& name : file.variables())
+    for (const char* of : {"lost_fraction", "reached_area", "pressure", "speed", "arrival"})
+      EXPECT_FALSE(name.find("liquid") != std::string::npos && name.find(of) != std::string::npos)
+          << name;
+  expect_same(read_member(members() / "000002.nc"), m);
+}
+
 TEST_F(MemberFile, AFailedMemberIsKeptWithItsReason) {
   MemberResult m;
   m.member = 3;

@@ -87,6 +87,24 @@ DesignTable make_design(int n) {
   return design;
 }
 
+/// Half of each; where grains came no more, liquid alone.
+void put_phases(MemberResult& m, std::size_t cell, bool with_grains, double h, double v,
+                double along) {
+  const auto put = [&](PeakLayer p, double value) { m.layer(p)[cell] = static_cast<float>(value); };
+  put(PeakLayer::liquid, with_grains ? 0.5 * h : h);
+  put(PeakLayer::liquid_speed, v);
+  put(PeakLayer::liquid_energy, 0.25 * 1200 * h * v * v);
+  put(PeakLayer::liquid_pressure, (with_grains ? 500 : 1200) * v * v);
+  put(PeakLayer::liquid_arrival, 4 + 70 * along);
+  put(PeakLayer::liquid_fraction, with_grains ? 0.5 : 1);
+  if (!with_grains) return;
+  put(PeakLayer::solid, 0.5 * h);
+  put(PeakLayer::solid_speed, 0.9 * v);
+  put(PeakLayer::solid_energy, 0.25 * 1500 * h * v * v);
+  put(PeakLayer::solid_pressure, 1000 * v * v);
+  put(PeakLayer::solid_arrival, 6 + 75 * along);
+}
+
 /// One member: a tongue that follows the gully, thick behind its front, fast where it is steep.
 MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Grid& grid,
                          const std::vector<double>& x) {
@@ -95,7 +113,8 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
   m.grid = grid;
   m.window = {0, 0, grid.n_rows, grid.n_cols};
   for (int k = 0; k < n_peak_layers; ++k)
-    m.layers[k].assign(grid.n_cells(), info(static_cast<PeakLayer>(k)).untouched);
+    if (const auto layer = static_cast<PeakLayer>(k); scene.phases || !is_of_materials(layer))
+      m.layers[k].assign(grid.n_cells(), info(layer).untouched);
   const double effective = x[0] * (1 - x[1]);
   const double whole = std::clamp(0.30 + 0.55 * std::exp(-(effective - 0.07) / 0.12), 0.25, 0.93);
   const bool gone = whole > scene.edge;
@@ -129,6 +148,7 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
       put(PeakLayer::arrival, along < 0.06 ? 0 : 4 + 70 * along);
       if (gone && (col + 1.5) / grid.n_cols >= scene.edge) put(PeakLayer::left, 800 * h);
       put(PeakLayer::deposit, 0.4 * h * along);
+      if (scene.phases) put_phases(m, cell, along < 0.85, h, v, along);
       sc.reached_area_m2 += grid.cell_m * grid.cell_m;
       sc.max_thickness_m = std::max(sc.max_thickness_m, h);
       sc.max_speed_m_s = std::max(sc.max_speed_m_s, v);
@@ -142,6 +162,20 @@ MemberResult make_member(std::int64_t number, const MadeUpScene& scene, const Gr
   sc.crown_to_toe_ratio = 0.3;
   sc.com_travel_m = 0.6 * sc.runout_m;
   sc.lost_fraction = gone ? whole - scene.edge : 0;
+  if (scene.phases) {
+    sc.solid_runout_m = (0.85 * runout - 0.08) * length, sc.liquid_runout_m = sc.runout_m;
+    sc.solid_reached_area_m2 = 0.8 * sc.reached_area_m2;
+    sc.liquid_reached_area_m2 = sc.reached_area_m2;
+    sc.max_solid_thickness_m = 0.5 * sc.max_thickness_m;
+    sc.max_liquid_thickness_m = 0.5 * sc.max_thickness_m;
+    sc.max_solid_speed_m_s = 0.9 * sc.max_speed_m_s, sc.max_liquid_speed_m_s = sc.max_speed_m_s;
+    sc.max_solid_energy_j_m2 = 0.5 * sc.max_energy_j_m2;
+    sc.max_liquid_energy_j_m2 = 0.4 * sc.max_energy_j_m2;
+    sc.max_solid_pressure_pa = 0.6 * sc.max_pressure_pa;
+    sc.max_liquid_pressure_pa = 0.4 * sc.max_pressure_pa;
+    sc.solid_lost_fraction = sc.solid_lost_mass_kg = sc.liquid_lost_mass_kg = 0;
+    sc.liquid_lost_fraction = 2 * sc.lost_fraction;
+  }
   sc.release_layers = 2.7;
   sc.parted_fraction = 0.01 + 0.1 * x[1];
   sc.end_time_s = 74 + 20 * x[2];
@@ -225,9 +259,8 @@ class MadeUpSource : public MemberParts {
 LayerStack peaks_of(const MemberResult& m) {
   LayerStack stack{.grid = m.grid, .layers = {}, .attributes = {}};
   for (int k = 0; k < n_peak_layers; ++k) {
-    const auto peak = static_cast<PeakLayer>(k);  // no bed is taken along, no phases move apart
-    if (peak == PeakLayer::eroded || peak == PeakLayer::solid || peak == PeakLayer::liquid)
-      continue;
+    const auto peak = static_cast<PeakLayer>(k);  // no bed is taken along
+    if (peak == PeakLayer::eroded || (is_of_materials(peak) && m.layer(peak).empty())) continue;
     const PeakLayerInfo& about = info(static_cast<PeakLayer>(k));
     Layer layer;
     layer.name = about.name;

@@ -15,8 +15,9 @@ struct MadeUpScene {
   int n_cols = 120, n_rows = 80;
   double cell_m = 20;
   int n_members = 32;
-  int n_failed = 1;  ///< every so many-th member diverges
-  double edge = 1;   ///< share of the width at which mass is lost: 1 is beyond all of them
+  int n_failed = 1;     ///< every so many-th member diverges
+  double edge = 1;      ///< share of the width at which mass is lost: 1 is beyond all of them
+  bool phases = false;  ///< grains and liquid apart: the liquid runs farther, and leaves alone
 };
 
 /// Owns everything that a ReportInput points to.

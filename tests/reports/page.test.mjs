@@ -73,7 +73,7 @@ async function clickMap(page, fx, fy) {
 }
 
 test('every page opens without errors or requests', {skip}, async () => {
-  for (const name of ['ensemble', 'single', 'cut', 'empty', 'region']) {
+  for (const name of ['ensemble', 'single', 'cut', 'phases', 'phases_single', 'empty', 'region']) {
     const {page, trouble, close} = await open(name);
     if (name !== 'empty') await liveMap(page);
     await page.waitForTimeout(300);
@@ -169,6 +169,55 @@ test('what is cut off is said first and drawn as such', {skip}, async () => {
   await close();
 });
 
+test('grains, liquid and both are switched in plain words', {skip}, async () => {
+  const {page, trouble, close} = await open('phases');
+  await liveMap(page);
+  const chips = () => page.$$eval('.pickers .chips', (rows) => rows.map(
+                                      (row) => [...row.children].map((chip) => chip.textContent)));
+  assert.deepEqual((await chips())[0], ['Whole flow', 'Grains alone', 'Liquid alone']);
+  assert.ok((await chips())[1].includes('Share of liquid'));
+  const whole = await picture(page);
+  await page.click('[data-key="material-grains"]');
+  assert.equal(await page.textContent('.map-title'), 'Probability that grains arrive');
+  assert.deepEqual((await chips())[1],
+                   ['Reached', 'Arrival', 'Thickness', 'Speed', 'Energy', 'Pressure']);
+  const grains = await picture(page);
+  assert.notEqual(grains, whole);
+  await page.click('[data-key="solid_pressure"]');
+  assert.match(await page.textContent('.map-title'), /dynamic pressure of the grains exceeds/);
+  await page.click('[data-key="material-liquid"]');
+  assert.match(await page.textContent('.map-title'), /dynamic pressure of the liquid exceeds/);
+  await page.click('[data-key="liquid_reached"]');
+  assert.notEqual(await picture(page), grains);
+  const marks = await page.textContent('.legend.marks');
+  assert.match(marks, /grains arrive with a probability of 50\s% or more/);
+  assert.match(marks, /liquid arrives with a probability of 50\s% or more/);
+  await clickMap(page, 0.40, 0.46);
+  assert.match(await page.textContent('.cell-box'), /Grains in \d+: \d+\s%.*Liquid in \d+: /);
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
+test('a flow of one material has no switch of materials', {skip}, async () => {
+  const {page, close} = await open('ensemble');
+  await liveMap(page);
+  assert.equal(await page.locator('[data-key^="material-"]').count(), 0);
+  assert.equal(await page.locator('#phases').count(), 0);
+  await close();
+});
+
+test('grains are cut off by grains alone', {skip}, async () => {
+  const {page, close} = await open('phases');
+  const rows = await page.$$eval('#phases tbody tr', (all) => all.map(
+                                     (row) => [...row.cells].map((c) => c.textContent)));
+  assert.deepEqual(rows.slice(0, 3).map((r) => r[1]), ['grains', 'liquid', 'whole flow']);
+  assert.equal(rows[0].at(-1), '–');
+  assert.match(rows[1].at(-1), /\d+ of 31 cut off/);
+  assert.match(rows[2].at(-1), /\d+ of 31 cut off/);
+  assert.match(await page.textContent('body'), /grains in 0, liquid in \d+ \(up to/);
+  await close();
+});
+
 test('both ends of the interval are maps of their own', {skip}, async () => {
   const {page, close} = await open('ensemble');
   await liveMap(page);
@@ -235,7 +284,7 @@ test('a run is followed through time with one cursor', {skip}, async () => {
 });
 
 test('a phone shows the page without sideways scrolling', {skip}, async () => {
-  for (const name of ['ensemble', 'single', 'cut', 'empty']) {
+  for (const name of ['ensemble', 'single', 'cut', 'phases', 'phases_single', 'empty']) {
     const {page, close} = await open(
         name, {viewport: {width: 360, height: 740}, isMobile: true, hasTouch: true});
     if (name !== 'empty') await liveMap(page);

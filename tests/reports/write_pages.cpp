@@ -76,6 +76,12 @@ int main(int argc, char** argv) {
   const auto cut = make_up_results(cut_scene);
   write(directory / "cut.html", sturz::make_report(cut.ensemble_input()));
 
+  auto phases_scene = scene;
+  phases_scene.phases = true, phases_scene.edge = 0.55;
+  const auto phases = make_up_results(phases_scene);
+  write(directory / "phases.html", sturz::make_report(phases.ensemble_input()));
+  write(directory / "phases_single.html", sturz::make_report(phases.single_input()));
+
   auto empty_scene = scene;
   empty_scene.n_members = 0;
   const auto empty = make_up_results(empty_scene);

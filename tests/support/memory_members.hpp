@@ -90,12 +90,13 @@ inline MemberResult random_member(std::int64_t member, const Grid& grid, std::mt
   r.window.col0 = whole(0, grid.n_cols - 1);
   r.window.n_rows = whole(0, grid.n_rows - r.window.row0);
   r.window.n_cols = whole(0, grid.n_cols - r.window.col0);
-  const float scale[n_peak_layers] = {0.25F, 0.5F, 5000, 2000, 1, 0.25F, 100, 0.25F, 0.25F, 0.25F};
+  constexpr int n_drawn = 10;  // of the flow, and the thickness of each of its materials
+  const float scale[n_drawn] = {0.25F, 0.5F, 5000, 2000, 1, 0.25F, 100, 0.25F, 0.25F, 0.25F};
   for (int layer = 0; layer < n_peak_layers; ++layer)
     r.layers[layer].assign(r.window.n_cells(), info(static_cast<PeakLayer>(layer)).untouched);
   for (std::size_t cell = 0; cell < r.window.n_cells(); ++cell) {
     if (whole(0, 2) == 0) continue;
-    for (int layer = 0; layer < n_peak_layers; ++layer)
+    for (int layer = 0; layer < n_drawn; ++layer)
       r.layers[layer][cell] = scale[layer] * static_cast<float>(whole(0, 12));
   }
   return r;

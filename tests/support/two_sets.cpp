@@ -124,16 +124,16 @@ HandMade sets_of(const std::vector<GrainBox>& boxes, int threads, double exchang
   return made;
 }
 
-Simulation simulation_of(HandMade made, double end_time_s) {
+Simulation simulation_of(HandMade made, double end_time_s, bool apart) {
   StopSettings stop;
   stop.end_time_s = end_time_s;
   stop.stop_at_rest = false;
   RunFacts facts;
   for (const MovingSet& set : made.state.sets)
     facts.spacing_m = std::min(facts.spacing_m, set.spacing);
-  return Simulation(std::make_unique<SimulationParts>(
-      SimulationParts{std::move(made.state), std::move(made.step),
-                      PeakMaps({Grid{64, 64, -32, 32, 1, ""}, 0.05}), StopRule(stop), facts}));
+  return Simulation(std::make_unique<SimulationParts>(SimulationParts{
+      std::move(made.state), std::move(made.step),
+      PeakMaps({Grid{64, 64, -32, 32, 1, ""}, 0.05, 0.375, apart}), StopRule(stop), facts}));
 }
 
 }  // namespace sturz::test

@@ -28,7 +28,7 @@ std::vector<GrainBox> coarse_and_fine();
 /// \param exchange  drag between the sets [1/s]; 0: they do not know of each other, no pairs across
 HandMade sets_of(const std::vector<GrainBox>&, int threads = 1, double exchange = 0);
 
-/// The same with the bookkeeping of a run.
-Simulation simulation_of(HandMade, double end_time_s);
+/// The same with the bookkeeping of a run. \param apart  maps of each set besides
+Simulation simulation_of(HandMade, double end_time_s, bool apart = false);
 
 }  // namespace sturz::test

@@ -83,7 +83,7 @@ std::string layer_row(const Layer& layer, bool has_bounds) {
 std::string layer_table() {
   Grid cell;
   cell.n_cols = cell.n_rows = 1;
-  const auto layers = hazard_layers(cell, HazardSpec{}, 0, 0, 0, {true, true}).stack.layers;
+  const auto layers = hazard_layers(cell, HazardSpec{}, 0, 0, 0, {true, true, true}).stack.layers;
   std::string table = "| layer | one plane per | meaning |\n|---|---|---|\n";
   for (std::size_t i = 0; i < layers.size(); ++i)
     if (!layers[i].meaning.is_bound())

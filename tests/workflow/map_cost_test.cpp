@@ -32,6 +32,8 @@ TEST_F(MapCosts, KnowHowManyMapsASceneAsksFor) {
   EXPECT_EQ(workflow::map_planes(spec), 3 + 6 + 5 * 3 + 2 + 2);
   spec.eroded_depth_m = {0.2};
   EXPECT_EQ(workflow::map_planes(spec, true), 28 + 3 + 3) << "and those of the eroded depth";
+  EXPECT_EQ(workflow::map_planes(spec, false, true), 28 + 2 * (3 + 2) + 2 * (6 + 4 * 3) + 2)
+      << "reach, arrival and four quantities of each material, and the share of liquid";
 }
 
 TEST_F(MapCosts, AreMeasuredOnceAMachine) {

@@ -27,9 +27,14 @@ TEST_F(PhasesWorkflow, MapsTableAndMembersTellThePhasesApart) {
   whole(parting("out"), heard);
   EXPECT_TRUE(exists("out/hazard/solid_thickness_mean_m.tif"));
   EXPECT_TRUE(exists("out/hazard/liquid_thickness_exceedance_0.05_m.tif"));
+  for (const char* map : {"probability_of_solid_reach.tif", "probability_of_liquid_reach.tif",
+                          "bounds/probability_of_solid_reach_lower.tif",
+                          "solid_pressure_mean_kpa.tif", "liquid_fraction_p50.tif"})
+    EXPECT_TRUE(exists(std::string("out/hazard/") + map)) << map;
   const std::string table = read("out/members.csv");
   for (const char* column :
-       {"solid_runout_m", "liquid_runout_m", "drag_loss_fraction", "drag_raised_fraction"})
+       {"solid_runout_m", "liquid_runout_m", "drag_loss_fraction", "drag_raised_fraction",
+        "solid_lost_fraction", "liquid_reached_area_m2"})
     EXPECT_THAT(table, HasSubstr(column));
   EXPECT_THAT(read("out/report.html"), HasSubstr("Thickness of liquid alone"));
   for (int k = 0; k < n_tiny; ++k) {
@@ -39,6 +44,10 @@ TEST_F(PhasesWorkflow, MapsTableAndMembersTellThePhasesApart) {
     EXPECT_LE(std::abs(m.scalars.solids_error), 1e-13);
     EXPECT_LE(std::abs(m.scalars.water_error), 1e-13);
     EXPECT_GE(m.scalars.runout_m, m.scalars.solid_runout_m);
+    EXPECT_GT(m.scalars.max_solid_pressure_pa, 0);
+    EXPECT_LE(m.scalars.max_solid_energy_j_m2, m.scalars.max_energy_j_m2);
+    EXPECT_GE(m.scalars.reached_area_m2, m.scalars.solid_reached_area_m2);
+    EXPECT_GT(m.scalars.liquid_reached_area_m2, 0);
   }
 }
 
@@ -54,6 +63,9 @@ TEST_F(PhasesWorkflow, OtherScenesHaveNoneOfIt) {
   Recorder heard;
   whole(request("out"), heard);
   EXPECT_FALSE(exists("out/hazard/solid_thickness_mean_m.tif"));
+  EXPECT_FALSE(exists("out/hazard/probability_of_solid_reach.tif"));
+  EXPECT_THAT(read("out/members.csv"), Not(HasSubstr("liquid_lost_fraction")));
+  EXPECT_THAT(read("out/report.html"), Not(HasSubstr("Grains and liquid")));
   EXPECT_THAT(read("out/report.html"), Not(HasSubstr("Thickness of liquid alone")));
 }
 

@@ -6,6 +6,8 @@
 #include "engine/simulation/maps/peak_tiles.hpp"
 #include "engine/simulation/maps/sum_tiles.hpp"
 
+#include <algorithm>
+
 namespace sturz {
 
 /// What a row is looked at with.
@@ -15,14 +17,33 @@ struct PeakRow {
   float enough_cover = 0;    ///< and they are reached where as much of them is covered
   float enough_under = 0;    ///< or as much of them lies under the particles themselves
   float per_area = 0;        ///< of a cell [1/m2]
-  /// Of the first and the second set, thickness of a cell per mass in it [m/kg]; 0: not told apart.
-  float per_first = 0, per_second = 0;
-  bool is_odd = false;  ///< every other instant takes the place of the tile's `last`
+  bool is_odd = false;       ///< every other instant takes the place of the tile's `last`
 
   /// \param cells, under  of the row  \param first  of the row's cells within the tile
-  void keep(const CellSums* cells, const float* under, std::size_t first, PeakTile& peaks) const {
+  void keep(const CellSums* cells, const float* under, std::size_t first, CellPeaks& peaks) const {
     for (int j = 0; j < PeakTile::edge; j += 8)
-      keep_eight(cells[j].data(), under + j, first + j, peaks);
+      keep_eight(cells[j].data(), nullptr, under + j, first + j, peaks);
+  }
+  /// The same of one material. Its dynamic pressure is its share of the flow's momentum flux: its
+  /// mass over the flow's volume, times its own speed squared; of both together rho v^2 where they
+  /// move as one. \param flow  the row's sums of both materials
+  void keep_material(const CellSums* cells, const CellSums* flow, const float* under,
+                     std::size_t first, CellPeaks& peaks) const {
+    for (int j = 0; j < PeakTile::edge; j += 8)
+      keep_eight(cells[j].data(), flow[j].data(), under + j, first + j, peaks);
+  }
+  /// The liquid's share of the flow's volume where the flow is thicker than ever; of matter, so air
+  /// between grains is no part of it. \param liquid, flow  sums of the row
+  void keep_liquid_fraction(const CellSums* liquid, const CellSums* flow, std::size_t first,
+                            PeakTile& peaks) const {
+    constexpr int volume = static_cast<int>(CellSum::volume);
+    for (int j = 0; j < PeakTile::edge; ++j) {
+      const float whole = flow[j][volume], thickness = whole * per_area;
+      float& fullest = peaks.fullest[first + j];
+      if (!(thickness > runout_limit_m && thickness > fullest)) continue;
+      fullest = thickness;
+      peaks.liquid_fraction[first + j] = std::min(1.0F, liquid[j][volume] / whole);
+    }
   }
 
   /// Time between the last three instants, which a parabola needs.
@@ -66,20 +87,22 @@ struct PeakRow {
     return ((now > 0.0F) & (middle > 0.0F) & (first > 0.0F)) ? larger(now, top) : now;
   }
 
-  /// Largest of the instants: between two of them a peak may be some percent higher.
-  void keep_sets(const Eight& mass, const Eight& of_first, std::size_t at, PeakTile& peaks) const {
-    float *first = peaks.first.data() + at, *second = peaks.second.data() + at;
-    put_eight(first, larger(eight_at(first), of_first * per_first));
-    put_eight(second, larger(eight_at(second), (mass - of_first) * per_second));
+  static Eight volume_of(const float* flow, const Eight& own) {
+    if (flow == nullptr) return own;
+    Eight sums[n_cell_sums];
+    transpose_eight(flow, sums);
+    return sums[static_cast<int>(CellSum::volume)];
   }
 
-  void keep_eight(const float* cells, const float* under, std::size_t at, PeakTile& peaks) const {
+  /// \param flow  sums of all materials; null: `cells` are all
+  void keep_eight(const float* cells, const float* flow, const float* under, std::size_t at,
+                  CellPeaks& peaks) const {
     Eight sums[n_cell_sums];
     transpose_eight(cells, sums);
     const auto sum = [&](CellSum s) { return sums[static_cast<int>(s)]; };
     const Eight none{}, mass = sum(CellSum::mass), volume = sum(CellSum::volume);
-    const PeakTile::Instant& last = is_odd ? peaks.before : peaks.last;
-    PeakTile::Instant& before = is_odd ? peaks.last : peaks.before;
+    const CellPeaks::Instant& last = is_odd ? peaks.before : peaks.last;
+    CellPeaks::Instant& before = is_odd ? peaks.last : peaks.before;
     if (!any((mass > 0.0F) | (eight_at(&last.thickness[at]) > 0.0F) |
              (eight_at(&before.thickness[at]) > 0.0F)))
       return;
@@ -90,32 +113,31 @@ struct PeakRow {
                 vz = sum(CellSum::momentum_z) * per_mass;
     const Eight speed_now = root(vx * vx + vy * vy + vz * vz);
     const Eight energy_now = counts ? sum(CellSum::energy) * per_area : none;
-    const Eight density = counts ? mass / volume : none;  // of the mixture
+    const Eight density = counts ? mass / volume_of(flow, volume) : none;  // of the mixture
 
-    const auto raise = [&](PeakTile::PerCell<float>& peak, const Eight& value) {
+    const auto raise = [&](CellPeaks::PerCell<float>& peak, const Eight& value) {
       // Most cells are past their peak: what is not written need not go back to memory.
       const Eight so_far = eight_at(&peak[at]);
       if (any(value > so_far)) put_eight(&peak[at], larger(so_far, value));
     };
-    const auto raise_passing = [&](PeakTile::PerCell<float> PeakTile::*peak,
-                                   PeakTile::PerCell<float> PeakTile::Instant::*value,
+    const auto raise_passing = [&](CellPeaks::PerCell<float> CellPeaks::*peak,
+                                   CellPeaks::PerCell<float> CellPeaks::Instant::*value,
                                    const Eight& now, bool gaps_count) {
-      PeakTile::PerCell<float>& highest = peaks.*peak;
+      CellPeaks::PerCell<float>& highest = peaks.*peak;
       const Eight value_now =
           pass(now, &(last.*value)[at], &(before.*value)[at], eight_at(&highest[at]), gaps_count);
       raise(highest, value_now);
       return value_now;
     };
-    raise_passing(&PeakTile::thickness, &PeakTile::Instant::thickness, thickness, true);
-    raise_passing(&PeakTile::energy, &PeakTile::Instant::energy, energy_now, true);
+    raise_passing(&CellPeaks::thickness, &CellPeaks::Instant::thickness, thickness, true);
+    raise_passing(&CellPeaks::energy, &CellPeaks::Instant::energy, energy_now, true);
     const Eight speed =
-        raise_passing(&PeakTile::speed, &PeakTile::Instant::speed, speed_now, false);
+        raise_passing(&CellPeaks::speed, &CellPeaks::Instant::speed, speed_now, false);
     raise(peaks.pressure, density * speed * speed);
-    if (per_first > 0) keep_sets(mass, sum(CellSum::first_mass), at, peaks);
     const auto covered =
         (sum(CellSum::coverage) >= enough_cover) | (eight_at(under) >= enough_under);
     const auto reached = counts & covered;
-    const Eight now = reached ? none + time_s : none + PeakTile::never;
+    const Eight now = reached ? none + time_s : none + CellPeaks::never;
     const Eight arrival = eight_at(&peaks.arrival[at]);
     if (any(now < arrival)) put_eight(&peaks.arrival[at], smaller(arrival, now));
   }

@@ -13,29 +13,38 @@
 
 namespace sturz {
 
-/// Over the cells of a tile, rows from the north.
-struct PeakTile {
-  static constexpr int edge = TileDirectory::edge;
+/// Of a flow, or of one of its materials, over the cells of a tile, rows from the north.
+struct CellPeaks {
   static constexpr int n_cells = TileDirectory::n_cells;
   static constexpr float never = std::numeric_limits<float>::infinity();
   template <class T>
   using PerCell = std::array<T, n_cells>;
 
-  int row0 = 0, col0 = 0;  ///< of its first cell on the grid
   PerCell<float> thickness{}, speed{}, energy{}, pressure{};
   PerCell<float> arrival{};  ///< first time, or `never`
-  PerCell<float> deposit{};
-  std::vector<float> first, second;  ///< thickness of each set; empty where not told apart
-  PerCell<bool> covered{};           ///< by the deposit
   /// What a cell held at one of the last instants, zero where it was not touched.
   struct Instant {
     PerCell<float> thickness{}, speed{}, energy{};
   };
   Instant last, before;
-  std::size_t n_seen = 0;       ///< number of the instant that `last` is of; from one
+
+  CellPeaks() { arrival.fill(never); }
+};
+
+struct PeakTile : CellPeaks {
+  static constexpr int edge = TileDirectory::edge;
+
+  int row0 = 0, col0 = 0;  ///< of its first cell on the grid
+  PerCell<float> deposit{};
+  PerCell<bool> covered{};  ///< by the deposit
+  /// Of grains and of liquid; empty where they are not told apart, as are the next two.
+  std::vector<CellPeaks> of_set;
+  std::vector<float> fullest;          ///< [n_cells] thickest instant so far [m]
+  std::vector<float> liquid_fraction;  ///< [n_cells] liquid's share of the volume at that instant
+  std::size_t n_seen = 0;              ///< number of the instant that `last` is of; from one
   std::uint32_t rows_seen = 0;  ///< one bit for each row that `last` or `before` hold anything of
 
-  PeakTile(int first_row, int first_col) : row0(first_row), col0(first_col) { arrival.fill(never); }
+  PeakTile(int first_row, int first_col) : row0(first_row), col0(first_col) {}
 };
 
 /// Every tile that was ever touched.

@@ -2,6 +2,7 @@
 #include "engine/simulation/maps/sum_tiles.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 namespace sturz {
@@ -16,6 +17,25 @@ std::size_t SumTiles::open(int tile_row, int tile_col) {
     under_.resize(sums_.size());
   }
   return slot;
+}
+
+void SumTiles::add(const SumTiles& other) {
+  for (std::size_t from = 0; from < other.open_.size(); ++from) {
+    const Open& tile = other.open_[from];
+    const std::size_t to = slot_at(tile.tile_row, tile.tile_col);
+    mark_rows(to, tile.rows);
+    for (unsigned rows = tile.rows; rows != 0; rows &= rows - 1) {
+      const int first = std::countr_zero(rows) * edge;
+      for (int k = first; k < first + edge; ++k) {
+        cells(to)[k] += other.cells(from)[k];
+        under(to)[k] += other.under(from)[k];
+      }
+    }
+  }
+}
+
+void SumTiles::open_as(const SumTiles& other) {
+  for (const Open& tile : other.open_) slot_at(tile.tile_row, tile.tile_col);
 }
 
 void SumTiles::clear() {

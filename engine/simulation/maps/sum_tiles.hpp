@@ -47,12 +47,18 @@ class SumTiles {
   }
   /// [n_cells] of a tile; valid until the next tile is opened.
   CellSums* cells(std::size_t slot) { return &sums_[slot * n_cells]; }
+  const CellSums* cells(std::size_t slot) const { return &sums_[slot * n_cells]; }
   /// [n_cells] of a tile: share of each cell that lies under the particles themselves, without the
   /// width that they are spread over; valid as long as `cells`.
   float* under(std::size_t slot) { return &under_[slot * n_cells]; }
+  const float* under(std::size_t slot) const { return &under_[slot * n_cells]; }
   void mark_rows(std::size_t slot, std::uint32_t rows) { open_[slot].rows |= rows; }
   /// In the order in which they were opened.
   const std::vector<Open>& tiles() const { return open_; }
+  /// Adds all sums of `other` to these; room for its tiles must have been made.
+  void add(const SumTiles& other);
+  /// Opens every tile that `other` has open.
+  void open_as(const SumTiles& other);
   /// Forgets all sums.
   void clear();
 

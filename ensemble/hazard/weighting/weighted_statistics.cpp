@@ -19,7 +19,9 @@ WeightedStatistics::WeightedStatistics(const HazardLayers& layers, std::span<con
 
 void WeightedStatistics::add(const CellRows& rows) {
   block_.add(rows, [&](std::size_t i, std::size_t cell) {
-    reached(rows, i, cell);
+    for (const ReachLayers& r : layers_.reaches) reached(r, rows, i, cell);
+    if (layers_.liquid_fraction)
+      over_comers(PeakLayer::liquid_fraction, *layers_.liquid_fraction, rows, i, cell);
     for (const QuantityLayers& q : layers_.quantities) quantity(q, rows, i, cell);
     intensity(rows, i, cell);
     if (layers_.mass_left)
@@ -28,18 +30,23 @@ void WeightedStatistics::add(const CellRows& rows) {
   });
 }
 
-void WeightedStatistics::reached(const CellRows& rows, std::size_t i, std::size_t cell) {
+void WeightedStatistics::reached(const ReachLayers& to, const CellRows& rows, std::size_t i,
+                                 std::size_t cell) {
   const auto came = [](float t) { return !std::isnan(t); };
-  put_probability(layers_.reached, 0, cell, weight_of(rows, PeakLayer::arrival, i, came));
-  if (!layers_.arrival_quantile) return;
-  sort_where(rows, PeakLayer::arrival, i, came);
+  put_probability(to.reached, 0, cell, weight_of(rows, to.source, i, came));
+  if (to.quantile) over_comers(to.source, *to.quantile, rows, i, cell);
+}
+
+void WeightedStatistics::over_comers(PeakLayer source, std::size_t layer, const CellRows& rows,
+                                     std::size_t i, std::size_t cell) {
+  sort_where(rows, source, i, [](float v) { return !std::isnan(v); });
   double sum = 0, squares = 0;
   for (const WeighedValue& v : sorted_) {
     sum += v.weight;
     squares += v.weight * v.weight;
   }
   // The members that came have an effective number of their own.
-  if (sum > 0) put_quantiles(*layers_.arrival_quantile, cell, 0, sum * sum / squares, 1);
+  if (sum > 0) put_quantiles(layer, cell, 0, sum * sum / squares, 1);
 }
 
 void WeightedStatistics::quantity(const QuantityLayers& to, const CellRows& rows, std::size_t i,

@@ -23,7 +23,10 @@ class WeightedStatistics {
   void add(const CellRows& rows);
 
  private:
-  void reached(const CellRows& rows, std::size_t i, std::size_t cell);
+  void reached(const ReachLayers& to, const CellRows& rows, std::size_t i, std::size_t cell);
+  /// Quantiles over the members that have a value.
+  void over_comers(PeakLayer source, std::size_t layer, const CellRows& rows, std::size_t i,
+                   std::size_t cell);
   void quantity(const QuantityLayers& to, const CellRows& rows, std::size_t i, std::size_t cell);
   void intensity(const CellRows& rows, std::size_t i, std::size_t cell);
   void put_probability(const ProbabilityLayers& to, std::size_t plane, std::size_t cell,

@@ -27,7 +27,8 @@ double rough_seconds(const EnsembleJob& job) {
   return static_cast<double>(members_to_do(job)) *
              (job.scene.description.predicted_seconds + least_member_s) / job.workers +
          static_cast<double>(design_of(job).n_members()) * opening_s +
-         map_planes(job.scene.scenario.hazard, job.scene.scenario.erosion.has_value()) *
+         map_planes(job.scene.scenario.hazard, job.scene.scenario.erosion.has_value(),
+                    has_materials(job.scene.scenario)) *
              least_map_s;
 }
 

@@ -105,10 +105,13 @@ void add_maps(const Scene& scene, const ForecastRequest& request, const Trial& t
   const Mean touched = mean_of(trial.members, &TriedMember::touched_cells, all);
   const Range cells = map_cells(trial.members, all, scene.inputs.hazard_grid);
   const MapSpeed speed = map_speed(request.speed_cache);
+  const bool materials = has_materials(scene.scenario);
   const auto cost = [&](double of_cells) {
-    return predict_map_cost({all, touched.value, of_cells,
-                             map_planes(scene.scenario.hazard, scene.scenario.erosion.has_value())},
-                            speed);
+    return predict_map_cost(
+        {all, touched.value, of_cells,
+         map_planes(scene.scenario.hazard, scene.scenario.erosion.has_value(), materials),
+         materials},
+        speed);
   };
   const MapCost likely = cost(cells.likely), low = cost(cells.low), high = cost(cells.high);
   f.maps_s = Range{likely.seconds, low.seconds / map_factor, high.seconds * map_factor} *

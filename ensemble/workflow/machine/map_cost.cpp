@@ -195,12 +195,17 @@ void write_cached(const fs::path& file, const MapSpeed& speed) {
 
 }  // namespace
 
-int map_planes(const HazardSpec& spec, bool erodes) {
+bool has_materials(const Scenario& s) {
+  return has_two_phases(s.mixture) || (s.grains.has_value() && s.fluid.has_value());
+}
+
+int map_planes(const HazardSpec& spec, bool erodes, bool materials) {
   Grid cell;
   cell.n_cols = cell.n_rows = 1;
   int planes = 0;
   for (const Layer& layer :
-       hazard_layers(cell, spec, 0, 1, 0, {.left = false, .eroded = erodes}).stack.layers)
+       hazard_layers(cell, spec, 0, 1, 0, {.left = false, .eroded = erodes, .phases = materials})
+           .stack.layers)
     if (!layer.is_count()) planes += static_cast<int>(layer.n_planes());
   return planes;
 }
@@ -208,7 +213,8 @@ int map_planes(const HazardSpec& spec, bool erodes) {
 MapCost predict_map_cost(const MapWork& work, const MapSpeed& speed) {
   const double touches = static_cast<double>(work.members) * work.cells_per_member;
   const double plane_cells = work.planes * work.cells;
-  constexpr double bytes_per_touch = 6 + n_peak_layers * sizeof(float);
+  const int layers = work.materials ? n_peak_layers : static_cast<int>(PeakLayer::liquid) + 1;
+  const double bytes_per_touch = 6 + layers * sizeof(float);
   constexpr auto most_records = static_cast<double>(MemberCells::default_memory_bytes);
   const bool packed = work.members > most_member_files;
   // Of a pack, a pass reads nothing but the bands of rows that it keeps.

@@ -24,6 +24,7 @@ struct MapWork {
   double cells_per_member = 0;  ///< cells that one member touches, on average
   double cells = 0;             ///< of the rectangle around what all of them touch
   int planes = 0;               ///< of all layers, see map_planes()
+  bool materials = false;       ///< grains and liquid are told apart
 };
 
 struct MapCost {
@@ -36,7 +37,10 @@ struct MapCost {
 inline constexpr double program_bytes = 148e6;
 
 /// Maps that this scene asks for, bounds included. \param erodes the flow takes its bed along
-int map_planes(const HazardSpec&, bool erodes = false);
+/// \param materials grains and liquid are told apart
+int map_planes(const HazardSpec&, bool erodes = false, bool materials = false);
+/// Whether grains and liquid move apart, so that each has maps of its own.
+bool has_materials(const Scenario&);
 
 MapCost predict_map_cost(const MapWork&, const MapSpeed&);
 

@@ -48,15 +48,15 @@ LayerStack peak_layers(const MemberResult& result, const Raster<double>* ground,
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto peak = static_cast<PeakLayer>(i);
     // What not every scene has.
-    const bool optional = peak == PeakLayer::left || peak == PeakLayer::eroded ||
-                          peak == PeakLayer::solid || peak == PeakLayer::liquid;
+    const bool optional =
+        peak == PeakLayer::left || peak == PeakLayer::eroded || is_of_materials(peak);
     if (optional && result.layer(peak).empty()) continue;
     Layer layer;
     layer.name = info(peak).name;
     layer.meaning = {quantity_of(peak), Statistic::peak};
     layer.long_name = info(peak).long_name;
     layer.units = map_unit(peak).name;
-    layer.comment = peak == PeakLayer::arrival
+    layer.comment = std::isnan(info(peak).untouched)
                         ? "missing where the flow never came"
                         : "0 where the flow never came; missing where the ground is not known";
     layer.values = values_of(result, peak, extent, KnownGround(ground, whole_ground, result.grid));

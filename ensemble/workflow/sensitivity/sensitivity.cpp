@@ -45,7 +45,7 @@ std::vector<Observation> column_of(const MemberStore& store, double MemberScalar
     if (!is_valid(m.outcome)) continue;
     const double value = m.scalars.*field;
     column[static_cast<std::size_t>(m.member)] = {
-        value, std::isnan(value) ? Known::not_at_all : known(field, m.censoring)};
+        value, std::isnan(value) ? Known::not_at_all : known(field, m.scalars, m.censoring)};
   }
   return column;
 }

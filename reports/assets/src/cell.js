@@ -182,6 +182,14 @@ export function createCellPanel(box, page, planes, sources = null) {
                        `Reached by ${Math.round(p * page.valid)} of ${page.valid} members: `,
                        named('b', '', percentText(p)),
                        ` (${percentText(low)} – ${percentText(high)})`));
+      for (const [quantity, name] of [['solid_reached', 'Grains'], ['liquid_reached', 'Liquid']]) {
+        const own = planes.find((p) => p.layer.quantity === quantity)?.values[at];
+        if (own === undefined) continue;
+        const [least, most] = wilson(own, page.valid, page.z);
+        box.append(named('p', 'cell-line', `${name} in ${Math.round(own * page.valid)}: `,
+                         named('b', '', percentText(own)),
+                         ` (${percentText(least)} – ${percentText(most)})`));
+      }
     }
     if (quantity) {
       const entries = of('probability', quantity);

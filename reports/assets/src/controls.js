@@ -8,6 +8,7 @@ import {loadSources} from './sources.js';
 const statisticNames = {
   probability: 'Probability', quantile: 'Quantile', source_quantile: 'Quantile of the worst source', mean: 'Mean', peak: 'Peak', value: 'Value',
 };
+const materialNames = {'': 'Whole flow', grains: 'Grains alone', liquid: 'Liquid alone'};
 const boundNames = {lower: 'lower end', upper: 'upper end'};
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
@@ -167,6 +168,9 @@ export async function startMaps(page) {
     if (maps.nearest)
       marks.append(element('li', {}, element('span', {class: 'swatch nearest'}),
                            maps.nearest.label));
+    for (const front of maps.fronts)
+      marks.append(element('li', {}, element('span', {class: `swatch front-${front.kind}`}),
+                           front.label));
     if (left?.values.some((v) => v > 0))
       marks.append(element('li', {}, element('span', {class: 'swatch left'}),
                            'mass left the terrain here'));
@@ -204,20 +208,34 @@ export async function startMaps(page) {
     show(kept ?? middle ?? from.find((p) => p.plane.resolved !== false) ?? from[0]);
   };
 
+  const materials = [...new Set(planes.map((p) => p.layer.material))];
+  /** Goes to another material, to the same quantity where it has that. */
+  const goMaterial = (material) => {
+    const own = planes.filter((p) => p.layer.material === material);
+    const same = own.find((p) => p.layer.short === current.layer.short) ?? own[0];
+    go(same.layer.quantity, current.layer.statistic);
+  };
+
   const drawPickers = () => {
-    const {quantity, statistic} = current.layer;
+    const {quantity, statistic, material} = current.layer;
     const focused = document.activeElement?.dataset?.key;
-    const quantities = [...new Set(planes.map((p) => p.layer.quantity))];
+    const own = planes.filter((p) => p.layer.material === material);
+    const quantities = [...new Set(own.map((p) => p.layer.quantity))];
     const same = planes.filter((p) => p.layer.quantity === quantity);
     const statistics = [...new Set(same.map((p) => p.layer.statistic))];
     const choices = same.filter((p) => p.layer.statistic === statistic);
     const rows = [chips(
         'Quantity',
-        quantities.map((key) => ({
-                         key, label: capital(key),
-                         title: planes.find((p) => p.layer.quantity === key).layer.quantityTitle,
-                       })),
+        quantities.map((key) => {
+          const {short, quantityTitle} = own.find((p) => p.layer.quantity === key).layer;
+          return {key, label: short, title: quantityTitle};
+        }),
         quantity, (key) => go(key, statistic))];
+    if (materials.length > 1)
+      rows.unshift(chips(
+          'Material',
+          materials.map((key) => ({key: `material-${key}`, label: materialNames[key]})),
+          `material-${material}`, (key) => goMaterial(key.slice('material-'.length))));
     if (statistics.length > 1)
       rows.push(chips(
           'Statistic', statistics.map((key) => ({key, label: statisticNames[key] ?? key})),

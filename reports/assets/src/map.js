@@ -139,7 +139,7 @@ function cellShape(values, grid) {
   return squares.length > 0 ? new Feature(new MultiPolygon(squares)) : null;
 }
 
-/** Outlines of the release, of a mapped event and of the member nearest to it, and cells where mass left: what every map of the page shows. */
+/** Outlines of the release, of how far grains and liquid come, of a mapped event and of the member nearest to it, and cells where mass left: what every map of the page shows. */
 function marksLayer(maps, leftValues) {
   const source = new VectorSource();
   if (maps.release.length > 0) {
@@ -150,6 +150,18 @@ function marksLayer(maps, leftValues) {
       new Style({stroke: new Stroke({color: '#111', width: 1.8})}),
     ]);
     source.addFeature(outline);
+  }
+  // The liquid's line is the wider one below: where both run together both are seen.
+  for (const [kind, colour, width] of [['liquid', '#00798c', 5], ['grains', '#7a3b00', 2]]) {
+    for (const front of maps.fronts.filter((f) => f.kind === kind)) {
+      const line = new Feature(new MultiLineString(
+          front.lines.map(([x0, y0, x1, y1]) => [[x0, y0], [x1, y1]])));
+      line.setStyle([
+        new Style({stroke: new Stroke({color: 'rgba(255,255,255,0.8)', width: width + 1.2})}),
+        new Style({stroke: new Stroke({color: colour, width})}),
+      ]);
+      source.addFeature(line);
+    }
   }
   if (maps.nearest) {
     const covered = new Feature(new MultiLineString(

@@ -26,10 +26,13 @@ TEST(MemberResult, EveryLayerHasItsOwnNameAndUnit) {
   EXPECT_STREQ(info(PeakLayer::deposit).name, "deposit_thickness");
 }
 
-TEST(MemberResult, OnlyArrivalIsUndefinedWhereNothingCame) {
+TEST(MemberResult, OnlyWhatNeedsAFlowIsUndefinedWhereNothingCame) {
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);
-    EXPECT_EQ(std::isnan(info(layer).untouched), layer == PeakLayer::arrival);
+    const bool needs_flow = layer == PeakLayer::arrival || layer == PeakLayer::solid_arrival ||
+                            layer == PeakLayer::liquid_arrival ||
+                            layer == PeakLayer::liquid_fraction;
+    EXPECT_EQ(std::isnan(info(layer).untouched), needs_flow) << info(layer).name;
   }
 }
 
@@ -45,6 +48,18 @@ TEST(MemberResult, TheScalarTableNamesEveryFieldOnceInOrder) {
   }
   EXPECT_EQ(names.size(), scalar_table().size());
   EXPECT_EQ(names.size() * sizeof(double), sizeof(MemberScalars));
+}
+
+TEST(MemberResult, ConcernsAMaterialByWhatLeftOfIt) {
+  MemberScalars m;
+  using C = Censoring;
+  EXPECT_EQ(censoring_of(Phase::grains, m, C::left_terrain), C::left_terrain) << "not told apart";
+  m.solid_lost_fraction = 0, m.liquid_lost_fraction = 1e-9;
+  EXPECT_EQ(censoring_of(Phase::both, m, C::left_and_moving), C::left_and_moving);
+  EXPECT_EQ(censoring_of(Phase::grains, m, C::left_terrain), C::none);
+  EXPECT_EQ(censoring_of(Phase::grains, m, C::left_and_moving), C::still_moving);
+  EXPECT_EQ(censoring_of(Phase::liquid, m, C::left_and_moving), C::left_and_moving);
+  EXPECT_EQ(censoring_of(Phase::liquid, m, C::none), C::none);
 }
 
 TEST(MemberResult, UnitsAgreeWithTheNames) {

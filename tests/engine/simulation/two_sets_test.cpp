@@ -52,6 +52,28 @@ TEST(TwoSets, AreCountedInMassPeaksHistoryAndFrames) {
   EXPECT_FLOAT_EQ(r.history.rows.back().max_speed_m_s, static_cast<float>(s.max_speed()));
 }
 
+/// The second set is thrown off the terrain, the first one stays: only results of the second, and
+/// those of both, are cut off by the edge.
+TEST(TwoSets, EachIsCutOffByWhatLeftOfIt) {
+  std::vector<GrainBox> boxes = coarse_and_fine();
+  boxes[1].velocity = Vec3(80, 0, 4);
+  const MemberResult r = simulation_of(sets_of(boxes), end_time, true).run();
+  const MemberScalars& m = r.scalars;
+  EXPECT_EQ(r.outcome, Outcome::left_terrain) << r.reason;
+  EXPECT_EQ(m.solid_lost_fraction, 0);
+  EXPECT_GT(m.liquid_lost_fraction, 0.5);
+  EXPECT_EQ(m.liquid_lost_mass_kg, m.lost_mass_kg);
+  EXPECT_TRUE(has_left(censoring_of(Phase::both, m, r.censoring)));
+  EXPECT_TRUE(has_left(censoring_of(Phase::liquid, m, r.censoring)));
+  EXPECT_FALSE(has_left(censoring_of(Phase::grains, m, r.censoring)));
+  EXPECT_NE(r.reason.find("(0 % of the grains, "), std::string::npos) << r.reason;
+  EXPECT_GT(m.liquid_runout_m, m.solid_runout_m);
+  EXPECT_GT(m.liquid_front_travel_m, 25);
+  const MemberResult dry = simulation_of(sets_of(boxes), end_time).run();
+  EXPECT_TRUE(std::isnan(dry.scalars.liquid_lost_fraction));
+  EXPECT_EQ(dry.state_hash, r.state_hash);
+}
+
 TEST(TwoSets, TheHashSeesBoth) {
   std::uint64_t hash[3];
   for (int changed : {0, 1, 2}) {
