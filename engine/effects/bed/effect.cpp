@@ -252,7 +252,7 @@ class WallContact final : public Pass {
  private:
   void press(State& s, const Wall& wall, const ContactLaw& law, double dt) const {
     MovingSet& p = s.sets[set_];
-    const bool drags = settings_.liquid && settings_.liquid->walls_hold;
+    const bool drags = settings_.liquid && wall.holds_liquid;
     const double kick = kick_time(s, dt);
     const WallPressure pressure = WallPressure::of_walls(p, settings_);
     const StartVelocity start(p);

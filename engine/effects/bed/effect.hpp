@@ -28,8 +28,6 @@ enum class LiquidBed {
 struct LiquidContact {
   HerschelBulkley law;
   LiquidBed bed = LiquidBed::no_slip;
-  /// Analytic walls drag the particles beside them by the shear between; else they slip.
-  bool walls_hold = false;
 };
 
 struct ContactSettings {
