@@ -163,10 +163,9 @@ double least_wet_share(const Scenario& s, double pore_pressure) {
   lightest.grains->solid_fraction = Uncertain(drawn_range(s.grains->solid_fraction).first);
   lightest.fluid->density_kg_m3 = Uncertain(drawn_range(s.fluid->density_kg_m3).second);
   lightest.fluid->saturation = Uncertain(std::min(1.0, drawn_range(s.fluid->saturation).second));
-  const bool liquefies =
-      s.coupling && s.coupling->critical_solid_fraction &&
-      lightest.grains->solid_fraction.value <
-          drawn_range(*s.coupling->critical_solid_fraction).second;
+  const bool liquefies = s.coupling && s.coupling->critical_solid_fraction &&
+                         lightest.grains->solid_fraction.value <
+                             drawn_range(*s.coupling->critical_solid_fraction).second;
   if (liquefies) return liquefied_share;
   return std::max(liquefied_share, weight_on_grains(lightest) * (1 - pore_pressure));
 }

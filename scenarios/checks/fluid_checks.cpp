@@ -166,8 +166,7 @@ class Check {
           "fluid.pool.surface_m (missing: how high does the water stand?). Give the elevation of "
           "its surface.");
     if (!pool.polygon.empty() && pool.box)
-      add("fluid.pool.box",
-          "fluid.pool.box (fluid.pool.polygon is there too). Keep one of them.");
+      add("fluid.pool.box", "fluid.pool.box (fluid.pool.polygon is there too). Keep one of them.");
     const auto of_polygon = [&](const std::string& value, const std::string& path) {
       if (!value.empty() && pool.polygon.empty())
         add(path, path + " (fluid.pool.polygon is missing). Remove it or name the polygon file.");

@@ -48,8 +48,8 @@ struct FluidSpec {
   std::optional<Uncertain> yield_stress_pa;
   std::optional<Uncertain> consistency_pa_sn;  ///< K of tau = tau_y + K rate^n
   std::optional<Uncertain> index;              ///< n of it
-  Uncertain saturation{1};         ///< share of the pores' height that it fills, from the bed
-  std::optional<PoolSpec> pool;    ///< absent: no more of it than in the release
+  Uncertain saturation{1};       ///< share of the pores' height that it fills, from the bed
+  std::optional<PoolSpec> pool;  ///< absent: no more of it than in the release
   FluidBed bed = FluidBed::automatic;
   double artificial_viscosity = 0.02;  ///< alpha_v of B.4, of the liquid
   bool operator==(const FluidSpec&) const = default;

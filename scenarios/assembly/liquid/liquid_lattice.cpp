@@ -21,7 +21,7 @@ class Layout {
  public:
   Layout(const Scenario& s, const SceneInputs& in, const ScenePlan& plan, std::int64_t member)
       : s_(s), in_(in), plan_(plan), dx_(s.numerics.spacing_m) {
-    settings_ = {dx_, s.fluid->density_kg_m3.value, s.numerics.jitter, s.ensemble.seed, member,
+    settings_ = {dx_,  s.fluid->density_kg_m3.value, s.numerics.jitter, s.ensemble.seed, member,
                  false};
     if (s.fluid->pool) pool_ = pool_of(s, in, plan.bed);
     pores_ = s.grains ? 1 - s.grains->solid_fraction.value : 1;
@@ -68,8 +68,7 @@ class Layout {
       const double z = r.z[at] - lower;
       const double own = std::max(0.0, depth + lower - dry);
       const double pores = s_.grains ? liquid_of(r.mass[at]) : r.mass[at];
-      put(r.x[at], r.y[at], z, share * pores,
-          under ? std::max(own, pool_->surface_m - z) : own);
+      put(r.x[at], r.y[at], z, share * pores, under ? std::max(own, pool_->surface_m - z) : own);
     }
   }
 
@@ -136,8 +135,7 @@ class Layout {
     const double x = (static_cast<double>(c.lattice_x) + 0.5) * dx_;
     const double y = (static_cast<double>(c.lattice_y) + 0.5) * dx_;
     const auto& walls = plan_.domain.walls;
-    return plan_.bed.inside(x, y) &&
-           std::all_of(walls.begin(), walls.end(), [&](const Wall& wall) {
+    return plan_.bed.inside(x, y) && std::all_of(walls.begin(), walls.end(), [&](const Wall& wall) {
              return (x - wall.point.x()) * wall.normal.x() +
                         (y - wall.point.y()) * wall.normal.y() >
                     0;

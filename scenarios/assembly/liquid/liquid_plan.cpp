@@ -135,8 +135,7 @@ ContactSettings liquid_contact(const Scenario& s, const ScenePlan& plan) {
   c.reference_density = s.fluid->density_kg_m3.value;
   c.internal_friction = ContactSettings{}.internal_friction;
   const double deepest = std::max(c.spacing, plan.liquid_start.deepest_m);
-  c.stiffness =
-      std::max(c.stiffness, 10 * standard_gravity * deepest / (c.spacing * c.spacing));
+  c.stiffness = std::max(c.stiffness, 10 * standard_gravity * deepest / (c.spacing * c.spacing));
   c.bed = {GroundFriction{0, 0, 0}};
   c.zones = {};
   c.rasters = {};

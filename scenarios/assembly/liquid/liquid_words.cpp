@@ -26,7 +26,8 @@ std::string pool_text(const Scenario& s, const ScenePlan& plan) {
          " m, " + short_number(start.pool_m3) + " m3 on " + short_number(start.pool_area_m2) +
          " m2 with what lies in it, " + short_number(start.pool_depth_m) + " m or " +
          short_number(start.pool_depth_m / s.numerics.spacing_m) + " layers deep, " +
-         std::to_string(start.size() - start.n_in_release) + " particles beside those in the release";
+         std::to_string(start.size() - start.n_in_release) +
+         " particles beside those in the release";
 }
 
 /// Within which a slow slip falls to 1/e [s].
@@ -128,8 +129,7 @@ std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& pla
     out.emplace_back(
         "grains without buoyancy (coupling.scheme: paper): in a fluid they bear their whole weight "
         "on each other and on the bed");
-  if (has_pore_pressure_ratio(s.basal))
-    out.push_back(pore_pressure_warning(s));
+  if (has_pore_pressure_ratio(s.basal)) out.push_back(pore_pressure_warning(s));
   if (liquid_law(*s.fluid).index != 1)
     out.push_back("the drag takes the fluid's viscosity at a shear rate of 1 1/s, " +
                   short_number(c.viscosity) + " Pa s (fluid.index)");

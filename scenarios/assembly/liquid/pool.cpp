@@ -57,7 +57,8 @@ double share_before(const std::vector<WallSpec>& walls, double x, double y, doub
     if (d >= cell) continue;
     if (d <= -cell) return 0;
     if (ring.empty())
-      ring = {{x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
+      ring = {
+          {x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
     ring = cut(ring, wall);
     if (ring.size() < 3) return 0;
   }
@@ -78,8 +79,7 @@ Raster<double> shares(const Scenario& s, const SceneInputs& in) {
   for (int r = 0; r < g.n_rows; ++r)
     for (int c = 0; c < g.n_cols; ++c)
       if (const double own = outlined(in, at.row0 + r, at.col0 + c); own > 0)
-        share.at(r, c) =
-            own * share_before(s.domain.walls, g.x_center(c), g.y_center(r), g.cell_m);
+        share.at(r, c) = own * share_before(s.domain.walls, g.x_center(c), g.y_center(r), g.cell_m);
   return share;
 }
 
@@ -157,8 +157,7 @@ void require_water(const Scenario& s, const Pool& pool, const GroundAt& ground,
   const Window at = window_of(pool.share.grid, in.terrain_grid());
   for (int r = at.row0; r < at.end_row(); ++r)
     for (int c = at.col0; c < at.end_col(); ++c)
-      if (pool.share.at(r - at.row0, c - at.col0) > 0)
-        lowest = std::fmin(lowest, ground(r, c));
+      if (pool.share.at(r - at.row0, c - at.col0) > 0) lowest = std::fmin(lowest, ground(r, c));
   require(std::isfinite(lowest),
           pool_key(*s.fluid->pool) +
               " (no ground is known there in front of the walls, so nothing can be filled). Move "
@@ -182,7 +181,8 @@ void require_shore(const Scenario& s, const SceneInputs& in, const Pool& pool,
   const Ends ends = ends_of(s, in, pool, ground);
   const Grid& g = in.terrain_grid();
   require(ends.n_end == 0,
-          level_text(pool.surface_m) + " (the pool reaches the end of the known ground, first at x = " +
+          level_text(pool.surface_m) +
+              " (the pool reaches the end of the known ground, first at x = " +
               short_number(g.x_center(ends.col)) + ", y = " + short_number(g.y_center(ends.row)) +
               ", and would run out there). Lower it, outline the pool with fluid.pool.polygon or "
               "box, use a larger terrain, or close the end with domain.walls or terrain.nodata: "
@@ -197,9 +197,7 @@ bool Pool::covers(double x, double y) const {
 }
 
 std::string pool_key(const PoolSpec& spec) {
-  return !spec.polygon.empty() ? "fluid.pool.polygon"
-         : spec.box            ? "fluid.pool.box"
-                               : "fluid.pool";
+  return !spec.polygon.empty() ? "fluid.pool.polygon" : spec.box ? "fluid.pool.box" : "fluid.pool";
 }
 
 Window pool_window(const SceneInputs& in) {

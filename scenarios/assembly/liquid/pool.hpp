@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Standing water of `fluid.pool`: where it stands, how much it is, and whether the ground holds it.
+/// Standing water of `fluid.pool`: where it stands, how much it is, and whether the ground holds
+/// it.
 #pragma once
 
 #include "engine/terrain/terrain.hpp"

@@ -215,8 +215,9 @@ TEST(Pool, DescribeNamesItAndCountsItsParticles) {
   const auto note = std::find_if(wet.effects.begin(), wet.effects.end(),
                                  [](const EffectNote& e) { return e.name == "liquid"; });
   ASSERT_NE(note, wet.effects.end());
-  EXPECT_THAT(note->reason, HasSubstr("`fluid.pool`: standing water up to 1 m, 0.8 m3 on 0.8 m2 "
-                                      "with what lies in it, 1 m or 10 layers deep, 680 particles"));
+  EXPECT_THAT(note->reason,
+              HasSubstr("`fluid.pool`: standing water up to 1 m, 0.8 m3 on 0.8 m2 "
+                        "with what lies in it, 1 m or 10 layers deep, 680 particles"));
 }
 
 TEST(Pool, TheSoundSpeedKnowsItsDepth) {
