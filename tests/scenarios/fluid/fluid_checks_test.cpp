@@ -150,7 +150,8 @@ TEST(FluidChecks, ByItselfItRefusesWhatOnlyGrainsFeel) {
       messages_of(mud(), [](Scenario& s) { s.basal.rasters.friction_coefficient.path = "mu.tif"; }),
       ElementsAre(HasSubstr("basal.rasters.friction_coefficient (there are no grains")));
   const auto rough = [](Scenario& s) {
-    s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}}, WallSpec{{9, 0, 0}, {-1, 0, 0}, 0.3}};
+    s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt},
+                      WallSpec{{9, 0, 0}, {-1, 0, 0}, 0.3, std::nullopt}};
   };
   EXPECT_THAT(messages_of(mud(), rough),
               ElementsAre(HasSubstr("domain.walls[1].friction_coefficient = 0.3 (there are no "

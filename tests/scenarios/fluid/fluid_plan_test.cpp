@@ -161,7 +161,9 @@ TEST(FluidPlan, GrainsOfAWetReleaseStartInTheStateOfTheirPacking) {
       EXPECT_EQ(grains.flags(fields::state)[i], static_cast<std::uint8_t>(name)) << packing;
       EXPECT_NEAR(grains.reference_fraction * (1 + change[i]), packing, 0.02 * packing);
       // Ten metres of the submerged grains would be 49 kPa and more.
-      if (packing < 0.6) EXPECT_GT(stress[2][i], -100) << "a loose packing bears next to nothing";
+      if (packing < 0.6) {
+        EXPECT_GT(stress[2][i], -100) << "a loose packing bears next to nothing";
+      }
     }
     EXPECT_NEAR(total(grains.mass), packing * 2500 * released_m3, 1e-9 * 2500 * released_m3);
     for (int k = 0; k < 20; ++k) run.step();
@@ -261,7 +263,7 @@ TEST(FluidPlan, TheLiquidMeetsTheGroundWithoutTheGrainsFriction) {
 
 TEST(FluidPlan, WallsDragItWhereTheFileSaysSo) {
   Scenario s = mud();
-  s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}},
+  s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt},
                     WallSpec{{200, 0, 0}, {-1, 0, 0}, 0, std::nullopt, WallLiquid::sticks}};
   const ScenePlan plan = plan_scene(s, slope_inputs(), 0);
   EXPECT_FALSE(plan.domain.walls[0].holds_liquid);

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ Scenario tank(double grains_high = 0.5) {
   f.pool.emplace().surface_m = Uncertain(deep);
   s.formulation = Formulation::full_stress;
   s.domain.periodic = {"y"};
-  s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}}, WallSpec{{2, 0, 0}, {-1, 0, 0}}};
+  s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt},
+                    WallSpec{{2, 0, 0}, {-1, 0, 0}, 0, std::nullopt}};
   s.numerics.spacing_m = 0.1;
   s.numerics.jitter = 0;
   s.numerics.end_time_s = 10;
