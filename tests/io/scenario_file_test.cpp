@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 const char* const everything = R"(title: "Everything: at once"
 terrain: {raster: data/bed.tif, crs: EPSG:32648, cell_size_m: 5, nodata: wall}
