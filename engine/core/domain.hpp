@@ -16,7 +16,6 @@ struct Wall {
   Vec3 normal{0, 0, 1};  ///< unit, into the free side
   double friction_coefficient = 0;
   double remove_at_s = std::numeric_limits<double>::infinity();
-  bool holds_liquid = false;  ///< drags a liquid beside it by the shear between; else it slips
 };
 
 /// One periodic direction: leaving at `max` means entering at `min`, `rise` lower or higher.

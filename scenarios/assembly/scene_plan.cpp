@@ -66,7 +66,6 @@ Domain make_domain(const DomainSpec& spec, const Raster<double>& elevation) {
     wall.normal = Vec3(w.normal[0], w.normal[1], w.normal[2]).normalized();
     wall.friction_coefficient = w.friction_coefficient;
     if (w.remove_at_s) wall.remove_at_s = *w.remove_at_s;
-    wall.holds_liquid = w.liquid == WallLiquid::sticks;
     d.walls.push_back(wall);
   }
   return d;

@@ -28,6 +28,9 @@ enum class LiquidBed {
 struct LiquidContact {
   HerschelBulkley law;
   LiquidBed bed = LiquidBed::no_slip;
+  /// By the domain's analytic walls: whether each drags the particles beside it by the shear
+  /// between; those beyond its end slip.
+  std::vector<bool> wall_holds = {};
 };
 
 struct ContactSettings {

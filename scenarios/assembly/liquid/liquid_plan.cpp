@@ -140,6 +140,8 @@ ContactSettings liquid_contact(const Scenario& s, const ScenePlan& plan) {
   c.zones = {};
   c.rasters = {};
   c.liquid = LiquidContact{liquid_law(*s.fluid), as_engine(liquid_bed(s, plan.formulation))};
+  for (const WallSpec& wall : s.domain.walls)
+    c.liquid->wall_holds.push_back(wall.liquid == WallLiquid::sticks);
   return c;
 }
 

@@ -266,8 +266,7 @@ TEST(FluidPlan, WallsDragItWhereTheFileSaysSo) {
   s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt},
                     WallSpec{{200, 0, 0}, {-1, 0, 0}, 0, std::nullopt, WallLiquid::sticks}};
   const ScenePlan plan = plan_scene(s, slope_inputs(), 0);
-  EXPECT_FALSE(plan.domain.walls[0].holds_liquid);
-  EXPECT_TRUE(plan.domain.walls[1].holds_liquid);
+  EXPECT_THAT(plan.liquid_contact.liquid->wall_holds, ElementsAre(false, true));
 }
 
 TEST(FluidPlan, TheEnergyLineIsThatOfWhatBearsTheWeight) {
