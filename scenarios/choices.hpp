@@ -23,6 +23,13 @@ constexpr auto words_of(TerrainEdge) {
   return std::array{Word{outflow, "outflow"}, Word{wall, "wall"}};
 }
 
+/// What an analytic wall does to the liquid beside it: nothing along it, or drag as glass does.
+enum class WallLiquid { slips, sticks };
+constexpr auto words_of(WallLiquid) {
+  using enum WallLiquid;
+  return std::array{Word{slips, "slips"}, Word{sticks, "sticks"}};
+}
+
 /// What the terrain shows where the mass lies: the bed under it, or the surface before failure.
 enum class ReleaseSurface { bed, pre_failure };
 constexpr auto words_of(ReleaseSurface) {

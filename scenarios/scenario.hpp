@@ -6,6 +6,7 @@
 #include "scenarios/choices.hpp"
 #include "scenarios/fluid/fluid_spec.hpp"
 #include "scenarios/grains/discrete_spec.hpp"
+#include "scenarios/map_box.hpp"
 #include "scenarios/observation/observation_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
@@ -69,10 +70,7 @@ struct TerrainSpec {
 };
 
 /// Analytic source shapes for tests and sketches, in map coordinates.
-struct ReleaseBox {
-  std::array<double, 2> x_m{}, y_m{};
-  bool operator==(const ReleaseBox&) const = default;
-};
+using ReleaseBox = MapBox;
 struct ReleaseParaboloid {  ///< thickness * (1 - (dx/a)^2 - (dy/b)^2)
   std::array<double, 2> center_m{}, semi_axes_m{};
   bool operator==(const ReleaseParaboloid&) const = default;
@@ -317,6 +315,7 @@ struct WallSpec {
   std::array<double, 3> point_m{}, normal{};  ///< normal points into the free side
   double friction_coefficient = 0;
   std::optional<double> remove_at_s;
+  WallLiquid liquid = WallLiquid::slips;  ///< where there is `fluid`
   bool operator==(const WallSpec&) const = default;
 };
 

@@ -60,6 +60,9 @@ struct SceneInputs {
   std::shared_ptr<const Raster<double>> release_cover;
   /// By ascending start; empty: all of it starts at once.
   std::vector<ReleaseStart> release_starts;
+  /// Share of each cell inside the outline of fluid.pool, 0..1, on cells of the working grid,
+  /// nothing beyond. Null: no outline is given.
+  std::shared_ptr<const Raster<double>> pool;
   std::vector<InflowSource> inflow;  ///< in the order of the scenario
   std::vector<Gauge> gauge_points, gauge_lines;
   /// The surface over `elevation`, and the same averaged to the columns' spacing where that is

@@ -31,10 +31,6 @@ double volume_median(std::vector<ReleaseColumn> columns) {
   return 0;
 }
 
-std::size_t stack_size(double thickness, double spacing) {
-  return static_cast<std::size_t>(std::max(1.0, std::round(thickness / spacing)));
-}
-
 /// Offsets of a stack's lowest and highest particle above the bed.
 ///
 /// The even stack h/k (1/2, 3/2, ...) would put the lowest particle nearer to the bed than the
@@ -57,25 +53,28 @@ class ParticleWriter {
   ParticleWriter(const Terrain& bed, const ReleaseSettings& s, Release& out)
       : bed_(bed), settings_(s), out_(out) {}
 
-  void deposit(const ReleaseColumn& c) {
-    const double dx = settings_.spacing_m;
+  void deposit(const ReleaseColumn& c) { deposit({c, 0, 0}, c.thickness_m); }
+  void deposit(const UpperColumn& upper, double thickness) {
+    const ReleaseColumn& c = upper.column;
+    const double dx = settings_.spacing_m, base = upper.base_m;
     const double x = (c.lattice_x + 0.5) * dx, y = (c.lattice_y + 0.5) * dx;
     require(bed_.inside(x, y),
             "release: the column at x = " + std::to_string(x) + ", y = " + std::to_string(y) +
                 " lies outside the known terrain (nodata or beyond its edge, so there is no bed). "
                 "Move the release or use a larger terrain.");
     if (settings_.columns) return place_column(c, x, y);
-    const std::size_t k = stack_size(c.thickness_m, dx);
-    const Stack stack(c.thickness_m, k, dx, bed_.surface(x, y).normal.z());
+    const std::size_t k = layers_of(thickness, dx);
+    constexpr double no_bed = std::numeric_limits<double>::infinity();
+    const Stack stack(thickness, k, dx, base > 0 ? no_bed : bed_.surface(x, y).normal.z());
     const double mass = settings_.bulk_density_kg_m3 * c.thickness_m * dx * dx / k;
     for (std::size_t layer = 0; layer < k; ++layer) {
-      const Vec3 p = place(c, layer, x, y, stack.offset(layer, k));
+      const Vec3 p = place(c, upper.first_layer + layer, x, y, base + stack.offset(layer, k));
       out_.x.push_back(p.x());
       out_.y.push_back(p.y());
       out_.z.push_back(p.z());
       out_.mass.push_back(mass);
-      out_.depth.push_back(std::max(0.0, bed_.height(p.x(), p.y()) + c.thickness_m - p.z()));
-      out_.thickness.push_back(c.thickness_m);
+      out_.depth.push_back(std::max(0.0, bed_.height(p.x(), p.y()) + base + thickness - p.z()));
+      out_.thickness.push_back(thickness);
       out_.covered.push_back(c.covered);
     }
   }
@@ -180,7 +179,7 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
   Sum dropped, all;
   for (const auto& c : columns.columns) {
     (kept(c) ? all : dropped).add(c.thickness_m);
-    if (kept(c)) n += s.columns ? 1 : stack_size(c.thickness_m, s.spacing_m);
+    if (kept(c)) n += s.columns ? 1 : layers_of(c.thickness_m, s.spacing_m);
   }
   require(n > 0, "release: no column is thicker than " + std::to_string(thinnest * s.spacing_m) +
                      " m (0.2 spacings, so no particle would be made). Choose a smaller "
@@ -195,6 +194,24 @@ Release release_particles(const Terrain& bed, const Raster<double>& thickness,
   for (const auto& c : columns.columns)
     if (kept(c)) writer.deposit(c);
   scale_to(s.bulk_density_kg_m3 * out.volume_m3, out.mass);
+  return out;
+}
+
+std::size_t layers_of(double thickness_m, double spacing_m) {
+  return static_cast<std::size_t>(std::max(1.0, std::round(thickness_m / spacing_m)));
+}
+
+Release fill_columns(const Terrain& bed, const std::vector<UpperColumn>& columns,
+                     const ReleaseSettings& s, double volume_m3) {
+  Release out;
+  out.volume_m3 = volume_m3;
+  ParticleWriter writer(bed, s, out);
+  for (const UpperColumn& c : columns) {
+    const double thickness = c.column.thickness_m / c.column.covered;
+    out.max_thickness_m = std::max(out.max_thickness_m, thickness);
+    writer.deposit(c, thickness);
+  }
+  if (!out.x.empty()) scale_to(s.bulk_density_kg_m3 * volume_m3, out.mass);
   return out;
 }
 

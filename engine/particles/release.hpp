@@ -2,8 +2,10 @@
 /// From a release thickness to particles: a lattice in map x, y, stacked on the bed.
 #pragma once
 
+#include "engine/particles/release_columns.hpp"
 #include "engine/terrain/terrain.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,7 +20,7 @@ struct ReleaseSettings {
   bool columns = false;           ///< one column on the bed per lattice cell instead of a stack
 };
 
-/// Particles of a release; all arrays [n].
+/// Particles of a release; all arrays [n], stack by stack, each from the bed up.
 struct Release {
   std::vector<double> x, y, z;  ///< [m]
   std::vector<double> mass;     ///< [kg]
@@ -46,5 +48,21 @@ struct Release {
 /// \throws SetupError when there is no mass or a column lies outside the terrain
 Release release_particles(const Terrain& bed, const Raster<double>& thickness,
                           const ReleaseSettings&, const Raster<double>* cover = nullptr);
+
+/// How many particles a stack of that thickness has.
+std::size_t layers_of(double thickness_m, double spacing_m);
+
+/// A column of the lattice that stands on what lies on the bed.
+struct UpperColumn {
+  ReleaseColumn column;         ///< `thickness_m` holds its volume over all of the lattice cell
+  double base_m = 0;            ///< of its foot above the bed, vertical
+  std::size_t first_layer = 0;  ///< layers under it, so that its jitter is not theirs
+};
+
+/// Fills columns of thickness_m / covered from their foot up: a cell that is covered in part is
+/// filled as high as others, by lighter particles. `depth` counts from the column's own top.
+/// \param volume_m3 sum of masses = bulk density x this, to round-off
+Release fill_columns(const Terrain& bed, const std::vector<UpperColumn>&, const ReleaseSettings&,
+                     double volume_m3);
 
 }  // namespace sturz

@@ -90,7 +90,8 @@ Json walls() {
   const Json wall = object({{"point_m", triple},
                             {"normal", triple},
                             {"friction_coefficient", number(0, 2, false)},
-                            {"remove_at_s", number(0, 1e5, false)}},
+                            {"remove_at_s", number(0, 1e5, false)},
+                            {"liquid", {{"enum", {"slips", "sticks"}}}}},
                            {"point_m", "normal"});
   return {{"type", "array"}, {"items", wall}};
 }

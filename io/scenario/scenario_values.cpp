@@ -118,6 +118,14 @@ bool read_triple(const std::string& path, const YamlNode& node, std::array<doubl
   return true;
 }
 
+bool read_wall_liquid(const std::string& path, const YamlNode& node, WallSpec& wall,
+                      FileProblems& problems) {
+  const auto word = node.kind == Kind::scalar ? from_word<WallLiquid>(node.text) : std::nullopt;
+  if (!word) add_mismatch(path, node, "slips or sticks", "", problems);
+  wall.liquid = word.value_or(wall.liquid);
+  return word.has_value();
+}
+
 bool read_wall(const std::string& path, const YamlNode& node, WallSpec& wall,
                FileProblems& problems) {
   if (node.kind != Kind::map) {
@@ -141,10 +149,12 @@ bool read_wall(const std::string& path, const YamlNode& node, WallSpec& wall,
       good = good && number;
       if (number && name == "remove_at_s") wall.remove_at_s = *number;
       if (number && name != "remove_at_s") wall.friction_coefficient = *number;
+    } else if (name == "liquid") {
+      good = read_wall_liquid(inner, value, wall, problems) && good;
     } else {
-      problems.push_back(
-          {at,
-           unknown_text(path, name, {"point_m", "normal", "friction_coefficient", "remove_at_s"})});
+      problems.push_back({at, unknown_text(path, name,
+                                           {"point_m", "normal", "friction_coefficient",
+                                            "remove_at_s", "liquid"})});
       good = false;
     }
   }

@@ -62,14 +62,14 @@ double mean_height_share(const ReleaseParaboloid& p, double x, double y, double 
 
 }  // namespace
 
-ShapeCover cover_of(const ReleaseBox& box, const Grid& terrain) {
+ShapeCover cover_of(const MapBox& box, const Grid& terrain, const char* key) {
   const auto [west, east] = box.x_m;
   const auto [south, north] = box.y_m;
   require(east > west && north > south,
-          fmt::format("release.box: x_m [{:g}, {:g}], y_m [{:g}, {:g}] has no area. Give the "
-                      "smaller number first.",
-                      west, east, south, north));
-  require_on_terrain("release.box", west, east, south, north, terrain);
+          fmt::format("{}: x_m [{:g}, {:g}], y_m [{:g}, {:g}] has no area. Give the smaller "
+                      "number first.",
+                      key, west, east, south, north));
+  require_on_terrain(key, west, east, south, north, terrain);
   return cover_of_ring({{west, south}, {east, south}, {east, north}, {west, north}},
                        (east - west) * (north - south), terrain);
 }

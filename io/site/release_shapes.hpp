@@ -15,7 +15,7 @@ struct ShapeCover {
 };
 
 /// \throws SetupError naming the key when the shape has no area or reaches beyond the terrain
-ShapeCover cover_of(const ReleaseBox& box, const Grid& terrain);
+ShapeCover cover_of(const MapBox& box, const Grid& terrain, const char* key = "release.box");
 ShapeCover cover_of(const ReleaseCylinder& cylinder, const Grid& terrain);
 /// Interior cells exactly, cells on the outline by 16 x 16 samples, then scaled to the exact
 /// volume.

@@ -292,6 +292,7 @@ void check_without_terrain(Loading& loading) {
     loading.attempt([&] { check_thickness(release_raster_request(scenario), local); });
   check_structures(loading);
   load_flow(loading);
+  load_pool(loading);
   check_zones(loading);
   open_bed_layers(loading);
   load_bed_supply(loading);
@@ -311,6 +312,8 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
     loading.refuse_problems();
   }
   load_flow(loading);
+  load_pool(loading);
+  const bool outlined = loading.problems.empty();
   loading.attempt([&] { load_release(loading); });
   const bool complete = inputs.inflow.size() == scenario.inflow.size();
   open_bed_layers(loading);
@@ -322,6 +325,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
       shape_release(scenario, inputs);
     });
   if (inputs.elevation) {
+    if (outlined) check_pool(loading);
     load_zones(loading);
     load_bed_layers(loading);
   } else {

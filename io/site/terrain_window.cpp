@@ -5,6 +5,7 @@
 #include "io/site/polygon_cover.hpp"
 #include "io/site/polygon_layer.hpp"
 #include "scenarios/assembly/inflow/inflow_plan.hpp"
+#include "scenarios/assembly/liquid/pool.hpp"
 
 #include <fmt/core.h>
 
@@ -101,6 +102,8 @@ FirstGround first_ground(const Scenario& scenario, const SceneInputs& inputs,
         joined(window_by_hand(scenario, whole), with_margin(line.release, whole, spacing));
   else if (!scenario.terrain.synthetic)
     first.window = with_margin(first.reach->window, whole, spacing);
+  if (scenario.fluid && scenario.fluid->pool)
+    first.window = joined(first.window, with_margin(pool_window(inputs), whole, spacing));
   return first;
 }
 

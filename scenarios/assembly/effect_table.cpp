@@ -223,7 +223,7 @@ void add_drift(SceneParts& p) {
 void add_stress(SceneParts& p) {
   const std::vector<double>& depth = p.plan.release.depth;
   p.grain_stress = add_grain_stress(p.step, p.state, grains, p.plan.stress,
-                                    p.plan.coupling ? depth_on_contacts(p.scenario, depth) : depth);
+                                    p.plan.coupling ? p.plan.liquid_start.grain_depth : depth);
 }
 void add_loosening(SceneParts& p) {
   add_dilatancy(p.step, p.state, p.grain_stress, *p.plan.dilatancy);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenarios/assembly/ground_words.hpp"
 
+#include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/schema/number_text.hpp"
 
 #include <algorithm>
@@ -24,7 +25,15 @@ bool knows_pore_pressure(const BasalSpec& basal) {
 std::string line_text(const Scenario& s, const Reach& reach) {
   const std::string friction = short_number(reach.friction);
   if (s.mixture) return "the energy line of a nearly liquefied mixture (friction " + friction + ")";
-  if (s.fluid) return "the energy line of a liquid (friction " + friction + ")";
+  if (s.fluid && s.grains)
+    return "the energy line of the grains as the liquid carries them (friction " + friction +
+           ", and liquid by itself may run farther)";
+  if (s.fluid)
+    return reach.friction > liquid_friction
+               ? "the energy line of the yield stress under the thickest part (friction " +
+                     friction + ")"
+               : "the energy line of a liquid, which has no friction (" + friction +
+                     " stands for what viscosity and yield stress take)";
   std::string text = "the energy line of the least friction drawn";
   if (knows_pore_pressure(s.basal)) text += ", less the most pore pressure";
   return text + " (" + friction + ")";

@@ -145,11 +145,37 @@ double greatest_thickness(const ReleaseSpec& spec, const SceneInputs& in) {
   return most;
 }
 
+/// What the yield stress bears of the greatest load.
+double least_liquid_friction(const Scenario& s, const SceneInputs& in) {
+  const FluidSpec& fluid = *s.fluid;
+  const double yield =
+      fluid.yield_stress_pa ? std::max(0.0, drawn_range(*fluid.yield_stress_pa).first) : 0;
+  const double load = drawn_range(fluid.density_kg_m3).second * standard_gravity *
+                      greatest_thickness(s.release, in);
+  return std::max(liquid_friction, load > 0 ? yield / load : 0);
+}
+
+/// The friction of grains on what they bear of the weight of both, and what loose ones that shear
+/// liquefies keep of it.
+double least_wet_share(const Scenario& s, double pore_pressure) {
+  Scenario lightest = s;
+  lightest.grains->density_kg_m3 = Uncertain(drawn_range(s.grains->density_kg_m3).first);
+  lightest.grains->solid_fraction = Uncertain(drawn_range(s.grains->solid_fraction).first);
+  lightest.fluid->density_kg_m3 = Uncertain(drawn_range(s.fluid->density_kg_m3).second);
+  lightest.fluid->saturation = Uncertain(std::min(1.0, drawn_range(s.fluid->saturation).second));
+  const bool liquefies = s.coupling && s.coupling->critical_solid_fraction &&
+                         lightest.grains->solid_fraction.value <
+                             drawn_range(*s.coupling->critical_solid_fraction).second;
+  if (liquefies) return liquefied_share;
+  return std::max(liquefied_share, weight_on_grains(lightest) * (1 - pore_pressure));
+}
+
 double least_friction(const Scenario& s, const SceneInputs& in) {
-  // A liquid may leave its grains behind.
-  if (s.fluid) return liquid_friction;
+  if (is_liquid_alone(s)) return least_liquid_friction(s, in);
   const double friction = drawn_bed_range(s, in, BedNumber::friction).first;
   double pore_pressure = drawn_bed_range(s, in, BedNumber::pore_pressure).second;
+  if (s.fluid)
+    return std::max(0.0, friction) * least_wet_share(s, std::clamp(pore_pressure, 0.0, 1.0));
   // A mixture may liquefy on its way; what runs farther than this asks for more ground.
   if (s.mixture) pore_pressure = 1 - liquefied_share;
   return std::max(0.0, friction) * std::clamp(1 - pore_pressure, 0.0, 1.0);

@@ -5,11 +5,13 @@
 #include "engine/core/error.hpp"
 #include "engine/laws/grain_states.hpp"
 #include "scenarios/assembly/bed/bed_rasters_plan.hpp"
+#include "scenarios/assembly/bed/excavation.hpp"
 #include "scenarios/assembly/discrete/discrete_plan.hpp"
 #include "scenarios/assembly/erosion/erosion_plan.hpp"
 #include "scenarios/assembly/grains/strength_inside.hpp"
 #include "scenarios/assembly/ground.hpp"
 #include "scenarios/assembly/inflow/plan_masses.hpp"
+#include "scenarios/assembly/liquid/liquid_lattice.hpp"
 #include "scenarios/assembly/liquid/liquid_plan.hpp"
 #include "scenarios/assembly/phases/phase_plan.hpp"
 #include "scenarios/assembly/release_pattern.hpp"
@@ -22,38 +24,6 @@
 
 namespace sturz {
 namespace {
-
-/// bed = pre-failure surface - thickness, as a patch over the shared raster.
-/// \param whole the working grid, of which the thickness covers a part
-Terrain excavate(const Terrain& ground, const Raster<double>& thickness, const Grid& whole) {
-  const Grid& g = ground.grid();
-  const int factor = static_cast<int>(std::lround(g.cell_m / thickness.grid.cell_m));
-  const Window at = window_of(thickness.grid, whole);
-  /// Mean over a cell of the ground.
-  const auto mean = [&](int row, int col) {
-    if (factor <= 1) return thickness.at(row - at.row0, col - at.col0);
-    double sum = 0;
-    for (int r = row * factor; r < (row + 1) * factor; ++r)
-      for (int c = col * factor; c < (col + 1) * factor; ++c)
-        if (at.contains(r, c)) sum += thickness.at(r - at.row0, c - at.col0);
-    return sum / (factor * factor);
-  };
-  const int f = std::max(factor, 1);
-  const Window near = window_between(at.row0 / f, (at.end_row() - 1) / f + 1, at.col0 / f,
-                                     (at.end_col() - 1) / f + 1, g);
-  Window dug;
-  for (int r = near.row0; r < near.end_row(); ++r)
-    for (int c = near.col0; c < near.end_col(); ++c)
-      if (mean(r, c) > 0) dug = joined(dug, {r, c, 1, 1});
-  if (dug.n_cells() == 0) return ground;
-  std::vector<double> patch;
-  for (int r = dug.row0; r < dug.end_row(); ++r)
-    for (int c = dug.col0; c < dug.end_col(); ++c) {
-      const double h = mean(r, c);
-      patch.push_back(h > 0 ? ground.node(r, c) - h : nan_d);
-    }
-  return ground.with_patch(dug.row0, dug.col0, dug.n_rows, dug.n_cols, std::move(patch));
-}
 
 /// Makes a terrain say that it needs more, where it does not hold the whole raster: a decision was
 /// taken on another copy of the same ground. Of two opposite corners one is missing then.
@@ -192,6 +162,8 @@ GrainStatesSettings plan_states(const Scenario& s, double reference_fraction) {
   const GrainStatesSpec& spec = *s.grains->states;
   GrainStatesSettings states;
   states.reference_fraction = reference_fraction;
+  if (s.fluid && s.grains->solid_fraction.value < reference_fraction)
+    states.loose_fraction = s.grains->solid_fraction.value;
   states.friction.scale_pa = spec.frictional_pressure_pa.value;
   states.friction.max_fraction = spec.max_fraction
                                      ? spec.max_fraction->value
@@ -356,11 +328,12 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   plan.domain = domain;
 
   plan.reference_fraction = s.grains ? s.grains->solid_fraction.value : 0;
-  if (s.grains && s.grains->states && !s.fluid && !formulation.depth_averaged &&
+  if (s.grains && s.grains->states && !formulation.depth_averaged &&
       plan.reference_fraction < dense_fraction) {
     // A looser mass carries no load: it is deposited as the packing it settles to at once. In a
-    // fluid it is the fluid that carries it.
-    for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
+    // fluid it is the fluid that carries it, and it starts dilated (plan_states).
+    if (!s.fluid)
+      for (double& h : thickness.values) h *= plan.reference_fraction / dense_fraction;
     plan.reference_fraction = dense_fraction;
   }
   plan.bulk_density_kg_m3 = bulk_density(s, plan.reference_fraction);
@@ -377,6 +350,7 @@ ScenePlan plan_scene(const Scenario& s, const SceneInputs& in, std::int64_t memb
   plan.rasters = plan_bed_rasters(s, in);
   plan.release_narrow_side_m = narrow_side(thickness, in.source_area_m2);
   require_before_walls(plan.release, domain, formulation.depth_averaged);
+  if (s.fluid) plan.liquid_start = lay_out_liquid(s, in, plan, thickness, member);
   const std::vector<BasalResistance> bed = basal_by_zone(s.basal);
   if (plan.formulation.depth_averaged) {
     plan_columns(s, bed, plan);

@@ -18,6 +18,7 @@
 #include "scenarios/assembly/formulation.hpp"
 #include "scenarios/assembly/inflow/inflow_plan.hpp"
 #include "scenarios/assembly/inflow/staggered_release.hpp"
+#include "scenarios/assembly/liquid/liquid_lattice.hpp"
 #include "scenarios/assembly/time_cap.hpp"
 #include "scenarios/scenario.hpp"
 #include "scenarios/scene_inputs.hpp"
@@ -40,6 +41,7 @@ struct ScenePlan {
   ContactSettings contact;                     ///< full_stress
   std::optional<LiquidSettings> liquid;        ///< where there is `fluid`
   ContactSettings liquid_contact;              ///< of it
+  LiquidLattice liquid_start;                  ///< where it starts
   std::optional<DilatancySettings> dilatancy;  ///< where shear changes the grains' packing
   std::optional<CouplingSettings> coupling;    ///< where grains lie in it
   std::optional<IsolatedContactSettings> isolated_contacts;  ///< where isolated particles may meet

@@ -3,8 +3,10 @@
 #include "scenarios/checks/combination_checks.hpp"
 #include "scenarios/checks/distribution_check.hpp"
 #include "scenarios/schema/number_text.hpp"
+#include "scenarios/schema/raster_fields.hpp"
 #include "scenarios/schema/value_text.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -21,6 +23,8 @@ class Check {
     law();
     columns();
     grains();
+    bed_of_grains();
+    if (fluid_.pool) pool(*fluid_.pool);
     if (s_.mixture)
       add("mixture",
           "mixture (fluid is there too: water in columns, and a liquid in three dimensions). Keep "
@@ -105,6 +109,12 @@ class Check {
                                     "or add grains.");
       return;
     }
+    const double least = support(fluid_.saturation).first;
+    if (!fluid_.pool && least < least_saturation && least >= 0)
+      add("fluid.saturation", shown("fluid.saturation") + " (must be " +
+                                  number_text(least_saturation) +
+                                  " at least: only beside fluid.pool may the release be dry). "
+                                  "Raise it, remove `fluid`, or give the pool.");
     const double heaviest = support(fluid_.density_kg_m3).second;
     const double lightest = support(s_.grains->density_kg_m3).first;
     if (heaviest >= lightest)
@@ -134,6 +144,51 @@ class Check {
           "grains inside). Remove it.");
   }
 
+  /// What only grains feel of bed and walls.
+  void bed_of_grains() {
+    if (s_.grains) return;
+    for (const RasterField& field : raster_fields)
+      if (names_raster(s_.basal, field))
+        add(raster_path(field), raster_path(field) +
+                                    " (there are no grains, and the bed of a liquid alone is "
+                                    "fluid.bed). Remove it, or add grains.");
+    for (std::size_t i = 0; i < s_.domain.walls.size(); ++i)
+      if (s_.domain.walls[i].friction_coefficient != 0)
+        add("domain.walls", "domain.walls[" + std::to_string(i) + "].friction_coefficient = " +
+                                number_text(s_.domain.walls[i].friction_coefficient) +
+                                " (there are no grains that it could act on). Remove it; `liquid: "
+                                "sticks` is a wall that drags a liquid.");
+  }
+
+  void pool(const PoolSpec& pool) {
+    if (!pool.surface_m)
+      add("fluid.pool.surface_m",
+          "fluid.pool.surface_m (missing: how high does the water stand?). Give the elevation of "
+          "its surface.");
+    if (!pool.polygon.empty() && pool.box)
+      add("fluid.pool.box", "fluid.pool.box (fluid.pool.polygon is there too). Keep one of them.");
+    const auto of_polygon = [&](const std::string& value, const std::string& path) {
+      if (!value.empty() && pool.polygon.empty())
+        add(path, path + " (fluid.pool.polygon is missing). Remove it or name the polygon file.");
+    };
+    of_polygon(pool.layer, "fluid.pool.layer");
+    of_polygon(pool.crs, "fluid.pool.crs");
+    if (pool.box)
+      for (const auto& [edges, path] : {std::pair{pool.box->x_m, "fluid.pool.box.x_m"},
+                                        std::pair{pool.box->y_m, "fluid.pool.box.y_m"}})
+        if (!(edges[0] < edges[1]))
+          add(path, std::string(path) +
+                        " (the second edge must be above the first). Give [smaller, larger].");
+    for (std::size_t i = 0; i < s_.domain.walls.size(); ++i) {
+      const auto& n = s_.domain.walls[i].normal;
+      if (std::abs(n[2]) > 1e-6 * std::hypot(n[0], n[1]))
+        add("domain.walls", "domain.walls[" + std::to_string(i) +
+                                "].normal (leans, and fluid.pool is cut along upright walls "
+                                "only). Give it no vertical part, or remove the pool.");
+    }
+  }
+
+  static constexpr double least_saturation = 0.05;
   const Scenario& s_;
   const FluidSpec& fluid_;
   Problems& problems_;
@@ -143,6 +198,11 @@ class Check {
 
 void check_fluid(const Scenario& s, Problems& problems) {
   if (s.fluid) Check(s, problems).all();
+  for (std::size_t i = 0; i < s.domain.walls.size() && !s.fluid; ++i)
+    if (s.domain.walls[i].liquid != WallSpec{}.liquid)
+      problems.push_back({"domain.walls", "domain.walls[" + std::to_string(i) +
+                                              "].liquid = sticks (there is no `fluid`). Remove "
+                                              "it."});
   if (!s.coupling || (s.fluid && s.grains)) return;
   const std::string missing = s.fluid ? "grains" : s.grains ? "fluid" : "grains and fluid";
   problems.push_back({"coupling", "coupling (" + missing +

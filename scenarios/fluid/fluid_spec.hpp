@@ -3,6 +3,7 @@
 #pragma once
 
 #include "scenarios/choices.hpp"
+#include "scenarios/map_box.hpp"
 #include "scenarios/uncertain.hpp"
 
 #include <array>
@@ -26,6 +27,18 @@ constexpr auto words_of(CouplingScheme) {
   return std::array{Word{physical, "physical"}, Word{paper, "paper"}};
 }
 
+/// Standing water: the liquid from the ground up to one level, and in the pores of what lies in it.
+/// At most one of polygon and box; neither: wherever the ground lies below that level, as far as
+/// walls let it.
+struct PoolSpec {
+  std::optional<Uncertain> surface_m;  ///< elevation of the level surface; always needed
+  std::string polygon;                 ///< any OGR polygon layer
+  std::string layer;                   ///< layer name inside `polygon`; empty: the first
+  std::string crs;                     ///< where `polygon` has none
+  std::optional<MapBox> box;
+  bool operator==(const PoolSpec&) const = default;
+};
+
 /// A liquid with particles of its own; full_stress only. Its law follows from what is given:
 /// Newton's by a viscosity, Bingham's by a yield stress beside it, Herschel and Bulkley's by
 /// consistency and index.
@@ -35,7 +48,8 @@ struct FluidSpec {
   std::optional<Uncertain> yield_stress_pa;
   std::optional<Uncertain> consistency_pa_sn;  ///< K of tau = tau_y + K rate^n
   std::optional<Uncertain> index;              ///< n of it
-  Uncertain saturation{1};                     ///< share of the grains' pores that it fills
+  Uncertain saturation{1};       ///< share of the pores' height that it fills, from the bed
+  std::optional<PoolSpec> pool;  ///< absent: no more of it than in the release
   FluidBed bed = FluidBed::automatic;
   double artificial_viscosity = 0.02;  ///< alpha_v of B.4, of the liquid
   bool operator==(const FluidSpec&) const = default;

@@ -63,6 +63,7 @@ std::string wall_text(const WallSpec& wall) {
   MapText map;
   map.add("point_m", numbers_text(wall.point_m)).add("normal", numbers_text(wall.normal));
   map.add("friction_coefficient", wall.friction_coefficient).add("remove_at_s", wall.remove_at_s);
+  if (wall.liquid != WallSpec{}.liquid) map.add("liquid", std::string(to_string(wall.liquid)));
   return map.text();
 }
 

@@ -102,6 +102,47 @@ TEST_F(Fluid, WhatIsNotPhysicsIsSaidByDescribeAndEveryResult) {
   }
 }
 
+/// Ground from 13.4 m in the west to -13.4 m in the east.
+constexpr const char* lake =
+    "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": "
+    "\"Feature\", \"properties\": {}, \"geometry\": {\"type\": "
+    "\"Polygon\", \"coordinates\": [[[20, -10], [40, -10], [40, 10], "
+    "[20, 10], [20, -10]]]}}]}";
+
+TEST_F(Fluid, APoolIsOutlinedByAPolygonAndNamedByDescribe) {
+  write("lake.geojson", lake);
+  write("flow.yaml", std::string(slope) +
+                         "fluid: {viscosity_pa_s: 1, pool: {surface_m: -4, polygon: "
+                         "lake.geojson}}\n");
+  const Ended ended = sturz({"describe", path("flow.yaml")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  // 20 m x 20 m under a mean of tan 15 x 30 - 4 m.
+  EXPECT_THAT(ended.out, HasSubstr("`fluid.pool`: standing water up to -4 m, 1615 m3 on 400 m2"));
+  EXPECT_THAT(ended.out + ended.err, HasSubstr("open water: along "));
+}
+
+TEST_F(Fluid, APoolThatTheGroundDoesNotHoldIsRefusedAtItsKey) {
+  write("lake.geojson", lake);
+  const auto refusal = [&](const std::string& pool) {
+    write("flow.yaml", std::string(slope) + "fluid:\n  viscosity_pa_s: 1\n  pool:\n    " + pool);
+    const Ended ended = sturz({"describe", path("flow.yaml")});
+    EXPECT_EQ(ended.exit_code, 1) << pool;
+    return ended.err;
+  };
+  EXPECT_THAT(refusal("surface_m: -30\n"),
+              HasSubstr("flow.yaml:10:16: fluid.pool.surface_m = -30 (the ground there lies at "));
+  EXPECT_THAT(refusal("surface_m: -4\n"),
+              HasSubstr("flow.yaml:10:16: fluid.pool.surface_m = -4 (the pool reaches the end"));
+  EXPECT_THAT(refusal("surface_m: {uniform: [-8, -4]}\n    polygon: lake.geojson\n"),
+              HasSubstr("fluid.pool.surface_m = -8 (0."));
+  EXPECT_THAT(refusal("surface_m: -4\n    box: {x_m: [20, 70], y_m: [-10, 10]}\n"),
+              HasSubstr("flow.yaml:11:10: fluid.pool.box: reaches 20 m beyond the terrain"));
+  EXPECT_THAT(refusal("polygon: lake.geojson\n"),
+              HasSubstr("fluid.pool.surface_m (missing: how high does the water stand?)"));
+  write("flow.yaml", std::string(slope) + "pool: {surface_m: 3}\n");
+  EXPECT_EQ(sturz({"describe", path("flow.yaml")}).exit_code, 1) << "it belongs to `fluid`";
+}
+
 TEST_F(Fluid, ColumnsAreRefusedWithLineAndCure) {
   write("flow.yaml", std::string(slope) + mud + "formulation: depth_averaged\n");
   const Ended ended = sturz({"describe", path("flow.yaml")});

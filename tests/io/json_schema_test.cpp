@@ -69,8 +69,8 @@ TEST(JsonSchema, KnowsTheShapeOfZones) {
 
 TEST(JsonSchema, KnowsTheKeysOfTheShippedCases) {
   const Json j = Json::parse(json_schema());
-  for (const char* name :
-       {"zhangjiawan", "shuicheng_dry", "usgs_flume", "mud_flow", "flume", "shuicheng"}) {
+  for (const char* name : {"zhangjiawan", "shuicheng_dry", "usgs_flume", "mud_flow", "flume",
+                           "shuicheng", "column_in_water"}) {
     const std::string folder = std::string(STURZ_SOURCE_DIR "/scenarios/cases/") + name;
     const auto file = read_scenario_file(folder + "/scenario.yaml");
     const bool liquid_alone = file.positions.count("grains") == 0;  // has fewer keys to give

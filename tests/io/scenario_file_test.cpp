@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::SizeIs;
 
 const char* const everything = R"(title: "Everything: at once"
 terrain: {raster: data/bed.tif, crs: EPSG:32648, cell_size_m: 5, nodata: wall}
@@ -239,6 +240,25 @@ TEST(ScenarioFile, ConditionsOfOneCaseDifferInOneBlockOrNumber) {
     EXPECT_NEAR(fluid.density_kg_m3.value * fluid.saturation.value * (1 - fraction) * volume,
                 slurry[k], 0.05);
   }
+}
+
+TEST(ScenarioFile, ColumnsInWaterDifferInPackingAndHeightAlone) {
+  const auto read = [](const std::string& name) {
+    return read_scenario(STURZ_SOURCE_DIR "/scenarios/cases/column_in_water/" + name);
+  };
+  const Scenario loose = read("loose.yaml");
+  EXPECT_EQ(loose.grains->solid_fraction, Uncertain(0.55));
+  EXPECT_EQ(loose.release.thickness_m, Uncertain(0.048));
+  Scenario dense = read("dense.yaml"), open = read("scenario.yaml");
+  EXPECT_EQ(dense.grains->solid_fraction, Uncertain(0.60));
+  EXPECT_EQ(dense.release.thickness_m, Uncertain(0.042));
+  dense.grains->solid_fraction = loose.grains->solid_fraction;
+  dense.release.thickness_m = loose.release.thickness_m;
+  dense.title = loose.title;
+  EXPECT_EQ(dense, loose);
+  EXPECT_THAT(uncertain_keys(open), SizeIs(2)) << "packing, and the one that shear leaves";
+  EXPECT_EQ(open.fluid, loose.fluid);
+  EXPECT_EQ(open.domain, loose.domain);
 }
 
 TEST(ScenarioFile, ZhangjiawanCarriesTheNumbersOfItsTable) {

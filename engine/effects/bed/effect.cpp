@@ -241,18 +241,24 @@ class WallContact final : public Pass {
 
   void apply(State& s, double dt) override {
     s.sets[set_].ledger.spring = 0;
-    for (const Wall& wall : s.domain.walls) {
+    for (std::size_t k = 0; k < s.domain.walls.size(); ++k) {
+      const Wall& wall = s.domain.walls[k];
       if (s.time >= wall.remove_at_s) continue;
       ContactLaw law = smooth_contact(settings_);
       law.friction = settings_.liquid ? 0 : wall.friction_coefficient;
-      press(s, wall, law, dt);
+      press(s, wall, law, dt, drags_liquid(k));
     }
   }
 
  private:
-  void press(State& s, const Wall& wall, const ContactLaw& law, double dt) const {
+  bool drags_liquid(std::size_t wall) const {
+    if (!settings_.liquid) return false;
+    const std::vector<bool>& holds = settings_.liquid->wall_holds;
+    return wall < holds.size() && holds[wall];
+  }
+
+  void press(State& s, const Wall& wall, const ContactLaw& law, double dt, bool drags) const {
     MovingSet& p = s.sets[set_];
-    const bool drags = settings_.liquid && settings_.liquid->walls_hold;
     const double kick = kick_time(s, dt);
     const WallPressure pressure = WallPressure::of_walls(p, settings_);
     const StartVelocity start(p);

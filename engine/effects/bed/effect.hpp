@@ -28,8 +28,9 @@ enum class LiquidBed {
 struct LiquidContact {
   HerschelBulkley law;
   LiquidBed bed = LiquidBed::no_slip;
-  /// Analytic walls drag the particles beside them by the shear between; else they slip.
-  bool walls_hold = false;
+  /// By the domain's analytic walls: whether each drags the particles beside it by the shear
+  /// between; those beyond its end slip.
+  std::vector<bool> wall_holds = {};
 };
 
 struct ContactSettings {

@@ -294,6 +294,16 @@ class StressPass final : public Pass {
   std::shared_ptr<GrainStress> shared_;
 };
 
+/// As loosely as they were set down, under what such a packing bears.
+void start_loose(MovingSet& p, const GrainStressSettings& g) {
+  const GrainStatesSettings& states = *g.states;
+  const double e = *states.loose_fraction / states.reference_fraction - 1;
+  auto& change = p.scalar(fields::density_change);
+  auto& stress = p.components(fields::stress);
+  std::fill(change.begin(), change.end(), e);
+  for (int k = 0; k < 3; ++k) std::fill(stress[k].begin(), stress[k].end(), -g.pressure_at(e));
+}
+
 void start_geostatic(MovingSet& p, double gravity, const GrainStressSettings& g,
                      std::span<const double> depth) {
   auto& density_change = p.scalar(fields::density_change);
@@ -337,7 +347,10 @@ std::shared_ptr<GrainStress> add_grain_stress(Step& step, State& state, std::siz
   GrainStressSettings first = settings;
   const bool follows = settings.least_sound_speed < settings.sound_speed;
   if (follows) first.sound_speed = sound_speed_at_start(p, settings);
-  start_geostatic(p, state.gravity, first, depth);
+  if (first.states && first.states->loose_fraction)
+    start_loose(p, first);
+  else
+    start_geostatic(p, state.gravity, first, depth);
   auto shared = std::make_shared<GrainStress>(set, first);
   p.sound_speed = first.sound_speed;
   if (follows) add_sound_speed(step, shared, settings.sound_speed);

@@ -162,13 +162,13 @@ class StatePass final : public Pass {
                     });
   }
 
- private:
   static std::uint8_t named(double fraction, std::uint8_t before) {
     const bool stays =
         before == static_cast<std::uint8_t>(GrainState::dense) && fraction >= leave_dense_fraction;
     return static_cast<std::uint8_t>(stays ? GrainState::dense : grain_state(fraction));
   }
 
+ private:
   std::shared_ptr<GrainStress> shared_;
 };
 
@@ -185,6 +185,12 @@ void add_grain_states(Step& step, State& state, const std::shared_ptr<GrainStres
   MovingSet& p = state.sets[shared->set];
   p.add(fields::state);
   p.add(fields::support_completeness);
+  // As it was set down; the packing of a dry release counts as dense also where it bears no load.
+  const auto& change = p.scalar(fields::density_change);
+  auto& names = p.flags(fields::state);
+  const double reference = shared->settings.states->reference_fraction;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    names[i] = StatePass::named(reference * (1 + change[i]), names[i]);
   step.add(std::make_unique<KineticGather>(shared));
   step.add(std::make_unique<StatePass>(shared));
 }

@@ -10,7 +10,10 @@
 namespace sturz {
 
 struct GrainStatesSettings {
-  double reference_fraction = 0.6;      ///< alpha_ref = max(0.60, alpha_init): where p = K e begins
+  double reference_fraction = 0.6;  ///< alpha_ref = max(0.60, alpha_init): where p = K e begins
+  /// alpha_init where it is less: grains that a liquid carries start dilated, and bear no more than
+  /// the frictional pressure of that packing.
+  std::optional<double> loose_fraction;
   FrictionalPressure friction;          ///< of the transition
   std::optional<KineticTheory> dilute;  ///< absent: dilated grains do not collide
   bool ultradilute = false;             ///< isolated grains leave the continuum and fly

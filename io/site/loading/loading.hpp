@@ -71,6 +71,10 @@ struct Loading {
 /// Only checks their files, while no terrain is known.
 void load_assets(Loading&, const ReadGround& read);
 
+// Standing water: its outline; and whether the ground that was read holds it.
+void load_pool(Loading&);   ///< checks its file only, while no terrain is known
+void check_pool(Loading&);  ///< where its outline was read
+
 // Dams and buildings, on ground that was just read or is not known at all.
 void load_structures(Loading&, const ReadGround& read);  ///< their files, and what they do
 void stand_structures(Loading&);                         ///< those of all members

@@ -3,6 +3,7 @@
 
 #include "engine/core/constants.hpp"
 #include "engine/core/sum.hpp"
+#include "engine/effects/arrivals.hpp"
 #include "engine/effects/coupling/effect.hpp"
 #include "engine/effects/liquid/effect.hpp"
 #include "scenarios/assembly/effect_table.hpp"
@@ -30,8 +31,6 @@ LiquidBed as_engine(FluidBed bed) {
                                   : LiquidBed::slip;
 }
 
-bool fills_pores(const Scenario& s) { return s.fluid->saturation.value >= 1; }
-
 }  // namespace
 
 bool is_liquid_alone(const Scenario& s) { return s.fluid && !s.grains; }
@@ -51,14 +50,18 @@ double wet_bulk_density(const Scenario& s) {
   return grains + s.fluid->density_kg_m3.value * liquid_share(s);
 }
 
+double filled_height(const Scenario& s) { return s.fluid->pool ? 1 : s.fluid->saturation.value; }
+
 double weight_on_contacts(const Scenario& s) {
-  if (!s.fluid || !has_buoyancy(s) || !fills_pores(s)) return 1;
-  return 1 - s.fluid->density_kg_m3.value / s.grains->density_kg_m3.value;
+  if (!s.fluid || !has_buoyancy(s)) return 1;
+  return 1 - filled_height(s) * s.fluid->density_kg_m3.value / s.grains->density_kg_m3.value;
 }
 
 double weight_on_grains(const Scenario& s) {
-  const double grains = s.grains->density_kg_m3.value * s.grains->solid_fraction.value;
-  return weight_on_contacts(s) * grains / wet_bulk_density(s);
+  const double alpha = s.grains->solid_fraction.value;
+  const double grains = s.grains->density_kg_m3.value * alpha;
+  const double liquid = filled_height(s) * s.fluid->density_kg_m3.value * (1 - alpha);
+  return weight_on_contacts(s) * grains / (grains + liquid);
 }
 
 double plain_viscosity(const FluidSpec& fluid) {
@@ -84,7 +87,8 @@ LiquidSettings plan_liquid(const Scenario& s, const ScenePlan& plan) {
   liquid.courant = s.numerics.courant;
   liquid.instruction_set = best_instruction_set();
   // As of grains: within about 1 % of its density in motion and at rest (docs/physics.md A.2).
-  const double at_rest = std::sqrt(standard_gravity * plan.release.max_thickness_m);
+  const double deepest = std::max(plan.release.max_thickness_m, plan.liquid_start.deepest_m);
+  const double at_rest = std::sqrt(standard_gravity * deepest);
   const double factor = s.numerics.sound_speed_factor;
   liquid.sound_speed = factor * std::max({plan.reference_speed_m_s, at_rest, start_speed(s)});
   liquid.least_sound_speed =
@@ -130,42 +134,48 @@ ContactSettings liquid_contact(const Scenario& s, const ScenePlan& plan) {
   ContactSettings c = plan.contact;
   c.reference_density = s.fluid->density_kg_m3.value;
   c.internal_friction = ContactSettings{}.internal_friction;
+  const double deepest = std::max(c.spacing, plan.liquid_start.deepest_m);
+  c.stiffness = std::max(c.stiffness, 10 * standard_gravity * deepest / (c.spacing * c.spacing));
   c.bed = {GroundFriction{0, 0, 0}};
   c.zones = {};
   c.rasters = {};
   c.liquid = LiquidContact{liquid_law(*s.fluid), as_engine(liquid_bed(s, plan.formulation))};
+  for (const WallSpec& wall : s.domain.walls)
+    c.liquid->wall_holds.push_back(wall.liquid == WallLiquid::sticks);
   return c;
 }
 
 void lay_liquid(State& state, const Scenario& s, const ScenePlan& plan) {
-  const double density = s.fluid->density_kg_m3.value;
+  const LiquidLattice& at = plan.liquid_start;
   if (s.grains) {
-    state.sets.push_back(state.sets.front());
-    MovingSet &grains = state.sets[0], &liquid = state.sets[1];
+    MovingSet& grains = state.sets.front();
     const double fraction = s.grains->solid_fraction.value;
     const double solid = fraction * s.grains->density_kg_m3.value;
-    const double fluid = liquid_share(s) * density;
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-      const double volume = plan.release.mass[i] / plan.bulk_density_kg_m3;
-      grains.mass[i] = solid * volume;
-      liquid.mass[i] = fluid * volume;
-    }
+    for (std::size_t i = 0; i < grains.size(); ++i)
+      grains.mass[i] = solid * (plan.release.mass[i] / plan.bulk_density_kg_m3);
     grains.bulk_density = solid;
     grains.filled_share = fraction;
     grains.ledger.released_mass = released_mass(grains);
   }
+  const double spacing = state.sets.front().spacing;
+  if (s.grains)
+    state.sets.emplace_back();
+  else
+    state.sets.front() = MovingSet();
   MovingSet& liquid = state.sets[liquid_set(s)];
+  liquid.spacing = spacing;
+  liquid.grow(at.size());
+  liquid.x = at.x, liquid.y = at.y, liquid.z = at.z, liquid.mass = at.mass;
+  const auto& v = s.release.velocity_m_s;
+  const auto moving = static_cast<std::ptrdiff_t>(at.n_in_release);
+  std::fill_n(liquid.vx.begin(), moving, v[0]);
+  std::fill_n(liquid.vy.begin(), moving, v[1]);
+  std::fill_n(liquid.vz.begin(), moving, v[2]);
+  mark_start(state.domain, liquid, 0);
   liquid.name = "liquid";
-  liquid.bulk_density = density;
+  liquid.bulk_density = s.fluid->density_kg_m3.value;
   liquid.reference_fraction = 0;
   liquid.ledger.released_mass = released_mass(liquid);
-}
-
-std::vector<double> depth_on_contacts(const Scenario& s, const std::vector<double>& depth) {
-  std::vector<double> borne = depth;
-  const double share = weight_on_contacts(s);
-  for (double& h : borne) h *= share;
-  return borne;
 }
 
 void add_liquid_parts(SceneParts& p) {
@@ -179,10 +189,7 @@ void add_liquid_parts(SceneParts& p) {
     add_wall_contact(p.step, set, p.plan.liquid_contact);
   }
   p.step.begin_effect(EffectName::liquid);
-  if (fills_pores(s)) return add_liquid(p.step, p.state, set, *p.plan.liquid, p.plan.release.depth);
-  const std::size_t n = p.state.sets[set].size();
-  const std::vector<double> no_surface(n, -1), saturation(n, s.fluid->saturation.value);
-  add_liquid(p.step, p.state, set, *p.plan.liquid, no_surface, saturation);
+  add_liquid(p.step, p.state, set, *p.plan.liquid, p.plan.liquid_start.depth);
 }
 
 }  // namespace sturz

@@ -19,8 +19,8 @@ namespace sturz {
 
 struct ScenePlan;
 
-/// Friction of a liquid where a bound needs one: on gentler slopes only viscosity and yield stress
-/// decide where it stops [-].
+/// Friction of a liquid where a bound needs one and its yield stress gives less: on gentler slopes
+/// only viscosity and yield stress decide where it stops [-].
 inline constexpr double liquid_friction = 0.05;
 
 /// A liquid without grains.
@@ -34,8 +34,11 @@ std::size_t liquid_set(const Scenario&);
 double liquid_share(const Scenario& numbers);
 /// Mass over bulk volume of grains and liquid as they are set down [kg/m^3].
 double wet_bulk_density(const Scenario& numbers);
-/// Share of the grains' own weight that their contacts bear; less than 1 where the liquid fills the
-/// pores and its pressure acts on them.
+/// Share of the release's height that stands in liquid: its saturation; all of it in a pool, at the
+/// latest when it lies there.
+double filled_height(const Scenario& numbers);
+/// Share of the grains' own weight that their contacts bear at the bed; less than 1 as far as the
+/// liquid, whose pressure is hydrostatic below its surface, stands in the pores and lifts them.
 double weight_on_contacts(const Scenario& numbers);
 /// Share of the weight of grains and liquid together that rests on grains; not of a liquid alone.
 double weight_on_grains(const Scenario& numbers);
@@ -58,12 +61,10 @@ ContactSettings liquid_contact(const Scenario& numbers, const ScenePlan&);
 /// For `describe`: "no_slip (auto: 12 layers)".
 std::string liquid_bed_text(const Scenario& numbers, const FormulationChoice&);
 
-/// Makes the released mass that of the liquid, or splits it into set 0, the grains, and set 1, the
-/// liquid at the same places.
+/// Leaves the grains of the released mass in set 0 and puts the liquid into set 1; into set 0 where
+/// there are no grains.
 void lay_liquid(State&, const Scenario& numbers, const ScenePlan&);
 
-/// Depth that the grains' contacts bear as their own weight alone would [m].
-std::vector<double> depth_on_contacts(const Scenario& numbers, const std::vector<double>& depth);
 /// Adds fields, ground, walls and stress of the liquid to the step.
 struct SceneParts;
 void add_liquid_parts(SceneParts&);

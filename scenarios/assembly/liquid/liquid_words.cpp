@@ -19,6 +19,17 @@ std::string law_text(const FluidSpec& fluid) {
          ", yield stress " + short_number(law.yield_stress) + " Pa";
 }
 
+std::string pool_text(const Scenario& s, const ScenePlan& plan) {
+  if (!s.fluid->pool) return "";
+  const LiquidLattice& start = plan.liquid_start;
+  return "; `fluid.pool`: standing water up to " + short_number(s.fluid->pool->surface_m->value) +
+         " m, " + short_number(start.pool_m3) + " m3 on " + short_number(start.pool_area_m2) +
+         " m2 with what lies in it, " + short_number(start.pool_depth_m) + " m or " +
+         short_number(start.pool_depth_m / s.numerics.spacing_m) + " layers deep, " +
+         std::to_string(start.size() - start.n_in_release) +
+         " particles beside those in the release";
+}
+
 /// Within which a slow slip falls to 1/e [s].
 double slip_time(const Scenario& s, const CouplingSettings& c) {
   const GranularDrag law{c.drag_diameter, c.liquid_density, c.viscosity};
@@ -65,7 +76,7 @@ std::string liquid_text(const Scenario& s, const ScenePlan& plan) {
   if (plan.liquid->least_sound_speed < plan.liquid->sound_speed)
     text += ", down to " + short_number(std::round(plan.liquid->least_sound_speed)) +
             " while it is slow";
-  return text;
+  return text + pool_text(s, plan);
 }
 
 std::string liquid_bed_text(const Scenario& s, const FormulationChoice& formulation) {
@@ -79,7 +90,9 @@ std::string coupling_text(const Scenario& s, const ScenePlan& plan) {
   const double h = c.smoothing_length, d = s.grains->diameter_m.value;
   std::string text = s.coupling ? "`coupling`: " : "`grains` and `fluid`: ";
   text += c.buoyancy ? "drag and buoyancy" : "scheme: paper, drag without buoyancy";
-  text += "; fluid in " + short_number(100 * s.fluid->saturation.value) + " % of the pores";
+  const double filled = s.fluid->saturation.value;
+  text += filled < 1 ? "; fluid in the lowest " + short_number(100 * filled) + " % of the pores"
+                     : "; fluid in 100 % of the pores";
   text += "; drag of grains of " + short_number(c.drag_diameter) + " m";
   if (s.coupling && s.coupling->drag_diameter_m)
     text += " (coupling.drag_diameter_m; grains.diameter_m is " + short_number(d) + ")";
@@ -102,6 +115,11 @@ std::string dilatancy_text(const Scenario& s) {
 
 std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& plan) {
   std::vector<std::string> out;
+  if (s.fluid && plan.liquid_start.open_edge_m > s.numerics.spacing_m)
+    out.push_back("open water: along " + short_number(plan.liquid_start.open_edge_m) +
+                  " m of the outline of fluid.pool the ground beside it lies below its surface, "
+                  "where it runs out from the start. Draw the outline beyond the shore, or put "
+                  "domain.walls there");
   if (!plan.coupling) return out;
   const CouplingSettings& c = *plan.coupling;
   if (c.drag_multiplier != 1)
@@ -111,8 +129,7 @@ std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& pla
     out.emplace_back(
         "grains without buoyancy (coupling.scheme: paper): in a fluid they bear their whole weight "
         "on each other and on the bed");
-  if (has_pore_pressure_ratio(s.basal) && (!c.buoyancy || s.fluid->saturation.value >= 1))
-    out.push_back(pore_pressure_warning(s));
+  if (has_pore_pressure_ratio(s.basal)) out.push_back(pore_pressure_warning(s));
   if (liquid_law(*s.fluid).index != 1)
     out.push_back("the drag takes the fluid's viscosity at a shear rate of 1 1/s, " +
                   short_number(c.viscosity) + " Pa s (fluid.index)");

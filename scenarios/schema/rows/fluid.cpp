@@ -6,7 +6,11 @@ namespace sturz::schema_rows {
 namespace {
 
 constexpr auto fluid = blocks::at<&Scenario::fluid>;
+constexpr auto pool = blocks::at<&Scenario::fluid, &FluidSpec::pool>;
+constexpr auto pool_box = blocks::at<&Scenario::fluid, &FluidSpec::pool, &PoolSpec::box>;
 constexpr auto coupling = blocks::at<&Scenario::coupling>;
+
+constexpr double map_limit = 1e8;  // metres; no projected coordinate is larger
 
 void add_liquid(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
@@ -33,8 +37,9 @@ void add_liquid(std::vector<KeyInfo>& keys) {
   add(&FluidSpec::index, {"fluid.index", uncertain, "1", 0.1, 1,
                           "n of Herschel and Bulkley's law; below 1 the liquid thins with shear."});
   add(&FluidSpec::saturation,
-      {"fluid.saturation", uncertain, "1", 0.05, 1,
-       "Share of the grains' pores that the liquid fills at the start. More liquid than pores is a "
+      {"fluid.saturation", uncertain, "1", 0, 1,
+       "Share of the release's pores that the liquid fills at the start, from the bed up to this "
+       "share of the height; 0.05 at least, but with `fluid.pool`. More liquid than pores is a "
        "lower grains.solid_fraction."});
   keys.push_back(choice_key(
       fluid, &FluidSpec::bed, "fluid.bed",
@@ -47,11 +52,35 @@ void add_liquid(std::vector<KeyInfo>& keys) {
        "`numerics` holds for grains and liquid alike."});
 }
 
+void add_pool(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  keys.push_back(key(pool, &PoolSpec::surface_m,
+                     {"fluid.pool.surface_m", uncertain, "m", -1e5, 1e5,
+                      "Elevation of the level surface of standing water, which fills ground and "
+                      "pores below it at rest."}));
+  keys.push_back(text_key(pool, &PoolSpec::polygon, "fluid.pool.polygon", path,
+                          "Polygon layer that outlines it, where the ground is low elsewhere, too; "
+                          "without outline it is wherever walls and ground let it."));
+  keys.push_back(text_key(pool, &PoolSpec::layer, "fluid.pool.layer", text,
+                          "Layer inside fluid.pool.polygon; the first when absent."));
+  keys.push_back(text_key(pool, &PoolSpec::crs, "fluid.pool.crs", text,
+                          "Coordinate system of that file where it has none."));
+  keys.push_back(with_size(key(pool_box, &MapBox::x_m,
+                               {"fluid.pool.box.x_m", number_list, "m", -map_limit, map_limit,
+                                "West and east edge of a rectangle in the place of the polygon."}),
+                           2));
+  keys.push_back(with_size(key(pool_box, &MapBox::y_m,
+                               {"fluid.pool.box.y_m", number_list, "m", -map_limit, map_limit,
+                                "South and north edge of it."}),
+                           2));
+}
+
 }  // namespace
 
 void add_fluid_keys(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
   add_liquid(keys);
+  add_pool(keys);
   keys.push_back(choice_key(
       coupling, &CouplingSpec::scheme, "coupling.scheme",
       "physical: drag, and buoyancy by the liquid's pressure; paper: drag alone, as Gao and others "
@@ -80,6 +109,9 @@ void add_fluid_blocks(std::vector<BlockInfo>& blocks) {
       "fluid",
       "A liquid with particles of its own, alone or in the pores of `grains`; full_stress.",
       fluid));
+  blocks.push_back(optional_block(
+      "fluid.pool", "Standing water, in which or into which a mass collapses.", pool));
+  blocks.push_back(optional_block("fluid.pool.box", "A rectangular outline of it.", pool_box));
   blocks.push_back(optional_block(
       "coupling", "What grains and liquid do to each other; without it the defaults.", coupling));
 }

@@ -64,8 +64,9 @@ void add_domain(std::vector<KeyInfo>& keys) {
                               {"x", "y"}));
   keys.push_back(key(domain, &DomainSpec::walls,
                      {"domain.walls", wall_list, "", -no_limit, no_limit,
-                      "Plane walls: a point, a normal into the free side, friction, and when the "
-                      "wall is taken away."}));
+                      "Plane walls: a point, a normal into the free side, friction of the grains, "
+                      "when the wall is taken away, and whether the liquid of `fluid` slips (the "
+                      "default) or sticks there."}));
 }
 
 void add_ensemble(std::vector<KeyInfo>& keys) {

@@ -134,7 +134,7 @@ TEST(DragAlong, TakesWhatTheMotionLosesAndNeverTurnsIt) {
 TEST(WallShear, TheLayersBesideAWallBearTheTractionOfAnEvenShearTogether) {
   ContactSettings c;
   c.spacing = 0.1, c.smoothing_length = 0.13, c.reference_density = 1200;
-  c.liquid = LiquidContact{{0, 0.5, 1}, LiquidBed::no_slip, true};
+  c.liquid = LiquidContact{{0, 0.5, 1}, LiquidBed::no_slip, {true}};
   const double shear = 7;  // 1/s
   double traction = 0;
   for (int k = 0; k < 6; ++k) {

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -120,7 +121,7 @@ TEST(FluidChecks, GrainsInItNeedFrictionAndMustBeHeavier) {
   EXPECT_THAT(messages_of(mud(), [](Scenario& s) { s.fluid->saturation = Uncertain(0.6); }),
               ElementsAre(HasSubstr("fluid.saturation = 0.6 (there are no grains")));
   EXPECT_THAT(messages_of(wet_slide(), [](Scenario& s) { s.fluid->saturation = Uncertain(1.4); }),
-              ElementsAre(HasSubstr("fluid.saturation = 1.4 (must be in 0.05..1)")));
+              ElementsAre(HasSubstr("fluid.saturation = 1.4 (must be in 0..1)")));
 }
 
 TEST(FluidChecks, CouplingNeedsBoth) {
@@ -142,6 +143,31 @@ TEST(FluidChecks, ByItselfItDoesNotKnowTheBedsFriction) {
   EXPECT_THAT(idle_keys(s, false),
               ElementsAre("basal.friction_coefficient", "basal.pore_pressure_ratio",
                           "numerics.artificial_viscosity"));
+}
+
+TEST(FluidChecks, ByItselfItRefusesWhatOnlyGrainsFeel) {
+  EXPECT_THAT(
+      messages_of(mud(), [](Scenario& s) { s.basal.rasters.friction_coefficient.path = "mu.tif"; }),
+      ElementsAre(HasSubstr("basal.rasters.friction_coefficient (there are no grains")));
+  const auto rough = [](Scenario& s) {
+    s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt},
+                      WallSpec{{9, 0, 0}, {-1, 0, 0}, 0.3, std::nullopt}};
+  };
+  EXPECT_THAT(messages_of(mud(), rough),
+              ElementsAre(HasSubstr("domain.walls[1].friction_coefficient = 0.3 (there are no "
+                                    "grains that it could act on)")));
+  EXPECT_THAT(messages_of(wet_slide(), rough), IsEmpty());
+}
+
+TEST(FluidChecks, AWallSticksToALiquidOnly) {
+  const auto sticks = [](Scenario& s) {
+    s.domain.walls = {WallSpec{{0, 0, 0}, {1, 0, 0}, 0, std::nullopt, WallLiquid::sticks}};
+  };
+  EXPECT_THAT(messages_of(mud(), sticks), IsEmpty());
+  Scenario dry = wet_slide();
+  dry.fluid.reset();
+  EXPECT_THAT(messages_of(dry, sticks),
+              ElementsAre(HasSubstr("domain.walls[0].liquid = sticks (there is no `fluid`)")));
 }
 
 TEST(FluidChecks, TheGrainsDiameterActsInTheirDrag) {

@@ -85,7 +85,8 @@ HandMade liquid_of(const LiquidBox& box) {
   const double speed = 0.1 * liquid.sound_speed;
   contact.stiffness = std::max(10 * s.gravity * height / (box.spacing * box.spacing),
                                std::pow(2 * speed / box.spacing, 2));
-  contact.liquid = LiquidContact{box.settings.law, box.bed, box.walls_hold};
+  contact.liquid = LiquidContact{box.settings.law, box.bed,
+                                 std::vector<bool>(s.domain.walls.size(), box.walls_hold)};
   add_gravity(made.step, s, 0);
   add_terrain_contact(made.step, 0, contact);
   if (!s.domain.walls.empty()) add_wall_contact(made.step, 0, contact);
