@@ -46,6 +46,7 @@ MADE = {
                                       str(IMAGES / "error_against_seconds.png"))]),
     "beside_the_paper": ("beside_the_paper.md", [script("beside_the_paper", STURZ, str(OUT / "paper"))]),
     "paper": ("paper.md", [script("paper", STURZ, str(ROOT / "scenarios/cases"), str(OUT / "paper_wet"))]),
+    "usgs_flume_3d": ("usgs_flume_3d.md", [script("usgs_flume_3d", STURZ, str(ROOT / "scenarios/cases/usgs_flume"), str(OUT / "usgs_flume"))]),
     "who_is_right": ("who_is_right.md", [script("who_is_right", str(BUILD / "tests/tools/energy_of"), str(OUT / "who"))]),
     "formulations": ("formulations.md", [script("formulations", STURZ, DATA, str(OUT / "formulations"), str(IMAGES / "formulations.png"))]),
     "strength_inside": ("strength_inside.md", [script("strength_inside", STURZ, DATA, str(OUT / "strength"), "collapse", "pile", "slope", "s1000:4.5", "s1000:2.25")]),

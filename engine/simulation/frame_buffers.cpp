@@ -19,10 +19,12 @@ ParticleFrame FrameBuffers::frame(const State& s, std::size_t set) {
   }
   if (const Field* stress = p.find(fields::stress)) {
     const auto& density_change = p.scalar(fields::density_change);
+    const Field* packing = p.find(fields::packing_change);  // without load
     solid_fraction_.assign(p.size(), p.reference_fraction);
     for (std::size_t i = 0; i < p.size(); ++i) {
-      density_[i] *= 1 + density_change[i];
-      solid_fraction_[i] *= 1 + density_change[i];
+      const double packed = packing ? 1 + packing->component[0][i] : 1;
+      density_[i] *= packed * (1 + density_change[i]);
+      solid_fraction_[i] *= packed * (1 + density_change[i]);
       pressure_[i] =
           -(stress->component[0][i] + stress->component[1][i] + stress->component[2][i]) / 3;
     }

@@ -78,7 +78,7 @@ Shape debris_flume() {
           true,
           {{"volume_m3", 10, 0.1, 50, "bulk volume of the source"},
            {"pad_length_m", 90, 1, 1e3, "extent of the pad below the arc, on the map"},
-           {"pad_width_m", 30, 2, 1e3, "extent across"}},
+           {"pad_width_m", 30, 0.2, 1e3, "extent across; 2 m and less is a slice of the channel"}},
           build};
 }
 
