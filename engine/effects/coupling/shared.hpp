@@ -111,8 +111,8 @@ template <int n>
 void turn_images(const PairSide& side, std::size_t row, const std::vector<Quads<n>>& values,
                  std::initializer_list<int> firsts, Quads<n>& sum) {
   for (std::size_t m = 0; m < side.n_mirrors(); ++m) {
-    if (!side.near(row, m)) continue;
     const PairSide::Pairs pairs = side.image_pairs(row, m);
+    if (pairs.n == 0) continue;
     const Quads<n> images = gather(pairs, pairs.weight, values);
     const Vec3 normal = side.normal(row, m);
     for (const int first : firsts) sum.add(first, -2 * normal.dot(images.vector(first)) * normal);

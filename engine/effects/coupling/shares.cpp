@@ -46,20 +46,32 @@ class ListsAcross final : public Pass {
     VelocityBox box = velocities(grains, s.threads);
     box.add(velocities(liquid, s.threads));
     const bool both = grains.size() > 0 && liquid.size() > 0;
-    shared_->pairs.update({grains, grains.n_sorts, ground_of(grains)},
-                          {liquid, liquid.n_sorts, ground_of(liquid)}, s.domain,
+    shared_->pairs.update({grains, grains.n_sorts, ground_of(grains, known_[0])},
+                          {liquid, liquid.n_sorts, ground_of(liquid, known_[1])}, s.domain,
                           both ? box.width() * s.previous_dt : 0, s.time, s.threads);
   }
-  std::size_t bytes() const override { return shared_->pairs.bytes(); }
+  std::size_t bytes() const override {
+    return shared_->pairs.bytes() + (known_[0].capacity() + known_[1].capacity()) * sizeof(float);
+  }
 
  private:
-  static CrossPairs::Ground ground_of(const MovingSet& p) {
+  /// \param known  room for the distances where some particle has no ground
+  static CrossPairs::Ground ground_of(const MovingSet& p, std::vector<float>& known) {
     const BoundarySupport& b = p.boundary;
     if (b.distance.size() < p.size()) return {};  // no pass looks up the ground of this set
-    return {b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data()};
+    const float* distance = b.distance.data();
+    if (p.any_leaving) {
+      fit(known, p.size());
+      for (std::size_t i = 0; i < p.size(); ++i)
+        known[i] =
+            p.fate[i] == Fate::off_terrain ? std::numeric_limits<float>::infinity() : distance[i];
+      distance = known.data();
+    }
+    return {distance, b.nx.data(), b.ny.data(), b.nz.data()};
   }
 
   std::shared_ptr<Coupling> shared_;
+  std::vector<float> known_[2];  ///< of grains and liquid [m]
 };
 
 /// Velocities as they are, and extrapolated to v_{n+1/2}, as the pair sweeps see them.
@@ -204,24 +216,45 @@ class SharesPass final : public Pass {
     });
   }
 
-  /// Of grains mirrored in ground and walls, whose flux is mirrored, too: f'.(x_i' - x_j) is
-  /// f.(r + 2 (d_i - n.r) n) with r = x_i - x_j and the distance d_i of the grain.
-  static double flux_of_images(const Coupling& c, std::size_t row) {
-    const PairSide &side = c.of_liquid(), &grains = c.of_grains();
-    double flux = 0;
+  /// Divergence at a row of the flux f of sources at x: sum slope f.(x - here) over those themselves
+  /// and their images in the plane under the row, for which f'.(x' - here) is f.(x - here + 2 d n).
+  static double divergence(const Coupling& c, std::size_t row, const Quads<1>& sum) {
+    const PairSide& side = c.of_liquid();
+    const Vec3 here = c.pairs.unit() * side.place(row);
+    double flux = sum[3] - sum.vector(0).dot(here);
     for (std::size_t m = 0; m < side.n_mirrors(); ++m) {
-      if (!side.near(row, m)) continue;
-      const Vec3 normal = side.normal(row, m), here = side.place(row);
-      const PairSide::Pairs pairs = side.image_pairs(row, m);
-      for (std::size_t k = 0; k < pairs.n; ++k) {
-        if (pairs.slope[k] == 0) continue;
-        const std::uint32_t i = pairs.source[k];
-        const Vec3 f = c.flux[i].vector(0), r = grains.place(i) - here;
-        flux +=
-            pairs.slope[k] * (r.dot(f) + 2 * (grains.gap(i, m) - normal.dot(r)) * normal.dot(f));
-      }
+      const PairSide::Pairs images = side.image_pairs(row, m);
+      if (images.n == 0) continue;
+      const Quads<1> turned = gather(images, images.slope, c.flux);
+      const double away = 2 * c.pairs.unit() * side.gap(row, m);
+      flux += turned[3] - turned.vector(0).dot(here - away * side.normal(row, m));
     }
-    return c.pairs.unit() * flux;
+    return flux;
+  }
+
+  /// Room by weights and flux by slopes, in one pass over the pairs.
+  struct Filling {
+    double room;
+    Quads<1> flux;
+  };
+  static Filling filling(const PairSide::Pairs& pairs, const Coupling& c) {
+    double even = 0, odd = 0;
+    Quads<1> flux, next;
+    const double* room = c.room.data();
+    const Quads<1>* value = c.flux.data();
+    std::size_t k = 0;
+    for (; k + 1 < pairs.n; k += 2) {
+      const std::uint32_t a = pairs.source[k], b = pairs.source[k + 1];
+      even += pairs.weight[k] * room[a], odd += pairs.weight[k + 1] * room[b];
+      flux.quad[0] += static_cast<double>(pairs.slope[k]) * value[a].quad[0];
+      next.quad[0] += static_cast<double>(pairs.slope[k + 1]) * value[b].quad[0];
+    }
+    if (k < pairs.n) {
+      even += pairs.weight[k] * room[pairs.source[k]];
+      flux.quad[0] += static_cast<double>(pairs.slope[k]) * value[pairs.source[k]].quad[0];
+    }
+    flux.quad[0] += next.quad[0];
+    return {even + odd, flux};
   }
 
   /// X_j and the divergence of the grains' flux past the liquid: sum f_i.(x_i - x_j) slope.
@@ -237,12 +270,10 @@ class SharesPass final : public Pass {
           for (std::size_t r = begin; r < end; ++r) {
             const std::uint32_t j = side.index(r);
             const PairSide::Pairs pairs = side.pairs(r);
-            const double room = gather(pairs, c.room);
-            const Quads<1> sum = gather(pairs, pairs.slope, c.flux);
-            const double flux =
-                sum[3] - sum.vector(0).dot(c.pairs.unit() * side.place(r)) + flux_of_images(c, r);
+            const Filling sum = filling(pairs, c);
+            const double flux = divergence(c, r, sum.flux);
             const double density = c.settings.liquid_density * relative_density(change, j);
-            const double x = room * c.take[r] * density / p.mass[j];
+            const double x = sum.room * c.take[r] * density / p.mass[j];
             c.share[r] = x;
             share[j] = std::min(x, CouplingSettings::largest_share);
             slip[j] = flux * (x > 0 ? share[j] / x : 0);
