@@ -68,25 +68,37 @@ void CrossPairs::mirror(PairSide& side, const Set& set, const Domain& domain, do
       }
     });
     side.copy_images(m.gap);
+    for (std::size_t s = 0; k == 0 && s < side.n_sources(); ++s) side.places_[s].gap = m.gap[s];
   });
 }
 
 /// How much nearer to, or farther from, ground or a wall a particle has come since its gaps were
-/// looked up, where images are near [m].
+/// looked up, where images are near [m]: no more than what changes a weight as much where the
+/// smoothing kernel is steepest. The normal of rough ground turns from cell to cell, and high above
+/// it gaps jump that hardly weigh.
 double CrossPairs::approach(const PairSide& side, const Set& set, const Domain& domain, double time,
                             int threads) const {
   if (side.mirrors_.size() != each_mirror(set, domain, time, [](auto&&...) {}))
     return std::numeric_limits<double>::infinity();
-  float most = 0;
+  const double per_s = unit_ / support_;
+  // |dW/dr| of an image no nearer than the gap, over its largest, 20 t^3 s at s = 1/4.
+  const auto steepness = [&](float gap) {
+    const double s = gap * per_s, t = 1 - s;
+    return s < 0.25 ? 1 : t * t * t * s / (0.25 * 0.75 * 0.75 * 0.75);
+  };
+  double most = 0;
   each_mirror(set, domain, time, [&](std::size_t k, const Distance& distance, const Wall*) {
     const float* gap = side.mirrors_[k].gap.data();
     most = ordered_reduce(
         side.n_rows(), threads, most,
-        [&](std::size_t begin, std::size_t end, float& out) {
-          for (std::size_t r = begin; r < end; ++r)  // both are cut at 2h
-            out = std::max(out, std::abs(gap_units(distance(side.index_[r])) - gap[r]));
+        [&](std::size_t begin, std::size_t end, double& out) {
+          for (std::size_t r = begin; r < end; ++r) {  // both are cut at 2h
+            const float now = gap_units(distance(side.index_[r]));
+            if (now == gap[r]) continue;
+            out = std::max(out, std::abs(now - gap[r]) * steepness(std::min(now, gap[r])));
+          }
         },
-        [](float& total, float block) { total = std::max(total, block); });
+        [](double& total, double block) { total = std::max(total, block); });
   });
   return most * unit_;
 }

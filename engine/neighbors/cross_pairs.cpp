@@ -41,7 +41,7 @@ struct Range {
 
 std::size_t PairSide::n_entries() const {
   std::size_t n = 0;
-  for (const Block& b : blocks_) n += b.candidate.size();
+  for (std::size_t r = 0; r < runs_.size(); ++r) n += runs_[r].end - runs_[r].begin;
   return n;
 }
 
@@ -186,13 +186,13 @@ void CrossPairs::place(PairSide& side, const ParticleSet& p, const Domain& domai
         x -= turn_x * domain.x.length(), y -= turn_y * domain.y.length();
         z -= turn_x * domain.x.rise + turn_y * domain.y.rise;
       }
-      side.places_[r] = {fixed(x), fixed(y), fixed(z)};
+      side.places_[r] = {fixed(x), fixed(y), fixed(z), 0};
     }
   });
   for (std::size_t k = 0; k < side.images_.size(); ++k) {
     const PairSide::Image& image = side.images_[k];
     const PairSide::Place& of = side.places_[image.row];
-    side.places_[n + k] = {of.x + image.dx, of.y + image.dy, of.z + image.dz};
+    side.places_[n + k] = {of.x + image.dx, of.y + image.dy, of.z + image.dz, 0};
   }
 }
 
@@ -211,7 +211,7 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
     float distance2[chunk];
     std::size_t n = 0;
     for (std::size_t r = begin; r < end; ++r) {
-      const auto [x, y, z, spare] = from.places_[r];
+      const auto [x, y, z, gap] = from.places_[r];
       if (r == begin || from.cell_[r] != from.cell_[r - 1])
         for (int k = 0; k < 9; ++k) {
           const std::uint64_t first = cell_of(x, y, z, -1, k % 3 - 1, k / 3 - 1);
@@ -244,7 +244,8 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
         }
       from.runs_[r].end = static_cast<std::uint32_t>(n);
     }
-    out.resize(n);
+    fit(out, n + 8);
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(n), out.end(), 0u);
   });
 }
 
@@ -296,9 +297,10 @@ void CrossPairs::update(const Set& a, const Set& b, const Domain& domain, double
     for (int k : {0, 1}) follow_sorting(sides_[k], sets[k]);
   for (int k : {0, 1}) sides_[k].n_sorts_ = sets[k].n_sorts;
   // A particle and an image close in by what both come nearer to the mirror, besides.
-  const auto closed = [&](int k) { return approach(sides_[k], sets[k], domain, time, threads); };
   const double kept = weighed_for * h_;
-  if (!anew && walls == n_walls_ && unweighed_ < kept && unweighed_ + closed(0) + closed(1) < kept)
+  const auto closed = [&](int k) { return approach(sides_[k], sets[k], domain, time, threads); };
+  if (!anew && walls == n_walls_ && unweighed_ < kept &&
+      std::hypot(unweighed_, closed(0) + closed(1)) < kept)
     return;
   n_walls_ = walls;
   unweighed_ = 0;

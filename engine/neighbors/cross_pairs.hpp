@@ -93,7 +93,8 @@ class PairSide {
     std::size_t bytes() const;
   };
   struct Block {
-    std::vector<std::uint32_t> candidate;  ///< those within the support and the skin
+    /// Those within the support and the skin; eight more than there are: whole lanes are read.
+    std::vector<std::uint32_t> candidate;
     Weighed weighed;
     std::vector<Weighed> images;  ///< [mirror]
   };
@@ -102,9 +103,10 @@ class PairSide {
     std::vector<float> gap;         ///< [sources] distance in position units, at most 2h
     std::vector<float> nx, ny, nz;  ///< [rows] normal
   };
-  /// Of a source, in position units. Four numbers: they are loaded and subtracted together.
+  /// Of a source, in position units.
   struct alignas(16) Place {
-    std::int32_t x = 0, y = 0, z = 0, spare = 0;
+    std::int32_t x = 0, y = 0, z = 0;
+    float gap = 0;  ///< to the first mirror: it is loaded with the others
   };
   struct Key {
     std::uint64_t cell = 0;

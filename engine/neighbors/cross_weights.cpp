@@ -6,20 +6,62 @@
 #include "engine/neighbors/smoothing_kernel.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 namespace sturz {
 namespace {
 
-constexpr std::size_t chunk = 64;  // candidates that are weighed side by side
-constexpr std::size_t whole_lanes(std::size_t n) { return (n + 7) / 8 * 8; }
-
+// Eight candidates are weighed side by side. No operation crosses lanes but the packing.
+constexpr std::size_t lanes = 8;
 using IntQuad = std::int32_t __attribute__((vector_size(16)));
-using FloatQuad = float __attribute__((vector_size(16)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+using Floats = float __attribute__((vector_size(32)));
+
+Floats root(Floats a) {
+#if defined(__AVX__)
+  return __builtin_ia32_sqrtps256(a);
+#else
+  for (std::size_t k = 0; k < lanes; ++k) a[k] = std::sqrt(a[k]);
+  return a;
+#endif
+}
+
+/// Bit k: whether lane k is true.
+unsigned bits_of(Ints truth) {
+#if defined(__AVX__)
+  return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<Floats>(truth)));
+#else
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < lanes; ++k) bits |= (truth[k] ? 1u : 0u) << k;
+  return bits;
+#endif
+}
+
+/// By bits: the lanes that are true, in order, before the others.
+using Order = std::array<std::array<std::int32_t, lanes>, 1 << lanes>;
+constexpr Order true_first() {
+  Order out{};
+  for (std::size_t bits = 0; bits < out.size(); ++bits) {
+    std::size_t n = 0;
+    for (const bool wanted : {true, false})
+      for (std::size_t k = 0; k < lanes; ++k)
+        if ((bits >> k & 1) == wanted) out[bits][n++] = static_cast<std::int32_t>(k);
+  }
+  return out;
+}
+alignas(64) constexpr Order order = true_first();
+
+template <class To, class From>
+To load(const From* from) {
+  To out;
+  std::memcpy(&out, from, sizeof out);
+  return out;
+}
 
 /// The smoothing kernel of squared distances in position units.
 class Weights {
@@ -30,49 +72,49 @@ class Weights {
     norm_ = static_cast<float>(kernel.value(0));
     slope_ = static_cast<float>(kernel.discrete_gradient_factor());
   }
-  /// \param n  a multiple of eight, so that no lane is left over
-  void operator()(const float* distance2, float* weight, float* slope, std::size_t n) const {
-    for (std::size_t c = 0; c < n; ++c) {
-      const float left = 1 - std::sqrt(distance2[c]) * to_s_, t = left > 0 ? left : 0;
-      const float t3 = t * t * t;
-      weight[c] = norm_ * t3 * t * (5 - 4 * t);
-      slope[c] = slope_ * t3;
-    }
+  void operator()(Floats distance2, Floats& weight, Floats& slope) const {
+    const Floats left = 1 - root(distance2) * to_s_, none{};
+    const Floats t = left > 0 ? left : none, t3 = t * t * t;
+    weight = norm_ * t3 * t * (5 - 4 * t);
+    slope = slope_ * t3;
   }
 
  private:
   float to_s_, norm_, slope_;
 };
 
-/// What is computed of a chunk of a row's candidates.
-struct Chunk {
-  alignas(64) float square[chunk][4] = {};
-  alignas(64) float distance2[chunk] = {}, gap[chunk] = {}, mirrored[chunk] = {};
-  alignas(64) float weight[chunk] = {}, slope[chunk] = {}, image[chunk] = {}, steep[chunk] = {};
-};
+/// Eight places by component.
+struct Places {
+  Ints x, y, z;
+  Floats gap;  ///< to the first mirror
 
-/// Appends those of a chunk that have a weight. No branches: which do is not to be foreseen.
-/// \return how many entries there are then
-std::size_t append(const std::uint32_t* source, const float* weight, const float* slope,
-                   std::size_t n, std::size_t at, std::uint32_t* to_source, float* to_weight,
-                   float* to_slope, const float* decides) {
-  for (std::size_t c = 0; c < n; ++c) {
-    to_source[at] = source[c];
-    to_weight[at] = weight[c];
-    if (to_slope) to_slope[at] = slope[c];
-    at += decides[c] > 0;
+  template <class Place>
+  Places(const Place* places, const std::uint32_t* s) {
+    const auto both = [&](std::size_t low, std::size_t high) {
+      return __builtin_shufflevector(load<IntQuad>(places + s[low]),
+                                     load<IntQuad>(places + s[high]), 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    const Ints a = both(0, 4), b = both(1, 5), c = both(2, 6), d = both(3, 7);
+    const Ints ab = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Ints cd = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const Ints more_ab = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+    const Ints more_cd = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    x = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    y = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+    z = __builtin_shufflevector(more_ab, more_cd, 0, 1, 8, 9, 4, 5, 12, 13);
+    gap = reinterpret_cast<Floats>(
+        __builtin_shufflevector(more_ab, more_cd, 2, 3, 10, 11, 6, 7, 14, 15));
   }
-  return at;
-}
+};
 
 }  // namespace
 
-/// One entry more than there may be: `append` writes before it knows.
+/// Eight entries more than there may be: whole lanes are read and written.
 void PairSide::Weighed::make_room(std::size_t rows, std::size_t entries, bool gradients) {
   fit(runs, rows);
-  fit(source, entries + 1);
-  fit(weight, entries + 1);
-  if (gradients) fit(slope, entries + 1);
+  fit(source, entries + lanes);
+  fit(weight, entries + lanes);
+  if (gradients) fit(slope, entries + lanes);
 }
 
 /// Weights of one block's rows.
@@ -90,16 +132,12 @@ class CrossPairs::Weigher {
     for (std::size_t m = 0; m < b.images.size(); ++m) make_images(b.images[m], first, rows, m);
     std::size_t n = 0;
     for (std::size_t k = 0; k < rows; ++k) {
-      const PairSide::Run run = from_.runs_[first + k];
-      b.weighed.runs[k].begin = static_cast<std::uint32_t>(n);
-      for (std::size_t m = 0; m < b.images.size(); ++m)
-        if (!b.images[m].runs.empty()) {
-          PairSide::Run* r = b.images[m].runs.data() + k;
-          r->begin = r->end = k > 0 ? r[-1].end : 0;
-        }
-      for (std::size_t at = run.begin; at < run.end; at += chunk)
-        n = row(b, k, first + k, b.candidate.data() + at, std::min(chunk, run.end - at), n);
-      b.weighed.runs[k].end = static_cast<std::uint32_t>(n);
+      for (PairSide::Weighed& images : b.images)
+        if (!images.runs.empty())
+          images.runs[k].begin = images.runs[k].end = k > 0 ? images.runs[k - 1].end : 0;
+      const std::size_t begin = n;
+      n = row(b, k, first + k, n);
+      b.weighed.runs[k] = {static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(n)};
     }
   }
 
@@ -113,53 +151,69 @@ class CrossPairs::Weigher {
     if (entries > 0) images.make_room(rows, entries, gradients_);
   }
 
-  std::size_t row(PairSide::Block& b, std::size_t k, std::size_t r, const std::uint32_t* source,
-                  std::size_t n, std::size_t at) {
-    const PairSide::Place& here = from_.places_[r];
-    const IntQuad own{here.x, here.y, here.z, 0};
-    for (std::size_t c = 0; c < n; ++c) {
-      IntQuad there;
-      std::memcpy(&there, &to_.places_[source[c]], sizeof there);
-      const FloatQuad apart = __builtin_convertvector(there - own, FloatQuad);
-      const FloatQuad square = apart * apart;
-      std::memcpy(chunk_.square[c], &square, sizeof square);
+  /// \return how many entries the block has then
+  std::size_t row(PairSide::Block& b, std::size_t k, std::size_t r, std::size_t n) {
+    const PairSide::Place here = from_.places_[r];
+    const PairSide::Run run = from_.runs_[r];
+    for (std::size_t at = run.begin; at < run.end; at += lanes) {
+      const std::uint32_t* source = b.candidate.data() + at;
+      const Places there(to_.places_.data(), source);
+      const Floats dx = __builtin_convertvector(there.x - here.x, Floats);
+      const Floats dy = __builtin_convertvector(there.y - here.y, Floats);
+      const Floats dz = __builtin_convertvector(there.z - here.z, Floats);
+      const auto left = static_cast<std::int32_t>(run.end - at);
+      const Ints own = Ints{0, 1, 2, 3, 4, 5, 6, 7} < left;  // the rest belongs to the next row
+      const Floats beyond = Floats{} + 1e30f, distance2 = own ? dx * dx + dy * dy + dz * dz : beyond;
+      Floats weight, slope;
+      weights_(distance2, weight, slope);
+      for (std::size_t m = 0; m < b.images.size(); ++m)
+        if (from_.near(r, m))
+          weight += images(b.images[m], k, from_.gap(r, m),
+                           m == 0 ? there.gap : gaps(m, source), distance2, source);
+      n = append(b.weighed, n, source, weight, slope);
     }
-    const std::size_t padded = whole_lanes(n);
-    for (std::size_t c = 0; c < padded; ++c)
-      chunk_.distance2[c] = chunk_.square[c][0] + chunk_.square[c][1] + chunk_.square[c][2];
-    weights_(chunk_.distance2, chunk_.weight, chunk_.slope, padded);
-    for (std::size_t m = 0; m < b.images.size(); ++m)
-      if (from_.near(r, m)) add_images(b.images[m], k, from_.gap(r, m), m, source, n);
-    PairSide::Weighed& w = b.weighed;
-    return append(source, chunk_.weight, chunk_.slope, n, at, w.source.data(), w.weight.data(),
-                  gradients_ ? w.slope.data() : nullptr, chunk_.weight);
+    return n;
+  }
+
+  Floats gaps(std::size_t m, const std::uint32_t* source) const {
+    const float* gap = to_.mirrors_[m].gap.data();
+    Floats out;
+    for (std::size_t c = 0; c < lanes; ++c) out[c] = gap[source[c]];
+    return out;
   }
 
   /// |r'|^2 = |r|^2 + 4 d_i d_j over a plane, as in the pair sweep (sweep/image_sums.hpp). What has
   /// an image within the support lies there itself.
-  void add_images(PairSide::Weighed& images, std::size_t k, float own, std::size_t m,
-                  const std::uint32_t* source, std::size_t n) {
-    const float* gap = to_.mirrors_[m].gap.data();
-    for (std::size_t c = 0; c < n; ++c) chunk_.gap[c] = gap[source[c]];
-    const std::size_t padded = whole_lanes(n);
-    for (std::size_t c = 0; c < padded; ++c) {
-      const float sum = own + chunk_.gap[c], least = sum * sum;
-      const float apart = chunk_.distance2[c] + 4 * own * chunk_.gap[c];
-      chunk_.mirrored[c] = apart > least ? apart : least;
+  Floats images(PairSide::Weighed& to, std::size_t k, float own, Floats gap, Floats distance2,
+                const std::uint32_t* source) const {
+    const Floats sum = own + gap, least = sum * sum, apart = distance2 + 4 * own * gap;
+    Floats weight, slope;
+    weights_(apart > least ? apart : least, weight, slope);
+    PairSide::Run& run = to.runs[k];
+    run.end = static_cast<std::uint32_t>(append(to, run.end, source, weight, slope));
+    return weight;
+  }
+
+  /// Those that have a weight. \return how many entries there are then
+  std::size_t append(PairSide::Weighed& to, std::size_t n, const std::uint32_t* source,
+                     Floats weight, Floats slope) const {
+    const unsigned bits = bits_of(weight > 0);
+    const Ints first = load<Ints>(order[bits].data());
+    const Ints sources = __builtin_shuffle(load<Ints>(source), first);
+    weight = __builtin_shuffle(weight, first);
+    std::memcpy(to.source.data() + n, &sources, sizeof sources);
+    std::memcpy(to.weight.data() + n, &weight, sizeof weight);
+    if (gradients_) {
+      slope = __builtin_shuffle(slope, first);
+      std::memcpy(to.slope.data() + n, &slope, sizeof slope);
     }
-    weights_(chunk_.mirrored, chunk_.image, chunk_.steep, padded);
-    for (std::size_t c = 0; c < padded; ++c) chunk_.weight[c] += chunk_.image[c];
-    PairSide::Run& run = images.runs[k];
-    run.end = static_cast<std::uint32_t>(
-        append(source, chunk_.image, chunk_.steep, n, run.end, images.source.data(),
-               images.weight.data(), gradients_ ? images.slope.data() : nullptr, chunk_.image));
+    return n + static_cast<std::size_t>(std::popcount(bits));
   }
 
   PairSide& from_;
   const PairSide& to_;
   bool gradients_;
   Weights weights_;
-  Chunk chunk_;
 };
 
 void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int threads) const {

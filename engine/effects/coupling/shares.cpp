@@ -4,6 +4,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/effects/coupling/shared.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/laws/mixture_sound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -102,10 +103,12 @@ class SharesPass final : public Pass {
     const CouplingSettings& c = shared_->settings;
     const MovingSet& liquid = s.sets[shared_->liquid];
     if (!(liquid.sound_speed > 0)) return;
-    const double share = shared_->largest_share;
+    const MixtureSound sound{liquid.sound_speed, s.sets[shared_->grains].sound_speed,
+                             c.shear_stiffness,
+                             c.buoyancy ? c.liquid_density / c.grain_density : 0};
     out.push_back({"acoustic among grains",
                    c.courant * c.smoothing_length /
-                       (liquid.sound_speed * std::sqrt(1 + share) + liquid.motion.max_speed)});
+                       (sound.fastest(shared_->largest_share) + liquid.motion.max_speed)});
   }
 
   void apply(State& s, double dt) override {
