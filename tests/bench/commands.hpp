@@ -32,6 +32,8 @@ Report ensemble(const Options&);
 Report absent_effects(const Options&);
 /// How fast is one core in a liquid?
 Report liquid(const Options&);
+/// What do grains and a liquid cost together, beside each alone?
+Report coupled(const Options&);
 /// Are the bits of every shipped scene still the same, on every instruction set and thread count?
 Report hashes(const Options&);
 /// Does it survive what wants to break it, and by which margin?

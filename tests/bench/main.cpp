@@ -32,6 +32,7 @@ constexpr Command commands[] = {
     {"absent-effects", "What effects cost that are not there", sturz::bench::absent_effects},
     {"liquid", "A dam break of liquid: particle-updates per second of one core",
      sturz::bench::liquid},
+    {"coupled", "Grains in a liquid: a step beside the steps of each alone", sturz::bench::coupled},
     {"hashes", "State hash of every shipped scene: what must not change", sturz::bench::hashes},
     {"hard", "Hard cases and random members against their bounds", sturz::bench::hard}};
 
