@@ -21,6 +21,7 @@ class FilmDrag {
       : film_{law},
         per_mass_(share / (density * layer)),
         thickness_(LiquidFilm::equivalent_thickness(layer, depth)) {}
+  bool even() const { return film_.law.newtonian(); }
   SurfaceDrag operator()(double speed) const {
     const double v = std::max(speed, 1e-9);  // below it the law's own power would have no slope
     return {per_mass_ * film_.law.yield_stress,

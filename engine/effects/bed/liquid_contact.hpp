@@ -37,11 +37,12 @@ struct SurfaceDrag {
 /// Among grains the stress acts on the liquid's share of the wall, 1/(1 + X).
 class WallShear {
  public:
-  WallShear(const ContactSettings& c, double distance, double grain_share)
+  WallShear(const ContactSettings& c, double distance, double grain_share = 0)
       : law_(c.liquid->law),
         gap_(std::fmax(distance, 0.25 * c.spacing)),
         weight_(2 * plane_integral(distance, c.smoothing_length) /
                 (c.reference_density * (1 + grain_share))) {}
+  bool even() const { return law_.newtonian(); }
   SurfaceDrag operator()(double speed) const {
     if (law_.newtonian()) return {0, weight_ * law_.consistency / gap_};
     const double v = std::fmax(speed, 1e-9);

@@ -113,9 +113,15 @@ class SharesPass final : public Pass {
 
   void apply(State& s, double dt) override {
     const double ahead = s.extrapolation(dt);
+    Coupling& c = *shared_;
+    anew_ = weighings_ != c.pairs.n_weighings();
+    weighings_ = c.pairs.n_weighings();
     make_room();
-    measure_grains(s);
-    divide_liquid(s, ahead);
+    if (anew_) {
+      measure_grains(s);
+      divide_liquid(s);
+    }
+    start_liquid(s, ahead);
     meet(s, ahead);
     fill(s);
   }
@@ -123,7 +129,7 @@ class SharesPass final : public Pass {
     const Coupling& c = *shared_;
     return c.met.capacity() * (sizeof(MetLiquid) + 2 * sizeof(Vec3)) +
            c.volume.capacity() * (2 * sizeof(double) + 2 * sizeof(Quads<1>)) +
-           c.take.capacity() * (2 * sizeof(double) + 2 * sizeof(Quads<2>) + 2 * sizeof(Vec3));
+           c.take.capacity() * (3 * sizeof(double) + 2 * sizeof(Quads<2>) + 2 * sizeof(Vec3));
   }
 
  private:
@@ -133,6 +139,7 @@ class SharesPass final : public Pass {
     for (auto* v : {&c.lift, &c.drag}) v->resize(c.of_grains().n_rows());
     for (auto* v : {&c.drawn, &c.held}) v->resize(c.of_liquid().n_rows());
     c.share.resize(c.of_liquid().n_rows());
+    c.filled.resize(c.of_liquid().n_rows());
     fit(c.volume, c.of_grains().n_sources());
     fit(c.room, c.of_grains().n_sources());
     fit(c.flux, c.of_grains().n_sources());
@@ -163,8 +170,19 @@ class SharesPass final : public Pass {
     c.of_grains().copy_images(c.volume);
   }
 
-  /// q_j, and what grains will sum over the liquid around them.
-  void divide_liquid(const State& s, double ahead) {
+  /// q_j
+  void divide_liquid(const State& s) {
+    Coupling& c = *shared_;
+    const MovingSet& p = s.sets[c.liquid];
+    const PairSide& side = c.of_liquid();
+    parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r)
+        c.take[r] = p.mass[side.index(r)] / std::max(1.0, gather(side.pairs(r), c.volume));
+    });
+  }
+
+  /// What grains will sum over the liquid around them.
+  void start_liquid(const State& s, double ahead) {
     Coupling& c = *shared_;
     const MovingSet& p = s.sets[c.liquid];
     const Velocities velocity(p, ahead);
@@ -173,11 +191,9 @@ class SharesPass final : public Pass {
     parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t j = side.index(r);
-        const double filled = gather(side.pairs(r), c.volume);
-        const double q = p.mass[j] / std::max(1.0, filled);
+        const double q = c.take[r];
         const Vec3 v = q * velocity.now(j), next = q * velocity.ahead(j);
         const double density = c.settings.liquid_density * relative_density(change, j);
-        c.take[r] = q;
         c.liquid_start[r].quad[0] = Quad{q, v.x(), v.y(), v.z()};
         c.liquid_start[r].quad[1] = Quad{p.mass[j] / density, next.x(), next.y(), next.z()};
       }
@@ -198,9 +214,11 @@ class SharesPass final : public Pass {
         Quads<2> sum = gather(pairs, pairs.weight, c.liquid_start);
         turn_images(side, r, c.liquid_start, {1, 5}, sum);
         MetLiquid& met = c.met[r];
-        const double pores = met.wet, around = sum[0];
-        met.met = around;
-        met.wet = std::min(1.0, sum[4] / (CouplingSettings::wet_support * pores));
+        if (anew_) {
+          met.met = sum[0];
+          met.wet = std::min(1.0, sum[4] / (CouplingSettings::wet_support * met.wet));
+        }
+        const double around = met.met;
         c.room[r] = 0;
         c.flux[r] = {};
         if (!(around > 0)) continue;
@@ -211,7 +229,7 @@ class SharesPass final : public Pass {
         c.flux[r].quad[0] = Quad{flux.x(), flux.y(), flux.z(), 0};
       }
     });
-    side.copy_images(c.room);
+    if (anew_) side.copy_images(c.room);
     side.copy_images(c.flux);
     parallel_ranges(side.n_sources(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
@@ -235,31 +253,6 @@ class SharesPass final : public Pass {
     return flux;
   }
 
-  /// Room by weights and flux by slopes, in one pass over the pairs.
-  struct Filling {
-    double room;
-    Quads<1> flux;
-  };
-  static Filling filling(const PairSide::Pairs& pairs, const Coupling& c) {
-    double even = 0, odd = 0;
-    Quads<1> flux, next;
-    const double* room = c.room.data();
-    const Quads<1>* value = c.flux.data();
-    std::size_t k = 0;
-    for (; k + 1 < pairs.n; k += 2) {
-      const std::uint32_t a = pairs.source[k], b = pairs.source[k + 1];
-      even += pairs.weight[k] * room[a], odd += pairs.weight[k + 1] * room[b];
-      flux.quad[0] += static_cast<double>(pairs.slope[k]) * value[a].quad[0];
-      next.quad[0] += static_cast<double>(pairs.slope[k + 1]) * value[b].quad[0];
-    }
-    if (k < pairs.n) {
-      even += pairs.weight[k] * room[pairs.source[k]];
-      flux.quad[0] += static_cast<double>(pairs.slope[k]) * value[pairs.source[k]].quad[0];
-    }
-    flux.quad[0] += next.quad[0];
-    return {even + odd, flux};
-  }
-
   /// X_j and the divergence of the grains' flux past the liquid: sum f_i.(x_i - x_j) slope.
   void fill(State& s) {
     Coupling& c = *shared_;
@@ -273,10 +266,10 @@ class SharesPass final : public Pass {
           for (std::size_t r = begin; r < end; ++r) {
             const std::uint32_t j = side.index(r);
             const PairSide::Pairs pairs = side.pairs(r);
-            const Filling sum = filling(pairs, c);
-            const double flux = divergence(c, r, sum.flux);
+            if (anew_) c.filled[r] = c.take[r] / p.mass[j] * gather(pairs, c.room);
+            const double flux = divergence(c, r, gather(pairs, pairs.slope, c.flux));
             const double density = c.settings.liquid_density * relative_density(change, j);
-            const double x = sum.room * c.take[r] * density / p.mass[j];
+            const double x = c.filled[r] * density;
             c.share[r] = x;
             share[j] = std::min(x, CouplingSettings::largest_share);
             slip[j] = flux * (x > 0 ? share[j] / x : 0);
@@ -287,6 +280,8 @@ class SharesPass final : public Pass {
   }
 
   std::shared_ptr<Coupling> shared_;
+  std::size_t weighings_ = 0;
+  bool anew_ = true;  ///< weights are not those of the step before
 };
 
 }  // namespace
