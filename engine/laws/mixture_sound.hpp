@@ -31,8 +31,8 @@ struct MixtureSound {
   /// of the wave that the sweep sees best: a step for one material at this speed of sound is as
   /// short for both. \param share  X >= 0 [-]
   double fastest(double share) const {
-    // (G/G_max)^2 and W of the Wendland kernel at h = 1.3 dx, k dx = 1.1 .. 2.3: the largest of
-    // waves along edges, faces and diagonals of a cubic lattice.
+    // (G/G_max)^2 and W of the Wendland smoothing kernel at h = 1.3 dx, k dx = 1.1 .. 2.3: the
+    // largest of waves along edges, faces and diagonals of a cubic lattice.
     constexpr struct {
       double gradient2, smoothed;
     } waves[] = {{0.874, 0.762}, {0.978, 0.683}, {1, 0.600},    {0.948, 0.517},

@@ -141,8 +141,8 @@ void CrossPairs::add_images(PairSide& side, const Period& period, bool along_x) 
   const auto most = static_cast<std::int32_t>(std::ceil((support_ + skin_) / period.length()));
   const std::size_t n = side.images_.size();
   const auto add = [&](const PairSide::Image& base) {
-    const std::int32_t at = along_x ? side.places_[base.row].x + base.dx
-                                   : side.places_[base.row].y + base.dy;
+    const std::int32_t at =
+        along_x ? side.places_[base.row].x + base.dx : side.places_[base.row].y + base.dy;
     for (std::int32_t turn = -most; turn <= most; ++turn) {
       const std::int32_t there = at + turn * length;
       if (turn == 0 || there < low - margin || there > high + margin) continue;

@@ -125,7 +125,7 @@ class PairSide {
   std::vector<std::uint64_t> cell_;  ///< [sources] of the last rebuild
   std::vector<Place> places_;        ///< [sources]
   std::vector<Mirror> mirrors_;
-  float far_ = 0;           ///< 2h in position units
+  float far_ = 0;          ///< 2h in position units
   std::vector<Run> runs_;  ///< [rows] of candidates
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> index_of_;  ///< by id

@@ -67,10 +67,10 @@ To load(const From* from) {
 class Weights {
  public:
   Weights(double h, double unit) {
-    const SmoothingKernel kernel{h};
-    to_s_ = static_cast<float>(unit / kernel.support());
-    norm_ = static_cast<float>(kernel.value(0));
-    slope_ = static_cast<float>(kernel.discrete_gradient_factor());
+    const SmoothingKernel smoothing{h};
+    to_s_ = static_cast<float>(unit / smoothing.support());
+    norm_ = static_cast<float>(smoothing.value(0));
+    slope_ = static_cast<float>(smoothing.discrete_gradient_factor());
   }
   void operator()(Floats distance2, Floats& weight, Floats& slope) const {
     const Floats left = 1 - root(distance2) * to_s_, none{};
@@ -163,13 +163,14 @@ class CrossPairs::Weigher {
       const Floats dz = __builtin_convertvector(there.z - here.z, Floats);
       const auto left = static_cast<std::int32_t>(run.end - at);
       const Ints own = Ints{0, 1, 2, 3, 4, 5, 6, 7} < left;  // the rest belongs to the next row
-      const Floats beyond = Floats{} + 1e30f, distance2 = own ? dx * dx + dy * dy + dz * dz : beyond;
+      const Floats beyond = Floats{} + 1e30f,
+                   distance2 = own ? dx * dx + dy * dy + dz * dz : beyond;
       Floats weight, slope;
       weights_(distance2, weight, slope);
       for (std::size_t m = 0; m < b.images.size(); ++m)
         if (from_.near(r, m))
-          weight += images(b.images[m], k, from_.gap(r, m),
-                           m == 0 ? there.gap : gaps(m, source), distance2, source);
+          weight += images(b.images[m], k, from_.gap(r, m), m == 0 ? there.gap : gaps(m, source),
+                           distance2, source);
       n = append(b.weighed, n, source, weight, slope);
     }
     return n;

@@ -100,8 +100,8 @@ inline Vec3 by_walls(const State& s, const MovingSet& p, std::size_t i, const Ve
 /// exact solution of dv/dt = pull - plastic v/|v| - rate v over the kick: no step is too long for
 /// it, a steady flow has its speed at any step, and it stops but never turns what it drags. \param
 /// drag    of a speed [m/s]: an object with `plastic` [m/s^2] and `rate` [1/s]; where it has
-/// `even()`, that says whether it is the same at any speed \param before velocity at the start of the step \param vx,vy,vz  in and out [m/s] \return what the motion lost
-/// [J/kg]
+/// `even()`, that says whether it is the same at any speed \param before velocity at the start of
+/// the step \param vx,vy,vz  in and out [m/s] \return what the motion lost [J/kg]
 template <class Drag>
 double drag_along(const Vec3& n, const Vec3& before, double kick, Drag&& drag, double& vx,
                   double& vy, double& vz) {

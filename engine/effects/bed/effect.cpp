@@ -274,7 +274,8 @@ class WallContact final : public Pass {
                                   p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);
             if (drags)
-              out.friction += p.mass[i] * drag_along(n, start(i), kick, WallShear(settings_, d, share ? share[i] : 0),
+              out.friction += p.mass[i] * drag_along(n, start(i), kick,
+                                                     WallShear(settings_, d, share ? share[i] : 0),
                                                      p.vx[i], p.vy[i], p.vz[i]);
           }
         },

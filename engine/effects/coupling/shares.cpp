@@ -237,8 +237,9 @@ class SharesPass final : public Pass {
     });
   }
 
-  /// Divergence at a row of the flux f of sources at x: sum slope f.(x - here) over those themselves
-  /// and their images in the plane under the row, for which f'.(x' - here) is f.(x - here + 2 d n).
+  /// Divergence at a row of the flux f of sources at x: sum slope f.(x - here) over those
+  /// themselves and their images in the plane under the row, for which f'.(x' - here) is f.(x -
+  /// here + 2 d n).
   static double divergence(const Coupling& c, std::size_t row, const Quads<1>& sum) {
     const PairSide& side = c.of_liquid();
     const Vec3 here = c.pairs.unit() * side.place(row);

@@ -88,8 +88,8 @@ class LiquidGather final : public Pass {
         r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
         r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
         // Air in pores is not a dilation that diffusion should even out.
-        r.density_change =
-            static_cast<float>(std::fmax(e, (1 - in_pores(x)) * LiquidSettings::separation_threshold));
+        r.density_change = static_cast<float>(
+            std::fmax(e, (1 - in_pores(x)) * LiquidSettings::separation_threshold));
         const double mean = (stress[0][i] + stress[1][i] + stress[2][i]) / 3;
         const auto pairs = PairViscosity::of(viscous_ratio[i]);
         const double of = (1 - pairs.carried) / (1 + x);

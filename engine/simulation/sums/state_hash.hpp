@@ -15,14 +15,41 @@ namespace sturz {
 
 namespace all_of_a_set {
 using namespace fields;
-inline constexpr const FieldKey* numbers[] = {
-    &velocity_before, &density_change, &stress, &viscous_ratio, &density_gradient, &ground_weight,
-    &packing_change, &support_completeness, &granular_temperature, &kinetic_stress, &spin,
-    &grain_acceleration, &grain_share, &slip_divergence, &exchange_velocity, &thickness,
-    &support_radius, &area_share, &normal_gravity, &centripetal_momentum, &ground, &earth_pressure,
-    &solids_volume, &water_volume, &solid_fraction, &excess_pressure, &pore_pressure, &pore_gravity,
-    &excess_profile[0], &excess_profile[1], &excess_profile[2], &excess_profile[3],
-    &excess_profile[4], &excess_profile[5], &entrained_mass};
+inline constexpr const FieldKey* numbers[] = {&velocity_before,
+                                              &density_change,
+                                              &stress,
+                                              &viscous_ratio,
+                                              &density_gradient,
+                                              &ground_weight,
+                                              &packing_change,
+                                              &support_completeness,
+                                              &granular_temperature,
+                                              &kinetic_stress,
+                                              &spin,
+                                              &grain_acceleration,
+                                              &grain_share,
+                                              &slip_divergence,
+                                              &exchange_velocity,
+                                              &thickness,
+                                              &support_radius,
+                                              &area_share,
+                                              &normal_gravity,
+                                              &centripetal_momentum,
+                                              &ground,
+                                              &earth_pressure,
+                                              &solids_volume,
+                                              &water_volume,
+                                              &solid_fraction,
+                                              &excess_pressure,
+                                              &pore_pressure,
+                                              &pore_gravity,
+                                              &excess_profile[0],
+                                              &excess_profile[1],
+                                              &excess_profile[2],
+                                              &excess_profile[3],
+                                              &excess_profile[4],
+                                              &excess_profile[5],
+                                              &entrained_mass};
 inline constexpr const FlagKey* flags[] = {&fields::state, &steps_alone, &membership};
 }  // namespace all_of_a_set
 

@@ -4,9 +4,9 @@
 
 #include "engine/neighbors/smoothing_kernel.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -66,7 +66,8 @@ TEST(MixtureSound, IsThatOfTheLatticesWorstWave) {
       for (const double grains : {0.0, 50.0, 100.0, 200.0}) {
         const MixtureSound m{100, grains, 0.25, ratio};
         const double exact = fastest(m, share);
-        EXPECT_NEAR(m.fastest(share), exact, 0.01 * exact) << share << " " << ratio << " " << grains;
+        EXPECT_NEAR(m.fastest(share), exact, 0.01 * exact)
+            << share << " " << ratio << " " << grains;
       }
 }
 

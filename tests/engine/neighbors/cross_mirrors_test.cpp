@@ -110,7 +110,8 @@ TEST(CrossMirrors, AWallIsOneUntilItIsRemoved) {
                 1e-6 * SmoothingKernel{h}.value(0));
 }
 
-/// Beside a plane a lattice goes on as its own image: sums of weights and of slopes are those inside.
+/// Beside a plane a lattice goes on as its own image: sums of weights and of slopes are those
+/// inside.
 TEST(CrossMirrors, SumsOverALatticeBesideAPlaneAreThoseInside) {
   const double dx = h / 1.3;
   ParticleSet rows, lattice;
@@ -149,9 +150,7 @@ TEST(CrossMirrors, ACommonApproachMakesNewWeights) {
     CrossPairs pairs(h, 0.5 * h, 1);
     for (int step = 0; step < 4; ++step) {
       const Plane under_a(a, n), under_b(b, n);
-      const auto ground = [&](const Plane& p) {
-        return wall ? CrossPairs::Ground{} : p.ground();
-      };
+      const auto ground = [&](const Plane& p) { return wall ? CrossPairs::Ground{} : p.ground(); };
       pairs.update({a, 0, ground(under_a)}, {b, 0, ground(under_b)}, d, 0, 0, 1);
       expect_mirrored(pairs, a, b, n);
       for (auto* p : {&a, &b})

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every bit of a state is in its hash.
-#include "engine/effects/fields.hpp"
 #include "engine/simulation/sums/state_hash.hpp"
+
+#include "engine/effects/fields.hpp"
 #include "tests/support/liquid/immersed_grains.hpp"
 
 #include <gtest/gtest.h>

@@ -30,8 +30,7 @@ TEST(DragBatch, IsTheDragOfEachAlone) {
       const double reduced = 2 * unit(random), force = std::pow(10, 12 * unit(random) - 12);
       batch.add(static_cast<std::uint32_t>(3 * k), before, now, solids, reduced, force);
       const double first = force * law.per_grain_volume(solids, before.norm());
-      const double mean =
-          0.5 * (before.norm() + (now - slip_taken(before, now, first)).norm());
+      const double mean = 0.5 * (before.norm() + (now - slip_taken(before, now, first)).norm());
       expected.push_back(-reduced *
                          slip_taken(before, now, force * law.per_grain_volume(solids, mean)));
     }
