@@ -42,6 +42,17 @@ unsigned bits_of(Ints truth) {
 #endif
 }
 
+/// out[k] = a[order[k]]
+Floats arranged(Floats a, Ints order) {
+#if defined(__AVX2__)
+  return __builtin_ia32_permvarsf256(a, order);
+#else
+  Floats out{};
+  for (std::size_t k = 0; k < lanes; ++k) out[k] = a[static_cast<std::size_t>(order[k])];
+  return out;
+#endif
+}
+
 /// By bits: the lanes that are true, in order, before the others.
 using Order = std::array<std::array<std::int32_t, lanes>, 1 << lanes>;
 constexpr Order true_first() {
@@ -200,12 +211,12 @@ class CrossPairs::Weigher {
                      Floats weight, Floats slope) const {
     const unsigned bits = bits_of(weight > 0);
     const Ints first = load<Ints>(order[bits].data());
-    const Ints sources = __builtin_shuffle(load<Ints>(source), first);
-    weight = __builtin_shuffle(weight, first);
+    const Floats sources = arranged(load<Floats>(source), first);  // their bits, as they are
+    weight = arranged(weight, first);
     std::memcpy(to.source.data() + n, &sources, sizeof sources);
     std::memcpy(to.weight.data() + n, &weight, sizeof weight);
     if (gradients_) {
-      slope = __builtin_shuffle(slope, first);
+      slope = arranged(slope, first);
       std::memcpy(to.slope.data() + n, &slope, sizeof slope);
     }
     return n + static_cast<std::size_t>(std::popcount(bits));
