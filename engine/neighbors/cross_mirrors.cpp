@@ -1,111 +1,106 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images in ground and walls of the pairs across two sets.
-#include "engine/core/error.hpp"
+// Ground and walls in which pairs across two sets have images.
+#include "engine/core/parallel.hpp"
 #include "engine/neighbors/cross_pairs.hpp"
-#include "engine/neighbors/smoothing_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 
 namespace sturz {
+namespace {
 
-/// Distances to ground and walls, and which way they point.
-void CrossPairs::mirror(PairSide& side, const Set& set, const Domain& domain, double time) const {
-  std::size_t n = set.ground.distance ? 1 : 0;
-  for (const Wall& wall : domain.walls) n += time < wall.remove_at_s;
-  side.mirrors_.resize(n);
-  const auto far = static_cast<float>(support_ / unit_);
-  const auto prepare = [&](PairSide::Mirror& m) {
-    m.gap.resize(side.n_sources());
-    for (auto* c : {&m.nx, &m.ny, &m.nz}) c->resize(side.n_rows());
-    m.near.resize(side.n_rows());
-  };
-  const auto finish = [&](PairSide::Mirror& m) {
-    for (std::size_t r = 0; r < side.n_rows(); ++r) m.near[r] = m.gap[r] < far;
-    for (std::size_t k = 0; k < side.image_row_.size(); ++k)
-      m.gap[side.n_rows() + k] = m.gap[side.image_row_[k]];
-  };
-  const auto in_units = [&](double distance) {
-    return std::min(far, static_cast<float>(std::max(0.0, distance) / unit_));
-  };
-  std::size_t at = 0;
-  if (set.ground.distance) {
-    PairSide::Mirror& m = side.mirrors_[at++];
-    prepare(m);
-    for (std::size_t r = 0; r < side.n_rows(); ++r) {
-      const std::uint32_t i = side.index_[r];
-      m.gap[r] = in_units(set.ground.distance[i]);
-      m.nx[r] = set.ground.nx[i], m.ny[r] = set.ground.ny[i], m.nz[r] = set.ground.nz[i];
-    }
-    finish(m);
+/// Distance of particle i to ground or wall along its normal [m].
+class Distance {
+ public:
+  explicit Distance(const float* ground) : ground_(ground) {}
+  Distance(const ParticleSet& p, const Wall& wall) : set_(&p), wall_(&wall) {}
+  double operator()(std::uint32_t i) const {
+    if (ground_) return ground_[i];
+    return (Vec3(set_->x[i], set_->y[i], set_->z[i]) - wall_->point).dot(wall_->normal);
   }
-  for (const Wall& wall : domain.walls) {
-    if (time >= wall.remove_at_s) continue;
-    PairSide::Mirror& m = side.mirrors_[at++];
-    prepare(m);
-    const ParticleSet& p = set.particles;
-    for (std::size_t r = 0; r < side.n_rows(); ++r) {
-      const std::uint32_t i = side.index_[r];
-      m.gap[r] = in_units((Vec3(p.x[i], p.y[i], p.z[i]) - wall.point).dot(wall.normal));
-    }
-    std::fill(m.nx.begin(), m.nx.end(), static_cast<float>(wall.normal.x()));
-    std::fill(m.ny.begin(), m.ny.end(), static_cast<float>(wall.normal.y()));
-    std::fill(m.nz.begin(), m.nz.end(), static_cast<float>(wall.normal.z()));
-    finish(m);
-  }
+
+ private:
+  const float* ground_ = nullptr;
+  const ParticleSet* set_ = nullptr;
+  const Wall* wall_ = nullptr;
+};
+
+/// Calls body(number, distance, wall) for the ground, whose wall is null, and walls that still
+/// stand. \return how many there are
+template <class Body>
+std::size_t each_mirror(const CrossPairs::Set& set, const Domain& domain, double time,
+                        Body&& body) {
+  std::size_t n = 0;
+  if (set.ground.distance) body(n++, Distance(set.ground.distance), nullptr);
+  for (const Wall& wall : domain.walls)
+    if (time < wall.remove_at_s) body(n++, Distance(set.particles, wall), &wall);
+  return n;
 }
 
-/// Adds to the weights of a block what images in ground and walls give: |r'|^2 = |r|^2 + 4 d_i d_j
-/// over a plane, as in the pair sweep (image_sums.hpp).
-void CrossPairs::add_mirrored(PairSide& from, const PairSide& to, bool gradients,
-                              std::size_t block) const {
-  PairSide::Block& b = from.blocks_[block];
-  const std::size_t first = block * PairSide::block;
-  const std::size_t last = std::min(from.n_rows(), first + PairSide::block);
-  const SmoothingKernel smoothing{h_};
-  const auto to_s = static_cast<float>(unit_ / support_);
-  const auto norm = static_cast<float>(smoothing.value(0));
-  const auto slope = static_cast<float>(smoothing.discrete_gradient_factor());
-  const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
-  const std::uint32_t* source = b.source.data();
-  constexpr std::uint32_t chunk = 64;
-  expect(from.mirrors_.size() == to.mirrors_.size(), "both sets know of the ground, or none");
-  b.images.resize(from.mirrors_.size());
-  for (std::size_t m = 0; m < from.mirrors_.size(); ++m) {
-    PairSide::ImageBlock& images = b.images[m];
-    images.weight.resize(b.source.size());
-    images.slope.resize(gradients ? b.source.size() : 0);
-    const float* __restrict gap = to.mirrors_[m].gap.data();
-    float* __restrict weight = b.weight.data();
-    for (std::size_t r = first; r < last; ++r) {
-      if (!from.near(r, m)) continue;
-      const float own = from.mirrors_[m].gap[r];
-      const std::int32_t x = from.x_[r], y = from.y_[r], z = from.z_[r];
-      const std::uint32_t end = from.runs_[r].end;
-      for (std::uint32_t k = from.runs_[r].begin; k < end; k += chunk) {
-        const std::uint32_t n = std::min(chunk, end - k);
-        float apart[chunk], sum[chunk];  // so that the arithmetic runs over plain arrays
-        for (std::uint32_t c = 0; c < n; ++c) {
-          const std::uint32_t s = source[k + c];
-          const auto dx = static_cast<float>(to_x[s] - x), dy = static_cast<float>(to_y[s] - y),
-                     dz = static_cast<float>(to_z[s] - z);
-          apart[c] = dx * dx + dy * dy + dz * dz + 4 * own * gap[s];
-          sum[c] = own + gap[s];
-        }
-        float value[chunk], steep[chunk];
-        for (std::uint32_t c = 0; c < n; ++c) {
-          const float least = sum[c] * sum[c], r2 = apart[c] > least ? apart[c] : least;
-          const float left = 1 - std::sqrt(r2) * to_s, t = left > 0 ? left : 0;
-          const float t3 = t * t * t;
-          value[c] = norm * t3 * t * (5 - 4 * t);
-          steep[c] = slope * t3;
-        }
-        for (std::uint32_t c = 0; c < n; ++c) weight[k + c] += value[c];
-        std::copy(value, value + n, images.weight.begin() + k);
-        if (gradients) std::copy(steep, steep + n, images.slope.begin() + k);
+}  // namespace
+
+float CrossPairs::gap_units(double distance) const {
+  const auto far = static_cast<float>(support_ / unit_);
+  return std::min(far, static_cast<float>(std::max(0.0, distance) / unit_));
+}
+
+/// Distances to ground and walls, and which way they point.
+void CrossPairs::mirror(PairSide& side, const Set& set, const Domain& domain, double time,
+                        int threads) const {
+  side.mirrors_.resize(each_mirror(set, domain, time, [](auto&&...) {}));
+  side.far_ = static_cast<float>(support_ / unit_);
+  const std::size_t n = side.n_rows();
+  each_mirror(set, domain, time, [&](std::size_t k, const Distance& distance, const Wall* wall) {
+    PairSide::Mirror& m = side.mirrors_[k];
+    fit(m.gap, side.n_sources());
+    for (auto* c : {&m.nx, &m.ny, &m.nz}) fit(*c, n);
+    parallel_ranges(n, reduction_block, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r) {
+        const std::uint32_t i = side.index_[r];
+        m.gap[r] = gap_units(distance(i));
+        const CrossPairs::Ground& g = set.ground;
+        m.nx[r] = wall ? static_cast<float>(wall->normal.x()) : g.nx[i];
+        m.ny[r] = wall ? static_cast<float>(wall->normal.y()) : g.ny[i];
+        m.nz[r] = wall ? static_cast<float>(wall->normal.z()) : g.nz[i];
       }
-    }
-  }
+    });
+    side.copy_images(m.gap);
+    for (std::size_t s = 0; k == 0 && s < side.n_sources(); ++s) side.places_[s].gap = m.gap[s];
+  });
+}
+
+/// How much nearer to, or farther from, ground or a wall a particle has come since its gaps were
+/// looked up, where images are near [m]: no more than what changes a weight as much where the
+/// smoothing kernel is steepest. The normal of rough ground turns from cell to cell, and high above
+/// it gaps jump that hardly weigh.
+double CrossPairs::approach(const PairSide& side, const Set& set, const Domain& domain, double time,
+                            int threads) const {
+  if (side.mirrors_.size() != each_mirror(set, domain, time, [](auto&&...) {}))
+    return std::numeric_limits<double>::infinity();
+  const double per_s = unit_ / support_;
+  // |dW/dr| of an image no nearer than the gap, over its largest, 20 t^3 s at s = 1/4.
+  const auto steepness = [&](float gap) {
+    const double s = gap * per_s, t = 1 - s;
+    return s < 0.25 ? 1 : t * t * t * s / (0.25 * 0.75 * 0.75 * 0.75);
+  };
+  double most = 0;
+  each_mirror(set, domain, time, [&](std::size_t k, const Distance& distance, const Wall*) {
+    const float* gap = side.mirrors_[k].gap.data();
+    most = ordered_reduce(
+        side.n_rows(), threads, most,
+        [&](std::size_t begin, std::size_t end, double& out) {
+          for (std::size_t r = begin; r < end; ++r) {  // both are cut at 2h
+            const float now = gap_units(distance(side.index_[r]));
+            if (now == gap[r]) continue;
+            out = std::max(out, std::abs(now - gap[r]) * steepness(std::min(now, gap[r])));
+          }
+        },
+        [](double& total, double block) { total = std::max(total, block); });
+  });
+  return most * unit_;
 }
 
 }  // namespace sturz

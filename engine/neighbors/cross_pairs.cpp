@@ -41,19 +41,28 @@ struct Range {
 
 std::size_t PairSide::n_entries() const {
   std::size_t n = 0;
-  for (const Block& b : blocks_) n += b.source.size();
+  for (std::size_t r = 0; r < runs_.size(); ++r) n += runs_[r].end - runs_[r].begin;
   return n;
+}
+
+std::size_t PairSide::Weighed::bytes() const {
+  return runs.capacity() * sizeof(Run) + source.capacity() * sizeof(std::uint32_t) +
+         (weight.capacity() + slope.capacity()) * sizeof(float);
 }
 
 std::size_t PairSide::bytes() const {
   std::size_t total = keys_.capacity() * sizeof(Key) + images_.capacity() * sizeof(Image) +
-                      runs_.capacity() * sizeof(Run) + cell_.capacity() * sizeof(std::uint64_t);
+                      runs_.capacity() * sizeof(Run) + cell_.capacity() * sizeof(std::uint64_t) +
+                      places_.capacity() * sizeof(Place) + blocks_.capacity() * sizeof(Block);
   for (const auto* v : {&index_, &image_row_, &index_of_})
     total += v->capacity() * sizeof(std::uint32_t);
-  for (const auto* v : {&x_, &y_, &z_}) total += v->capacity() * sizeof(std::int32_t);
-  for (const Block& b : blocks_)
-    total += b.source.capacity() * sizeof(std::uint32_t) +
-             (b.weight.capacity() + b.slope.capacity()) * sizeof(float);
+  for (const Mirror& m : mirrors_)
+    for (const auto* v : {&m.gap, &m.nx, &m.ny, &m.nz}) total += v->capacity() * sizeof(float);
+  for (const Block& b : blocks_) {
+    total += b.candidate.capacity() * sizeof(std::uint32_t) + b.weighed.bytes() +
+             b.images.capacity() * sizeof(Weighed);
+    for (const Weighed& images : b.images) total += images.bytes();
+  }
   return total;
 }
 
@@ -132,7 +141,8 @@ void CrossPairs::add_images(PairSide& side, const Period& period, bool along_x) 
   const auto most = static_cast<std::int32_t>(std::ceil((support_ + skin_) / period.length()));
   const std::size_t n = side.images_.size();
   const auto add = [&](const PairSide::Image& base) {
-    const std::int32_t at = along_x ? side.x_[base.row] + base.dx : side.y_[base.row] + base.dy;
+    const std::int32_t at =
+        along_x ? side.places_[base.row].x + base.dx : side.places_[base.row].y + base.dy;
     for (std::int32_t turn = -most; turn <= most; ++turn) {
       const std::int32_t there = at + turn * length;
       if (turn == 0 || there < low - margin || there > high + margin) continue;
@@ -148,8 +158,8 @@ void CrossPairs::add_images(PairSide& side, const Period& period, bool along_x) 
 
 void CrossPairs::sort_images(PairSide& side) const {
   for (PairSide::Image& image : side.images_)
-    image.cell = cell_of(side.x_[image.row] + image.dx, side.y_[image.row] + image.dy,
-                         side.z_[image.row] + image.dz, 0, 0, 0);
+    image.cell = cell_of(side.places_[image.row].x + image.dx, side.places_[image.row].y + image.dy,
+                         side.places_[image.row].z + image.dz, 0, 0, 0);
   std::sort(side.images_.begin(), side.images_.end(), [](const auto& a, const auto& b) {
     return std::tie(a.cell, a.row, a.dx, a.dy) < std::tie(b.cell, b.row, b.dx, b.dy);
   });
@@ -165,7 +175,7 @@ void CrossPairs::sort_images(PairSide& side) const {
 void CrossPairs::place(PairSide& side, const ParticleSet& p, const Domain& domain,
                        int threads) const {
   const std::size_t n = side.n_rows();
-  for (auto* column : {&side.x_, &side.y_, &side.z_}) fit(*column, n + side.images_.size());
+  fit(side.places_, n + side.images_.size());
   const bool periodic = domain.x.active || domain.y.active;
   parallel_ranges(n, reduction_block, threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t r = begin; r < end; ++r) {
@@ -176,14 +186,13 @@ void CrossPairs::place(PairSide& side, const ParticleSet& p, const Domain& domai
         x -= turn_x * domain.x.length(), y -= turn_y * domain.y.length();
         z -= turn_x * domain.x.rise + turn_y * domain.y.rise;
       }
-      side.x_[r] = fixed(x), side.y_[r] = fixed(y), side.z_[r] = fixed(z);
+      side.places_[r] = {fixed(x), fixed(y), fixed(z), 0};
     }
   });
   for (std::size_t k = 0; k < side.images_.size(); ++k) {
     const PairSide::Image& image = side.images_[k];
-    side.x_[n + k] = side.x_[image.row] + image.dx;
-    side.y_[n + k] = side.y_[image.row] + image.dy;
-    side.z_[n + k] = side.z_[image.row] + image.dz;
+    const PairSide::Place& of = side.places_[image.row];
+    side.places_[n + k] = {of.x + image.dx, of.y + image.dy, of.z + image.dz, 0};
   }
 }
 
@@ -196,13 +205,13 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
   from.runs_.resize(from.n_rows());
   from.blocks_.resize((from.n_rows() + block - 1) / block);
   parallel_ranges(from.n_rows(), block, threads, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::uint32_t>& out = from.blocks_[begin / block].source;
+    std::vector<std::uint32_t>& out = from.blocks_[begin / block].candidate;
     Range ranges[18];
     constexpr std::size_t chunk = 64;
     float distance2[chunk];
     std::size_t n = 0;
     for (std::size_t r = begin; r < end; ++r) {
-      const std::int32_t x = from.x_[r], y = from.y_[r], z = from.z_[r];
+      const auto [x, y, z, gap] = from.places_[r];
       if (r == begin || from.cell_[r] != from.cell_[r - 1])
         for (int k = 0; k < 9; ++k) {
           const std::uint64_t first = cell_of(x, y, z, -1, k % 3 - 1, k / 3 - 1);
@@ -222,9 +231,9 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
         for (std::size_t s = range.first; s < range.last; s += chunk) {
           const std::size_t m = std::min(chunk, range.last - s);
           for (std::size_t k = 0; k < m; ++k) {
-            const auto dx = static_cast<float>(to.x_[s + k] - x);
-            const auto dy = static_cast<float>(to.y_[s + k] - y);
-            const auto dz = static_cast<float>(to.z_[s + k] - z);
+            const PairSide::Place& there = to.places_[s + k];
+            const auto dx = static_cast<float>(there.x - x), dy = static_cast<float>(there.y - y);
+            const auto dz = static_cast<float>(there.z - z);
             distance2[k] = dx * dx + dy * dy + dz * dz;
           }
           if (out.size() < n + chunk) fit(out, n + 8 * chunk);
@@ -235,45 +244,8 @@ void CrossPairs::list(PairSide& from, const PairSide& to, int threads) const {
         }
       from.runs_[r].end = static_cast<std::uint32_t>(n);
     }
-    out.resize(n);
-  });
-}
-
-void CrossPairs::weigh(PairSide& from, const PairSide& to, bool gradients, int threads) const {
-  constexpr std::size_t block = PairSide::block;
-  const SmoothingKernel smoothing{h_};
-  const auto to_s = static_cast<float>(unit_ / support_);
-  const auto norm = static_cast<float>(smoothing.value(0));
-  const auto slope = static_cast<float>(smoothing.discrete_gradient_factor());
-  const std::int32_t *to_x = to.x_.data(), *to_y = to.y_.data(), *to_z = to.z_.data();
-  parallel_ranges(from.n_rows(), block, threads, [&](std::size_t begin, std::size_t end) {
-    PairSide::Block& b = from.blocks_[begin / block];
-    fit(b.weight, b.source.size());
-    if (gradients) fit(b.slope, b.source.size());
-    const std::uint32_t* source = b.source.data();
-    float *weight = b.weight.data(), *slopes = gradients ? b.slope.data() : b.weight.data();
-    for (std::size_t r = begin; r < end; ++r) {
-      const std::int32_t x = from.x_[r], y = from.y_[r], z = from.z_[r];
-      const auto pair = [&](std::uint32_t k) {
-        const std::uint32_t s = source[k];
-        const auto dx = static_cast<float>(to_x[s] - x), dy = static_cast<float>(to_y[s] - y),
-                   dz = static_cast<float>(to_z[s] - z);
-        const float left = 1 - std::sqrt(dx * dx + dy * dy + dz * dz) * to_s;
-        return left > 0 ? left : 0.0f;
-      };
-      if (gradients)
-        for (std::uint32_t k = from.runs_[r].begin; k < from.runs_[r].end; ++k) {
-          const float t = pair(k), t3 = t * t * t;
-          weight[k] = norm * t3 * t * (5 - 4 * t);
-          slopes[k] = slope * t3;
-        }
-      else
-        for (std::uint32_t k = from.runs_[r].begin; k < from.runs_[r].end; ++k) {
-          const float t = pair(k), t3 = t * t * t;
-          weight[k] = norm * t3 * t * (5 - 4 * t);
-        }
-    }
-    add_mirrored(from, to, gradients, begin / block);
+    fit(out, n + 8);
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(n), out.end(), 0u);
   });
 }
 
@@ -324,12 +296,18 @@ void CrossPairs::update(const Set& a, const Set& b, const Domain& domain, double
   else
     for (int k : {0, 1}) follow_sorting(sides_[k], sets[k]);
   for (int k : {0, 1}) sides_[k].n_sorts_ = sets[k].n_sorts;
-  if (!anew && unweighed_ < weighed_for * h_ && walls == n_walls_) return;
+  // A particle and an image close in by what both come nearer to the mirror, besides.
+  const double kept = weighed_for * h_;
+  const auto closed = [&](int k) { return approach(sides_[k], sets[k], domain, time, threads); };
+  if (!anew && walls == n_walls_ && unweighed_ < kept &&
+      std::hypot(unweighed_, closed(0) + closed(1)) < kept)
+    return;
   n_walls_ = walls;
   unweighed_ = 0;
+  ++n_weighings_;
   for (int k : {0, 1}) {
     if (!anew) place(sides_[k], sets[k].particles, domain, threads);
-    mirror(sides_[k], sets[k], domain, time);
+    mirror(sides_[k], sets[k], domain, time, threads);
   }
   weigh(sides_[0], sides_[1], gradients_ == 0, threads);
   weigh(sides_[1], sides_[0], gradients_ == 1, threads);

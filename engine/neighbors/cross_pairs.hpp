@@ -30,37 +30,32 @@ class PairSide {
   /// Storage index of a row's particle, up to date after CrossPairs::update.
   std::uint32_t index(std::size_t row) const { return index_[row]; }
   /// Rows and the images behind them: how many values a sum over neighbours reads.
-  std::size_t n_sources() const { return x_.size(); }
+  std::size_t n_sources() const { return places_.size(); }
   /// Values of the rows are there; gives the images theirs.
   template <class Value>
   void copy_images(std::vector<Value>& values) const {
     for (std::size_t k = 0; k < image_row_.size(); ++k)
       values[n_rows() + k] = values[image_row_[k]];
   }
-  /// A row's pairs, in a fixed order.
+  /// A row's pairs within the support, in a fixed order.
   struct Pairs {
     const std::uint32_t* source;
-    const float* weight;  ///< W [1/m^3] of the smoothing kernel; 0 for those of the skin
+    const float* weight;  ///< W > 0 [1/m^3] of the smoothing kernel
     const float* slope;   ///< C t^3 [1/m^5], whose gradient at the row is slope (x_source - x_row)
     std::size_t n;
   };
   /// A pair has the same weight from both sides, to the last bit. Slopes on the side that wants
   /// gradients only.
-  Pairs pairs(std::size_t row) const {
-    const Block& b = blocks_[row / block];
-    const Run run = runs_[row];
-    const float* slope = b.slope.empty() ? nullptr : b.slope.data() + run.begin;
-    return {b.source.data() + run.begin, b.weight.data() + run.begin, slope,
-            std::size_t{run.end} - run.begin};
-  }
+  Pairs pairs(std::size_t row) const { return blocks_[row / block].weighed.pairs(row % block); }
   /// Where a source lies, in the frame of CrossPairs::unit [units].
   Vec3 place(std::size_t source) const {
-    return {1.0 * x_[source], 1.0 * y_[source], 1.0 * z_[source]};
+    const Place& p = places_[source];
+    return {1.0 * p.x, 1.0 * p.y, 1.0 * p.z};
   }
   /// Ground and walls that may complete supports.
   std::size_t n_mirrors() const { return mirrors_.size(); }
   /// Whether sources have images in mirror m near a row; its normal and the distance to it [units].
-  bool near(std::size_t row, std::size_t m) const { return mirrors_[m].near[row] != 0; }
+  bool near(std::size_t row, std::size_t m) const { return mirrors_[m].gap[row] < far_; }
   Vec3 normal(std::size_t row, std::size_t m) const {
     const Mirror& p = mirrors_[m];
     return {p.nx[row], p.ny[row], p.nz[row]};
@@ -69,12 +64,7 @@ class PairSide {
   /// The images of a row's pairs in mirror m, for rows near it. The weights of `pairs` hold them
   /// already, its slopes do not.
   Pairs image_pairs(std::size_t row, std::size_t m) const {
-    const Block& b = blocks_[row / block];
-    const ImageBlock& images = b.images[m];
-    const Run run = runs_[row];
-    const float* slope = images.slope.empty() ? nullptr : images.slope.data() + run.begin;
-    return {b.source.data() + run.begin, images.weight.data() + run.begin, slope,
-            std::size_t{run.end} - run.begin};
+    return blocks_[row / block].images[m].pairs(row % block);
   }
   std::size_t n_entries() const;
   std::size_t bytes() const;
@@ -86,20 +76,37 @@ class PairSide {
   struct Run {
     std::uint32_t begin = 0, end = 0;  ///< entries of a row in its block
   };
-  struct ImageBlock {
-    std::vector<float> weight, slope;  ///< as of sources themselves; read for rows near a mirror
+  /// Pairs of a block's rows, no more than what has a weight.
+  struct Weighed {
+    std::vector<Run> runs;  ///< [rows of the block]; empty: none has any
+    std::vector<std::uint32_t> source;
+    std::vector<float> weight;  ///< W [1/m^3]
+    std::vector<float> slope;   ///< C t^3 [1/m^5], only where gradients are wanted
+
+    Pairs pairs(std::size_t row) const {
+      if (runs.empty()) return {nullptr, nullptr, nullptr, 0};
+      const Run run = runs[row];
+      return {source.data() + run.begin, weight.data() + run.begin,
+              slope.empty() ? nullptr : slope.data() + run.begin, std::size_t{run.end} - run.begin};
+    }
+    void make_room(std::size_t rows, std::size_t entries, bool gradients);
+    std::size_t bytes() const;
   };
   struct Block {
-    std::vector<std::uint32_t> source;
-    std::vector<float> weight;       ///< W [1/m^3]
-    std::vector<float> slope;        ///< C t^3 [1/m^5], only where gradients are wanted
-    std::vector<ImageBlock> images;  ///< [mirror]
+    /// Those within the support and the skin; eight more than there are: whole lanes are read.
+    std::vector<std::uint32_t> candidate;
+    Weighed weighed;
+    std::vector<Weighed> images;  ///< [mirror]
   };
   /// A plane near which sources have images: the ground under each particle, or a wall.
   struct Mirror {
-    std::vector<float> gap;          ///< [sources] distance in position units, at most 2h
-    std::vector<float> nx, ny, nz;   ///< [rows] normal
-    std::vector<std::uint8_t> near;  ///< [rows] 1 where the gap is less than 2h
+    std::vector<float> gap;         ///< [sources] distance in position units, at most 2h
+    std::vector<float> nx, ny, nz;  ///< [rows] normal
+  };
+  /// Of a source, in position units.
+  struct alignas(16) Place {
+    std::int32_t x = 0, y = 0, z = 0;
+    float gap = 0;  ///< to the first mirror: it is loaded with the others
   };
   struct Key {
     std::uint64_t cell = 0;
@@ -115,10 +122,11 @@ class PairSide {
   std::vector<Key> keys_;      ///< [rows] of the last rebuild
   std::vector<Image> images_;  ///< of the last rebuild
   std::vector<std::uint32_t> index_, image_row_;
-  std::vector<std::uint64_t> cell_;      ///< [sources] of the last rebuild
-  std::vector<std::int32_t> x_, y_, z_;  ///< [sources] in position units
+  std::vector<std::uint64_t> cell_;  ///< [sources] of the last rebuild
+  std::vector<Place> places_;        ///< [sources]
   std::vector<Mirror> mirrors_;
-  std::vector<Run> runs_;
+  float far_ = 0;          ///< 2h in position units
+  std::vector<Run> runs_;  ///< [rows] of candidates
   std::vector<Block> blocks_;
   std::vector<std::uint32_t> index_of_;  ///< by id
   std::size_t n_created_ = 0, n_sorts_ = 0;
@@ -135,7 +143,8 @@ class CrossPairs {
 
   /// The ground under each particle, [particles] each; null: none.
   struct Ground {
-    const float* distance = nullptr;  ///< along the normal; 2h or more: none [m]
+    /// Along the normal; 2h or more: no image, as where the ground is not known [m].
+    const float* distance = nullptr;
     const float *nx = nullptr, *ny = nullptr, *nz = nullptr;
   };
   /// A set and how often it was sorted (MovingSet::n_sorts).
@@ -156,6 +165,8 @@ class CrossPairs {
   /// Of PairSide::place [m].
   double unit() const { return unit_; }
   std::size_t n_rebuilds() const { return n_rebuilds_; }
+  /// How often weights were made.
+  std::size_t n_weighings() const { return n_weighings_; }
   std::size_t bytes() const { return sides_[0].bytes() + sides_[1].bytes(); }
 
  private:
@@ -167,9 +178,12 @@ class CrossPairs {
   void add_images(PairSide&, const Period&, bool along_x) const;
   void sort_images(PairSide&) const;
   void place(PairSide&, const ParticleSet&, const Domain&, int threads) const;
-  void mirror(PairSide& side, const Set& set, const Domain& domain, double time) const;
+  class Weigher;
+  float gap_units(double distance) const;
+  void mirror(PairSide& side, const Set& set, const Domain& domain, double time, int threads) const;
+  double approach(const PairSide& side, const Set& set, const Domain& domain, double time,
+                  int threads) const;
   void list(PairSide& from, const PairSide& to, int threads) const;
-  void add_mirrored(PairSide& from, const PairSide& to, bool gradients, std::size_t block) const;
   void weigh(PairSide& from, const PairSide& to, bool gradients, int threads) const;
   std::uint64_t cell_of(std::int32_t x, std::int32_t y, std::int32_t z, int dx, int dy,
                         int dz) const;
@@ -184,7 +198,7 @@ class CrossPairs {
   double moved_ = 0, unweighed_ = 0;
   std::size_t n_walls_ = 0;
   bool stale_ = true;
-  std::size_t n_rebuilds_ = 0;
+  std::size_t n_rebuilds_ = 0, n_weighings_ = 0;
   double origin_[3] = {0, 0, 0};  ///< of the position units [m]
   double unit_ = 1;               ///< [m]
   PairSide sides_[2];

@@ -176,8 +176,8 @@ void NeighborLists::weigh_images(double moment_factor) {
   }
 }
 
-/// Sum of t^3 (r.n)^2 over the listed particles themselves, t = 1 - r/2h, no farther than where it
-/// is `enough` [m^2].
+/// Sum of t^3 (r.n)^2 over the listed particles and their periodic images, t = 1 - r/2h, no farther
+/// than where it is `enough` [m^2]. What a wall mirrors does not count: it is what is weighed.
 double NeighborLists::moment_along(const RecordImage& image, const Vec3& normal,
                                    double enough) const {
   const NeighborView lists = view();
@@ -189,7 +189,7 @@ double NeighborLists::moment_along(const RecordImage& image, const Vec3& normal,
   const auto stop = static_cast<float>(enough / (unit_ * unit_));
   float sum = 0;
   for (const std::uint32_t* j = begin; j != begin + lists.list_size(group) && sum < stop; ++j) {
-    if (*j >= n_particles_) continue;
+    if (*j >= padded_size() && images_[*j - padded_size()].mirrors[0]) continue;
     const NeighborRecord& o = records_[*j];
     const auto x = static_cast<float>(o.x - i.x), y = static_cast<float>(o.y - i.y);
     const auto z = static_cast<float>(o.z - i.z);

@@ -36,6 +36,8 @@ Report ensemble(const Options&);
 Report absent_effects(const Options&);
 /// How fast is one core in a liquid?
 Report liquid(const Options&);
+/// What do grains and a liquid cost together, beside each alone?
+Report coupled(const Options&);
 /// Are the bits of every shipped scene still the same, on every instruction set and thread count?
 Report hashes(const Options&);
 /// What do a hundred thousand members cost to keep, read and merge?

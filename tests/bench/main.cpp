@@ -33,6 +33,7 @@ constexpr Command commands[] = {
     {"liquid", "A dam break of liquid: particle-updates per second of one core",
      sturz::bench::liquid},
     {"merge", "Members in packs: written, read, merged", sturz::bench::merge},
+    {"coupled", "Grains in a liquid: a step beside the steps of each alone", sturz::bench::coupled},
     {"hashes", "State hash of every shipped scene: what must not change", sturz::bench::hashes},
     {"hard", "Hard cases and random members against their bounds", sturz::bench::hard}};
 

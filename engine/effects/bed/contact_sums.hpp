@@ -99,9 +99,9 @@ inline Vec3 by_walls(const State& s, const MovingSet& p, std::size_t i, const Ve
 /// A drag along a surface with the normal n on a velocity that forces have changed already, as the
 /// exact solution of dv/dt = pull - plastic v/|v| - rate v over the kick: no step is too long for
 /// it, a steady flow has its speed at any step, and it stops but never turns what it drags. \param
-/// drag    of a speed [m/s]: an object with `plastic` [m/s^2] and `rate` [1/s] \param before
-/// velocity at the start of the step \param vx,vy,vz  in and out [m/s] \return what the motion lost
-/// [J/kg]
+/// drag    of a speed [m/s]: an object with `plastic` [m/s^2] and `rate` [1/s]; where it has
+/// `even()`, that says whether it is the same at any speed \param before velocity at the start of
+/// the step \param vx,vy,vz  in and out [m/s] \return what the motion lost [J/kg]
 template <class Drag>
 double drag_along(const Vec3& n, const Vec3& before, double kick, Drag&& drag, double& vx,
                   double& vy, double& vz) {
@@ -113,7 +113,9 @@ double drag_along(const Vec3& n, const Vec3& before, double kick, Drag&& drag, d
   };
   // At the mean speed of the step, found from the drag at its start.
   const double speed = start.norm();
-  const Vec3 after = at(0.5 * (speed + at(speed).norm()));
+  bool even = false;
+  if constexpr (requires { drag.even(); }) even = drag.even();
+  const Vec3 after = even ? at(1) : at(0.5 * (speed + at(speed).norm()));
   const Vec3 taken = trial - after, now = found - taken;
   vx = now.x(), vy = now.y(), vz = now.z();
   return 0.5 * taken.dot(before + now);

@@ -259,6 +259,8 @@ class WallContact final : public Pass {
 
   void press(State& s, const Wall& wall, const ContactLaw& law, double dt, bool drags) const {
     MovingSet& p = s.sets[set_];
+    const Field* grains = p.find(fields::grain_share);
+    const double* share = grains ? grains->component[0].data() : nullptr;
     const double kick = kick_time(s, dt);
     const WallPressure pressure = WallPressure::of_walls(p, settings_);
     const StartVelocity start(p);
@@ -278,7 +280,8 @@ class WallContact final : public Pass {
                                   p.vx[i], p.vy[i], p.vz[i]),
                     p.mass[i]);
             if (drags)
-              out.friction += p.mass[i] * drag_along(n, start(i), kick, WallShear(settings_, d),
+              out.friction += p.mass[i] * drag_along(n, start(i), kick,
+                                                     WallShear(settings_, d, share ? share[i] : 0),
                                                      p.vx[i], p.vy[i], p.vz[i]);
           }
         },

@@ -21,6 +21,7 @@ class FilmDrag {
       : film_{law},
         per_mass_(share / (density * layer)),
         thickness_(LiquidFilm::equivalent_thickness(layer, depth)) {}
+  bool even() const { return film_.law.newtonian(); }
   SurfaceDrag operator()(double speed) const {
     const double v = std::max(speed, 1e-9);  // below it the law's own power would have no slope
     return {per_mass_ * film_.law.yield_stress,
@@ -75,7 +76,7 @@ class LiquidGroundContact final : public Pass {
     const GroundImages images(p);
     const auto support_radius = static_cast<float>(2 * settings_.smoothing_length);
     const double kick = kick_time(s, dt);
-    const Field* weights = p.find(fields::ground_weight);
+    const Field *weights = p.find(fields::ground_weight), *grains = p.find(fields::grain_share);
     const double* weight = weights ? weights->component[0].data() : nullptr;
     const bool walled = !s.domain.walls.empty() && p.has(fields::velocity_before);
     for (std::size_t i = begin; i < end; ++i) {
@@ -91,8 +92,8 @@ class LiquidGroundContact final : public Pass {
       // A sheet of one layer has no images that could hold it (BoundaryView): it is a film.
       const double film = films() ? 1 : drags() && weight ? 1 - weight[i] : 0;
       if (film > 0)
-        out.friction += p.mass[i] * drag_along(n, before, kick, drag_of(p, i, n.z(), film), p.vx[i],
-                                               p.vy[i], p.vz[i]);
+        out.friction += p.mass[i] * drag_along(n, before, kick, drag_of(p, i, n.z(), film, grains),
+                                               p.vx[i], p.vy[i], p.vz[i]);
       if (walled)
         out.contact_work +=
             0.5 * p.mass[i] *
@@ -100,12 +101,15 @@ class LiquidGroundContact final : public Pass {
     }
   }
 
-  /// A flow is no thinner than one particle spread over its own square.
-  FilmDrag drag_of(const MovingSet& p, std::size_t i, double upright, double share) const {
+  /// A flow is no thinner than one particle spread over its own square. Among grains the liquid's
+  /// stress acts on its share of the bed as on that of every face inside.
+  FilmDrag drag_of(const MovingSet& p, std::size_t i, double upright, double share,
+                   const Field* grains) const {
     const double density = settings_.reference_density, dx = settings_.spacing;
     const double least = p.mass[i] / (density * dx * dx);
     const double depth = std::max(least, depth_.depth(i) * upright);
     const double layer = std::clamp(depth_.beside_ground(i) * upright, least, depth);
+    if (grains) share /= 1 + grains->component[0][i];
     return {settings_.liquid->law, density, depth, layer, share};
   }
 

@@ -13,7 +13,9 @@
 ///             film of one to three layers moves as one, and its bed's stress divided by its mass
 ///             is what brakes it. Where the flow is deeper than the support, the layer within the
 ///             support is braked by the stress that its own mean speed has in the flow's profile,
-///             and the pairs bear the rest. What it takes is Ledger::friction.
+///             and the pairs bear the rest. What it takes is Ledger::friction. Among grains the
+///             stress inside acts on the liquid's share 1/(1 + X) of every face, and so does this:
+///             a mixture that moves as one has tau_b = 3 mu v/((1 + X) H), as with no_slip.
 #pragma once
 
 #include "engine/effects/bed/contact_sums.hpp"
@@ -32,12 +34,15 @@ struct SurfaceDrag {
 /// Shear stress mu v/d of the liquid between a particle and a wall at rest. As the mirrored
 /// pressure (WallPressure) it acts on all particles within the support by 2 W_plane(d): in even
 /// shear they bear the wall's traction together.
+/// Among grains the stress acts on the liquid's share of the wall, 1/(1 + X).
 class WallShear {
  public:
-  WallShear(const ContactSettings& c, double distance)
+  WallShear(const ContactSettings& c, double distance, double grain_share = 0)
       : law_(c.liquid->law),
         gap_(std::fmax(distance, 0.25 * c.spacing)),
-        weight_(2 * plane_integral(distance, c.smoothing_length) / c.reference_density) {}
+        weight_(2 * plane_integral(distance, c.smoothing_length) /
+                (c.reference_density * (1 + grain_share))) {}
+  bool even() const { return law_.newtonian(); }
   SurfaceDrag operator()(double speed) const {
     if (law_.newtonian()) return {0, weight_ * law_.consistency / gap_};
     const double v = std::fmax(speed, 1e-9);

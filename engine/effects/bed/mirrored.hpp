@@ -35,7 +35,8 @@ class WallPressure {
     if (kinetic_[0]) snn += normal(kinetic_, i, nx, ny, nz);
     if (snn >= 0) return 0;
     const double weight = ground_weight_ ? ground_weight_[i] : mirror_weight_[i];
-    return -2 * snn * plane * weight / (density_ * (1 + density_change_[i]));
+    const double packed = packing_ ? 1 + packing_[i] : 1;
+    return -2 * snn * plane * weight / (density_ * packed * (1 + density_change_[i]));
   }
 
  private:
@@ -44,6 +45,8 @@ class WallPressure {
     if (const Field* kinetic = p.find(fields::kinetic_stress))
       for (int k = 0; k < 6; ++k) kinetic_[k] = kinetic->component[k].data();
     density_change_ = p.scalar(fields::density_change).data();
+    if (const Field* packing = p.find(fields::packing_change))
+      packing_ = packing->component[0].data();
     mirror_weight_ = p.boundary.mirror_weight.data();
   }
   static double normal(const double* const s[6], std::size_t i, double nx, double ny, double nz) {
@@ -57,6 +60,7 @@ class WallPressure {
   const double* stress_[6] = {};
   const double* kinetic_[6] = {};  ///< of dispersed grains, see kinetic/update.hpp
   const double* density_change_ = nullptr;
+  const double* packing_ = nullptr;  ///< of grains whose packing changes, see dilatancy/
 };
 
 /// The bed's friction on a particle above those that lie on it: what lies between hands on no more

@@ -32,9 +32,11 @@ void add_coupling(Step& step, State& state, std::size_t grains, std::size_t liqu
 }
 
 std::size_t coupling_bytes_per_particle() {
-  // A support of 74 neighbours, half as many again in the skin; both sides, one with gradients.
-  const std::size_t pairs = 105 * (4 + 4) + 105 * 4 / 2;
-  return pairs + sizeof(MetLiquid) + 4 * sizeof(Vec3) + 160;
+  // A support of 74 neighbours, half as many again in the skin: candidates, and those that have a
+  // weight; one side has gradients. Half of the particles lie beside ground or a wall.
+  const std::size_t pairs = 105 * (4 + 4 + 4) + 105 * 4 / 2;
+  const std::size_t images = (105 * (4 + 4) + 105 * 4 / 2) / 2;
+  return pairs + images + sizeof(MetLiquid) + 4 * sizeof(Vec3) + 160;
 }
 
 }  // namespace sturz

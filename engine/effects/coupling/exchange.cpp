@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Buoyancy and drag as impulses, and what they cost.
 #include "engine/core/parallel.hpp"
+#include "engine/effects/coupling/drag_batch.hpp"
 #include "engine/effects/coupling/shared.hpp"
 #include "engine/effects/fields.hpp"
 #include "engine/laws/drag.hpp"
-#include "engine/laws/phase_drag.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ using Components = std::vector<std::vector<double>>;
 
 Vec3 at(const Components& v, std::size_t i) { return {v[0][i], v[1][i], v[2][i]}; }
 Vec3 velocity(const ParticleSet& p, std::size_t i) { return {p.vx[i], p.vy[i], p.vz[i]}; }
-constexpr std::size_t rows = 256;  // of a range of threads' work
+constexpr std::size_t rows = DragBatch::capacity;  // of a range of threads' work
 
 /// The liquid around a grain, means with the weights b_ij.
 struct Surroundings {
@@ -99,12 +99,23 @@ class ExchangePass final : public Pass {
     const Components& before = p.components(fields::velocity_before);
     Components& exchange = p.components(fields::exchange_velocity);
     parallel_ranges(c.met.size(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
+      DragBatch batch(law_);
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t i = c.of_grains().index(r);
         c.lift[r] = c.drag[r] = Vec3::Zero();
         c.impulse[r] = {};
         if (c.met[r].met > 0 && !(p.any_leaving && s.leaves(p, i)))
-          move(r, p.mass[i], at(before, i), velocity(p, i) + kick * ground_push(p, i), kick);
+          lift(r, p.mass[i], at(before, i), velocity(p, i) + kick * ground_push(p, i), kick, batch);
+      }
+      batch.relax();
+      for (std::size_t k = 0; k < batch.size(); ++k) {
+        const std::size_t r = batch.row(k);
+        const Vec3 impulse = batch.impulse(k), given = impulse / c.met[r].met;
+        c.drag[r] = impulse / p.mass[c.of_grains().index(r)];
+        c.impulse[r].quad[0] = Quad{given.x(), given.y(), given.z(), 0};
+      }
+      for (std::size_t r = begin; r < end; ++r) {
+        const std::uint32_t i = c.of_grains().index(r);
         const Vec3 gained = c.lift[r] + c.drag[r];
         exchange[0][i] = gained.x();
         exchange[1][i] = gained.y();
@@ -115,26 +126,18 @@ class ExchangePass final : public Pass {
     c.of_grains().copy_images(c.impulse);
   }
 
-  void move(std::size_t row, double mass, const Vec3& before, const Vec3& now, double kick) {
+  /// A grain's share of the push, and what its drag starts from.
+  void lift(std::size_t row, double mass, const Vec3& before, const Vec3& now, double kick,
+            DragBatch& batch) {
     Coupling& c = *shared_;
     const MetLiquid& met = c.met[row];
     const Surroundings liquid = surroundings(row);
     if (c.settings.buoyancy) c.lift[row] = met.wet * kick / c.settings.grain_density * liquid.push;
-    const Vec3 slip0 = before - liquid.before, slip = now + c.lift[row] - liquid.now;
     const double other = met.volume * met.met, reduced = mass * other / (mass + other);
     const double force = kick * met.wet * liquid.saturation * c.settings.drag_multiplier * mass /
                          (c.settings.grain_density * reduced);
-    const double solids = std::clamp(1 - liquid.pores, 0.0, 1 - GranularDrag::least_pores);
-    // With the mean of the slips at both ends: a grain that settles does so at the law's speed
-    // whatever the step.
-    const GranularDrag::AtShare law(law_, solids);
-    const double start = slip0.norm();
-    const Vec3 end = slip - slip_taken(slip0, slip, force * law(start));
-    const double mean = 0.5 * (start + end.norm());
-    const Vec3 impulse = -reduced * slip_taken(slip0, slip, force * law(mean));
-    c.drag[row] = impulse / mass;
-    const Vec3 given = impulse / met.met;
-    c.impulse[row].quad[0] = Quad{given.x(), given.y(), given.z(), 0};
+    batch.add(static_cast<std::uint32_t>(row), before - liquid.before,
+              now + c.lift[row] - liquid.now, 1 - liquid.pores, reduced, force);
   }
 
   void move_liquid(State& s) {

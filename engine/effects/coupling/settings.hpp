@@ -15,7 +15,8 @@ struct CouplingSettings {
   bool buoyancy = true;
   double smoothing_length = 1.3;  ///< h of the weights between the two sets [m]
   double spacing = 1;             ///< of the grains [m]
-  double courant = 0.25;          ///< dt <= courant h/(c0 sqrt(1 + X) + |v|)
+  double courant = 0.25;          ///< dt <= courant h/(c + |v|), c of laws/mixture_sound.hpp
+  double shear_stiffness = 0.25;  ///< of the liquid, LiquidSettings::shear_stiffness [-]
   double skin = 0.2;              ///< of the lists across, in smoothing lengths
 
   static constexpr double least_fraction = 0.02;  ///< alpha_p of a grain's own volume

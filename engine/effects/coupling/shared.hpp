@@ -8,6 +8,7 @@
 ///   all that i meets                 M_i = sum_j mu_ij, weights b_ij = mu_ij/M_i
 ///   how wet i is                     omega_i = min(1, sum_j (m_j/rho_j) W_ij/(wet (1 - alpha_i)))
 ///   grains' volume in j's            X_j = (rho_j/m_j) sum_i omega_i b_ij m_i/rho_p
+/// V_i, q_j, M_i, omega_i and X_j/rho_j stay as long as the weights do (CrossPairs).
 /// sum_i mu_ij <= m_j, so that grains that take momentum of a liquid particle one by one cannot
 /// take more than it has; sum_j (m_j/rho_j) X_j is the wet grains' volume.
 #pragma once
@@ -55,6 +56,7 @@ struct Coupling {
   std::vector<MetLiquid> met;    ///< [grains' rows]
   std::vector<double> take;      ///< q_j [liquid's rows, kg]
   std::vector<double> share;     ///< X_j, not cut [liquid's rows]
+  std::vector<double> filled;    ///< X_j/rho_j [liquid's rows, m^3/kg]
   std::vector<Vec3> lift, drag;  ///< changes of a grain's velocity in this step [grains' rows]
   std::vector<Vec3> drawn;       ///< of a liquid particle's, by drag [liquid's rows]
   std::vector<Vec3> held;        ///< the same by ground and walls, before the drag
@@ -111,8 +113,8 @@ template <int n>
 void turn_images(const PairSide& side, std::size_t row, const std::vector<Quads<n>>& values,
                  std::initializer_list<int> firsts, Quads<n>& sum) {
   for (std::size_t m = 0; m < side.n_mirrors(); ++m) {
-    if (!side.near(row, m)) continue;
     const PairSide::Pairs pairs = side.image_pairs(row, m);
+    if (pairs.n == 0) continue;
     const Quads<n> images = gather(pairs, pairs.weight, values);
     const Vec3 normal = side.normal(row, m);
     for (const int first : firsts) sum.add(first, -2 * normal.dot(images.vector(first)) * normal);

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.hpp"
 #include "engine/effects/coupling/shared.hpp"
 #include "engine/effects/fields.hpp"
+#include "engine/laws/mixture_sound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,20 +47,32 @@ class ListsAcross final : public Pass {
     VelocityBox box = velocities(grains, s.threads);
     box.add(velocities(liquid, s.threads));
     const bool both = grains.size() > 0 && liquid.size() > 0;
-    shared_->pairs.update({grains, grains.n_sorts, ground_of(grains)},
-                          {liquid, liquid.n_sorts, ground_of(liquid)}, s.domain,
+    shared_->pairs.update({grains, grains.n_sorts, ground_of(grains, known_[0])},
+                          {liquid, liquid.n_sorts, ground_of(liquid, known_[1])}, s.domain,
                           both ? box.width() * s.previous_dt : 0, s.time, s.threads);
   }
-  std::size_t bytes() const override { return shared_->pairs.bytes(); }
+  std::size_t bytes() const override {
+    return shared_->pairs.bytes() + (known_[0].capacity() + known_[1].capacity()) * sizeof(float);
+  }
 
  private:
-  static CrossPairs::Ground ground_of(const MovingSet& p) {
+  /// \param known  room for the distances where some particle has no ground
+  static CrossPairs::Ground ground_of(const MovingSet& p, std::vector<float>& known) {
     const BoundarySupport& b = p.boundary;
     if (b.distance.size() < p.size()) return {};  // no pass looks up the ground of this set
-    return {b.distance.data(), b.nx.data(), b.ny.data(), b.nz.data()};
+    const float* distance = b.distance.data();
+    if (p.any_leaving) {
+      fit(known, p.size());
+      for (std::size_t i = 0; i < p.size(); ++i)
+        known[i] =
+            p.fate[i] == Fate::off_terrain ? std::numeric_limits<float>::infinity() : distance[i];
+      distance = known.data();
+    }
+    return {distance, b.nx.data(), b.ny.data(), b.nz.data()};
   }
 
   std::shared_ptr<Coupling> shared_;
+  std::vector<float> known_[2];  ///< of grains and liquid [m]
 };
 
 /// Velocities as they are, and extrapolated to v_{n+1/2}, as the pair sweeps see them.
@@ -90,17 +103,25 @@ class SharesPass final : public Pass {
     const CouplingSettings& c = shared_->settings;
     const MovingSet& liquid = s.sets[shared_->liquid];
     if (!(liquid.sound_speed > 0)) return;
-    const double share = shared_->largest_share;
+    const MixtureSound sound{liquid.sound_speed, s.sets[shared_->grains].sound_speed,
+                             c.shear_stiffness,
+                             c.buoyancy ? c.liquid_density / c.grain_density : 0};
     out.push_back({"acoustic among grains",
                    c.courant * c.smoothing_length /
-                       (liquid.sound_speed * std::sqrt(1 + share) + liquid.motion.max_speed)});
+                       (sound.fastest(shared_->largest_share) + liquid.motion.max_speed)});
   }
 
   void apply(State& s, double dt) override {
     const double ahead = s.extrapolation(dt);
+    Coupling& c = *shared_;
+    anew_ = weighings_ != c.pairs.n_weighings();
+    weighings_ = c.pairs.n_weighings();
     make_room();
-    measure_grains(s);
-    divide_liquid(s, ahead);
+    if (anew_) {
+      measure_grains(s);
+      divide_liquid(s);
+    }
+    start_liquid(s, ahead);
     meet(s, ahead);
     fill(s);
   }
@@ -108,7 +129,7 @@ class SharesPass final : public Pass {
     const Coupling& c = *shared_;
     return c.met.capacity() * (sizeof(MetLiquid) + 2 * sizeof(Vec3)) +
            c.volume.capacity() * (2 * sizeof(double) + 2 * sizeof(Quads<1>)) +
-           c.take.capacity() * (2 * sizeof(double) + 2 * sizeof(Quads<2>) + 2 * sizeof(Vec3));
+           c.take.capacity() * (3 * sizeof(double) + 2 * sizeof(Quads<2>) + 2 * sizeof(Vec3));
   }
 
  private:
@@ -118,6 +139,7 @@ class SharesPass final : public Pass {
     for (auto* v : {&c.lift, &c.drag}) v->resize(c.of_grains().n_rows());
     for (auto* v : {&c.drawn, &c.held}) v->resize(c.of_liquid().n_rows());
     c.share.resize(c.of_liquid().n_rows());
+    c.filled.resize(c.of_liquid().n_rows());
     fit(c.volume, c.of_grains().n_sources());
     fit(c.room, c.of_grains().n_sources());
     fit(c.flux, c.of_grains().n_sources());
@@ -148,8 +170,19 @@ class SharesPass final : public Pass {
     c.of_grains().copy_images(c.volume);
   }
 
-  /// q_j, and what grains will sum over the liquid around them.
-  void divide_liquid(const State& s, double ahead) {
+  /// q_j
+  void divide_liquid(const State& s) {
+    Coupling& c = *shared_;
+    const MovingSet& p = s.sets[c.liquid];
+    const PairSide& side = c.of_liquid();
+    parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t r = begin; r < end; ++r)
+        c.take[r] = p.mass[side.index(r)] / std::max(1.0, gather(side.pairs(r), c.volume));
+    });
+  }
+
+  /// What grains will sum over the liquid around them.
+  void start_liquid(const State& s, double ahead) {
     Coupling& c = *shared_;
     const MovingSet& p = s.sets[c.liquid];
     const Velocities velocity(p, ahead);
@@ -158,11 +191,9 @@ class SharesPass final : public Pass {
     parallel_ranges(side.n_rows(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t j = side.index(r);
-        const double filled = gather(side.pairs(r), c.volume);
-        const double q = p.mass[j] / std::max(1.0, filled);
+        const double q = c.take[r];
         const Vec3 v = q * velocity.now(j), next = q * velocity.ahead(j);
         const double density = c.settings.liquid_density * relative_density(change, j);
-        c.take[r] = q;
         c.liquid_start[r].quad[0] = Quad{q, v.x(), v.y(), v.z()};
         c.liquid_start[r].quad[1] = Quad{p.mass[j] / density, next.x(), next.y(), next.z()};
       }
@@ -183,9 +214,11 @@ class SharesPass final : public Pass {
         Quads<2> sum = gather(pairs, pairs.weight, c.liquid_start);
         turn_images(side, r, c.liquid_start, {1, 5}, sum);
         MetLiquid& met = c.met[r];
-        const double pores = met.wet, around = sum[0];
-        met.met = around;
-        met.wet = std::min(1.0, sum[4] / (CouplingSettings::wet_support * pores));
+        if (anew_) {
+          met.met = sum[0];
+          met.wet = std::min(1.0, sum[4] / (CouplingSettings::wet_support * met.wet));
+        }
+        const double around = met.met;
         c.room[r] = 0;
         c.flux[r] = {};
         if (!(around > 0)) continue;
@@ -196,7 +229,7 @@ class SharesPass final : public Pass {
         c.flux[r].quad[0] = Quad{flux.x(), flux.y(), flux.z(), 0};
       }
     });
-    side.copy_images(c.room);
+    if (anew_) side.copy_images(c.room);
     side.copy_images(c.flux);
     parallel_ranges(side.n_sources(), rows, s.threads, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i)
@@ -204,24 +237,21 @@ class SharesPass final : public Pass {
     });
   }
 
-  /// Of grains mirrored in ground and walls, whose flux is mirrored, too: f'.(x_i' - x_j) is
-  /// f.(r + 2 (d_i - n.r) n) with r = x_i - x_j and the distance d_i of the grain.
-  static double flux_of_images(const Coupling& c, std::size_t row) {
-    const PairSide &side = c.of_liquid(), &grains = c.of_grains();
-    double flux = 0;
+  /// Divergence at a row of the flux f of sources at x: sum slope f.(x - here) over those
+  /// themselves and their images in the plane under the row, for which f'.(x' - here) is f.(x -
+  /// here + 2 d n).
+  static double divergence(const Coupling& c, std::size_t row, const Quads<1>& sum) {
+    const PairSide& side = c.of_liquid();
+    const Vec3 here = c.pairs.unit() * side.place(row);
+    double flux = sum[3] - sum.vector(0).dot(here);
     for (std::size_t m = 0; m < side.n_mirrors(); ++m) {
-      if (!side.near(row, m)) continue;
-      const Vec3 normal = side.normal(row, m), here = side.place(row);
-      const PairSide::Pairs pairs = side.image_pairs(row, m);
-      for (std::size_t k = 0; k < pairs.n; ++k) {
-        if (pairs.slope[k] == 0) continue;
-        const std::uint32_t i = pairs.source[k];
-        const Vec3 f = c.flux[i].vector(0), r = grains.place(i) - here;
-        flux +=
-            pairs.slope[k] * (r.dot(f) + 2 * (grains.gap(i, m) - normal.dot(r)) * normal.dot(f));
-      }
+      const PairSide::Pairs images = side.image_pairs(row, m);
+      if (images.n == 0) continue;
+      const Quads<1> turned = gather(images, images.slope, c.flux);
+      const double away = 2 * c.pairs.unit() * side.gap(row, m);
+      flux += turned[3] - turned.vector(0).dot(here - away * side.normal(row, m));
     }
-    return c.pairs.unit() * flux;
+    return flux;
   }
 
   /// X_j and the divergence of the grains' flux past the liquid: sum f_i.(x_i - x_j) slope.
@@ -237,12 +267,10 @@ class SharesPass final : public Pass {
           for (std::size_t r = begin; r < end; ++r) {
             const std::uint32_t j = side.index(r);
             const PairSide::Pairs pairs = side.pairs(r);
-            const double room = gather(pairs, c.room);
-            const Quads<1> sum = gather(pairs, pairs.slope, c.flux);
-            const double flux =
-                sum[3] - sum.vector(0).dot(c.pairs.unit() * side.place(r)) + flux_of_images(c, r);
+            if (anew_) c.filled[r] = c.take[r] / p.mass[j] * gather(pairs, c.room);
+            const double flux = divergence(c, r, gather(pairs, pairs.slope, c.flux));
             const double density = c.settings.liquid_density * relative_density(change, j);
-            const double x = room * c.take[r] * density / p.mass[j];
+            const double x = c.filled[r] * density;
             c.share[r] = x;
             share[j] = std::min(x, CouplingSettings::largest_share);
             slip[j] = flux * (x > 0 ? share[j] / x : 0);
@@ -253,6 +281,8 @@ class SharesPass final : public Pass {
   }
 
   std::shared_ptr<Coupling> shared_;
+  std::size_t weighings_ = 0;
+  bool anew_ = true;  ///< weights are not those of the step before
 };
 
 }  // namespace

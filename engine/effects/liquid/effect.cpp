@@ -81,15 +81,15 @@ class LiquidGather final : public Pass {
       NeighborRecord* records = shared_->lists.records();
       for (std::size_t i = begin; i < end; ++i) {
         NeighborRecord& r = records[i];
-        const double x = share ? share[i] : 0, in_pores = std::fmin(1.0, 10 * x);
+        const double x = share ? share[i] : 0;
         const double e = std::fmax(change[i], least_density_change(x));
         r.volume = static_cast<float>(p.mass[i] * inv_density * (1 + x) / (1 + e));
         r.vx = static_cast<float>(p.vx[i] + ahead * (p.vx[i] - before[0][i]));
         r.vy = static_cast<float>(p.vy[i] + ahead * (p.vy[i] - before[1][i]));
         r.vz = static_cast<float>(p.vz[i] + ahead * (p.vz[i] - before[2][i]));
         // Air in pores is not a dilation that diffusion should even out.
-        r.density_change =
-            static_cast<float>(std::fmax(e, (1 - in_pores) * LiquidSettings::separation_threshold));
+        r.density_change = static_cast<float>(
+            std::fmax(e, (1 - in_pores(x)) * LiquidSettings::separation_threshold));
         const double mean = (stress[0][i] + stress[1][i] + stress[2][i]) / 3;
         const auto pairs = PairViscosity::of(viscous_ratio[i]);
         const double of = (1 - pairs.carried) / (1 + x);

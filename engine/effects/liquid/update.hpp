@@ -46,6 +46,10 @@ inline double least_density_change(double grain_share) {
          inside * (empty - LiquidSettings::separation_threshold);
 }
 
+/// How much a place counts as pores for what makes no sense there: 0 without grains .. 1 from X =
+/// 0.1 on.
+inline double in_pores(double grain_share) { return std::fmin(1.0, 10 * grain_share); }
+
 class LiquidUpdate {
  public:
   LiquidUpdate(const LiquidSettings& g, double dt)
@@ -59,8 +63,9 @@ class LiquidUpdate {
     const double strain = dt_ * pores * (trace + p.slip_divergence);
     const double carried = strain > 0 ? (1 + p.e) / (1 + strain) - 1 : (1 + p.e) * (1 - strain) - 1;
     const double before = stored(p.e), squeezed = stored(carried);
-    const bool in_pores = p.grain_share > 0 && p.e < 0;  // what does not fill them is not noise
-    const double diffused = in_pores ? carried : carried + dt_ * p.diffusion;
+    // What does not fill pores is not noise.
+    const double noise = p.e < 0 ? 1 - in_pores(p.grain_share) : 1;
+    const double diffused = carried + dt_ * noise * p.diffusion;
     const double e = std::fmax(diffused, least_density_change(p.grain_share));
 
     Symmetric s = rotated(p.s, 0.25 * dt_ * (p.l[7] - p.l[5]), 0.25 * dt_ * (p.l[2] - p.l[6]),

@@ -111,6 +111,7 @@ CouplingSettings plan_coupling(const Scenario& s) {
   c.drag_diameter = spec.drag_diameter_m.value_or(s.grains->diameter_m).value;
   c.drag_multiplier = spec.drag_multiplier.value;
   c.buoyancy = has_buoyancy(s);
+  c.shear_stiffness = LiquidSettings{}.shear_stiffness;
   c.spacing = s.numerics.spacing_m;
   c.smoothing_length = smoothing_ratio * c.spacing;
   return c;

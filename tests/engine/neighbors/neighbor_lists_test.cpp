@@ -261,5 +261,30 @@ TEST(NeighborLists, FollowAChangingNumberOfParticles) {
   }
 }
 
+/// Along a wall every particle of a periodic sheet has the same neighbours, those beyond the seam
+/// with the others: so their images weigh the same.
+TEST(NeighborLists, ImagesInWallsWeighTheSameBesideASeam) {
+  std::vector<Vec3> sheet;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 2; ++j) sheet.emplace_back(i + 0.5, j + 0.5, 0);
+  ParticleSet set = set_of(sheet);
+  Domain d;
+  d.x = {true, 0, 8, 0};
+  d.walls = {Wall{{0, 0, 0}, {0, 1, 0}}};
+  NeighborLists lists = make_lists();
+  lists.mirror_in(d.walls, 0);
+  lists.rebuild(set, d, 1);
+  const double h = 0.5 * support, pi = 3.14159265358979;
+  lists.weigh_images(105 / (16 * pi * h * h * h * h * h));
+  for (std::size_t i = 0; i < set.size(); ++i) lists.records()[i].volume = 1;
+  lists.copy_images();
+  std::set<float> shares;
+  lists.for_each_image([&](std::size_t record, std::size_t) {
+    const float share = lists.records()[record].volume;
+    if (share < 1) shares.insert(std::round(1e5f * share));  // of walls alone
+  });
+  EXPECT_EQ(shares.size(), 1u);
+}
+
 }  // namespace
 }  // namespace sturz

@@ -66,6 +66,9 @@ void place(const ImmersedGrains& g, State& s) {
   MovingSet &grains = s.sets[0], &liquid = s.sets[1];
   fill(g, grains, g.grain_length, g.grain_height, g.solid_fraction * g.grain_density);
   grains.reference_fraction = g.solid_fraction;
+  grains.vx.assign(grains.size(), g.slip.x());
+  grains.vy.assign(grains.size(), g.slip.y());
+  grains.vz.assign(grains.size(), g.slip.z());
   fill(g, liquid, g.liquid_length, g.liquid_height, g.liquid_density);
   liquid.name = "liquid";
   for (std::size_t i = 0; i < liquid.size(); ++i)
@@ -110,7 +113,7 @@ HandMade immersed(const ImmersedGrains& g) {
   const ContactSettings wet = contact_of(g, g.liquid_density, 0);
   ContactSettings dry = contact_of(g, g.solid_fraction * g.grain_density, g.friction);
   add_terrain_contact(made.step, 1, wet);
-  add_coupling_fields(s, 1);
+  if (g.coupled) add_coupling_fields(s, 1);
   GrainStressSettings grains;
   grains.spacing = g.spacing, grains.smoothing_length = h;
   grains.reference_density = g.solid_fraction * g.grain_density;
@@ -138,7 +141,8 @@ HandMade immersed(const ImmersedGrains& g) {
   coupling.viscosity = g.viscosity, coupling.drag_diameter = g.drag_diameter;
   coupling.drag_multiplier = g.drag_multiplier;
   coupling.smoothing_length = h, coupling.spacing = g.spacing;
-  add_coupling(made.step, s, 0, 1, coupling);
+  coupling.buoyancy = g.buoyancy;
+  if (g.coupled) add_coupling(made.step, s, 0, 1, coupling);
   add_terrain_contact(made.step, 0, dry);
   if (g.walled) {
     add_wall_contact(made.step, 0, dry);

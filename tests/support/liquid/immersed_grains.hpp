@@ -33,6 +33,9 @@ struct ImmersedGrains {
   /// Share of the grains' submerged weight that the pore pressure bears at the start.
   double liquefied = 0;
   std::optional<DilatancySettings> dilatancy = {};
+  bool coupled = true;   ///< else each set is alone in its place
+  bool buoyancy = true;  ///< CouplingSettings::buoyancy
+  Vec3 slip{0, 0, 0};    ///< velocity of the grains at the start [m/s]
   int threads = 1;
 };
 

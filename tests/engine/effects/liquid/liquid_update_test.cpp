@@ -243,5 +243,27 @@ TEST(LiquidUpdate, ShearOfSprayDoesNotDependOnTheStep) {
     }
 }
 
+/// What evens out noise of the density fades where there are pores that are not full; a trace of
+/// grains is no pore.
+TEST(LiquidUpdate, DiffusionFadesWithTheGrains) {
+  const LiquidSettings g = settings();
+  const LiquidUpdate update(g, 1e-3);
+  const auto after = [&](double share, double e) {
+    LiquidParticle p;
+    p.grain_share = share, p.e = e, p.diffusion = 3;
+    LiquidEnergies out;
+    update.apply(p, out);
+    return p.e;
+  };
+  EXPECT_NEAR(after(0, -0.01), -0.007, 1e-12);
+  double last = after(0, -0.01);
+  for (double share = 0; share < 0.2; share += 1e-3) {
+    EXPECT_LT(std::abs(after(share, -0.01) - last), 4e-5) << share;
+    last = after(share, -0.01);
+  }
+  EXPECT_NEAR(after(0.2, -0.01), -0.01, 1e-12) << "air in pores stays";
+  EXPECT_NEAR(after(0.2, 0.01), 0.013, 1e-12) << "full pores are as any liquid";
+}
+
 }  // namespace
 }  // namespace sturz
