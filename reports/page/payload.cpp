@@ -10,7 +10,7 @@
 #include "reports/figures/motion_charts.hpp"
 #include "reports/page/headline.hpp"
 #include "reports/page/region_payload.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -5,7 +5,7 @@
 #include "reports/page/bundle.hpp"
 #include "reports/page/page_head.hpp"
 #include "reports/page/payload.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 /// The part of a run's page that follows it through time.
 #include "reports/figures/motion_charts.hpp"
 #include "reports/page/report.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <gmock/gmock.h>

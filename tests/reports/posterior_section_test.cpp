@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/figures/posterior_figures.hpp"
 #include "reports/page/report.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <fmt/format.h>

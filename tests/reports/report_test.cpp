@@ -2,7 +2,7 @@
 #include "reports/page/report.hpp"
 
 #include "reports/figures/figures.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <gtest/gtest.h>

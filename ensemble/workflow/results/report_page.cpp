@@ -123,6 +123,15 @@ std::optional<AssetFindings> assets_anew(const FinishedFolder& finished, const M
   return risk;
 }
 
+/// What the page shows. \throws SetupError when it is not there
+std::filesystem::path existing_maps(const OutputFolder& folder, bool one_run) {
+  const auto maps = one_run ? folder.peaks_nc() : folder.hazard_nc();
+  require(std::filesystem::exists(maps),
+          fmt::format("{} does not exist (the page shows its maps). {}", maps.string(),
+                      one_run ? "Run the scene again." : "Make it with `sturz merge`."));
+  return maps;
+}
+
 }  // namespace
 
 NearestMember nearest_member(const MemberParts& source, const std::optional<ScoreTable>& scores,
@@ -193,10 +202,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   leave_out_relief(finished, observer);
   const bool one_run = finished.manifest.kind == "run";
-  const auto maps = one_run ? finished.folder.peaks_nc() : finished.folder.hazard_nc();
-  require(std::filesystem::exists(maps),
-          fmt::format("{} does not exist (the page shows its maps). {}", maps.string(),
-                      one_run ? "Run the scene again." : "Make it with `sturz merge`."));
+  const auto maps = existing_maps(finished.folder, one_run);
   DesignTable design;
   if (!one_run) design = saved_design(finished.folder, finished.manifest, finished.scenario);
   const MemberStore store =

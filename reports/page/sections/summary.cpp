@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/estimate_text.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>

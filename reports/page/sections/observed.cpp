@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Members beside what was observed.
 #include "engine/core/error.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>

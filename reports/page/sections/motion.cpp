@@ -2,7 +2,7 @@
 #include "engine/laws/grain_states.hpp"
 #include "engine/simulation/state_shares.hpp"
 #include "reports/figures/motion_charts.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>

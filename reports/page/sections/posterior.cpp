@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the observations tell of the uncertain values.
 #include "reports/figures/posterior_figures.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/figures/motion_charts.hpp"
-#include "reports/page/sections.hpp"
+#include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
 
 #include <fmt/format.h>
