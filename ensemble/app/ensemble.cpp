@@ -166,7 +166,8 @@ int ensemble(const Options& given, Console& console) {
     options.shard = fmt::format("{}/{}", shard.k, shard.n);
   }
   const workflow::EnsembleRequest request = request_of(options);
-  if (workflow::is_region(request.scene)) return region_ensemble(request, options.shard, console);
+  if (workflow::is_region(workflow::scene_of(request)))
+    return region_ensemble(request, options.shard, console);
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request, observer);
   const auto forecast =

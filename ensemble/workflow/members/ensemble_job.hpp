@@ -82,9 +82,6 @@ EnsembleJob prepare_ensemble(const EnsembleRequest&, Observer&);
 /// The same of a scene that was loaded already, as request.scene says.
 EnsembleJob prepare_ensemble(const EnsembleRequest&, Scene, Observer&);
 
-/// The request's scene, of so many members as it wants.
-SceneRequest scene_of(const EnsembleRequest&);
-
 /// What a manifest keeps of the folder's past: when it was begun, its time, maps and programs.
 /// Warns when another program began it. Part of prepare_ensemble.
 void take_past(Manifest& now, const Manifest& before, const OutputFolder&, Observer&);
