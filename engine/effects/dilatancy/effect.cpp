@@ -94,8 +94,8 @@ class PackingPass final : public Pass {
     // again and loosened what had been loose.
     const double k = g.bulk_modulus(), steady = steady_stress(settings_.law, alpha, rate) / k;
     const double free = (1 + e) / (1 - loosened) - 1;
-    const double next = tangent > 0 ? std::fmin(free, std::fmax(e, steady))
-                                    : std::fmax(free, std::fmin(e, steady));
+    const double next =
+        tangent > 0 ? std::fmin(free, std::fmax(e, steady)) : std::fmax(free, std::fmin(e, steady));
     packing = (1 + packing) * (1 + e) / (1 + next) - 1;
     const double p1 = k * std::fmax(0.0, next);
     for (int c = 0; c < 3; ++c) t[c][i] -= p1 - p0;

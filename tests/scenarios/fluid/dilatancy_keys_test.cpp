@@ -46,8 +46,8 @@ TEST(DilatancyKeys, PresenceOfTheCriticalFractionIsTheSwitch) {
   EXPECT_FALSE(without.parts().state.grains().has(fields::packing_change));
 }
 
-/// The numerical sound speed follows it: a loose mass was planned as if its grains bore their weight
-/// all the way down, and outran twice of that.
+/// The numerical sound speed follows it: a loose mass was planned as if its grains bore their
+/// weight all the way down, and outran twice of that.
 TEST(DilatancyKeys, AMassThatMayLiquefyIsExpectedToRunFreely) {
   const auto speed = [](const Scenario& s) {
     return plan_scene(s, slope_inputs(), 0).reference_speed_m_s;
