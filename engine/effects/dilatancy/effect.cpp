@@ -5,7 +5,6 @@
 #include "engine/core/symmetric_tensor.hpp"
 #include "engine/effects/dense/shared.hpp"
 #include "engine/effects/fields.hpp"
-#include "engine/laws/steady_stress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,26 +88,17 @@ class PackingPass final : public Pass {
         settings_.slope * dilatancy(settings_.law, alpha, rate, std::fmax(0.0, p0)).tangent;
     if (tangent < 0 && e <= 0) return 0;  // nothing presses it together
     const double loosened = std::clamp(dt * rate * tangent, -most, most);
-    // Not past the load under which it stays as it is. In a liquefied mass that is a fraction of a
-    // pascal, and one step of a stiff packing is hundreds: grains that overshot it bore each other
-    // again and loosened what had been loose.
-    const double k = g.bulk_modulus(), steady = steady_stress(settings_.law, alpha, rate) / k;
-    const double free = (1 + e) / (1 - loosened) - 1;
-    const double next =
-        tangent > 0 ? std::fmin(free, std::fmax(e, steady)) : std::fmax(free, std::fmin(e, steady));
-    packing = (1 + packing) * (1 + e) / (1 + next) - 1;
-    const double p1 = k * std::fmax(0.0, next);
+    const double next = (1 + e) / (1 - loosened) - 1;
+    packing = (1 + packing) * (1 - loosened) - 1;
+    const double k = g.bulk_modulus(), p1 = k * std::fmax(0.0, next);
     for (int c = 0; c < 3; ++c) t[c][i] -= p1 - p0;
     e = next;
     return p.mass[i] / g.reference_density * (p1 * p1 - p0 * p0) / (2 * k);
   }
 
-  /// 0 where shear is elastic .. 1 on the yield surface. Grains that have come apart bear none: all
-  /// of theirs is yielding. A packing that is denser than in steady shear so finds its contacts
-  /// again before it has spread; without it a dense mass that was once pulled apart flowed as if
-  /// liquefied.
+  /// 0 where shear is elastic .. 1 on the yield surface.
   static double yields(double shear_stress, double strength) {
-    const double share = strength > 0 ? shear_stress / strength : 1;
+    const double share = strength > 0 ? shear_stress / strength : 0;
     return std::clamp((share - 0.95) / 0.05, 0.0, 1.0);
   }
   /// sqrt(2 D':D') [1/s]

@@ -64,11 +64,6 @@ double weight_on_grains(const Scenario& s) {
   return weight_on_contacts(s) * grains / (grains + liquid);
 }
 
-bool may_liquefy(const Scenario& s) {
-  const auto& critical = coupling_of(s).critical_solid_fraction;
-  return s.fluid && s.grains && critical && s.grains->solid_fraction.value < critical->value;
-}
-
 double plain_viscosity(const FluidSpec& fluid) {
   return fluid.viscosity_pa_s.value_or(fluid.consistency_pa_sn.value_or(Uncertain(0.001))).value;
 }

@@ -42,8 +42,6 @@ double filled_height(const Scenario& numbers);
 double weight_on_contacts(const Scenario& numbers);
 /// Share of the weight of grains and liquid together that rests on grains; not of a liquid alone.
 double weight_on_grains(const Scenario& numbers);
-/// Grains looser than critical tighten as they shear: for a while the liquid may bear all of them.
-bool may_liquefy(const Scenario& numbers);
 
 /// Viscosity by itself, or K of Herschel and Bulkley's law: what grains feel [Pa s].
 double plain_viscosity(const FluidSpec&);

@@ -29,7 +29,7 @@ double expected_speed(const Scenario& s, const std::vector<BasalResistance>& bed
     const double pore_pressure = plan.rasters.range(b, BedNumber::pore_pressure).second;
     least_friction = std::min(least_friction, mu * (1 - pore_pressure));
   }
-  if (s.fluid) least_friction *= may_liquefy(s) ? 0 : weight_on_grains(s);
+  if (s.fluid) least_friction *= weight_on_grains(s);
   return reference_speed(plan.bed, plan.release, least_friction, start_speed(s),
                          plan.end.end_time_s);
 }

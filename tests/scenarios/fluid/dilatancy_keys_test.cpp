@@ -46,19 +46,6 @@ TEST(DilatancyKeys, PresenceOfTheCriticalFractionIsTheSwitch) {
   EXPECT_FALSE(without.parts().state.grains().has(fields::packing_change));
 }
 
-/// The numerical sound speed follows it: a loose mass was planned as if its grains bore their
-/// weight all the way down, and outran twice of that.
-TEST(DilatancyKeys, AMassThatMayLiquefyIsExpectedToRunFreely) {
-  const auto speed = [](const Scenario& s) {
-    return plan_scene(s, slope_inputs(), 0).reference_speed_m_s;
-  };
-  Scenario smooth = sheared(0.62);
-  smooth.basal.friction_coefficient = 0;
-  EXPECT_EQ(speed(sheared(0.62)), speed(smooth));
-  EXPECT_EQ(speed(sheared(0.5)), speed(wet_slide()));
-  EXPECT_GT(speed(sheared(0.62)), speed(sheared(0.5)));
-}
-
 TEST(DilatancyKeys, DescribeSaysWhichWayItGoes) {
   for (const double critical : {0.62, 0.5}) {
     const SceneDescription d = describe(sheared(critical), slope_inputs());
