@@ -194,6 +194,12 @@ test('grains, liquid and both are switched in plain words', {skip}, async () => 
   assert.match(marks, /liquid arrives with a probability of 50\s% or more/);
   await clickMap(page, 0.40, 0.46);
   assert.match(await page.textContent('.cell-box'), /Grains in \d+: \d+\s%.*Liquid in \d+: /);
+  const rows = () => page.$$eval('.cell-table:last-of-type tbody th', (all) => all.map(
+                                     (cell) => cell.textContent));
+  assert.ok((await rows()).every((row) => /liquid/.test(row)), (await rows()).join());
+  await page.click('[data-key="material-"]');
+  assert.ok((await rows()).some((row) => /^Flow speed/.test(row)), (await rows()).join());
+  assert.ok((await rows()).every((row) => !/grains/.test(row)), (await rows()).join());
   assert.deepEqual(trouble, []);
   await close();
 });

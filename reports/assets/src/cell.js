@@ -151,6 +151,7 @@ export function createCellPanel(box, page, planes, sources = null) {
   const reached = planes.find((p) => p.layer.quantity === 'reached');
   let shown = null;
   let quantity = curves[0];
+  let material = '';  // '' is the whole flow
 
   const draw = () => {
     if (!shown) {
@@ -199,11 +200,12 @@ export function createCellPanel(box, page, planes, sources = null) {
       const key = 'Dots: thresholds. Rings: quantiles. Band: 95\u00a0% interval.';
       box.append(named('p', 'note', key), thresholdTable(entries, at, page));
     }
-    const quantiles = of('quantile');
+    const own = (p) => p.layer.material === material;
+    const quantiles = of('quantile').filter(own);
     if (quantiles.length > 0)
       box.append(named('p', 'chart-title', 'Quantiles over the members'),
                  quantileTable(quantiles, at));
-    if (!quantity && quantiles.length === 0) box.append(peakTable(planes, at));
+    if (!quantity && quantiles.length === 0) box.append(peakTable(planes.filter(own), at));
   };
   onColourChange(draw);
   addEventListener('resize', () => shown && draw());
@@ -214,10 +216,12 @@ export function createCellPanel(box, page, planes, sources = null) {
       shown = {at, coordinate, height};
       draw();
     },
-    /** The curve follows the map's quantity where that has thresholds. */
-    follow(next) {
-      if (!curves.includes(next) || next === quantity) return;
-      quantity = next;
+    /** The curve follows the map's quantity where that has thresholds, the tables its material. */
+    follow(next, nextMaterial) {
+      const newCurve = curves.includes(next) && next !== quantity;
+      if (!newCurve && nextMaterial === material) return;
+      material = nextMaterial;
+      if (newCurve) quantity = next;
       draw();
     },
   };

@@ -186,7 +186,7 @@ export async function startMaps(page) {
     comment.textContent = layer.comment ? `${capital(layer.comment)}.` : '';
     drawLegend(layer.legend);
     view.show(layer.legend, shown);
-    cellPanel.follow(layer.quantity);
+    cellPanel.follow(layer.quantity, layer.material);
     drawPickers();
   };
 
