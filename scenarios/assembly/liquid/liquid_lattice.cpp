@@ -14,8 +14,11 @@
 namespace sturz {
 namespace {
 
-/// Less of a layer, or of a stack, than this is no particle of its own [layers].
+/// Less of a layer, of a stack or of a cell than this is no particle of its own; its mass goes to
+/// others [-].
 constexpr double thinnest = 0.2;
+/// Shallower water than this has none: particles lie half a spacing above the bed [spacings].
+constexpr double shallowest = 0.5;
 
 class Layout {
  public:
@@ -131,7 +134,7 @@ class Layout {
 
   /// A thin film has none, nor has a cell whose middle lies behind a wall.
   bool holds_particles(const ReleaseColumn& c) const {
-    if (!(c.covered > 0) || c.thickness_m < thinnest * dx_ * c.covered) return false;
+    if (c.covered < thinnest || c.thickness_m < shallowest * dx_ * c.covered) return false;
     const double x = (static_cast<double>(c.lattice_x) + 0.5) * dx_;
     const double y = (static_cast<double>(c.lattice_y) + 0.5) * dx_;
     const auto& walls = plan_.domain.walls;
