@@ -122,7 +122,7 @@ class Layout {
     for (int r = 0; r < g.n_rows; ++r)
       for (int c = 0; c < g.n_cols; ++c) {
         const int row = at.row0 + r, col = at.col0 + c;
-        double top = cover.at(r, c) > 0 ? plan_.bed.node(row, col) : nan_d;
+        double top = cover.at(r, c) > 0 ? bed_at(plan_.bed, in_, row, col) : nan_d;
         if (held.contains(row, col)) top += thickness.at(row - held.row0, col - held.col0);
         const bool wet = pool_->surface_m > top;
         depth.at(r, c) = wet ? cover.at(r, c) * (pool_->surface_m - top) : 0;

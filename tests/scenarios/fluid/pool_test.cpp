@@ -128,6 +128,17 @@ TEST(Pool, FollowsTheGroundAndEndsAtTheShore) {
   }
 }
 
+TEST(Pool, KnowsTheMarginOfGroundThatRepeatsItself) {
+  // Falls along the period, which the release does not cover wholly.
+  Scenario s = tank();
+  s.release.box = ReleaseBox{{0.7, 1.3}, {-0.1, 0.1}};
+  const auto tilted = [](double, double y) { return y > 0 ? 0.2 : 0.0; };
+  const LiquidLattice at = plan_scene(s, inputs_of(s, tilted), 0).liquid_start;
+  EXPECT_NEAR(at.pool_m3, 2 * (0.2 * 1.0 + 0.2 * 0.8), 1e-9);
+  EXPECT_NEAR(total(at.mass), 1000 * (at.pool_m3 - 0.6 * 0.6 * 0.2 * 0.5), 1e-9);
+  for (std::size_t i = 0; i < at.size(); ++i) EXPECT_GT(at.z[i], at.y[i] > 0.1 ? 0.2 : 0.0);
+}
+
 TEST(Pool, IsCutExactlyWhereAWallCutsTheLattice) {
   Scenario s = tank();
   s.domain.walls[0].point_m = {0.03, 0, 0};
