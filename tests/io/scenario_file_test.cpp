@@ -242,6 +242,23 @@ TEST(ScenarioFile, ConditionsOfOneCaseDifferInOneBlockOrNumber) {
   }
 }
 
+TEST(ScenarioFile, AWallSaysWhatItDoesToALiquid) {
+  const auto read = [](const std::string& word) {
+    return read_scenario_text(
+        "terrain: {synthetic: {plane: {cell_size_m: 2}}}\n"
+        "release: {box: {x_m: [-30, -20], y_m: [-5, 5]}, thickness_m: 3}\n"
+        "fluid: {viscosity_pa_s: 20}\nnumerics: {spacing_m: 1}\n"
+        "domain: {walls: [{point_m: [40, 0, 0], normal: [-1, 0, 0], liquid: " +
+            word + "}]}\n",
+        "glass.yaml", {});
+  };
+  const Scenario s = read("sticks");
+  EXPECT_EQ(s.domain.walls[0].liquid, WallLiquid::sticks);
+  EXPECT_EQ(read_scenario_text(write_scenario(s), "w", s.directory), s);
+  EXPECT_EQ(read("slips").domain.walls[0].liquid, WallLiquid::slips);
+  EXPECT_THROW(read("glues"), ScenarioError);
+}
+
 TEST(ScenarioFile, ColumnsInWaterDifferInPackingAndHeightAlone) {
   const auto read = [](const std::string& name) {
     return read_scenario(STURZ_SOURCE_DIR "/scenarios/cases/column_in_water/" + name);

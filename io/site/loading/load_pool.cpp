@@ -22,7 +22,6 @@ PolygonRequest request_of(const Scenario& scenario) {
   request.crs_key = "fluid.pool.crs";
   request.layer_key = "fluid.pool.layer";
   request.what = "pool";
-  request.without_terrain = false;
   stand_in_with_terrain(request, scenario.terrain);
   return request;
 }

@@ -14,8 +14,11 @@
 namespace sturz {
 namespace {
 
-/// Less of a layer, or of a stack, than this is no particle of its own [layers].
+/// Less of a layer, of a stack or of a cell than this is no particle of its own; its mass goes to
+/// others [-].
 constexpr double thinnest = 0.2;
+/// Shallower water than this has none: particles lie half a spacing above the bed [spacings].
+constexpr double shallowest = 0.5;
 
 class Layout {
  public:
@@ -119,7 +122,7 @@ class Layout {
     for (int r = 0; r < g.n_rows; ++r)
       for (int c = 0; c < g.n_cols; ++c) {
         const int row = at.row0 + r, col = at.col0 + c;
-        double top = cover.at(r, c) > 0 ? plan_.bed.node(row, col) : nan_d;
+        double top = cover.at(r, c) > 0 ? bed_at(plan_.bed, in_, row, col) : nan_d;
         if (held.contains(row, col)) top += thickness.at(row - held.row0, col - held.col0);
         const bool wet = pool_->surface_m > top;
         depth.at(r, c) = wet ? cover.at(r, c) * (pool_->surface_m - top) : 0;
@@ -131,7 +134,7 @@ class Layout {
 
   /// A thin film has none, nor has a cell whose middle lies behind a wall.
   bool holds_particles(const ReleaseColumn& c) const {
-    if (!(c.covered > 0) || c.thickness_m < thinnest * dx_ * c.covered) return false;
+    if (c.covered < thinnest || c.thickness_m < shallowest * dx_ * c.covered) return false;
     const double x = (static_cast<double>(c.lattice_x) + 0.5) * dx_;
     const double y = (static_cast<double>(c.lattice_y) + 0.5) * dx_;
     const auto& walls = plan_.domain.walls;

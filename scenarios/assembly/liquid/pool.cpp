@@ -204,8 +204,13 @@ Window pool_window(const SceneInputs& in) {
   return in.pool ? window_of(in.pool->grid, in.terrain_grid()) : whole_of(in.terrain_grid());
 }
 
+double bed_at(const Terrain& bed, const SceneInputs& in, int row, int col) {
+  const Window at = window_of(in.terrain_grid(), bed.grid());
+  return bed.node(at.row0 + row, at.col0 + col);
+}
+
 Pool pool_of(const Scenario& s, const SceneInputs& in, const Terrain& bed) {
-  const GroundAt ground = [&bed](int row, int col) { return bed.node(row, col); };
+  const GroundAt ground = [&](int row, int col) { return bed_at(bed, in, row, col); };
   Pool pool = filled(s, in, ground, s.fluid->pool->surface_m->value);
   // What the ground asks for is read first.
   if (bed.needs_more()) return pool;

@@ -24,6 +24,10 @@ struct Pool {
   bool covers(double x, double y) const;
 };
 
+/// Elevation of the bed on a cell of the working grid, around which a bed that repeats itself has a
+/// margin [m].
+double bed_at(const Terrain& bed, const SceneInputs&, int row, int col);
+
 /// Of one member. \param bed of it  \throws SetupError naming the key
 Pool pool_of(const Scenario& numbers, const SceneInputs&, const Terrain& bed);
 

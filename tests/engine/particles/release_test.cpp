@@ -219,6 +219,30 @@ TEST(Random, PhiloxGivesThePublishedWords) {
             (RandomWords{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
+TEST(Release, UpperColumnsStandOnWhatLiesThereAndFillTheirHeight) {
+  const Terrain bed = bed_of([](double, double) { return 10.0; });
+  const ReleaseSettings s{2, 1000, 0, 1, 0};
+  // Eight metres on six; a cell that is covered by a quarter, as high by lighter particles.
+  const std::vector<UpperColumn> columns{{{50, 50, 8, 1}, 6, 3}, {{51, 50, 2, 0.25}, 0, 0}};
+  const Release r = fill_columns(bed, columns, s, 10 * 4);
+  ASSERT_EQ(r.x.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    const double above = i < 4 ? 6 : 0;
+    EXPECT_NEAR(r.z[i], 10 + above + 2 * static_cast<double>(i % 4) + 1, 1e-12);
+    EXPECT_NEAR(r.mass[i], i < 4 ? 8000 : 2000, 1e-9);
+    EXPECT_NEAR(r.depth[i], 7 - 2 * static_cast<double>(i % 4), 1e-12);
+    EXPECT_EQ(r.thickness[i], 8);
+  }
+  // Its jitter is not that of the layers under it.
+  ReleaseSettings jittered = s;
+  jittered.jitter = 0.1;
+  std::vector<UpperColumn> lowest{columns[0]};
+  const double third = fill_columns(bed, lowest, jittered, 32).x[0];
+  lowest[0].first_layer = 0;
+  EXPECT_NE(third, fill_columns(bed, lowest, jittered, 32).x[0]);
+  EXPECT_EQ(third, fill_columns(bed, lowest, jittered, 32).x[3]);
+}
+
 TEST(Random, UnitNumbersFillTheOpenInterval) {
   double mean = 0, square = 0;
   const int n = 20000;

@@ -219,7 +219,7 @@ TEST(FluidPlan, LiquidInSomeOfThePoresStandsFromTheBedUpUnderItsOwnSurface) {
     s.fluid->saturation = Uncertain(saturation);
     s.numerics.jitter = 0;
     const LiquidLattice at = plan_scene(s, slope_inputs(), 0).liquid_start;
-    EXPECT_NEAR(total(at.mass), saturation * 0.45 * 1000 * released_m3, 1e-6);
+    EXPECT_NEAR(total(at.mass), saturation * 0.45 * 1000 * released_m3, 1e-3);
     EXPECT_LT(at.deepest_m, 10 * saturation);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const double above_bed = at.z[i] - (300 - 0.6 * at.x[i] + 0.1 * at.y[i]);

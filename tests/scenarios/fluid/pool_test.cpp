@@ -101,8 +101,8 @@ TEST(Pool, HoldsTheMassOfItsClosedFormAtSharpInterfaces) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     const bool among = at.x[i] > 0.7 && at.x[i] < 1.3 && at.z[i] < 0.5;
     in_pores += among;
-    EXPECT_NEAR(at.mass[i], among ? 0.4 : 1.0, 1e-12) << at.x[i] << ' ' << at.z[i];
-    EXPECT_NEAR(at.depth[i], deep - at.z[i], 1e-12);
+    EXPECT_NEAR(at.mass[i], among ? 0.4 : 1.0, 1e-9) << at.x[i] << ' ' << at.z[i];
+    EXPECT_NEAR(at.depth[i], deep - at.z[i], 1e-9);
   }
   EXPECT_EQ(in_pores, 6u * 4u * 5u);
   EXPECT_EQ(at.n_in_release, in_pores);
@@ -124,8 +124,19 @@ TEST(Pool, FollowsTheGroundAndEndsAtTheShore) {
   EXPECT_NEAR(total(at.mass), 1000 * (water - 0.6 * grains_m3), 1e-9);
   for (std::size_t i = 0; i < at.size(); ++i) {
     EXPECT_GT(at.z[i], bowl(at.x[i], 0) + 0.04);
-    EXPECT_LT(at.z[i], 0.8);
+    EXPECT_LT(at.z[i], 0.8 + 0.05);
   }
+}
+
+TEST(Pool, KnowsTheMarginOfGroundThatRepeatsItself) {
+  // Falls along the period, which the release does not cover wholly.
+  Scenario s = tank();
+  s.release.box = ReleaseBox{{0.7, 1.3}, {-0.1, 0.1}};
+  const auto tilted = [](double, double y) { return y > 0 ? 0.2 : 0.0; };
+  const LiquidLattice at = plan_scene(s, inputs_of(s, tilted), 0).liquid_start;
+  EXPECT_NEAR(at.pool_m3, 2 * (0.2 * 1.0 + 0.2 * 0.8), 1e-9);
+  EXPECT_NEAR(total(at.mass), 1000 * (at.pool_m3 - 0.6 * 0.6 * 0.2 * 0.5), 1e-9);
+  for (std::size_t i = 0; i < at.size(); ++i) EXPECT_GT(at.z[i], at.y[i] > 0.1 ? 0.2 : 0.0);
 }
 
 TEST(Pool, IsCutExactlyWhereAWallCutsTheLattice) {
@@ -185,7 +196,7 @@ double unrest(const Scenario& s) {
     run.step();
     most = std::max(most, run.parts().state.max_speed());
   }
-  EXPECT_NEAR(run.parts().state.ledger().lost_mass, 0, 0);
+  EXPECT_EQ(run.parts().state.ledger().lost_mass, 0);
   return most / std::sqrt(2 * 9.81 * deep);
 }
 
@@ -193,7 +204,6 @@ TEST(Pool, AtRestItStaysAtRest) {
   Scenario water = tank();
   water.grains.reset();
   EXPECT_LT(unrest(water), 2e-3);
-  // As heavy as it should be: two centimetres less of water in it are in the wrong place.
   Scenario jittered = water;
   jittered.numerics.jitter = 0.05;
   EXPECT_LT(unrest(jittered), 2e-2);
@@ -201,7 +211,7 @@ TEST(Pool, AtRestItStaysAtRest) {
 
 TEST(Pool, AStrongColumnInItStands) {
   Scenario s = tank();
-  s.grains->friction_angle_deg = Uncertain(80);
+  s.grains->friction_angle_deg = Uncertain(60);
   s.basal.friction_coefficient = Uncertain(2);
   EXPECT_LT(unrest(s), 1e-2);
 }
