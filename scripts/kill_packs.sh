@@ -58,7 +58,7 @@ for ((i = 1; i <= instants; ++i)); do
   kill -9 $! 2>/dev/null && killed=$((killed + 1))
   wait $! 2>/dev/null
   before=$("$program" members out --json 2>/dev/null | sed -n 's/.*"members": *\([0-9]*\).*/\1/p')
-  cp -r out resumed
+  cp -r out resumed 2>/dev/null  # it may have been killed before it made a folder
   run resumed || { echo "instant $i: resume failed"; cat resumed.err; }
   recomputed=$((recomputed + 32 - ${before:-0}))
   if [ "$(hash_of resumed)" = "$expected" ] && [ "$(values_of resumed)" = "$expected_values" ]; then
