@@ -151,7 +151,8 @@ TEST_F(DamagedPack, KilledAtAnyTimeHoldsWholeMembersOnly) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5 + 7 * round % 40));
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
-    for (const std::string& problem : MemberStore(members()).problems())
+    const MemberStore killed(members());
+    for (const std::string& problem : killed.problems())
       EXPECT_THAT(problem, HasSubstr("never finished")) << problem;
     append({999});
     const MemberStore store(members());
