@@ -31,6 +31,7 @@ struct Options {
   workflow::JobOptions job;
   bool retry_failed = false;
   bool dry_run = false;
+  CLI::App* parser = nullptr;
 };
 
 /// What a shard is given besides folder and number.
@@ -52,6 +53,10 @@ workflow::SubmitRequest request_of(const Options& o) {
   for (const std::string& word : request.words)
     request.ensemble.command += " " + workflow::shell_word(word);
   if (o.retry_failed) request.words.emplace_back("--retry-failed");
+  if (o.parser->count("--allow-remote-inputs") > 0) {
+    request.words.emplace_back("--allow-remote-inputs");
+    request.merge_words.emplace_back("--allow-remote-inputs");
+  }
   request.plan = plan_request(o.plan);
   request.cores_given = o.plan.cores > 0;
   request.asked.cores = request.plan.cores;
@@ -101,7 +106,8 @@ void tell(const workflow::Submitted& s, bool dry_run, Console& console) {
   if (dry_run)
     return console.say(fmt::format(
         "Written, not submitted: {}. By hand: sbatch {}; then sbatch --dependency=afterany:JOB {}",
-        what, cluster.shard_script().string(), cluster.merge_script().string()));
+        what, workflow::shell_word(cluster.shard_script().string()),
+        workflow::shell_word(cluster.merge_script().string())));
   console.say(fmt::format(
       "Submitted {}: job{} {}, maps {}. See: sturz status {}", what,
       s.record.jobs.size() == 1 ? "" : "s",
@@ -126,6 +132,7 @@ int submit(const Options& options, Console& console) {
 void add_submit(Grammar& grammar) {
   auto [parser, options] = add_command(
       grammar, "submit", "Give an ensemble to a cluster; again: what is missing of it", submit);
+  options.parser = &parser;
   add_plan_options(parser, options.plan);
   parser.add_flag("--slurm", options.slurm,
                   "As an array of jobs of Slurm, and the merge behind it");
