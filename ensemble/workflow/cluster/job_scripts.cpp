@@ -105,6 +105,8 @@ std::string job_script(const ScriptRequest& r) {
   std::vector<std::string> words;
   for (const std::string& word : r.command) words.push_back(shell_word(word));
   text += fmt::format("\ncommand=({})\nmost_restarts=50\n", fmt::join(words, " "));
+  // Where jobs are not bound to their cores, a member would take all of the machine.
+  if (!merges) text += "export OMP_THREAD_LIMIT=1\n";
   return text + body;
 }
 
