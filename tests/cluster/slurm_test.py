@@ -20,7 +20,8 @@ from ensembles import PROGRAM, Ensembles, skip_all
 from fake_cluster import FakeCluster, Unavailable
 
 CLUSTER = None  # of all tests
-ASKED = ("--memory", "500")
+# All of it, so that no member has to be tried.
+ASKED = ("--memory", "500", "--maps-time", "5", "--maps-memory", "500")
 SLOW_M = 0.15  # spacing at which a member takes about half a second
 
 
@@ -39,7 +40,8 @@ class OnSlurm(Ensembles):
 
     @classmethod
     def submit(cls, scene, out, *more, code=0, **environment):
-        return cls.sturz("submit", "--slurm", scene, "-o", out, *ASKED, *more, code=code, **environment)
+        limit = () if "--time" in more else ("--time", "10")
+        return cls.sturz("submit", "--slurm", scene, "-o", out, *ASKED, *limit, *more, code=code, **environment)
 
     @classmethod
     def submitted(cls, scene, out, *more, **environment):
@@ -165,8 +167,8 @@ class Submit(OnSlurm):
         done = self.submitted(self.tiny, self.root / "timed", "--shards", "2")
         whole_s = time.monotonic() - begin
         self.wait_for_end(done["name"])
-        words = [PROGRAM, "submit", "--slurm", self.tiny, "--shards", "2", *ASKED, "-o"]
-        for i in range(8):
+        words = [PROGRAM, "submit", "--slurm", self.tiny, "--shards", "2", *ASKED, "--time", "10", "-o"]
+        for i in range(6):
             out = self.root / f"cut-{i}"
             call = subprocess.Popen([*map(str, words), str(out)], cwd=self.root, env=self.environment(),
                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

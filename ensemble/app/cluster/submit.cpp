@@ -25,9 +25,10 @@ namespace {
 struct Options {
   PlanOptions plan;
   bool slurm = false;
-  std::string out;     ///< folder; empty: out/<name of the scenario>
-  double minutes = 0;  ///< time limit of a shard; 0: as planned
-  double memory_mb = 0;
+  std::string out;  ///< folder; empty: out/<name of the scenario>
+  // Asked for; 0: as planned.
+  double minutes = 0, memory_mb = 0;  ///< of a shard
+  double maps_minutes = 0, maps_memory_mb = 0;
   workflow::JobOptions job;
   bool retry_failed = false;
   bool dry_run = false;
@@ -62,6 +63,8 @@ workflow::SubmitRequest request_of(const Options& o) {
   request.asked.cores = request.plan.cores;
   request.asked.shard_s = 60 * o.minutes;
   request.asked.shard_bytes = 1e6 * o.memory_mb;
+  request.asked.maps_s = 60 * o.maps_minutes;
+  request.asked.maps_bytes = 1e6 * o.maps_memory_mb;
   request.options = o.job;
   request.work_folder = std::filesystem::current_path().string();
   request.program = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -139,12 +142,14 @@ void add_submit(Grammar& grammar) {
   parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
       ->type_name("DIR");
   parser.add_flag("--dry-run", options.dry_run, "Write the scripts into DIR/cluster and no more");
-  parser.add_option("--time", options.minutes, "Time limit of a shard (default: as planned)")
-      ->type_name("MINUTES")
-      ->check(CLI::Range(1.0, 1e6));
-  parser.add_option("--memory", options.memory_mb, "Memory of a shard (default: as planned)")
-      ->type_name("MB")
-      ->check(CLI::Range(1.0, 1e8));
+  const auto asked = [&parser = parser](const char* name, double& value, const char* unit,
+                                        const char* help) {
+    parser.add_option(name, value, help)->type_name(unit)->check(CLI::Range(1.0, 1e8));
+  };
+  asked("--time", options.minutes, "MINUTES", "Time limit of a shard (default: as planned)");
+  asked("--memory", options.memory_mb, "MB", "Memory of a shard (default: as planned)");
+  asked("--maps-time", options.maps_minutes, "MINUTES", "Time limit of the maps");
+  asked("--maps-memory", options.maps_memory_mb, "MB", "Memory of the maps");
   parser.add_option("--partition", options.job.partition, "Partition of the cluster")
       ->type_name("NAME");
   parser.add_option("--account", options.job.account, "Account that pays")->type_name("NAME");
