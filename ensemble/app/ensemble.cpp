@@ -170,8 +170,11 @@ int ensemble(const Options& given, Console& console) {
     return region_ensemble(request, options.shard, console);
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request, observer);
-  const auto forecast =
-      workflow::forecast_of(job, speed_cache(), process_seconds(), observer, interrupt_flag());
+  // A shard may be begun many times and told to stop within a minute: `plan` has looked before.
+  std::optional<workflow::Forecast> forecast;
+  if (options.shard.empty())
+    forecast =
+        workflow::forecast_of(job, speed_cache(), process_seconds(), observer, interrupt_flag());
   announce(job, options, forecast, console);
   const workflow::MembersRun run =
       job.growth ? workflow::run_until_converged(job, observer, interrupt_flag())

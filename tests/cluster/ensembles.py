@@ -93,7 +93,8 @@ class Ensembles(unittest.TestCase):
     def check_complete(self, folder, scene):
         """All members, maps of all of them, the same bits as on one machine, nothing left behind."""
         state = self.status(folder)
-        self.assertEqual((state["missing"], state["maps"], state["workers"]), (0, "complete", []), state)
+        said = "".join(f"\n{log}:\n{log.read_text()[-1500:]}" for log in (folder / "cluster/log").glob("*"))
+        self.assertEqual((state["missing"], state["maps"], state["workers"]), (0, "complete", []), said)
         self.assertEqual(bits(folder), self.on_one_machine(scene))
         self.assertEqual([p.name for p in folder.rglob("*.part")], [])
         self.assertEqual([p.name for p in folder.glob("lock*")], [])

@@ -25,12 +25,14 @@ namespace {
 struct Options {
   PlanOptions plan;
   bool slurm = false;
-  std::string out;     ///< folder; empty: out/<name of the scenario>
-  double minutes = 0;  ///< time limit of a shard; 0: as planned
-  double memory_mb = 0;
+  std::string out;  ///< folder; empty: out/<name of the scenario>
+  // Asked for; 0: as planned.
+  double minutes = 0, memory_mb = 0;  ///< of a shard
+  double maps_minutes = 0, maps_memory_mb = 0;
   workflow::JobOptions job;
   bool retry_failed = false;
   bool dry_run = false;
+  CLI::App* parser = nullptr;
 };
 
 /// What a shard is given besides folder and number.
@@ -52,11 +54,17 @@ workflow::SubmitRequest request_of(const Options& o) {
   for (const std::string& word : request.words)
     request.ensemble.command += " " + workflow::shell_word(word);
   if (o.retry_failed) request.words.emplace_back("--retry-failed");
+  if (o.parser->count("--allow-remote-inputs") > 0) {
+    request.words.emplace_back("--allow-remote-inputs");
+    request.merge_words.emplace_back("--allow-remote-inputs");
+  }
   request.plan = plan_request(o.plan);
   request.cores_given = o.plan.cores > 0;
   request.asked.cores = request.plan.cores;
   request.asked.shard_s = 60 * o.minutes;
   request.asked.shard_bytes = 1e6 * o.memory_mb;
+  request.asked.maps_s = 60 * o.maps_minutes;
+  request.asked.maps_bytes = 1e6 * o.maps_memory_mb;
   request.options = o.job;
   request.work_folder = std::filesystem::current_path().string();
   request.program = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -101,7 +109,8 @@ void tell(const workflow::Submitted& s, bool dry_run, Console& console) {
   if (dry_run)
     return console.say(fmt::format(
         "Written, not submitted: {}. By hand: sbatch {}; then sbatch --dependency=afterany:JOB {}",
-        what, cluster.shard_script().string(), cluster.merge_script().string()));
+        what, workflow::shell_word(cluster.shard_script().string()),
+        workflow::shell_word(cluster.merge_script().string())));
   console.say(fmt::format(
       "Submitted {}: job{} {}, maps {}. See: sturz status {}", what,
       s.record.jobs.size() == 1 ? "" : "s",
@@ -126,18 +135,21 @@ int submit(const Options& options, Console& console) {
 void add_submit(Grammar& grammar) {
   auto [parser, options] = add_command(
       grammar, "submit", "Give an ensemble to a cluster; again: what is missing of it", submit);
+  options.parser = &parser;
   add_plan_options(parser, options.plan);
   parser.add_flag("--slurm", options.slurm,
                   "As an array of jobs of Slurm, and the merge behind it");
   parser.add_option("-o,--out", options.out, "Folder of the results (default: out/NAME)")
       ->type_name("DIR");
   parser.add_flag("--dry-run", options.dry_run, "Write the scripts into DIR/cluster and no more");
-  parser.add_option("--time", options.minutes, "Time limit of a shard (default: as planned)")
-      ->type_name("MINUTES")
-      ->check(CLI::Range(1.0, 1e6));
-  parser.add_option("--memory", options.memory_mb, "Memory of a shard (default: as planned)")
-      ->type_name("MB")
-      ->check(CLI::Range(1.0, 1e8));
+  const auto asked = [&parser = parser](const char* name, double& value, const char* unit,
+                                        const char* help) {
+    parser.add_option(name, value, help)->type_name(unit)->check(CLI::Range(1.0, 1e8));
+  };
+  asked("--time", options.minutes, "MINUTES", "Time limit of a shard (default: as planned)");
+  asked("--memory", options.memory_mb, "MB", "Memory of a shard (default: as planned)");
+  asked("--maps-time", options.maps_minutes, "MINUTES", "Time limit of the maps");
+  asked("--maps-memory", options.maps_memory_mb, "MB", "Memory of the maps");
   parser.add_option("--partition", options.job.partition, "Partition of the cluster")
       ->type_name("NAME");
   parser.add_option("--account", options.job.account, "Account that pays")->type_name("NAME");

@@ -60,7 +60,8 @@ while [ -z "$over" ] && [ "$code" -gt 126 ]; do
   if [ "$now" -ne 127 ]; then code=$now; fi
 done
 
-if [ "$stopped" = limit ] && [ "$code" -eq 3 ]; then
+# 138: USR1 came before the program could listen
+if [ "$stopped" = limit ] && { [ "$code" -eq 3 ] || [ "$code" -eq 138 ]; }; then
   if [ "${SLURM_RESTART_COUNT:-0}" -ge "$most_restarts" ]; then
     echo "stopped at the time limit for the ${SLURM_RESTART_COUNT}th time: does a single member take longer? See --time."
   else
@@ -105,6 +106,8 @@ std::string job_script(const ScriptRequest& r) {
   std::vector<std::string> words;
   for (const std::string& word : r.command) words.push_back(shell_word(word));
   text += fmt::format("\ncommand=({})\nmost_restarts=50\n", fmt::join(words, " "));
+  // Where jobs are not bound to their cores, a member would take all of the machine.
+  if (!merges) text += "export OMP_THREAD_LIMIT=1\n";
   return text + body;
 }
 

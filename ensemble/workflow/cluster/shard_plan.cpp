@@ -76,8 +76,9 @@ std::vector<std::string> plan_lines(const ShardPlan& p) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("{} members of about {} of one core: {} in all", p.members,
                               seconds_text(f.member_s), seconds_text(f.members_s)));
-  lines.push_back(fmt::format("{} shards of {} members, {} core{} each: about {}", p.shards, each,
-                              p.cores, p.cores == 1 ? "" : "s", seconds_text(p.shard_s)));
+  lines.push_back(fmt::format("{} shard{} of {} members, {} core{} each: about {}", p.shards,
+                              p.shards == 1 ? "" : "s", each, p.cores, p.cores == 1 ? "" : "s",
+                              seconds_text(p.shard_s)));
   lines.push_back(fmt::format("  ask for {} and {} per shard", time_limit_text(p.ask_s),
                               memory_text(p.ask_bytes)));
   lines.push_back(fmt::format("  ask for {} and {} for the maps", time_limit_text(p.maps_ask_s),

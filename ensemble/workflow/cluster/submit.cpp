@@ -187,12 +187,11 @@ void write_scripts(const SubmitRequest& request, const Submitted& out) {
     write_text_atomic(cluster.shard_script(),
                       job_script({cluster, out.record, request.options, request.work_folder,
                                   shard_command(request, out.record, folder), out.shards}));
-  write_text_atomic(cluster.merge_script(), job_script({cluster,
-                                                        out.record,
-                                                        request.options,
-                                                        request.work_folder,
-                                                        {request.program, "merge", folder.string()},
-                                                        {}}));
+  std::vector<std::string> merge{request.program, "merge", folder.string()};
+  merge.insert(merge.end(), request.merge_words.begin(), request.merge_words.end());
+  write_text_atomic(
+      cluster.merge_script(),
+      job_script({cluster, out.record, request.options, request.work_folder, merge, {}}));
 }
 
 /// Makes the jobs; whatever is refused in between leaves none.

@@ -27,10 +27,11 @@ struct SubmitRequest {
   Resources asked;           ///< zeros: as the last time, or as the plan says
   bool cores_given = false;  ///< asked.cores is the user's
   JobOptions options;
-  std::string work_folder;         ///< where the user stands
-  std::string program;             ///< that shards and merge run
-  std::vector<std::string> words;  ///< of `sturz ensemble`, without folder and shard
-  bool dry_run = false;            ///< scripts only
+  std::string work_folder;               ///< where the user stands
+  std::string program;                   ///< that shards and merge run
+  std::vector<std::string> words;        ///< of `sturz ensemble`, without folder and shard
+  std::vector<std::string> merge_words;  ///< of `sturz merge`, without folder
+  bool dry_run = false;                  ///< scripts only
 };
 
 struct Submitted {
