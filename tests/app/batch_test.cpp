@@ -102,9 +102,9 @@ nice: 90
 )");
   const Ended ended = batch();
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_THAT(ended.err, HasSubstr("list.yaml:2:53: basal.friction (unknown key)"));
+  EXPECT_THAT(ended.err, HasSubstr("list.yaml:2:55: basal.friction (unknown key)"));
   EXPECT_THAT(ended.err, HasSubstr("list.yaml:3:25: jobs[1].scenario = absent.yaml"));
-  EXPECT_THAT(ended.err, HasSubstr("list.yaml:4:58: numerics.spacing_m = -1"));
+  EXPECT_THAT(ended.err, HasSubstr("list.yaml:4:59: numerics.spacing_m = -1"));
   EXPECT_THAT(ended.err, HasSubstr("list.yaml:5:7: nice = 90"));
   EXPECT_FALSE(exists("out"));
 }

@@ -131,8 +131,9 @@ fs::path new_folder(const BatchJob& job, const Today& today) {
   folder += fmt::format("-{}", text_checksum(text).substr(prefix, digits));
   std::error_code ignored;
   fs::path free = folder;
-  // Only after changes beyond the part of the ground that is read first.
-  for (int n = 2; fs::exists(OutputFolder{free}.manifest(), ignored); ++n)
+  // Only after changes beyond the part of the ground that is read first. Without scenario.yaml it
+  // was killed before it had begun.
+  for (int n = 2; fs::exists(OutputFolder{free}.scenario(), ignored); ++n)
     free = fs::path(folder.string() + fmt::format("-{}", n));
   return free;
 }

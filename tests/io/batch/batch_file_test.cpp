@@ -60,7 +60,7 @@ jobs:
   ASSERT_EQ(north.set.size(), 3u) << "a job's own value is in the place of the default";
   EXPECT_EQ(north.set[0].key + "=" + north.set[0].value, "numerics.end_time_s=60");
   EXPECT_EQ(north.set[2].key + "=" + north.set[2].value, "title=\"x: y\"");
-  EXPECT_EQ(north.set[1].at.text(), "list.yaml:13:54");
+  EXPECT_EQ(north.set[1].at.text(), "list.yaml:13:53");
   EXPECT_EQ(spec.jobs[1].scenario, "south.yaml");
   EXPECT_EQ(spec.jobs[1].folder, "elsewhere/south");
   EXPECT_TRUE(spec.jobs[2].each_feature);
@@ -99,8 +99,8 @@ resutls: out
   EXPECT_THAT(all, HasSubstr("list.yaml:2:12: jobs[0].name = a b (must be letters"));
   EXPECT_THAT(all, HasSubstr("list.yaml:3:5: jobs[1] (name is missing). Add it."));
   EXPECT_THAT(all, HasSubstr("list.yaml:4:5: jobs[2] (scenario is missing)"));
-  EXPECT_THAT(all, HasSubstr("list.yaml:5:40: jobs[3].members = 0 (must be in 1..100000000)"));
-  EXPECT_THAT(all, HasSubstr("list.yaml:5:49: jobs[3].mode = fast (must be ensemble or run)"));
+  EXPECT_THAT(all, HasSubstr("list.yaml:5:42: jobs[3].members = 0 (must be in 1..100000000)"));
+  EXPECT_THAT(all, HasSubstr("list.yaml:5:51: jobs[3].mode = fast (must be ensemble or run)"));
   EXPECT_THAT(all, HasSubstr("list.yaml:6:33: jobs[4].colour (unknown key)"));
   EXPECT_THAT(all, HasSubstr("list.yaml:7:5: jobs[5].name = e (is also that of the job in line 6"));
   EXPECT_THAT(all, HasSubstr("list.yaml:8:43: jobs[6].features = all (must be each, or a list"));
