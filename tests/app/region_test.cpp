@@ -5,8 +5,9 @@
 #include <signal.h>
 
 #include <chrono>
-#include <cmath>
+#include <sstream>
 #include <thread>
+#include <utility>
 
 namespace sturz::test {
 namespace {
@@ -15,16 +16,18 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+/// A square polygon with a name and a volume.
 std::string feature(const std::string& name, double west, double south, double edge,
                     double volume) {
-  const auto corner = [](double x, double y) {
-    return "[" + std::to_string(x) + "," + std::to_string(y) + "]";
-  };
+  std::ostringstream text;
   const double east = west + edge, north = south + edge;
-  return R"({"type":"Feature","properties":{"name":")" + name + R"(","vol":)" +
-         std::to_string(volume) + R"(},"geometry":{"type":"Polygon","coordinates":[[)" +
-         corner(west, south) + "," + corner(east, south) + "," + corner(east, north) + "," +
-         corner(west, north) + "," + corner(west, south) + "]]}}";
+  text << R"({"type":"Feature","properties":{"name":")" << name << R"(","vol":)" << volume
+       << R"(},"geometry":{"type":"Polygon","coordinates":[[)";
+  for (const auto& [x, y] : {std::pair{west, south}, std::pair{east, south}, std::pair{east, north},
+                             std::pair{west, north}})
+    text << '[' << x << ',' << y << "],";
+  text << '[' << west << ',' << south << "]]]}}";
+  return text.str();
 }
 
 class Region : public App {
