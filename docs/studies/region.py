@@ -30,7 +30,7 @@ basal:
   friction_coefficient: {{uniform: [0.35, 0.6]}}
   turbulent_coefficient_m_s2: {{uniform: [300, 1200]}}
 formulation: depth_averaged
-numerics: {{spacing_m: 10}}
+numerics: {{spacing_m: 5}}
 ensemble: {{design: sobol, members: 8, seed: 11}}
 hazard: {{quantiles: [0.5, 0.95]}}
 """
@@ -106,12 +106,12 @@ class Region:
 
     def hits(self, data, row, col):
         """Whether a member's flow came to a cell of the maps."""
-        if "arrival" not in data.variables:
+        if "arrival_time" not in data.variables:
             return False
         x, y = data["x"][:], data["y"][:]
         c = int(round((self.x[col] - x[0]) / self.cell))
         r = int(round((y[0] - self.y[row]) / self.cell))
-        return bool(0 <= r < len(y) and 0 <= c < len(x) and np.isfinite(data["arrival"][r, c]))
+        return bool(0 <= r < len(y) and 0 <= c < len(x) and np.isfinite(data["arrival_time"][r, c]))
 
     def listed(self, row, col):
         """Sources and probabilities that hazard.nc gives of a cell."""
@@ -166,11 +166,11 @@ def naive(folder):
     for source in region.sources:
         hits = np.zeros(shape)
         for data in region.members(source):
-            if "arrival" not in data.variables:
+            if "arrival_time" not in data.variables:
                 continue
             r = int(round((region.y[0] - data["y"][0]) / region.cell))
             c = int(round((data["x"][0] - region.x[0]) / region.cell))
-            arrival = data["arrival"][:]
+            arrival = data["arrival_time"][:]
             hits[r:r + arrival.shape[0], c:c + arrival.shape[1]] += np.isfinite(arrival)
         p = hits / max(int(source["valid"]), 1)
         none *= 1 - p

@@ -129,7 +129,10 @@ RegionMade counts_of(const RegionJob& job, const StoredMembers& members) {
   return made;
 }
 
-void require_complete(const RegionJob& job, const StoredMembers& members, bool partial,
+/// What to do about sources that are not complete.
+enum class Missing { compute_again, refuse, leave_out };
+
+void require_complete(const RegionJob& job, const StoredMembers& members, Missing rule,
                       Observer& observer) {
   const auto& missing = members.missing();
   if (missing.empty()) return;
@@ -138,19 +141,21 @@ void require_complete(const RegionJob& job, const StoredMembers& members, bool p
                   missing.size() > 1
                       ? fmt::format(", and {} other sources are not complete", missing.size() - 1)
                       : "");
-  if (!partial)
-    throw MembersMissing(what +
-                         ". Resume with the command that computed them, or make maps from "
-                         "the others with `sturz merge --partial`.");
+  if (rule == Missing::compute_again)
+    throw MembersMissing(what + " though all were computed. The same command computes them again.");
+  require(rule == Missing::leave_out,
+          what +
+              ". Resume with the command that computed them, or make maps from the others with "
+              "--partial.");
   observer.warning(what + "; the maps are made from the others.");
 }
 
-RegionMade make_results(RegionJob& job, bool partial, Observer& observer, CancelFlag cancel) {
+RegionMade make_results(RegionJob& job, Missing rule, Observer& observer, CancelFlag cancel) {
   const auto begin = Clock::now();
   observer.maps_begin();
   const StoredMembers members(job.folder, job.sources, job.members_per_source(),
                               job.manifest.design_hash, observer, cancel);
-  require_complete(job, members, partial, observer);
+  require_complete(job, members, rule, observer);
   RegionMade made = counts_of(job, members);
   require(made.valid > 0,
           fmt::format("{}: no source has a valid member (there is nothing to map){}",
@@ -185,12 +190,13 @@ RegionMade make_results(RegionJob& job, bool partial, Observer& observer, Cancel
 }  // namespace
 
 RegionMade make_region_results(RegionJob& job, Observer& observer, CancelFlag cancel) {
-  return make_results(job, false, observer, cancel);
+  return make_results(job, Missing::compute_again, observer, cancel);
 }
 
 RegionMade merge_region(const RegionMergeRequest& request, Observer& observer, CancelFlag cancel) {
   RegionJob job = reopen_region(request.folder, observer, cancel);
-  return make_results(job, request.partial, observer, cancel);
+  return make_results(job, request.partial ? Missing::leave_out : Missing::refuse, observer,
+                      cancel);
 }
 
 }  // namespace sturz::workflow

@@ -132,6 +132,14 @@ std::filesystem::path existing_maps(const OutputFolder& folder, bool one_run) {
   return maps;
 }
 
+/// A region's page goes with its maps.
+FinishedFolder open_with_page(const std::filesystem::path& folder, Observer& observer) {
+  require(!is_region(folder),
+          fmt::format("{} is a region, whose page is made with its maps. Use `sturz merge`.",
+                      folder.string()));
+  return open_finished(folder, observer);
+}
+
 }  // namespace
 
 NearestMember nearest_member(const MemberParts& source, const std::optional<ScoreTable>& scores,
@@ -194,10 +202,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
                                    CancelFlag cancel) {
-  require(!is_region(folder),
-          fmt::format("{} is a region, whose page is made with its maps. Use `sturz merge`.",
-                      folder.string()));
-  FinishedFolder finished = open_finished(folder, observer);
+  FinishedFolder finished = open_with_page(folder, observer);
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   leave_out_relief(finished, observer);

@@ -131,7 +131,7 @@ function regionPanel(box, list, planes, at) {
   }
   const n = list.length;
   box.append(named('p', 'cell-line', 'Reached by ', named('b', '', `${n} source${n > 1 ? 's' : ''}`),
-                   ', each with its probability if it releases:'),
+                   n > 1 ? ', each with its probability if it releases:' : ', with its probability if it releases:'),
              sourceTable(list));
   const together = planes.filter((p) => p.layer.quantity === 'sources' && !p.layer.legend.nominal);
   if (together.length > 0)

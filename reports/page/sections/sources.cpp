@@ -39,7 +39,7 @@ std::string sources_html(const ReportInput& input) {
   std::string html =
       "<section id=\"sources\"><h2>Sources</h2><div class=\"table-box\" tabindex=\"0\"><table "
       "class=\"spaced\"><thead><tr><th scope=\"col\">source</th><th scope=\"col\">number</th>"
-      "<th scope=\"col\">valid simulations</th><th scope=\"col\">release of the first"
+      "<th scope=\"col\">valid simulations</th><th scope=\"col\">release of the first "
       "<small>m\u00B3</small></th><th scope=\"col\">reached by any</th>"
       "<th scope=\"col\">reached by half</th><th scope=\"col\">likeliest source "
       "of</th></tr></thead>"

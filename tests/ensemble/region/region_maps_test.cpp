@@ -126,7 +126,7 @@ float value(const LayerStack& maps, const char* name, int row, int col, std::siz
 }
 
 TEST(RegionMaps, AreSumsOverSources) {
-  const MadeUp made = random_region(small_grid(23, 31), 5);
+  const MadeUp made = random_region(small_grid(23, 31), 12);
   SourceLists lists;
   const LayerStack maps = made.maps(&lists);
   ASSERT_EQ(maps.grid.n_cells(), 23u * 31u) << "random windows reach all sides";
@@ -159,7 +159,7 @@ TEST(RegionMaps, AreSumsOverSources) {
     }
   EXPECT_GT(touched, 300);
   EXPECT_GT(tied, 20) << "ties are looked at too";
-  EXPECT_EQ(lists.sources.size(), 5u);
+  EXPECT_EQ(lists.sources.size(), 12u);
   EXPECT_TRUE(std::is_sorted(lists.cells.begin(), lists.cells.end()));
 }
 

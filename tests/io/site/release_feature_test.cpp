@@ -100,11 +100,7 @@ TEST_F(ReleaseFeature, IsOneOfAPolygonLayer) {
   EXPECT_THAT(messages(), HasSubstr("release.feature (only release.polygon has"));
   s.release.feature.clear();
   EXPECT_THAT(messages(), HasSubstr("release.feature_key (says by what"));
-  s.release.box.reset();
-  s.release.paraboloid.reset();
-  s.release.cylinder.reset();
-  s.release.thickness_m.reset();
-  s.release.volume_m3.reset();
+  s.release = {};
   s.release.polygon = "a.gpkg";
   s.release.volume_attribute = "v";
   s.release.each_feature = true;
@@ -129,8 +125,10 @@ TEST_F(ReleaseFeature, AVolumeOfItsOwnIsSpreadOverItsArea) {
 }
 
 TEST_F(ReleaseFeature, ItsKeyIsText) {
-  Scenario s;
+  Scenario s = pile();
+  s.release = {};
   s.release.polygon = "a.gpkg";
+  s.release.thickness_m = Uncertain(2);
   s.release.feature = "007";
   s.release.feature_key = "no";
   write("s.yaml", write_scenario(s, folder()));
