@@ -2,8 +2,6 @@
 // The drag of many grains at once against that of each alone.
 #include "engine/effects/coupling/drag_batch.hpp"
 
-#include "engine/laws/phase_drag.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,6 +11,20 @@
 
 namespace sturz {
 namespace {
+
+/// slip_taken() of laws/phase_drag.hpp without what it loses in small steps: there 1 - (1 - e^-x)/x
+/// cancels to 1e-6 of itself.
+Vec3 taken(const Vec3& before, const Vec3& now, double steps) {
+  const double decayed = -std::expm1(-steps);
+  if (before.dot(now) < 0) return decayed * now;
+  const double driven =
+      steps < 0.02
+          ? steps *
+                (1.0 / 2 -
+                 steps * (1.0 / 6 - steps * (1.0 / 24 - steps * (1.0 / 120 - steps * (1.0 / 720)))))
+          : 1 - decayed / steps;
+  return decayed * before + driven * (now - before);
+}
 
 TEST(DragBatch, IsTheDragOfEachAlone) {
   const GranularDrag law{0.003, 1100, 0.01};
@@ -30,9 +42,8 @@ TEST(DragBatch, IsTheDragOfEachAlone) {
       const double reduced = 2 * unit(random), force = std::pow(10, 12 * unit(random) - 12);
       batch.add(static_cast<std::uint32_t>(3 * k), before, now, solids, reduced, force);
       const double first = force * law.per_grain_volume(solids, before.norm());
-      const double mean = 0.5 * (before.norm() + (now - slip_taken(before, now, first)).norm());
-      expected.push_back(-reduced *
-                         slip_taken(before, now, force * law.per_grain_volume(solids, mean)));
+      const double mean = 0.5 * (before.norm() + (now - taken(before, now, first)).norm());
+      expected.push_back(-reduced * taken(before, now, force * law.per_grain_volume(solids, mean)));
     }
     batch.relax();
     ASSERT_EQ(batch.size(), n);
