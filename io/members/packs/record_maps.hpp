@@ -6,8 +6,7 @@
 /// cell, so maps come back bit for bit. Runs and each layer of a band have checksums of their own,
 /// kept in the directory: what is read is checked, however little it is.
 ///
-/// Not compressed: shuffle and deflate would save a third of it (ADR 0052) and take longer to undo
-/// than statistics take to make.
+/// Not compressed: shuffle and deflate would save a third of it and cost merges more (ADR 0052).
 #pragma once
 
 #include "engine/simulation/member_result.hpp"
