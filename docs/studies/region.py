@@ -3,8 +3,7 @@
 """Three hundred sources on one mountain: makes the scene, and checks a region's maps by hand.
 
 usage: region.py make DATA OUT [N]     writes OUT/sources.geojson and OUT/scenario.yaml
-       region.py check REGION          prints tables in Markdown, from member files alone
-       region.py naive REGION          every cell of the maps against member files
+       region.py check REGION          prints tables in Markdown: the maps against sums over member files
 
 DATA holds marsicano_10m.tif (TINITALY, CC BY 4.0). Sources are octagons of 60 m on cells of 32 to 45 degrees, on a grid
 whose distance is chosen so that there are N; volumes grow with slope. Needs numpy, netCDF4 and osgeo.
@@ -104,14 +103,16 @@ class Region:
                 data.set_auto_mask(False)
                 yield data
 
-    def hits(self, data, row, col):
-        """Whether a member's flow came to a cell of the maps."""
-        if "arrival_time" not in data.variables:
-            return False
-        x, y = data["x"][:], data["y"][:]
-        c = int(round((self.x[col] - x[0]) / self.cell))
-        r = int(round((y[0] - self.y[row]) / self.cell))
-        return bool(0 <= r < len(y) and 0 <= c < len(x) and np.isfinite(data["arrival_time"][r, c]))
+    def came(self, source):
+        """Of each member of a source: where its flow came, on the cells of the maps."""
+        for data in self.members(source):
+            cells = np.zeros((len(self.y), len(self.x)), bool)
+            if "arrival_time" in data.variables:
+                arrival = data["arrival_time"][:]
+                r = int(round((self.y[0] - data["y"][0]) / self.cell))
+                c = int(round((data["x"][0] - self.x[0]) / self.cell))
+                cells[r:r + arrival.shape[0], c:c + arrival.shape[1]] = np.isfinite(arrival)
+            yield cells
 
     def listed(self, row, col):
         """Sources and probabilities that hazard.nc gives of a cell."""
@@ -125,59 +126,58 @@ class Region:
                                                 self.maps["hit_probability"][begin:end])}
 
 
-def check(folder):
-    """Three cells: where most sources come, where one is likely, where a few may come."""
-    region = Region(folder)
+def three_cells(region):
+    """Where most sources come, where one may come, where three to five may."""
     number = region.maps["number_of_sources"][:]
     highest = region.maps["highest_probability_of_a_hit"][:]
-    wanted = [np.where(np.isfinite(number), number, -1),
-              np.where((number == 1) & (highest < 1), highest, -1),
+    wanted = [np.where(np.isfinite(number), number, -1), np.where((number == 1) & (highest < 1), highest, -1),
               np.where((number >= 3) & (number <= 5) & (highest < 0.7), highest, -1)]
-    print("| cell: x, y | sources by hand: P | in hazard.nc | any hit by hand, in hazard.nc | same values, in hazard.nc | likeliest |")
-    print("|---|---|---|---|---|---|")
-    for score in wanted:
-        row, col = np.unravel_index(int(np.argmax(score)), score.shape)
-        shares, rows = {}, set()
-        for source in region.sources:
-            came = [k for k, data in enumerate(region.members(source)) if region.hits(data, row, col)]
-            rows.update(came)
-            if came:
-                shares[int(source["number"])] = len(came) / int(source["valid"])
-        listed = region.listed(row, col)
-        same = listed.keys() == shares.keys() and all(abs(listed[k] - shares[k]) < 1e-7 for k in shares)
-        none = math.prod(1 - p for p in shares.values())
-        n_rows = int(region.sources[0]["planned"])
-        best = int(region.maps["most_likely_source"][row, col])
-        at = lambda name: float(region.maps[name][row, col])
-        names = {int(s["number"]): s["source"] for s in region.sources}
-        some = sorted(shares.items(), key=lambda s: -s[1])
-        text = ", ".join(f"{names[k]} {p:.3g}" for k, p in some[:5])
-        print(f"| {region.x[col]:.0f}, {region.y[row]:.0f} | {len(shares)}: {text}{', ...' if len(some) > 5 else ''} | "
-              f"{'the same' if same else 'OTHERS'} | {1 - none:.6f}, {at('probability_of_any_hit'):.6f} | "
-              f"{len(rows) / n_rows:.4g}, {at('probability_of_any_hit_shared_values'):.4g} | "
-              f"{names[best]}, P {shares[best]:.3g} (largest {max(shares.values()):.3g}) |")
+    return [np.unravel_index(int(np.argmax(score)), score.shape) for score in wanted]
 
 
-def naive(folder):
-    """All cells, with plain sums in the order of the sources."""
+def print_cell(region, cell, shares, rows):
+    row, col = cell
+    listed = region.listed(row, col)
+    same = listed.keys() == shares.keys() and all(abs(listed[k] - shares[k]) < 1e-7 for k in shares)
+    none = math.prod(1 - p for p in shares.values())
+    best = int(region.maps["most_likely_source"][row, col])
+    names = {int(s["number"]): s["source"] for s in region.sources}
+    some = sorted(shares.items(), key=lambda share: -share[1])
+    text = ", ".join(f"{names[k]} {p:.3g}" for k, p in some[:5]) + (", ..." if len(some) > 5 else "")
+    any_hit, any_rows = (float(region.maps[f"probability_of_any_hit{end}"][row, col]) for end in ("", "_shared_values"))
+    print(f"| {region.x[col]:.0f}, {region.y[row]:.0f} | {len(shares)}: {text} | {'the same' if same else 'OTHERS'} | "
+          f"{1 - none:.6f}, {any_hit:.6f} | {len(rows) / int(region.sources[0]['planned']):.4g}, {any_rows:.4g} | "
+          f"{names.get(best)}, P {shares.get(best, 0):.3g} of {max(shares.values(), default=0):.3g} |")
+
+
+def check(folder):
+    """Three cells in words, then all cells, from plain sums over member files in the order of the sources."""
     region = Region(folder)
+    cells = three_cells(region)
+    shares, rows = [{} for _ in cells], [set() for _ in cells]
     shape = (len(region.y), len(region.x))
     none, expected, highest, number = np.ones(shape), np.zeros(shape), np.zeros(shape), np.zeros(shape)
     for source in region.sources:
         hits = np.zeros(shape)
-        for data in region.members(source):
-            if "arrival_time" not in data.variables:
-                continue
-            r = int(round((region.y[0] - data["y"][0]) / region.cell))
-            c = int(round((data["x"][0] - region.x[0]) / region.cell))
-            arrival = data["arrival_time"][:]
-            hits[r:r + arrival.shape[0], c:c + arrival.shape[1]] += np.isfinite(arrival)
+        for k, came in enumerate(region.came(source)):
+            hits += came
+            for cell, hit_rows in zip(cells, rows):
+                if came[cell]:
+                    hit_rows.add(k)
         p = hits / max(int(source["valid"]), 1)
         none *= 1 - p
         expected += p
         highest = np.maximum(highest, p)
         number += p > 0
-    print("| map | cells that some source reaches | largest difference from member files |")
+        for cell, share in zip(cells, shares):
+            if p[cell] > 0:
+                share[int(source["number"])] = float(p[cell])
+    print("| cell: x, y | sources by hand: P | list in hazard.nc | any hit by hand, in hazard.nc | the same with one "
+          "table of values | likeliest in hazard.nc: its P, of the largest |")
+    print("|---|---|---|---|---|---|")
+    for cell, share, hit_rows in zip(cells, shares, rows):
+        print_cell(region, cell, share, hit_rows)
+    print("\n| map | cells that some source reaches | largest difference from member files |")
     print("|---|---|---|")
     for name, values in (("highest_probability_of_a_hit", highest), ("probability_of_any_hit", 1 - none),
                          ("expected_number_of_sources", expected), ("number_of_sources", number)):
@@ -189,7 +189,7 @@ if __name__ == "__main__":
     command = sys.argv[1] if len(sys.argv) > 2 else ""
     if command == "make":
         make(sys.argv[2], sys.argv[3], int(sys.argv[4]) if len(sys.argv) > 4 else 300)
-    elif command in ("check", "naive"):
-        {"check": check, "naive": naive}[command](sys.argv[2])
+    elif command == "check":
+        check(sys.argv[2])
     else:
         sys.exit(__doc__)

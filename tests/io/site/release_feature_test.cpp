@@ -15,17 +15,22 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+/// One ring as the corners of a polygon.
+std::string ring(const std::string& corners) {
+  std::string text = "[";
+  text += corners;
+  return text += ']';
+}
+
 class ReleaseFeature : public IoTest {
  protected:
   void SetUp() override {
     IoTest::SetUp();
-    write(
-        "source.geojson",
-        collection(
-            feature("Polygon", "[" + square(0, 0, 20) + "]", R"({"name": "scarp", "n": 7})") + "," +
-            feature("Polygon", "[" + square(50, 10, 30) + "]", R"({"name": "cliff", "n": 9})") +
-            "," +
-            feature("Polygon", "[" + square(10, 90, 40) + "]", R"({"name": "twin", "n": 9})")));
+    write("source.geojson",
+          collection(
+              feature("Polygon", ring(square(0, 0, 20)), R"({"name": "scarp", "n": 7})") + "," +
+              feature("Polygon", ring(square(50, 10, 30)), R"({"name": "cliff", "n": 9})") + "," +
+              feature("Polygon", ring(square(10, 90, 40)), R"({"name": "twin", "n": 9})")));
     request.path = "source.geojson";
     request.directory = folder().string();
   }
@@ -56,7 +61,7 @@ TEST_F(ReleaseFeature, OthersDoNotBelongToItsIdentity) {
   const std::string before = read("cliff", "name").identity.parts.at("features");
   EXPECT_NE(read("scarp", "name").identity.parts.at("features"), before);
   write("source.geojson",
-        collection(feature("Polygon", "[" + square(50, 10, 30) + "]", R"({"name": "cliff"})")));
+        collection(feature("Polygon", ring(square(50, 10, 30)), R"({"name": "cliff"})")));
   EXPECT_EQ(read("cliff", "name").identity.parts.at("features"), before);
 }
 
@@ -75,7 +80,7 @@ TEST_F(ReleaseFeature, AnUnknownOneIsToldWhatThereIs) {
 TEST_F(ReleaseFeature, ManyNamesAreNotAllListed) {
   std::string features;
   for (int i = 0; i < 40; ++i)
-    features += (i > 0 ? "," : "") + feature("Polygon", "[" + square(i, 0, 2) + "]");
+    features.append(i > 0 ? "," : "").append(feature("Polygon", ring(square(i, 0, 2))));
   write("source.geojson", collection(features));
   EXPECT_THAT(refusal("40", ""), HasSubstr("It has: 0, 1, 2, 3, 4, 5, 6, 7, ... (40 in all)."));
 }
