@@ -127,7 +127,7 @@ TEST(BatchFile, TheSchemaKnowsEveryKey) {
   const std::string schema = batch_schema();
   for (const char* key : {"jobs", "defaults", "results", "max_workers", "between", "stop_file",
                           "min_free_disk_gb", "features", "members", "scenario"})
-    EXPECT_THAT(schema, HasSubstr("\"" + std::string(key) + "\": {")) << key;
+    EXPECT_THAT(schema, HasSubstr(std::string("\"").append(key).append("\": {"))) << key;
   EXPECT_THAT(schema, HasSubstr("\"const\": \"each\""));
 }
 
