@@ -149,6 +149,15 @@ TEST_F(Batch, OnlyNamedJobsAreLookedAt) {
   EXPECT_EQ(batch({"--only", "zz"}).exit_code, 1);
 }
 
+TEST_F(Batch, ListsAreNamedFromTheWorkingDirectory) {
+  write("list.yaml",
+        "jobs: [{name: a, scenario: a.yaml}, {name: b, scenario: b.yaml, folder: far}]\n");
+  ASSERT_EQ(sturz({"batch", "list.yaml"}).exit_code, 0);
+  EXPECT_TRUE(exists("out/list/a/report.html") && exists("far/report.html"));
+  const Ended again = sturz({"batch", path("list.yaml")});
+  EXPECT_THAT(again.out, HasSubstr("0 computed, 2 unchanged"));
+}
+
 TEST_F(Batch, ALostFileIsMadeAgain) {
   write("list.yaml", "jobs: [{name: a, scenario: a.yaml}]\n");
   ASSERT_EQ(batch().exit_code, 0);

@@ -98,7 +98,7 @@ class Expansion {
     job.scene = {(near_ / entry.scenario).lexically_normal().string(), overrides_of(job.set),
                  cache_};
     job.base = entry.folder.empty() ? jobs_.root / entry.name
-                                    : (fs::absolute(near_) / entry.folder).lexically_normal();
+                                    : fs::absolute(near_ / entry.folder).lexically_normal();
     if (!job.base.has_filename()) job.base = job.base.parent_path();
     return job;
   }

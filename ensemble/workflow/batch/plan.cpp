@@ -27,7 +27,7 @@ const char* kind_of(const BatchJob& job) { return job.single_run ? "run" : "ense
 /// Of all that the list and the scenario file say of the job.
 std::string fingerprint_of(const BatchJob& job) {
   return text_checksum(fmt::format("{}\n{}\n{}", kind_of(job),
-                                   fs::absolute(job.scenario.directory).string(),
+                                   fs::absolute(fs::path(job.scenario.directory) / ".").string(),
                                    write_scenario(job.scenario)));
 }
 
