@@ -48,7 +48,7 @@ TEST(BatchPage, ShowsEveryJobWithItsLinkAndReason) {
   EXPECT_THAT(html, HasSubstr("<a href=\"north-0123abcd/report.html\">north &lt;1&gt;</a>"));
   EXPECT_THAT(html, HasSubstr("dem.tif changed (terrain.raster)"));
   EXPECT_THAT(html, HasSubstr("150 m <small>100 \u2013 \u2265\u00A0220</small>"));
-  EXPECT_THAT(html, HasSubstr("31 % <small>school</small>"));
+  EXPECT_THAT(html, HasSubstr("31\u00A0% <small>school</small>"));
   EXPECT_THAT(html, HasSubstr("<strong>broken</strong>: terrain.raster = dem.tif"));
   EXPECT_THAT(html, HasSubstr("<span class=\"state failed\">failed</span>"));
   EXPECT_THAT(html, Not(HasSubstr("Ended early")));

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -39,8 +40,8 @@ KeyValue unusual_value(const KeyInfo& key) {
     case ValueKind::uncertain: {
       Uncertain u;
       u.distribution = Distribution{};
-      u.distribution->min = middle;
-      u.distribution->max = middle * 1.01;
+      u.distribution->min = std::min(middle, middle * 1.01);
+      u.distribution->max = std::max(middle, middle * 1.01);
       return u;
     }
     case ValueKind::number_list:

@@ -70,7 +70,7 @@ TEST_F(Forecasts, ASceneThatIsTriedItselfTakesTheStepsThatItTakes) {
 // Both stop at rest, long before the energy line's end: what the description alone cannot know.
 TEST_F(Forecasts, StepsOfALongMemberAreThoseOfACoarserOne) {
   for (const std::vector<std::string>& scene :
-       {std::vector<std::string>{"numerics.end_time_s=null", "numerics.spacing_m=0.25"},
+       {std::vector<std::string>{"numerics.end_time_s=null", "numerics.spacing_m=0.2"},
         std::vector<std::string>{"numerics.end_time_s=null", "formulation=full_stress",
                                  "numerics.spacing_m=0.6", "numerics.accept_unresolved=true"}}) {
     const workflow::Trial trial = tried(scene, 0.2);
@@ -121,11 +121,12 @@ TEST_F(Forecasts, GrowWithMembersAndCells) {
     }
 }
 
-// "At most 0.7 s" was said of 10,000 members that took 17 minutes.
+// "At most 0.7 s" was said of 10,000 members that took 17 minutes, in files of their own. In packs
+// 5,000 took 10 s of computing time with trial, maps and page, 3 s of it their own.
 TEST_F(Forecasts, ManyTinyMembersAreNotForNothing) {
   const Forecast f = said({"ensemble.members=10000"});
-  EXPECT_GT(f.members_s.likely, 10000 * 0.002);
-  EXPECT_GT(f.maps_s.likely, 10000 * 0.001);
+  EXPECT_GT(f.members_s.likely, 10000 * 0.0006);
+  EXPECT_GT(f.maps_s.likely, 10000 * 0.0001);
   EXPECT_GT(f.elapsed_s.high, 30);
 }
 

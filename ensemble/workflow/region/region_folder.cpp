@@ -57,8 +57,8 @@ void keep_failure(const OutputFolder& region, const std::string& source,
   const fs::path file = failure_file(region, source);
   if (reason.empty()) {
     std::error_code ignored;
+    // The folder stays, were it empty: another source may be about to write into it.
     fs::remove(file, ignored);
-    fs::remove(file.parent_path(), ignored);  // where it was the last one
     return;
   }
   make_folder(file.parent_path());
