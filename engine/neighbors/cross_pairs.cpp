@@ -41,7 +41,7 @@ struct Range {
 
 std::size_t PairSide::n_entries() const {
   std::size_t n = 0;
-  for (std::size_t r = 0; r < runs_.size(); ++r) n += runs_[r].end - runs_[r].begin;
+  for (const auto& run : runs_) n += run.end - run.begin;
   return n;
 }
 

@@ -173,7 +173,7 @@ class RegionStatistics {
       const std::uint32_t source = region_.source_of_valid[members[m]];
       std::size_t end = m;
       while (end < members.size() && region_.source_of_valid[members[end]] == source) ++end;
-      const double n = static_cast<double>(region_.sources[source].valid);
+      const auto n = static_cast<double>(region_.sources[source].valid);
       const double p = static_cast<double>(count_hits(rows, i, m, end)) / n;
       take_quantiles(rows, i, m, end, region_.sources[source].valid);
       if (p > 0) {
@@ -239,7 +239,7 @@ class RegionStatistics {
     block_->put(RegionLayers::any_rows, 0, to, rows_.share());
     block_->put(RegionLayers::expected, 0, to, expected);
     block_->put(RegionLayers::number, 0, to, static_cast<double>(hits_.size()));
-    block_->put(RegionLayers::likeliest, 0, to, best);
+    block_->put(RegionLayers::likeliest_source, 0, to, best);
     for (std::size_t k = 0; k < peaks.size(); ++k)
       for (std::size_t q = 0; q < n_quantiles_; ++q)
         block_->put(RegionLayers::first_peak + k, q, to,

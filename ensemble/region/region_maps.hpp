@@ -65,7 +65,15 @@ struct RegionContext {
 /// Places of a region's layers in LayerStack::layers.
 struct RegionLayers {
   HazardLayers layers;  ///< `stack` and `untouched` of it are used
-  enum Place : std::size_t { highest, any, any_rows, expected, number, likeliest, first_peak };
+  enum Place : std::size_t {
+    highest,
+    any,
+    any_rows,
+    expected,
+    number,
+    likeliest_source,
+    first_peak
+  };
 };
 /// What the maps hold besides their values; names of sources become words of classes.
 RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> sources,

@@ -173,8 +173,8 @@ void plan_in(PlannedJob& plan, const Found& found, const JobRecord& before,
     reasons.push_back(fmt::format("{} members failed", before.figures->failed()));
   const bool known = finished && results_are_there(before) && !options.check_all;
   if (reasons.empty() && !known && !maps_are_whole(found, cancel))
-    reasons.push_back(plan.job.single_run ? "interrupted"
-                                          : "interrupted before the maps were made");
+    reasons.emplace_back(plan.job.single_run ? "interrupted"
+                                             : "interrupted before the maps were made");
   plan.to_do = !reasons.empty();
   plan.why = joined(reasons);
   if (plan.to_do) return;

@@ -248,6 +248,7 @@ Submitted submit(const SubmitRequest& request, const RunCommand& run, Observer& 
   decide(request, scene, last, shards_before, out, slurm);
   out.members = begin_or_check(request, scene, out.record.shards, begun, observer);
   const SubmitLock alone(cluster);
+  remove_part_files(cluster.record().parent_path());  // of a call that was killed
   last = read_submission(cluster.record());
   if (last && slurm) cancel_half_submitted(*slurm, *last, cluster.record(), observer);
 

@@ -41,9 +41,9 @@ class ByteWriter {
   }
   template <class T>
   requires std::is_arithmetic_v<T>
-  void list(const std::vector<T>& values_) {
-    put(static_cast<std::uint64_t>(values_.size()));
-    values(std::span<const T>(values_));
+  void list(const std::vector<T>& all) {
+    put(static_cast<std::uint64_t>(all.size()));
+    values(std::span<const T>(all));
   }
   void pad(std::size_t to) {
     while (bytes_.size() % to != 0) bytes_.push_back(std::byte{0});

@@ -226,7 +226,7 @@ TEST(Pool, DescribeNamesItAndCountsItsParticles) {
   const SceneDescription wet = describe(s, level(s)), dry = describe(without, level(s));
   EXPECT_EQ(wet.n_particles, 800u + 120u);
   EXPECT_EQ(dry.n_particles, 240u);
-  EXPECT_GT(wet.memory_bytes, dry.memory_bytes + 600 * 500);
+  EXPECT_GT(wet.memory_bytes, dry.memory_bytes + 600UL * 500);
   const auto note = std::find_if(wet.effects.begin(), wet.effects.end(),
                                  [](const EffectNote& e) { return e.name == "liquid"; });
   ASSERT_NE(note, wet.effects.end());
