@@ -148,7 +148,7 @@ TEST_F(PackedEnsemble, WithoutItsSceneIsNotContinued) {
 /// What a map must hold, from all members at once and without any cleverness.
 class NaiveMap {
  public:
-  NaiveMap(int n, int edge) : edge_(edge) {
+  NaiveMap(int n, int edge) {
     for (int k = 0; k < n; ++k) members_.push_back(made_up_flow(k, edge));
   }
   std::vector<float> values(PeakLayer layer, int row, int col) const {
@@ -181,7 +181,6 @@ class NaiveMap {
   }
 
  private:
-  int edge_;
   std::vector<MemberResult> members_;
 };
 
