@@ -6,9 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace sturz::test {
 namespace {
@@ -46,30 +43,7 @@ double restless(const ImmersedGrains& g, double times, int steps) {
 TEST(StepAmongGrains, HasAMargin) {
   for (const bool buoyancy : {false, true})
     for (const double solids : {0.3, 0.6})
-      EXPECT_LT(restless(box(solids, buoyancy, true), 1.4, 400), 1e-3) << buoyancy << " " << solids;
-}
-
-/// STURZ_STEP_SCAN=1: how many times its limit a step may be, for docs/studies/stability_liquid.md.
-TEST(StepAmongGrains, Scan) {
-  if (!std::getenv("STURZ_STEP_SCAN")) GTEST_SKIP() << "on demand";
-  for (const int kind : {0, 1, 2})
-    for (const double solids : {0.3, 0.5, 0.6, 0.7}) {
-      const ImmersedGrains g = box(solids, kind == 2, kind > 0);
-      double stable = 0;
-      for (double times = 1; times < 3; times += 0.1)
-        if (restless(g, times, 600) < 1e-2)
-          stable = times;
-        else
-          break;
-      HandMade made = immersed(g);
-      made.advance();
-      std::printf("%s, solids %.1f: stable to %.1f times the limit, %.5f s (%s)\n",
-                  kind == 0   ? "apart"
-                  : kind == 1 ? "without buoyancy"
-                              : "with buoyancy",
-                  solids, stable, stable * made.step.limit(made.state).dt,
-                  made.step.limit(made.state).name);
-    }
+      EXPECT_LT(restless(box(solids, buoyancy, true), 2, 400), 1e-3) << buoyancy << " " << solids;
 }
 
 }  // namespace
