@@ -85,6 +85,18 @@ TEST_F(Region, ASourceIsAnOrdinaryEnsemble) {
             read("out/features/upper/members/000001.nc"));
 }
 
+/// The same members, each source a job of its own.
+TEST_F(Region, ABatchOfEachFeatureComputesTheSame) {
+  ASSERT_EQ(ensemble("out").exit_code, 0);
+  ASSERT_EQ(sturz({"merge", path("out/features/lower")}).exit_code, 0);
+  write("list.yaml", "jobs: [{name: s, scenario: scene.yaml, features: each}]\n");
+  const Ended ended = sturz({"batch", path("list.yaml"), "-o", path("batch")});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("3 jobs: 3 computed"));
+  EXPECT_EQ(hazard_hash("batch/s.lower"), hazard_hash("out/features/lower"));
+  EXPECT_TRUE(exists("batch/s.aside%2F2/report.html"));
+}
+
 TEST_F(Region, ShardsAndMergeEqualOneRun) {
   for (const char* shard : {"2/2", "1/2"}) {
     const Ended ended = ensemble("out", {"--shard", shard});

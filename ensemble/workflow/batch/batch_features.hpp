@@ -12,7 +12,7 @@ namespace sturz::workflow {
 
 struct FeatureJob {
   std::string suffix;             ///< of the job's name: ".12"; empty: the scenario as it is
-  std::vector<BatchValue> extra;  ///< the override that picks the feature
+  std::vector<BatchValue> extra;  ///< overrides that pick the feature
 };
 
 /// \param scenario of the entry, with its overrides
