@@ -52,9 +52,12 @@ TEST(Features, EachIsAJobWithItsOverride) {
   const auto jobs = feature_jobs(entry, {});
   ASSERT_EQ(jobs.size(), 2u);
   EXPECT_EQ(jobs[0].suffix, ".3");
-  EXPECT_EQ(jobs[1].suffix, ".upper_part");
-  EXPECT_EQ(jobs[1].extra.at(0).key, "release.feature");
-  EXPECT_EQ(jobs[1].extra.at(0).value, "\"upper part\"");
+  EXPECT_EQ(jobs[1].suffix, ".upper%20part") << "the rule of a region's folders";
+  ASSERT_EQ(jobs[1].extra.size(), 2u);
+  EXPECT_EQ(jobs[1].extra[0].key, "release.each_feature");
+  EXPECT_EQ(jobs[1].extra[0].value, "false");
+  EXPECT_EQ(jobs[1].extra[1].key, "release.feature");
+  EXPECT_EQ(jobs[1].extra[1].value, "\"upper part\"");
 }
 
 TEST(Figures, CellsAreReachedFromTheirLevelOn) {
