@@ -29,7 +29,9 @@ TEST(Grouped, SetsThousandsApart) {
   EXPECT_EQ(workflow::grouped(999), "999");
   EXPECT_EQ(workflow::grouped(491000), "491 000");
   EXPECT_EQ(workflow::grouped(-1234567), "-1 234 567");
-  EXPECT_EQ(workflow::grouped(-0.2), "0");
+  EXPECT_EQ(workflow::grouped(-0.2), "-0.2");
+  EXPECT_EQ(workflow::grouped(45.26), "45.3");
+  EXPECT_EQ(workflow::grouped(6.912e-5), "6.91e-05") << "a flume's release is no 0 m3";
 }
 
 }  // namespace
