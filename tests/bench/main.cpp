@@ -121,8 +121,10 @@ int run(const Command& command, const Options& options, const Files& files) {
 
 int main(int argc, char** argv) {
   // As the program itself does: threads that wait sleep. OpenMP reads this before main starts.
-  if (!std::getenv("OMP_WAIT_POLICY") && setenv("OMP_WAIT_POLICY", "passive", 1) == 0)
+  if (!std::getenv("OMP_WAIT_POLICY") && setenv("OMP_WAIT_POLICY", "passive", 1) == 0) {
+    setenv("GOMP_SPINCOUNT", "1000", 0);
     execv("/proc/self/exe", argv);  // comes back only when it fails; then spinning it is
+  }
   CLI::App app{"Times the scenes that the tests check."};
   app.require_subcommand(1);
   Options options;
