@@ -31,4 +31,9 @@ std::string grouped(double value) {
   return (value < 0 ? "-" : "") + out;
 }
 
+std::string measure(double value, int decimals) {
+  const bool small = value != 0 && std::abs(value) < std::pow(10.0, 2 - decimals);
+  return small ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, decimals);
+}
+
 }  // namespace sturz::workflow

@@ -10,5 +10,8 @@ namespace sturz::workflow {
 std::string duration_text(double seconds);
 /// 491000 -> "491 000", 6.91e-5 -> "6.91e-05": whole numbers for people, three digits under 100.
 std::string grouped(double value);
+/// With `decimals` decimals, a small one with three digits: 1573.31 -> "1573.3", 0.0853 ->
+/// "0.0853".
+std::string measure(double value, int decimals = 1);
 
 }  // namespace sturz::workflow

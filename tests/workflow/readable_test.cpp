@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace sturz::test {
@@ -22,6 +23,16 @@ TEST(DurationText, SaysNoMoreThanOneNeeds) {
   EXPECT_EQ(workflow::duration_text(3900), "1 h 05 min");
   EXPECT_EQ(workflow::duration_text(-1), "unknown");
   EXPECT_EQ(workflow::duration_text(std::numeric_limits<double>::quiet_NaN()), "unknown");
+}
+
+TEST(Readable, SmallScenesKeepTheirDigits) {
+  EXPECT_EQ(workflow::measure(1573.31), "1573.3");
+  EXPECT_EQ(workflow::measure(9.4), "9.4");
+  EXPECT_EQ(workflow::measure(0.08534), "0.0853");
+  EXPECT_EQ(workflow::measure(0), "0.0");
+  EXPECT_EQ(workflow::measure(31.172, 2), "31.17");
+  EXPECT_EQ(workflow::measure(0.08534, 2), "0.0853");
+  EXPECT_EQ(workflow::measure(std::nan("")), "nan");
 }
 
 TEST(Grouped, SetsThousandsApart) {
