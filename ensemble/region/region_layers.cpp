@@ -26,22 +26,12 @@ std::string class_words(const std::string& name, std::size_t number) {
   return words.empty() ? fmt::format("source {}", number) : words;
 }
 
-Layer made(std::string name, LayerMeaning meaning, std::string long_name, std::string units,
-           std::string comment) {
-  Layer layer;
-  layer.name = std::move(name);
-  layer.meaning = meaning;
-  layer.long_name = std::move(long_name);
-  layer.units = std::move(units);
-  layer.comment = std::move(comment);
-  return layer;
-}
-
 Layer likeliest_layer(std::span<const RegionSource> sources) {
-  Layer layer = made("most_likely_source", {Quantity::sources, Statistic::value},
-                     "source that reaches the cell most often", "1",
-                     "largest p of a source; of equal ones that with the larger mean peak "
-                     "thickness there, of these the first; numbers as in sources.csv, 0 none");
+  Layer layer =
+      plain_layer("most_likely_source", {Quantity::sources, Statistic::value},
+                  "source that reaches the cell most often", "1",
+                  "largest p of a source; of equal ones that with the larger mean peak "
+                  "thickness there, of these the first; numbers as in sources.csv, 0 none");
   for (std::size_t i = 0; i < sources.size(); ++i)
     layer.classes.push_back({static_cast<int>(i) + 1, class_words(sources[i].name, i + 1)});
   return layer;
@@ -63,20 +53,23 @@ RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> of,
     region.layers.untouched.push_back(0);
   };
   using enum Quantity;
-  add(made(likeliest_source_layer, {reached, Statistic::probability},
-           "probability that the cell is reached if its likeliest source releases", "1",
-           "largest p of a source, p = its members that reach the cell / its valid members" + cut));
-  add(made("probability_of_any_hit", {Quantity::sources, Statistic::probability},
-           "probability that some source reaches the cell if all release, independent", "1",
-           "1 - product of (1 - p) over the sources: each with uncertain values of its own" + cut));
-  add(made("probability_of_any_hit_shared_values", {Quantity::sources, Statistic::probability},
-           "probability that some source reaches the cell if all release with the same values", "1",
-           "share of the rows of the design in which some source reaches the cell" + cut));
-  add(made("expected_number_of_sources", {Quantity::sources, Statistic::value},
-           "expected number of sources that reach the cell if all release", "1",
-           "sum of p over the sources" + cut));
-  add(made("number_of_sources", {Quantity::sources, Statistic::value},
-           "number of sources of which some member reaches the cell", "1", "p > 0" + cut));
+  add(plain_layer(
+      likeliest_source_layer, {reached, Statistic::probability},
+      "probability that the cell is reached if its likeliest source releases", "1",
+      "largest p of a source, p = its members that reach the cell / its valid members" + cut));
+  add(plain_layer(
+      "probability_of_any_hit", {Quantity::sources, Statistic::probability},
+      "probability that some source reaches the cell if all release, independent", "1",
+      "1 - product of (1 - p) over the sources: each with uncertain values of its own" + cut));
+  add(plain_layer(
+      "probability_of_any_hit_shared_values", {Quantity::sources, Statistic::probability},
+      "probability that some source reaches the cell if all release with the same values", "1",
+      "share of the rows of the design in which some source reaches the cell" + cut));
+  add(plain_layer("expected_number_of_sources", {Quantity::sources, Statistic::value},
+                  "expected number of sources that reach the cell if all release", "1",
+                  "sum of p over the sources" + cut));
+  add(plain_layer("number_of_sources", {Quantity::sources, Statistic::value},
+                  "number of sources of which some member reaches the cell", "1", "p > 0" + cut));
   add(likeliest_layer(of));
   if (quantiles.empty()) return region;
   constexpr std::pair<PeakLayer, const char*> peaks[] = {{PeakLayer::thickness, "thickness"},
@@ -84,7 +77,7 @@ RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> of,
                                                          {PeakLayer::energy, "energy"},
                                                          {PeakLayer::pressure, "pressure"}};
   for (const auto& [source, word] : peaks) {
-    Layer layer = made(
+    Layer layer = plain_layer(
         std::string(word) + "_largest_quantile", {quantity_of(source), Statistic::source_quantile},
         fmt::format("largest of the sources' quantiles of {}", info(source).long_name),
         map_unit(source).name,
