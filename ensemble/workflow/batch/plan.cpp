@@ -11,6 +11,8 @@
 #include "io/batch/scene_files.hpp"
 #include "io/files/checksum.hpp"
 #include "io/files/file_stamp.hpp"
+#include "io/files/io_error.hpp"
+#include "io/members/member_numbers.hpp"
 #include "io/scenario/scenario_file.hpp"
 
 #include <fmt/core.h>
@@ -245,11 +247,11 @@ bool is_hash(std::string_view text) {
 }  // namespace
 
 std::int64_t count_members(const fs::path& root) {
-  std::int64_t n = 0;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(OutputFolder{root}.members(), failed))
-    n += entry.path().extension() == ".nc" ? 1 : 0;
-  return n;
+  try {
+    return static_cast<std::int64_t>(member_numbers_in(OutputFolder{root}.members()).size());
+  } catch (const IoError&) {
+    return 0;  // a pack that cannot be read: who opens the folder says so
+  }
 }
 
 std::vector<fs::path> results_of(const fs::path& base) {

@@ -5,6 +5,7 @@
 #include "engine/core/hash.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/region/region_page.hpp"
 #include "ensemble/workflow/region/source_table.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
@@ -77,12 +78,13 @@ std::pair<SourceLists, std::string> write_region_file(const RegionJob& job,
   RegionContext context;
   context.ground = GroundBands(job.typical, members.grid(), extent_of(members));
   context.whole_ground = job.typical.inputs.terrain_grid();
+  context.memory_bytes = records_memory_bytes();
   context.cancel = cancel;
   const std::string& title = job.scenario.title;
   context.attributes = {
       {"title", title.empty() ? "Landslide hazard of a region" : title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
-      {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+      {"history", fmt::format("sturz {}", manifest.command)},
       {"design", fmt::format("{}, {} members of each source, seed {}", to_string(job.design.design),
                              job.members_per_source(), job.design.seed)}};
   LayersFileWriter writer(job.folder.hazard_nc());

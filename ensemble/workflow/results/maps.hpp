@@ -53,6 +53,7 @@ struct MapsRequest {
   const Scenario& scenario;
   const DesignTable& design;
   const SceneInputs& inputs;  ///< for where the ground is known, and the page's relief
+  double max_memory_bytes = 0;  ///< of the whole process; 0: what is free
 };
 
 /// Scores the members where something was observed, reads their maps, writes members.csv, the
