@@ -51,8 +51,7 @@ Layer likeliest_layer(std::span<const RegionSource> sources) {
 }  // namespace
 
 RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> of,
-                           std::span<const double> quantiles, int n_censored,
-                           std::int64_t n_rows) {
+                           std::span<const double> quantiles, int n_censored, std::int64_t n_rows) {
   RegionLayers region;
   region.layers.stack.grid = grid;
   const std::string cut =

@@ -102,8 +102,8 @@ class ListsInTheMaking {
 };
 
 std::size_t sources_with_members(std::span<const RegionSource> sources) {
-  return static_cast<std::size_t>(std::count_if(
-      sources.begin(), sources.end(), [](const RegionSource& s) { return s.valid > 0; }));
+  return static_cast<std::size_t>(std::count_if(sources.begin(), sources.end(),
+                                                [](const RegionSource& s) { return s.valid > 0; }));
 }
 
 /// From what members left in a cell to the values of all layers there.

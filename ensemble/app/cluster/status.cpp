@@ -129,8 +129,8 @@ void tell(const FolderState& s, const std::optional<Submission>& jobs, Console& 
   const double left = s.remaining_s();
   if (s.missing() > 0 && std::isfinite(left))
     console.say(fmt::format("pace: {} at a time, {} each (the last {}); about {} to go",
-                            s.at_a_time(), workflow::duration_text(s.member_s()),
-                            s.recent_members, workflow::duration_text(left)));
+                            s.at_a_time(), workflow::duration_text(s.member_s()), s.recent_members,
+                            workflow::duration_text(left)));
   tell_maps(s, console);
   if (jobs && !jobs->complete)
     console.warn(

@@ -103,8 +103,8 @@ int available_cores() {
 }
 
 double available_memory_bytes() {
-  const double left = std::min(smallest_of_groups(memory_left_v2),
-                               memory_left_v1("/sys/fs/cgroup/memory"));
+  const double left =
+      std::min(smallest_of_groups(memory_left_v2), memory_left_v1("/sys/fs/cgroup/memory"));
   const double free = free_memory_of_machine();
   return free > 0 ? std::min(free, left) : (left < unlimited ? left : 0);
 }

@@ -7,6 +7,7 @@
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/region/region_page.hpp"
+#include "ensemble/workflow/region/region_record.hpp"
 #include "ensemble/workflow/region/source_table.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/maps.hpp"
@@ -143,6 +144,7 @@ void require_complete(const RegionJob& job, const StoredMembers& members, Missin
                   missing.size() > 1
                       ? fmt::format(", and {} other sources are not complete", missing.size() - 1)
                       : "");
+  forget_finished_sources(job.folder);  // each is to be looked at
   if (rule == Missing::compute_again)
     throw MembersMissing(what + " though all were computed. The same command computes them again.");
   require(rule == Missing::leave_out,

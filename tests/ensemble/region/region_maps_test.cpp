@@ -79,7 +79,7 @@ MadeUp random_region(const Grid& grid, int n_sources) {
 /// What the rules say of one cell, member by member.
 struct Naive {
   double highest = 0, none = 1, expected = 0, rows = 0;
-  double not_lower = 1, not_upper = 1;         // of any hit
+  double not_lower = 1, not_upper = 1;  // of any hit
   ProbabilityBounds any, any_rows;
   int number = 0;
   std::vector<SourceHit> hits;

@@ -35,9 +35,10 @@ TEST(RecentMembers, AreNotThoseOfAShardThatEndedLongAgo) {
 }
 
 TEST(RecentMembers, OfAFolderWithFilesAndAPack) {
-  const fs::path folder = fs::temp_directory_path() /
-                          ("sturz_recent_" + std::to_string(std::random_device{}()));
-  for (const int m : {0, 1}) write_member(folder, test::made_up_flow(m, 40), {"sha256:0", "0", "0"});
+  const fs::path folder =
+      fs::temp_directory_path() / ("sturz_recent_" + std::to_string(std::random_device{}()));
+  for (const int m : {0, 1})
+    write_member(folder, test::made_up_flow(m, 40), {"sha256:0", "0", "0"});
   const auto now = fs::file_time_type::clock::now();
   fs::last_write_time(folder / member_file_name(0), now - std::chrono::seconds(3));
   fs::last_write_time(folder / member_file_name(1), now - std::chrono::seconds(9));
