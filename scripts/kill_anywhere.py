@@ -70,7 +70,7 @@ class Case:
             "merge": ["merge", "out"],
             "batch": ["batch", "list.yaml", "-o", "out"],
             "submit": ["submit", "--slurm", "scene.yaml", "-o", "out", "--shards", "2", "--time", "10",
-                       "--cpus-per-task", "1", "--mem", "1000"],
+                       "--memory", "500", "--maps-time", "5", "--maps-memory", "500"],
         }[kind]
         self.start = root / f"{kind}-start"  # what is there before the command
         self.prepare()
