@@ -164,16 +164,6 @@ TEST_F(Batch, ListsAreNamedFromTheWorkingDirectory) {
   EXPECT_THAT(again.out, HasSubstr("0 computed, 2 unchanged"));
 }
 
-TEST_F(Batch, MembersInPacksAreThereToo) {
-  write("list.yaml", "jobs: [{name: many, scenario: a.yaml, members: 5000}]\n");
-  write("a.yaml", replaced(scene("a.asc"), "end_time_s: 2", "end_time_s: 0.02"));
-  ASSERT_EQ(batch().exit_code, 0);
-  EXPECT_TRUE(exists("out/many/members/1_of_1.001.pack"));
-  const Ended again = batch();
-  ASSERT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_EQ(summary()[0]["state"], "unchanged");
-}
-
 TEST_F(Batch, ALostFileIsMadeAgain) {
   write("list.yaml", "jobs: [{name: a, scenario: a.yaml}]\n");
   ASSERT_EQ(batch().exit_code, 0);
