@@ -17,9 +17,9 @@ struct WrittenMember {
 };
 
 /// The n that were written last. Only a pack's last record is known to be as young as the pack:
-/// files that nobody has written to for `old_s` longer than to the youngest one are left aside as
-/// far as there are enough others, and packs that grow side by side are taken from alike.
-/// \return indices, the youngest first
+/// files that were written to `old_s` or longer before the youngest one are left aside as far as
+/// there are enough others, and packs that grow side by side are taken from alike. \return indices,
+/// the youngest first
 std::vector<std::size_t> written_last(std::vector<WrittenMember> members, std::size_t n,
                                       double old_s = 900);
 
