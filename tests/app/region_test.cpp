@@ -136,6 +136,45 @@ TEST_F(Region, AfterKillNineAndDamageTheSameMapsCome) {
   for (const auto& e : events(third)) EXPECT_NE(e["event"], "member") << "all were there";
 }
 
+/// Of an old file it is known that it was not written again.
+void age(const std::string& file) {
+  namespace fs = std::filesystem;
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(1));
+}
+
+TEST_F(Region, WhatIsFinishedIsNotLoadedAgain) {
+  for (const char* file : {"scene.yaml", "sources.geojson"}) age(path(file));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // ctime cannot be set
+  ASSERT_EQ(ensemble("out").exit_code, 0);
+  const std::string manifest = read("out/features/upper/manifest.json"), hash = hazard_hash("out");
+  const Ended again = ensemble("out");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read("out/features/upper/manifest.json"), manifest) << "who loads a source writes it";
+  EXPECT_EQ(hazard_hash("out"), hash);
+
+  write("out/features/upper/members/000002.nc", "cut short");
+  const Ended mended = ensemble("out");
+  ASSERT_EQ(mended.exit_code, 0) << mended.err;
+  EXPECT_THAT(mended.err + mended.out, HasSubstr("000002.nc"));
+  EXPECT_EQ(hazard_hash("out"), hash);
+
+  fs::remove(path("out/features/lower/members/000001.nc"));
+  ASSERT_EQ(ensemble("out").exit_code, 0);
+  EXPECT_EQ(n_members("out/features/lower"), 4u);
+  EXPECT_EQ(hazard_hash("out"), hash);
+
+  write("sources.geojson", read("sources.geojson"));  // touched: every source is looked at
+  ASSERT_EQ(ensemble("out").exit_code, 0);
+  EXPECT_NE(read("out/features/upper/manifest.json"), manifest);
+}
+
+TEST_F(Region, MembersInPacksMakeTheSameMaps) {
+  const Ended packed = ensemble("packed", {"--packs"});
+  ASSERT_EQ(packed.exit_code, 0) << packed.err;
+  EXPECT_TRUE(exists("packed/features/upper/members/1_of_1.001.pack"));
+  EXPECT_EQ(hazard_hash("packed"), undisturbed());
+}
+
 TEST_F(Region, AFeatureOffTheGroundIsRecordedAndTheOthersGoOn) {
   write_features(feature("upper", -50, -5, 10, 300) + "," + feature("far", 500, 0, 8, 100));
   const Ended ended = ensemble("out", {"--set", "ensemble.max_failed_fraction=0.6"});

@@ -3,6 +3,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/machine/temporary_folder.hpp"
 #include "io/members/member_file.hpp"
 #include "io/members/member_store.hpp"
@@ -89,7 +90,9 @@ std::string merge(const fs::path& folder) {
   const MemberStore store(folder);
   NoSink nothing;
   HashingSink hashed(nothing);
-  make_hazard_map(store, HazardSpec{}, {}, hashed);
+  HazardContext context;
+  context.memory_bytes = workflow::records_memory_bytes();  // as every command has it
+  make_hazard_map(store, HazardSpec{}, context, hashed);
   return fmt::format("{:016x}", hashed.value());
 }
 

@@ -5,6 +5,7 @@
 #include "ensemble/hazard/hazard_layers.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/machine/temporary_folder.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -215,7 +216,7 @@ MapCost predict_map_cost(const MapWork& work, const MapSpeed& speed) {
   const double plane_cells = work.planes * work.cells;
   const int layers = work.materials ? n_peak_layers : static_cast<int>(PeakLayer::liquid) + 1;
   const double bytes_per_touch = 6 + layers * sizeof(float);
-  constexpr auto most_records = static_cast<double>(MemberCells::default_memory_bytes);
+  const auto most_records = static_cast<double>(records_memory_bytes());
   const bool packed = work.members > most_member_files;
   // Of a pack, a pass reads nothing but the bands of rows that it keeps.
   const double passes =

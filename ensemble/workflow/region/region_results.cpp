@@ -5,7 +5,9 @@
 #include "engine/core/hash.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/region/region_page.hpp"
+#include "ensemble/workflow/region/region_record.hpp"
 #include "ensemble/workflow/region/source_table.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/maps.hpp"
@@ -77,12 +79,13 @@ std::pair<SourceLists, std::string> write_region_file(const RegionJob& job,
   RegionContext context;
   context.ground = GroundBands(job.typical, members.grid(), extent_of(members));
   context.whole_ground = job.typical.inputs.terrain_grid();
+  context.memory_bytes = records_memory_bytes();
   context.cancel = cancel;
   const std::string& title = job.scenario.title;
   context.attributes = {
       {"title", title.empty() ? "Landslide hazard of a region" : title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
-      {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+      {"history", fmt::format("sturz {}", manifest.command)},
       {"design", fmt::format("{}, {} members of each source, seed {}", to_string(job.design.design),
                              job.members_per_source(), job.design.seed)}};
   LayersFileWriter writer(job.folder.hazard_nc());
@@ -141,6 +144,7 @@ void require_complete(const RegionJob& job, const StoredMembers& members, Missin
                   missing.size() > 1
                       ? fmt::format(", and {} other sources are not complete", missing.size() - 1)
                       : "");
+  forget_finished_sources(job.folder);  // each is to be looked at
   if (rule == Missing::compute_again)
     throw MembersMissing(what + " though all were computed. The same command computes them again.");
   require(rule == Missing::leave_out,

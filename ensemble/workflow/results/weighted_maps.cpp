@@ -7,6 +7,7 @@
 #include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/workflow/calibration/posterior_weights.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -63,6 +64,7 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   const auto ground = ground_of_map(
       scenario, inputs, grid_of(map_extent(MemberCells(of.store).touched(), grid), grid));
   HazardContext context = hazard_context(of.finished.manifest, scenario, of.design);
+  context.memory_bytes = records_memory_bytes();
   context.ground = ground.get();
   context.whole_ground = inputs.terrain_grid();
   context.weights = weights;
