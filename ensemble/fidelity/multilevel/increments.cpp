@@ -113,10 +113,11 @@ double IncrementMoments::variance_of_mean(std::size_t first) const {
   return std::max(own + between, own / 2);
 }
 
-MultilevelMean IncrementMoments::estimate() const {
+MultilevelMean IncrementMoments::estimate(double least_own) const {
   MultilevelMean e;
   e.mean = mean();
-  const double variance_all = variance_of_mean(0);
+  const double more = std::max(0.0, least_own - variance(0)) / n_[0];
+  const double variance_all = variance_of_mean(0) + more;
   e.standard_error = std::sqrt(variance_all);
   double parts = 0, sum = 0;
   for (std::size_t l = 0; l < n_levels_; ++l) {

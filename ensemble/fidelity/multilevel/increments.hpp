@@ -38,8 +38,9 @@ class IncrementMoments {
   /// \param told [n_levels - from] g of the levels `from`, the dearest that this draw has, and on
   void add(std::size_t from, std::span<const double> told);
 
-  /// NaN while a level has fewer than two draws.
-  MultilevelMean estimate() const;
+  /// NaN while a level has fewer than two draws. \param least_own that the variance of the dearest
+  /// level's increments has at least: few indicators may all come as foretold
+  MultilevelMean estimate(double least_own = 0) const;
   double mean() const;
   /// Of one level's increments over its draws.
   double variance(std::size_t level) const;

@@ -130,14 +130,14 @@ Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels
   const double margin = 0.05 * (most - least);
   for (int i = 0; i < n_places; ++i) {
     const double t = least - margin + (most - least + 2 * margin) * i / (n_places - 1);
-    const MultilevelMean at =
-        predictions
-            .moments([&](double v) { return v <= t ? 1.0 : 0.0; },
-                     [&](const FoldedModels& models, const LevelDraw& draw, auto fold,
-                         std::span<double> told) {
-                       models.shares_below(t, draw.values, draw.from, fold, told);
-                     })
-            .estimate();
+    double noise = 0;  // of the indicator, as the predictions have it
+    const IncrementMoments sums = predictions.moments(
+        [&](double v) { return v <= t ? 1.0 : 0.0; },
+        [&](const FoldedModels& models, const LevelDraw& draw, auto fold, std::span<double> told) {
+          models.shares_below(t, draw.values, draw.from, fold, told);
+          if (draw.from == 0 && !told.empty()) noise += told[0] * (1 - told[0]);
+        });
+    const MultilevelMean at = sums.estimate(noise / sums.draws(0));
     const Interval bounds = at.bounds_90();
     d.places.push_back(t);
     const auto rising = [](std::vector<double>& f, double v) {
