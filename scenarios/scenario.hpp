@@ -325,6 +325,14 @@ struct DomainSpec {
   bool operator==(const DomainSpec&) const = default;
 };
 
+/// What a multilevel ensemble is to reach; 0: not asked for.
+struct TargetSpec {
+  double relative_error = 0;  ///< half width of 90 % bounds of mean runout, area, centre of mass
+  double map_error = 0;       ///< root mean square standard error of P(reached), doubtful cells
+  double core_hours = 0;      ///< of all members together, instead of the two
+  bool operator==(const TargetSpec&) const = default;
+};
+
 struct EnsembleSpec {
   Design design = Design::latin_hypercube;
   std::string table;  ///< CSV of a user's design (design: table)
@@ -333,6 +341,10 @@ struct EnsembleSpec {
   std::map<std::string, double> correlation;  ///< "path/path" -> Gaussian copula correlation
   double max_failed_fraction = 0.05;
   double max_censored_fraction = 0.05;
+  std::optional<Estimator> estimator;  ///< absent: plain
+  std::optional<TargetSpec> target;
+  std::string levels;        ///< "full_stress 12, depth_averaged 9": cheaper ones; empty: chosen
+  std::optional<int> pilot;  ///< members of each level before their numbers are chosen
   bool operator==(const EnsembleSpec&) const = default;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/multilevel/estimates.hpp"
 
-#include "ensemble/fidelity/ladder.hpp"
+#include "ensemble/fidelity/choice.hpp"
 
 #include <algorithm>
 #include <cmath>

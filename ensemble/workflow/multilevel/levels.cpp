@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <sstream>
 
 namespace sturz::workflow {
 namespace {
 
 const char* const wanted_shape =
-    "Write a formulation and a spacing in metres, such as [full_stress 12, depth_averaged 9].";
+    "Write a formulation and a spacing in metres, such as full_stress 12, depth_averaged 9.";
 
 LevelPart part_of(std::string formulation, double spacing_m) {
   LevelPart part{{}, std::move(formulation), spacing_m};
@@ -39,6 +39,17 @@ LevelPart parsed(const std::string& text) {
   return part_of(word, spacing);
 }
 
+/// Between commas, without spaces around.
+std::vector<std::string> parts_of_list(const std::string& list) {
+  std::vector<std::string> parts;
+  std::istringstream stream(list);
+  for (std::string part; std::getline(stream, part, ',');) {
+    const auto first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
+    parts.push_back(first == std::string::npos ? "" : part.substr(first, last - first + 1));
+  }
+  return parts;
+}
+
 std::vector<LevelPart> usual_levels(const LevelPart& own) {
   const double d = own.spacing_m;
   if (own.formulation == to_string(Formulation::full_stress))
@@ -53,7 +64,8 @@ std::vector<LevelPart> level_parts(const Scene& scene) {
   std::vector<LevelPart> parts{
       part_of(scene.description.formulation, scene.description.spacing_m)};
   std::vector<LevelPart> cheaper;
-  for (const std::string& text : scene.scenario.ensemble.levels) cheaper.push_back(parsed(text));
+  for (const std::string& text : parts_of_list(scene.scenario.ensemble.levels))
+    cheaper.push_back(parsed(text));
   if (cheaper.empty()) cheaper = usual_levels(parts.front());
   require(cheaper.size() <= 6, "ensemble.levels (at most six cheaper levels). Name fewer.");
   for (LevelPart& part : cheaper) {

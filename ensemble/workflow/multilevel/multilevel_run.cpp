@@ -2,7 +2,7 @@
 #include "ensemble/workflow/multilevel/multilevel_run.hpp"
 
 #include "engine/core/error.hpp"
-#include "ensemble/fidelity/ladder.hpp"
+#include "ensemble/fidelity/choice.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/multilevel/estimates.hpp"
@@ -18,6 +18,7 @@ namespace sturz::workflow {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr int usual_pilot = 16;
 constexpr std::size_t most_rounds = 5;
 constexpr double most_draws = 1e6;
 constexpr double near_enough = 1.05;  // of a wanted error: what the next round would not be worth
@@ -50,7 +51,7 @@ class Levels {
         quiet_(observer),
         listener_(listener),
         cancel_(cancel),
-        target_(job.scene.scenario.ensemble.target),
+        target_(job.scene.scenario.ensemble.target.value_or(TargetSpec{})),
         counts_(job.parts.size(), job.plan.pilot),
         stores_(job.parts.size()),
         jobs_(job.parts.size()) {}
@@ -219,7 +220,7 @@ MultilevelJob prepare_multilevel(const EnsembleRequest& request, Observer& obser
   require(!fs::exists(folder.manifest()),
           fmt::format("{} holds results of another kind. Choose another folder with --out.",
                       request.folder.string()));
-  const int pilot = job.scene.scenario.ensemble.pilot;
+  const int pilot = job.scene.scenario.ensemble.pilot.value_or(usual_pilot);
   if (auto stored = read_plan(plan_of(request))) {
     job.plan = std::move(*stored);
     std::vector<std::string> names;
