@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdint>
 
 namespace sturz::app {
 namespace {
@@ -58,7 +57,7 @@ int verdict(const MultilevelMade& made, Console& console) {
   for (const std::string& line : workflow::result_lines(made)) console.say(line);
   for (const std::string& warning : made.warnings) console.warn(warning);
   console.say("In " + made.folder.string() +
-              ": multilevel.html (look here first), multilevel.json, hazard.nc and hazard/*.tif, and "
+              ": report.html (look here first), multilevel.json, hazard.nc and hazard/*.tif, and "
               "an ensemble per level in levels/");
   Json done{{"event", "done"}, {"folder", made.folder.string()}};
   done["multilevel"] = Json::parse(workflow::multilevel_json_text(made));

@@ -2,17 +2,19 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/map_units.hpp"
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
+#include "ensemble/workflow/multilevel/multilevel_words.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "io/files/text_files.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
+#include "reports/fidelity/multilevel_page.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace sturz::workflow {
@@ -134,6 +136,36 @@ LayerStack stack_of(const MultilevelJob& job, const MultilevelMembers& found,
   return stack;
 }
 
+MultilevelPageResult page_result(const MultilevelHeadline& h) {
+  MultilevelPageResult r;
+  r.name = h.name;
+  r.units = h.units;
+  r.mean = h.scalar.mean.mean;
+  r.sampling = h.sampling;
+  r.resolution = h.resolution;
+  r.model = h.model;
+  for (const QuantileEstimate& q : h.quantiles)
+    r.quantiles.push_back({q.level, q.value, q.bounds_90.low, q.bounds_90.high});
+  return r;
+}
+
+void write_page(const MultilevelJob& job, const MultilevelMade& made, const LayerStack& coarse) {
+  MultilevelPage page;
+  page.title = made.title.empty() ? made.folder.filename().string() : made.title;
+  page.when = utc_now();
+  page.program = build_text(this_build());
+  page.sentences = page_sentences(made);
+  page.warnings = made.warnings;
+  for (const MultilevelHeadline& h : made.headlines) page.results.push_back(page_result(h));
+  for (const LevelShare& l : made.levels)
+    page.levels.push_back({l.name, l.used, static_cast<double>(l.members), l.member_cpu_s,
+                           l.seconds / made.seconds, l.variance_shares});
+  page.maps = &coarse;
+  const auto ground = ground_of_map(job.scene.scenario, job.scene.inputs, coarse.grid);
+  page.elevation = ground.get();
+  write_text_atomic(OutputFolder{made.folder}.report(), make_multilevel_page(page));
+}
+
 }  // namespace
 
 std::string multilevel_json_text(const MultilevelMade& made) {
@@ -167,7 +199,12 @@ void write_multilevel_files(const MultilevelJob& job, const MultilevelMembers& f
     write_layers(folder.hazard_nc(), stack_of(job, found, made));
   }
   const LayersFileReader maps(folder.hazard_nc());
-  write_map_files(folder.tif_folder(), maps, coarse_layers(maps, page_cells, cancel), cancel);
+  const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
+  write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  // Pictures have their bounds, which coarse layers leave out: the maps as they are, where they fit.
+  const LayerStack shown =
+      maps.about().grid.n_cells() <= page_cells ? read_layers(folder.hazard_nc()) : coarse;
+  write_page(job, made, shown);
 }
 
 }  // namespace sturz::workflow

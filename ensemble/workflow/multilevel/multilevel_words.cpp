@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz::workflow {
 namespace {
@@ -81,6 +82,24 @@ std::string gain_text(const MultilevelMade& made) {
   return text;
 }
 
+std::vector<std::string> page_sentences(const MultilevelMade& made) {
+  std::vector<std::string> lines;
+  if (std::isfinite(made.map_error))
+    lines.push_back(fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
+                                "{:.3g} (root mean square of {} cells).",
+                                made.map_error, made.maps.front().maps.front().doubtful));
+  lines.push_back(gain_text(made));
+  if (made.failed > 0)
+    lines.push_back(fmt::format("{} members failed; their draws count at the cheaper levels that "
+                                "have them.",
+                                made.failed));
+  if (made.censored > 0)
+    lines.push_back(fmt::format("The end of {} members was not seen: results are of the others, and "
+                                "probabilities are lower bounds.",
+                                made.censored));
+  return lines;
+}
+
 std::vector<std::string> result_lines(const MultilevelMade& made) {
   std::vector<std::string> lines{"Means, and by how much they may be off:"};
   lines.push_back(row_of("", {"mean", "sampling (90 %)", "resolution", "model"}));
@@ -89,10 +108,6 @@ std::vector<std::string> result_lines(const MultilevelMade& made) {
                                     "+- " + number_or(h.sampling, "?"),
                                     "+- " + number_or(h.resolution, "?"),
                                     "+- " + number_or(h.model, "?")}));
-  if (std::isfinite(made.map_error))
-    lines.push_back(fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
-                                "{:.3g} (root mean square of {} cells)",
-                                made.map_error, made.maps.front().maps.front().doubtful));
   std::vector<std::string> names;
   for (const MultilevelHeadline& h : made.headlines)
     if (names.size() < 3) names.push_back(h.name);
@@ -110,15 +125,7 @@ std::vector<std::string> result_lines(const MultilevelMade& made) {
     cells.push_back(share_or_dash(n > n_headlines ? l.variance_shares[n_headlines] : nan_d));
     lines.push_back(row_of(l.name, cells));
   }
-  lines.push_back(gain_text(made));
-  if (made.failed > 0)
-    lines.push_back(fmt::format("{} members failed; their draws count at the cheaper levels that "
-                                "have them.",
-                                made.failed));
-  if (made.censored > 0)
-    lines.push_back(fmt::format("The end of {} members was not seen: results are of the others, and "
-                                "probabilities are lower bounds.",
-                                made.censored));
+  for (std::string& sentence : page_sentences(made)) lines.push_back(std::move(sentence));
   return lines;
 }
 

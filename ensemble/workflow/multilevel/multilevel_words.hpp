@@ -15,6 +15,8 @@ std::vector<std::string> pilot_lines(const MultilevelJob&, const MultilevelLook&
 std::string round_text(const MultilevelJob&, const PlanRound&);
 /// Headlines with three numbers each, the map, what each level brought and took.
 std::vector<std::string> result_lines(const MultilevelMade&);
+/// The same without its tables.
+std::vector<std::string> page_sentences(const MultilevelMade&);
 /// Where plain sampling was kept: why. Else what was saved.
 std::string gain_text(const MultilevelMade&);
 
