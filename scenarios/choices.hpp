@@ -153,11 +153,4 @@ constexpr auto words_of(Design) {
                     Word{saltelli, "saltelli"}};
 }
 
-/// What means and maps of an ensemble are made of: its members, or few of them and many cheaper ones.
-enum class Estimator { plain, multilevel };
-constexpr auto words_of(Estimator) {
-  using enum Estimator;
-  return std::array{Word{plain, "plain"}, Word{multilevel, "multilevel"}};
-}
-
 }  // namespace sturz

@@ -4,6 +4,7 @@
 
 #include "scenarios/assets/assets_spec.hpp"
 #include "scenarios/choices.hpp"
+#include "scenarios/estimator/estimator.hpp"
 #include "scenarios/fluid/fluid_spec.hpp"
 #include "scenarios/grains/discrete_spec.hpp"
 #include "scenarios/map_box.hpp"
@@ -323,14 +324,6 @@ struct DomainSpec {
   std::vector<std::string> periodic;  ///< subset of x, y: the terrain's extent is the period
   std::vector<WallSpec> walls;
   bool operator==(const DomainSpec&) const = default;
-};
-
-/// What a multilevel ensemble is to reach; 0: not asked for.
-struct TargetSpec {
-  double relative_error = 0;  ///< half width of 90 % bounds of mean runout, area, centre of mass
-  double map_error = 0;       ///< root mean square standard error of P(reached), doubtful cells
-  double core_hours = 0;      ///< of all members together, instead of the two
-  bool operator==(const TargetSpec&) const = default;
 };
 
 struct EnsembleSpec {

@@ -50,8 +50,7 @@ std::string share(double value) {
 }
 
 std::string results_html(const MultilevelPage& page) {
-  Table means("mean of all members",
-              {"mean", "sampling, 90 %", "resolution", "model"});
+  Table means("mean of all members", {"mean", "sampling, 90 %", "resolution", "model"});
   for (const MultilevelPageResult& r : page.results)
     means.row(result_words(r.name),
               {with_unit(r.mean, r.units), half_width(r.sampling, r.units),
@@ -79,14 +78,14 @@ std::string levels_html(const MultilevelPage& page) {
   heads.emplace_back("map");
   Table table("level", heads);
   for (const MultilevelPageLevel& l : page.levels) {
-    std::vector<std::string> cells{shown_number(l.members),
-                                   shown_number(l.member_cpu_s, 2) + " s",
+    std::vector<std::string> cells{shown_number(l.members), shown_number(l.member_cpu_s, 2) + " s",
                                    share(l.share_of_seconds)};
     for (std::size_t i = 0; i <= page.results.size(); ++i)
       cells.push_back(share(i < l.shares_of_variance.size() ? l.shares_of_variance[i] : nan_d));
     table.row(words(l.name) + (l.used ? "" : " (tried, not used)"), cells);
   }
-  return "<section id=\"levels\"><h2>What each level costs and leaves</h2><p class=\"note\">Of each "
+  return "<section id=\"levels\"><h2>What each level costs and leaves</h2><p class=\"note\">Of "
+         "each "
          "result's variance (the square of its sampling error) the share that the level "
          "leaves.</p>" +
          table.html() + "</section>\n";
@@ -107,10 +106,9 @@ std::string maps_html(const MultilevelPage& page) {
        {Statistic::probability, Statistic::lower_bound, Statistic::upper_bound}) {
     const Layer* layer = layer_of(*page.maps, s);
     if (layer == nullptr) continue;
-    html += fmt::format("<figure><figcaption>{}</figcaption>{}{}</figure>",
-                        html_escape(plane_title(*layer, 0)),
-                        map_figure_svg(scene, *page.maps, *layer, 0, MapMarks{}),
-                        legend_html(legend_for(*layer)));
+    html += fmt::format(
+        "<figure><figcaption>{}</figcaption>{}{}</figure>", html_escape(plane_title(*layer, 0)),
+        map_figure_svg(scene, *page.maps, *layer, 0, MapMarks{}), legend_html(legend_for(*layer)));
   }
   return html + "</section>\n";
 }
@@ -123,23 +121,26 @@ std::string list_html(const std::vector<std::string>& lines) {
 
 const char* const reading_html =
     "<section id=\"reading\"><h2>How to read this</h2><p class=\"note\">Few members were computed "
-    "as the scene asks for, and many in cheaper ways with the same drawn values. The cheap ones tell "
-    "where the mean lies, the others correct what the cheap ones get wrong: means and probabilities "
+    "as the scene asks for, and many in cheaper ways with the same drawn values. The cheap ones "
+    "tell "
+    "where the mean lies, the others correct what the cheap ones get wrong: means and "
+    "probabilities "
     "are those of the scene itself. Sampling is what more members would remove (half width of 90 % "
     "bounds); resolution what finer particles would, estimated from the levels of the same "
-    "formulation; model how far another formulation lies away with the same values, which no member "
+    "formulation; model how far another formulation lies away with the same values, which no "
+    "member "
     "and no spacing removes. All numbers stand in multilevel.json, all maps with their bounds in "
     "hazard.nc.</p></section>\n";
 
 }  // namespace
 
 std::string make_multilevel_page(const MultilevelPage& page) {
-  std::string html = page_head(page.title + " \u2013 multilevel ensemble", "'none'") +
-                     "<body>\n<main>\n" +
-                     fmt::format("<header class=\"top\"><p class=\"kind\">Multilevel ensemble</p>"
-                                 "<h1>{}</h1><p class=\"origin\">{} \u00B7 {}</p></header>\n",
-                                 html_escape(page.title), html_escape(page.when),
-                                 html_escape(page.program));
+  std::string html =
+      page_head(page.title + " \u2013 multilevel ensemble", "'none'") + "<body>\n<main>\n" +
+      fmt::format(
+          "<header class=\"top\"><p class=\"kind\">Multilevel ensemble</p>"
+          "<h1>{}</h1><p class=\"origin\">{} \u00B7 {}</p></header>\n",
+          html_escape(page.title), html_escape(page.when), html_escape(page.program));
   if (!page.warnings.empty())
     html += "<div class=\"warnings\"><h2>Warnings of the scene</h2>" + list_html(page.warnings) +
             "</div>\n";

@@ -133,9 +133,10 @@ void check_target(const Scenario& s, Problems& problems) {
                         "ensemble.target.core_hours (with errors to reach: the computing time "
                         "follows from them). Keep the one or the other."});
   if (s.release.each_feature)
-    problems.push_back({"ensemble.estimator",
-                        "ensemble.estimator: multilevel (release.each_feature makes many sources, and "
-                        "each is an ensemble of its own). Use plain."});
+    problems.push_back(
+        {"ensemble.estimator",
+         "ensemble.estimator: multilevel (release.each_feature makes many sources, and "
+         "each is an ensemble of its own). Use plain."});
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-
 namespace sturz::app {
 namespace {
 
@@ -42,9 +41,10 @@ class Decisions final : public workflow::PlanListener {
 
 void require_usable(const workflow::EnsembleRequest& request) {
   const auto refuse = [](bool given, const char* option, const char* why) {
-    require(!given, fmt::format("{} with ensemble.estimator: multilevel ({}). Leave it away, or use "
-                                "--set ensemble.estimator=plain.",
-                                option, why));
+    require(!given,
+            fmt::format("{} with ensemble.estimator: multilevel ({}). Leave it away, or use "
+                        "--set ensemble.estimator=plain.",
+                        option, why));
   };
   refuse(request.shard.n > 1, "--shard", "numbers of members are chosen from all of them");
   refuse(request.until_half_width.has_value(), "--until-converged",
@@ -72,7 +72,8 @@ int multilevel_ensemble(const workflow::EnsembleRequest& request, Console& conso
   ConsoleObserver observer(console);
   MultilevelJob job = workflow::prepare_multilevel(request, observer);
   std::string names;
-  for (const workflow::LevelPart& part : job.parts) names += (names.empty() ? "" : ", ") + part.name;
+  for (const workflow::LevelPart& part : job.parts)
+    names += (names.empty() ? "" : ", ") + part.name;
   console.say(fmt::format("Multilevel: {} members of each of {}, then as many as are best",
                           job.plan.pilot, names));
   console.event(json_text(Json{{"event", "start"},

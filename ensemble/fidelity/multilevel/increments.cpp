@@ -88,8 +88,7 @@ double IncrementMoments::increment(std::size_t level) const {
 
 double IncrementMoments::covariance(std::size_t dear, std::size_t cheap) const {
   if (n_[dear] < 2) return nan_d;
-  return (product_[dear][cheap] - sum_[dear][dear] * sum_[dear][cheap] / n_[dear]) /
-         (n_[dear] - 1);
+  return (product_[dear][cheap] - sum_[dear][dear] * sum_[dear][cheap] / n_[dear]) / (n_[dear] - 1);
 }
 
 double IncrementMoments::variance(std::size_t level) const {

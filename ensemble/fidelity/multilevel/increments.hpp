@@ -24,7 +24,7 @@ inline constexpr std::size_t most_levels = 4;
 
 struct MultilevelMean {
   double mean = nan_d, standard_error = nan_d;
-  double degrees = nan_d;  ///< of freedom of the standard error (Welch and Satterthwaite)
+  double degrees = nan_d;      ///< of freedom of the standard error (Welch and Satterthwaite)
   Interval bounds_90() const;  ///< by Student's t
 };
 

@@ -153,11 +153,11 @@ Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels
 }  // namespace
 
 std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels) {
-  return draws_where(levels, [](const MemberSummary&) { return true; }, nullptr);
+  return draws_where(
+      levels, [](const MemberSummary&) { return true; }, nullptr);
 }
 
-std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels,
-                                   double MemberScalars::*field) {
+std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels, double MemberScalars::*field) {
   return draws_where(
       levels, [field](const MemberSummary& m) { return is_known(m, field); }, field);
 }
@@ -176,13 +176,12 @@ MultilevelScalar multilevel_scalar(std::span<const LevelDraw> draws, std::size_t
   s.variances.assign(n_levels, nan_d);
   s.squared_correlations.assign(n_levels, nan_d);
   if (!enough(draws, n_levels)) return s;
-  const IncrementMoments sums =
-      Predictions(draws, n_levels)
-          .moments([](double v) { return v; },
-                   [](const FoldedModels& models, const LevelDraw& draw, auto fold,
-                      std::span<double> told) {
-                     models.margins(draw.values, draw.from, fold, told);
-                   });
+  const IncrementMoments sums = Predictions(draws, n_levels)
+                                    .moments([](double v) { return v; },
+                                             [](const FoldedModels& models, const LevelDraw& draw,
+                                                auto fold, std::span<double> told) {
+                                               models.margins(draw.values, draw.from, fold, told);
+                                             });
   s.mean = sums.estimate();
   s.variance = 0;
   for (std::size_t l = 0; l < n_levels; ++l) {

@@ -22,8 +22,7 @@ struct LevelDraw {
 /// Draws that the cheapest level has, ascending. \param levels valid members, the dearest first
 std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels);
 /// The same of one result, where each level's member lets one know it.
-std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels,
-                                   double MemberScalars::*field);
+std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels, double MemberScalars::*field);
 /// Draws of each level. \return [n_levels]
 std::vector<std::size_t> draws_of_levels(std::span<const LevelDraw>, std::size_t n_levels);
 /// So few draws at the dearest level tell nothing of the others.
@@ -37,9 +36,9 @@ struct QuantileEstimate {
 /// One result of all members.
 struct MultilevelScalar {
   MultilevelMean mean;
-  std::vector<double> draws;      ///< [n_levels]
-  std::vector<double> variances;  ///< [n_levels] of the increments
-  double variance = nan_d;        ///< of the result itself: what plain sampling has
+  std::vector<double> draws;                 ///< [n_levels]
+  std::vector<double> variances;             ///< [n_levels] of the increments
+  double variance = nan_d;                   ///< of the result itself: what plain sampling has
   std::vector<double> squared_correlations;  ///< [n_levels] with the dearest, [0] = 1
 };
 /// Linear predictions. Everything is NaN with fewer than least_draws at the dearest level.
@@ -47,8 +46,7 @@ MultilevelScalar multilevel_scalar(std::span<const LevelDraw>, std::size_t n_lev
 
 /// Through the estimated distribution function, made monotone from below; its bounds are those of
 /// the distribution function, read the other way. \param levels rising, within 0 and 1
-std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw>,
-                                                   std::size_t n_levels,
+std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw>, std::size_t n_levels,
                                                    std::span<const double> levels);
 
 }  // namespace sturz

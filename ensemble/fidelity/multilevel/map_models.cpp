@@ -23,8 +23,7 @@ std::vector<MarginSums> added_around(const std::vector<MarginSums>& sums,
   const int rows = distances.grid().n_rows, cols = distances.grid().n_cols;
   const std::vector<std::size_t>& cells = distances.cells();
   std::vector<std::ptrdiff_t> place(distances.grid().n_cells(), -1);
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    place[cells[i]] = static_cast<std::ptrdiff_t>(i);
+  for (std::size_t i = 0; i < cells.size(); ++i) place[cells[i]] = static_cast<std::ptrdiff_t>(i);
   std::vector<MarginSums> added(sums.size());
   tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
     const int row = static_cast<int>(cells[i]) / cols, col = static_cast<int>(cells[i]) % cols;

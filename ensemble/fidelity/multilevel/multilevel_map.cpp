@@ -89,8 +89,7 @@ MultilevelMap blank(const DrawDistances& distances) {
   map.extent = distances.extent();
   for (Raster<double>* r : {&map.probability, &map.low, &map.high}) {
     *r = Raster<double>(distances.grid(), 0);
-    for (std::size_t i = 0; i < r->values.size(); ++i)
-      r->values[i] = distances.always(i) ? 1 : 0;
+    for (std::size_t i = 0; i < r->values.size(); ++i) r->values[i] = distances.always(i) ? 1 : 0;
   }
   return map;
 }
@@ -142,10 +141,8 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
     for (std::size_t l = 1; l < n_levels; ++l) p += at.increment(l);
     p = std::clamp(p, 0.0, 1.0);
     // Members that all come as foretold do not show how far they scatter.
-    const double own =
-        std::max(correction.variance[i], sums.noise(i) * correction.variance_ratio);
-    const double variance =
-        own / n + at.variance_of_mean(1) + correction.bias_squared;
+    const double own = std::max(correction.variance[i], sums.noise(i) * correction.variance_ratio);
+    const double variance = own / n + at.variance_of_mean(1) + correction.bias_squared;
     map.probability.values[cells[i]] = p;
     const double half = width * std::sqrt(variance);
     map.low.values[cells[i]] = std::max(0.0, p - half);

@@ -2,12 +2,12 @@
 /// The probability, cell by cell, that members of the dearest level exceed a threshold, from few of
 /// them and more of cheaper levels.
 ///
-/// The control of a cell is not what cheaper members do there: whether a cell at the edge is covered
-/// is a matter of spacing. It is how far the cell lies inside or outside what they cover. The fit
-/// (margin_model.hpp) of the dearest level's distance to those of the cheaper ones, with weights that
-/// fall with the distance and sums that are shared with the cells within one spacing of the coarsest
-/// level, turns these distances into a probability: an indicator smoothed over what the cheaper levels
-/// cannot tell. Members correct its mean (increments.hpp).
+/// The control of a cell is not what cheaper members do there: whether a cell at the edge is
+/// covered is a matter of spacing. It is how far the cell lies inside or outside what they cover.
+/// The fit (margin_model.hpp) of the dearest level's distance to those of the cheaper ones, with
+/// weights that fall with the distance and sums that are shared with the cells within one spacing
+/// of the coarsest level, turns these distances into a probability: an indicator smoothed over what
+/// the cheaper levels cannot tell. Members correct its mean (increments.hpp).
 #pragma once
 
 #include "engine/core/cancel.hpp"
@@ -35,8 +35,8 @@ struct MultilevelMap {
   double rms_error = nan_d;
   std::vector<double> variances;
   double plain_variance = 0;
-  /// The mean of what members of the dearest level correct is taken over so many cells to each side:
-  /// the number of least estimated risk (Stein 1981, Ann. Statist. 9, 1135-1151).
+  /// The mean of what members of the dearest level correct is taken over so many cells to each
+  /// side: the number of least estimated risk (Stein 1981, Ann. Statist. 9, 1135-1151).
   int smoothed_cells = 0;
   double smoothing_error = 0;  ///< root mean square of what that shifts, estimated; in the bounds
 };
@@ -44,8 +44,9 @@ struct MultilevelMap {
 /// \pre at least least_draws at the dearest level \throws Cancelled
 MultilevelMap multilevel_map(const MapLevels&, const Exceedance&, CancelFlag cancel = {});
 
-/// Maps of one quantity at rising thresholds as they must be: none above the one before. The nearest
-/// such maps in the mean square (pool adjacent violators), of bounds as well. \pre one extent
+/// Maps of one quantity at rising thresholds as they must be: none above the one before. The
+/// nearest such maps in the mean square (pool adjacent violators), of bounds as well. \pre one
+/// extent
 void make_monotone(std::span<MultilevelMap> rising);
 
 }  // namespace sturz

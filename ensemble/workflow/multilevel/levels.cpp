@@ -27,9 +27,9 @@ LevelPart parsed(const std::string& text) {
   const std::string word = text.substr(0, space);
   const std::string number = space == std::string::npos ? "" : text.substr(space + 1);
   const auto formulation = from_word<Formulation>(word);
-  require(formulation && *formulation != Formulation::automatic,
-          fmt::format("ensemble.levels: '{}' (no formulation of that name). {}", text,
-                      wanted_shape));
+  require(
+      formulation && *formulation != Formulation::automatic,
+      fmt::format("ensemble.levels: '{}' (no formulation of that name). {}", text, wanted_shape));
   double spacing = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), spacing);
   require(error == std::errc{} && end == number.data() + number.size() && spacing > 0 &&
@@ -61,8 +61,7 @@ std::vector<LevelPart> usual_levels(const LevelPart& own) {
 }  // namespace
 
 std::vector<LevelPart> level_parts(const Scene& scene) {
-  std::vector<LevelPart> parts{
-      part_of(scene.description.formulation, scene.description.spacing_m)};
+  std::vector<LevelPart> parts{part_of(scene.description.formulation, scene.description.spacing_m)};
   std::vector<LevelPart> cheaper;
   for (const std::string& text : parts_of_list(scene.scenario.ensemble.levels))
     cheaper.push_back(parsed(text));

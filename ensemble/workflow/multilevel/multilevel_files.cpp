@@ -66,14 +66,15 @@ Json maps_json(const MultilevelMade& made) {
   for (const NamedMap& map : made.maps)
     for (std::size_t t = 0; t < map.maps.size(); ++t) {
       const MultilevelMap& m = map.maps[t];
-      all.push_back({{"name", map.name},
-                     {"threshold", map.thresholds.empty() ? Json(nullptr) : Json(map.thresholds[t])},
-                     {"doubtful_cells", m.doubtful},
-                     {"rms_standard_error", number(m.rms_error)},
-                     {"variances", numbers(m.variances)},
-                     {"plain_variance", number(m.plain_variance)},
-                     {"correction_over_cells", 2 * m.smoothed_cells + 1},
-                     {"smoothing_error", number(m.smoothing_error)}});
+      all.push_back(
+          {{"name", map.name},
+           {"threshold", map.thresholds.empty() ? Json(nullptr) : Json(map.thresholds[t])},
+           {"doubtful_cells", m.doubtful},
+           {"rms_standard_error", number(m.rms_error)},
+           {"variances", numbers(m.variances)},
+           {"plain_variance", number(m.plain_variance)},
+           {"correction_over_cells", 2 * m.smoothed_cells + 1},
+           {"smoothing_error", number(m.smoothing_error)}});
     }
   return all;
 }
@@ -128,8 +129,7 @@ LayerStack stack_of(const MultilevelJob& job, const MultilevelMembers& found,
   LayerStack stack;
   stack.grid = made.maps.front().maps.front().probability.grid;
   const EnsembleJob& own = found.jobs.front();
-  const HazardContext context =
-      hazard_context(own.manifest, job.scene.scenario, own.design);
+  const HazardContext context = hazard_context(own.manifest, job.scene.scenario, own.design);
   stack.attributes = context.attributes;
   stack.attributes.emplace_back("estimator", rule_of(made));
   for (const NamedMap& map : made.maps) add_layers(stack, map, rule_of(made));
@@ -181,8 +181,7 @@ std::string multilevel_json_text(const MultilevelMade& made) {
             {"censored_members", made.censored},
             {"warnings", made.warnings}};
   for (const LevelShare& l : made.levels) json["levels"].push_back(level_json(l));
-  for (const MultilevelHeadline& h : made.headlines)
-    json["headlines"].push_back(headline_json(h));
+  for (const MultilevelHeadline& h : made.headlines) json["headlines"].push_back(headline_json(h));
   return json.dump(2) + "\n";
 }
 
@@ -201,7 +200,8 @@ void write_multilevel_files(const MultilevelJob& job, const MultilevelMembers& f
   const LayersFileReader maps(folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
   write_map_files(folder.tif_folder(), maps, coarse, cancel);
-  // Pictures have their bounds, which coarse layers leave out: the maps as they are, where they fit.
+  // Pictures have their bounds, which coarse layers leave out: the maps as they are, where they
+  // fit.
   const LayerStack shown =
       maps.about().grid.n_cells() <= page_cells ? read_layers(folder.hazard_nc()) : coarse;
   write_page(job, made, shown);

@@ -46,9 +46,9 @@ class Look {
     if (!std::isfinite(h.scalar.mean.mean)) return;
     const Interval bounds = h.scalar.mean.bounds_90();
     h.sampling = (bounds.high - bounds.low) / 2;
-    h.quantiles = multilevel_quantiles(
-        level_draws(valid_of(all_, made_.used), scalar_named(name).field), made_.used.size(),
-        hazard_.quantiles);
+    h.quantiles =
+        multilevel_quantiles(level_draws(valid_of(all_, made_.used), scalar_named(name).field),
+                             made_.used.size(), hazard_.quantiles);
     made_.headlines.push_back(std::move(h));
   }
 
@@ -102,8 +102,8 @@ class Look {
     NamedMap map{name, layer, thresholds, {}};
     const double per_si = map_unit(layer).per_si;
     for (const double t : thresholds)
-      map.maps.push_back(map_of(
-          all_, made_.used, {layer, static_cast<float>(t * std::round(1 / per_si))}, cancel_));
+      map.maps.push_back(map_of(all_, made_.used,
+                                {layer, static_cast<float>(t * std::round(1 / per_si))}, cancel_));
     make_monotone(map.maps);
     if (!map.maps.empty()) made_.maps.push_back(std::move(map));
   }
@@ -124,8 +124,8 @@ class Look {
       LevelShare share;
       share.name = all_.parts[p].name;
       share.members = all_.counts[p];
-      share.valid = static_cast<std::int64_t>(
-          valid_of(all_, std::vector<std::size_t>{p}).front().size());
+      share.valid =
+          static_cast<std::int64_t>(valid_of(all_, std::vector<std::size_t>{p}).front().size());
       share.member_cpu_s = member_cost_s(all_, p);
       share.seconds = share.member_cpu_s * static_cast<double>(share.members);
       made_.seconds += share.seconds;

@@ -206,8 +206,7 @@ class Levels {
 }  // namespace
 
 bool is_multilevel(const SceneRequest& request) {
-  return read_scenario(request.file, request.overrides).ensemble.estimator ==
-         Estimator::multilevel;
+  return read_scenario(request.file, request.overrides).ensemble.estimator == Estimator::multilevel;
 }
 
 MultilevelJob prepare_multilevel(const EnsembleRequest& request, Observer& observer) {
@@ -228,8 +227,7 @@ MultilevelJob prepare_multilevel(const EnsembleRequest& request, Observer& obser
     require(job.plan.levels == names && job.plan.pilot == pilot,
             fmt::format("{} was begun with levels {} and a pilot of {}. Give the same, or choose "
                         "another folder with --out.",
-                        request.folder.string(), fmt::join(job.plan.levels, ", "),
-                        job.plan.pilot));
+                        request.folder.string(), fmt::join(job.plan.levels, ", "), job.plan.pilot));
   } else {
     job.plan.pilot = pilot;
     for (const LevelPart& part : job.parts) job.plan.levels.push_back(part.name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// An ensemble whose means and maps are those of the scene as it is, from few of its members and many
-/// of cheaper ones.
+/// An ensemble whose means and maps are those of the scene as it is, from few of its members and
+/// many of cheaper ones.
 #pragma once
 
 #include "ensemble/workflow/multilevel/levels.hpp"
@@ -46,16 +46,16 @@ class PlanListener {
 
 /// The members of every level up to its number, all valid or not.
 struct MultilevelMembers {
-  std::vector<MemberStore> stores;     ///< [parts]
-  std::vector<std::int64_t> planned;   ///< [parts] draws that count
-  std::vector<EnsembleJob> jobs;       ///< [parts]
+  std::vector<MemberStore> stores;    ///< [parts]
+  std::vector<std::int64_t> planned;  ///< [parts] draws that count
+  std::vector<EnsembleJob> jobs;      ///< [parts]
 };
 
 /// Computes the pilot, decides, computes, and decides again until what was asked for is reached, at
 /// most five times. Each decision is stored before a member of it is computed, and is made from the
-/// members of the rounds before it alone: a run that was stopped anywhere comes to the same members.
-/// \throws Cancelled, with all finished members kept; SetupError when the dearest level has too few
-/// valid members
+/// members of the rounds before it alone: a run that was stopped anywhere comes to the same
+/// members. \throws Cancelled, with all finished members kept; SetupError when the dearest level
+/// has too few valid members
 MultilevelMembers run_multilevel(MultilevelJob&, Observer&, PlanListener&,
                                  const std::atomic<bool>& cancel);
 

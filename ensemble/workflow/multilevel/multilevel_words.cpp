@@ -30,9 +30,10 @@ std::string share_or_dash(double v) {
 
 std::vector<std::string> pilot_lines(const MultilevelJob& job, const MultilevelLook& look) {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("Pilot of {} shared draws (of the variance of {}, each level alone "
-                              "tells):",
-                              job.plan.pilot, job.parts.front().name));
+  lines.push_back(
+      fmt::format("Pilot of {} shared draws (of the variance of {}, each level alone "
+                  "tells):",
+                  job.plan.pilot, job.parts.front().name));
   std::vector<std::string> names, seconds;
   for (std::size_t p = 0; p < job.parts.size(); ++p) {
     names.push_back(job.parts[p].name);
@@ -54,13 +55,14 @@ std::string round_text(const MultilevelJob& job, const PlanRound& round) {
   std::string what;
   for (std::size_t l = 0; l < round.plan.levels.size(); ++l) {
     const std::size_t p = round.plan.levels[l];
-    what += fmt::format("{}{} members of {}", l == 0 ? "" : ", ", round.members[p],
-                        job.parts[p].name);
+    what +=
+        fmt::format("{}{} members of {}", l == 0 ? "" : ", ", round.members[p], job.parts[p].name);
   }
   if (round.plan.levels.size() == 1)
-    return fmt::format("Plain sampling: {}, {} of one core. Cheaper levels know too little of what "
-                       "the scene's own members do for what they cost.",
-                       what, duration_text(round.plan.seconds));
+    return fmt::format(
+        "Plain sampling: {}, {} of one core. Cheaper levels know too little of what "
+        "the scene's own members do for what they cost.",
+        what, duration_text(round.plan.seconds));
   return fmt::format("{}: {} of one core, 1/{:.3g} of plain sampling.", what,
                      duration_text(round.plan.seconds), round.plan.gain);
 }
@@ -85,18 +87,21 @@ std::string gain_text(const MultilevelMade& made) {
 std::vector<std::string> page_sentences(const MultilevelMade& made) {
   std::vector<std::string> lines;
   if (std::isfinite(made.map_error))
-    lines.push_back(fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
-                                "{:.3g} (root mean square of {} cells).",
-                                made.map_error, made.maps.front().maps.front().doubtful));
+    lines.push_back(
+        fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
+                    "{:.3g} (root mean square of {} cells).",
+                    made.map_error, made.maps.front().maps.front().doubtful));
   lines.push_back(gain_text(made));
   if (made.failed > 0)
-    lines.push_back(fmt::format("{} members failed; their draws count at the cheaper levels that "
-                                "have them.",
-                                made.failed));
+    lines.push_back(
+        fmt::format("{} members failed; their draws count at the cheaper levels that "
+                    "have them.",
+                    made.failed));
   if (made.censored > 0)
-    lines.push_back(fmt::format("The end of {} members was not seen: results are of the others, and "
-                                "probabilities are lower bounds.",
-                                made.censored));
+    lines.push_back(
+        fmt::format("The end of {} members was not seen: results are of the others, and "
+                    "probabilities are lower bounds.",
+                    made.censored));
   return lines;
 }
 
@@ -104,10 +109,9 @@ std::vector<std::string> result_lines(const MultilevelMade& made) {
   std::vector<std::string> lines{"Means, and by how much they may be off:"};
   lines.push_back(row_of("", {"mean", "sampling (90 %)", "resolution", "model"}));
   for (const MultilevelHeadline& h : made.headlines)
-    lines.push_back(row_of(h.name, {fmt::format("{:.4g}", h.scalar.mean.mean),
-                                    "+- " + number_or(h.sampling, "?"),
-                                    "+- " + number_or(h.resolution, "?"),
-                                    "+- " + number_or(h.model, "?")}));
+    lines.push_back(row_of(
+        h.name, {fmt::format("{:.4g}", h.scalar.mean.mean), "+- " + number_or(h.sampling, "?"),
+                 "+- " + number_or(h.resolution, "?"), "+- " + number_or(h.model, "?")}));
   std::vector<std::string> names;
   for (const MultilevelHeadline& h : made.headlines)
     if (names.size() < 3) names.push_back(h.name);

@@ -24,14 +24,14 @@ PlanRound round_of(const Json& json, std::size_t n_levels) {
   json.at("members").get_to(round.members);
   json.at("member_cpu_s").get_to(round.cost_s);
   json.at("budget_s").get_to(round.budget_s);
-  const bool fits =
-      !round.plan.levels.empty() && round.plan.levels.front() == 0 &&
-      round.plan.levels.size() <= most_levels &&
-      std::is_sorted(round.plan.levels.begin(), round.plan.levels.end()) &&
-      round.plan.levels.back() < n_levels && round.plan.draws.size() == round.plan.levels.size() &&
-      round.members.size() == n_levels && round.cost_s.size() == n_levels &&
-      std::all_of(round.members.begin(), round.members.end(),
-                  [](std::int64_t n) { return n >= 0 && n <= 10'000'000; });
+  const bool fits = !round.plan.levels.empty() && round.plan.levels.front() == 0 &&
+                    round.plan.levels.size() <= most_levels &&
+                    std::is_sorted(round.plan.levels.begin(), round.plan.levels.end()) &&
+                    round.plan.levels.back() < n_levels &&
+                    round.plan.draws.size() == round.plan.levels.size() &&
+                    round.members.size() == n_levels && round.cost_s.size() == n_levels &&
+                    std::all_of(round.members.begin(), round.members.end(),
+                                [](std::int64_t n) { return n >= 0 && n <= 10'000'000; });
   require(fits, "a round does not fit its levels");
   return round;
 }
@@ -65,9 +65,10 @@ std::optional<StoredPlan> read_plan(const std::filesystem::path& file) {
       plan.rounds.push_back(round_of(round, plan.levels.size()));
     return plan;
   } catch (const std::exception& problem) {
-    throw SetupError(fmt::format("{} is damaged ({}). Remove it: the numbers of members are then "
-                                 "chosen anew, and no member is lost.",
-                                 file.string(), problem.what()));
+    throw SetupError(
+        fmt::format("{} is damaged ({}). Remove it: the numbers of members are then "
+                    "chosen anew, and no member is lost.",
+                    file.string(), problem.what()));
   }
 }
 

@@ -101,16 +101,17 @@ void add_ensemble(std::vector<KeyInfo>& keys) {
 
 void add_estimator(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
-  KeyInfo estimator = key(ensemble, &EnsembleSpec::estimator,
-                          {"ensemble.estimator", choice, "", -no_limit, no_limit,
-                           "plain: means and maps of the members; multilevel: the same of few members "
-                           "and many cheaper ones, for what `target` asks."});
+  KeyInfo estimator =
+      key(ensemble, &EnsembleSpec::estimator,
+          {"ensemble.estimator", choice, "", -no_limit, no_limit,
+           "plain: means and maps of the members; multilevel: the same of few members "
+           "and many cheaper ones, for what `target` asks."});
   keys.push_back(with_choices(std::move(estimator), {"plain", "multilevel"}));
-  keys.push_back(absent_when_zero(above_min(
-      key(target, &TargetSpec::relative_error,
-          {"ensemble.target.relative_error", number, "1", 0, 1,
-           "Half width of the 90 % bounds of mean run-out, reached area and travel of the centre of "
-           "mass, over the mean."}))));
+  keys.push_back(absent_when_zero(above_min(key(
+      target, &TargetSpec::relative_error,
+      {"ensemble.target.relative_error", number, "1", 0, 1,
+       "Half width of the 90 % bounds of mean run-out, reached area and travel of the centre of "
+       "mass, over the mean."}))));
   keys.push_back(absent_when_zero(above_min(
       key(target, &TargetSpec::map_error,
           {"ensemble.target.map_error", number, "1", 0, 0.5,
@@ -162,7 +163,8 @@ void add_hazard(std::vector<KeyInfo>& keys) {
 }  // namespace
 
 void add_run_blocks(std::vector<BlockInfo>& list) {
-  list.push_back(optional_block("ensemble.target", "What a multilevel ensemble is to reach.", target));
+  list.push_back(
+      optional_block("ensemble.target", "What a multilevel ensemble is to reach.", target));
 }
 
 void add_run_keys(std::vector<KeyInfo>& keys) {

@@ -138,9 +138,8 @@ TEST(AnAllocation, FromAPilotCostsLittleMoreThanTheOptimum) {
 }
 
 TEST(AnAllocation, NeverAsksForFewerOfACheaperLevel) {
-  const Allocation a =
-      allocate_for_variance(std::vector<double>{1, 1e-6, 0.5}, std::vector<double>{1, 0.9, 0.01},
-                            0.01);
+  const Allocation a = allocate_for_variance(std::vector<double>{1, 1e-6, 0.5},
+                                             std::vector<double>{1, 0.9, 0.01}, 0.01);
   EXPECT_DOUBLE_EQ(a.draws[0], a.draws[1]);
   EXPECT_GT(a.draws[2], a.draws[1]);
   EXPECT_NEAR(a.variance, 0.01, 1e-12);
@@ -166,8 +165,8 @@ TEST(MultilevelQuantiles, AreThoseOfTheDearestLevel) {
     EXPECT_NEAR(bias[q], 0, 0.1) << q;
     EXPECT_GE(covered[q], 0.85) << q;
     // Of 20 plain draws: sqrt(q (1 - q) / 20) over the density, 0.38 at the ends, 0.28 amid. Two
-    // normal numbers of squared correlation 0.92 share 0.7 of an indicator's variance there, so that
-    // 0.21 remains in the best case, and 0.16.
+    // normal numbers of squared correlation 0.92 share 0.7 of an indicator's variance there, so
+    // that 0.21 remains in the best case, and 0.16.
     EXPECT_LT(std::sqrt(squares[q]), q == 1 ? 0.2 : 0.25) << q;
   }
 }

@@ -81,8 +81,7 @@ TEST(AMultilevelMap, HasTheDearestLevelsProbabilities) {
   double bias = 0, squares = 0, plain = 0, predicted = 0, covered = 0, cells = 0, forecast = 0;
   for (int r = 0; r < repeats; ++r) {
     const Strip strip(n_dear, 400, 1000 + 10 * static_cast<std::uint64_t>(r));
-    const MultilevelMap map =
-        multilevel_map(strip.levels, {PeakLayer::thickness, 0}, CancelFlag());
+    const MultilevelMap map = multilevel_map(strip.levels, {PeakLayer::thickness, 0}, CancelFlag());
     predicted += map.rms_error * map.rms_error / repeats;
     forecast += map.variances[0] / map.plain_variance / repeats;
     for (int col = 0; col < n_cols; ++col) {
