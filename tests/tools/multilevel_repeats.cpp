@@ -35,7 +35,8 @@ struct Stored {
   std::vector<double> spacings;
 };
 
-/// Numbers in random order, those that the dearer levels have first.
+/// Draws in random order. Cheaper levels take theirs from beyond those of the dearest: the
+/// reference, its other members, then shares nothing with the estimate.
 std::vector<LevelDraw> chosen(const Stored& all, const std::vector<std::size_t>& counts,
                               std::uint64_t seed) {
   std::vector<std::pair<double, std::int64_t>> order;
@@ -47,6 +48,7 @@ std::vector<LevelDraw> chosen(const Stored& all, const std::vector<std::size_t>&
   std::vector<LevelDraw> draws;
   for (std::size_t k = 0; k < std::min(order.size(), counts.front()); ++k)
     draws.push_back({order[k].second, 0, {}});
+  const std::int64_t beyond = all.valid.front().rbegin()->first;
   for (std::size_t l = 1; l < counts.size(); ++l) {
     std::vector<std::pair<double, std::int64_t>> more;
     for (const auto& [number, member] : all.valid[l]) {
@@ -55,7 +57,7 @@ std::vector<LevelDraw> chosen(const Stored& all, const std::vector<std::size_t>&
       const bool cheap =
           std::all_of(all.valid.begin() + static_cast<std::ptrdiff_t>(l), all.valid.end(),
                       [n = number](const ByNumber& v) { return v.contains(n); });
-      if (!taken && cheap)
+      if (number > beyond && !taken && cheap)
         more.emplace_back(unit_random(seed + 1, static_cast<std::uint64_t>(number)), number);
     }
     std::sort(more.begin(), more.end());
