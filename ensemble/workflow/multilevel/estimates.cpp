@@ -56,6 +56,9 @@ LevelResult map_result(const LevelMembers& all, const std::vector<std::size_t>& 
   const double n = std::max(1.0, static_cast<double>(map.doubtful));
   for (const double v : map.variances) r.variances.push_back(v / n);
   r.plain_variance = map.plain_variance / n;
+  // What smoothing shifts, no member removes; but it shrinks with what there is to be smoothed.
+  const double shift = map.smoothing_error * map.smoothing_error;
+  if (r.allowed > 0) r.allowed = std::max(r.allowed / 4, r.allowed - shift);
   return r;
 }
 
