@@ -120,6 +120,11 @@ void check_rising(const std::vector<double>& levels, const char* path, Problems&
 /// A multilevel ensemble needs to know when it has enough.
 void check_target(const Scenario& s, Problems& problems) {
   const EnsembleSpec& e = s.ensemble;
+  if (!e.estimator && (e.target || !e.levels.empty() || e.pilot))
+    problems.push_back(
+        {"ensemble.estimator",
+         "ensemble.estimator (missing: target, levels and pilot are for multilevel). "
+         "Set it to multilevel, or to plain, which takes no notice of them."});
   if (e.estimator.value_or(Estimator::plain) != Estimator::multilevel) return;
   const TargetSpec t = e.target.value_or(TargetSpec{});
   const bool errors = t.relative_error > 0 || t.map_error > 0;

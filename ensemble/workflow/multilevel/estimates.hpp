@@ -7,6 +7,7 @@
 #include "ensemble/workflow/multilevel/levels.hpp"
 #include "scenarios/scenario.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,6 +21,9 @@ struct LevelMembers {
   std::vector<std::int64_t> counts;         ///< [parts]
   std::vector<LevelPart> parts;
 };
+
+/// Of each level's members, that may be held in memory: maps read them again and again.
+inline constexpr std::size_t remembered_bytes = std::size_t{1} << 28;
 
 /// What targets are about.
 inline const std::vector<std::string>& headline_results() {

@@ -2,10 +2,12 @@
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
 
 #include "ensemble/fidelity/ladder.hpp"
+#include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/hazard/map_units.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace sturz::workflow {
 namespace {
@@ -18,7 +20,10 @@ class Look {
  public:
   Look(const MultilevelJob& job, const MultilevelMembers& found, CancelFlag cancel)
       : job_(job), cancel_(cancel), hazard_(job.scene.scenario.hazard) {
-    for (const MemberStore& store : found.stores) all_.members.push_back(&store);
+    for (const MemberStore& store : found.stores) {
+      remembered_.push_back(std::make_unique<RememberedMembers>(store, remembered_bytes));
+      all_.members.push_back(remembered_.back().get());
+    }
     all_.counts = found.planned;
     all_.parts = job.parts;
     made_.folder = job.request.folder;
@@ -176,6 +181,7 @@ class Look {
   const MultilevelJob& job_;
   CancelFlag cancel_;
   const HazardSpec& hazard_;
+  std::vector<std::unique_ptr<RememberedMembers>> remembered_;
   LevelMembers all_;
   MultilevelMade made_;
 };

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/fidelity/choice.hpp"
+#include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/multilevel/estimates.hpp"
@@ -54,6 +55,7 @@ class Levels {
         target_(job.scene.scenario.ensemble.target.value_or(TargetSpec{})),
         counts_(job.parts.size(), job.plan.pilot),
         stores_(job.parts.size()),
+        remembered_(job.parts.size()),
         jobs_(job.parts.size()) {}
 
   MultilevelMembers run() {
@@ -97,7 +99,9 @@ class Levels {
       require(run.stop_error.empty(), run.stop_error);
       if (run.interrupted) throw Cancelled();
       const EnsembleJob& done = *jobs_[p];
+      remembered_[p].reset();
       stores_[p].emplace(members_of(done.folder, done.manifest, done.design, {}, cancel_));
+      remembered_[p].emplace(*stores_[p], remembered_bytes);
       const std::string missing = what_is_missing(*stores_[p], n);
       require(missing.empty(), fmt::format("{}: {}. The same command computes them again.",
                                            done.folder.root.string(), missing));
@@ -107,7 +111,7 @@ class Levels {
 
   LevelMembers members() const {
     LevelMembers all;
-    for (const auto& store : stores_) all.members.push_back(&*store);
+    for (const auto& remembered : remembered_) all.members.push_back(&*remembered);
     all.counts = counts_;
     all.parts = job_.parts;
     return all;
@@ -199,6 +203,7 @@ class Levels {
   const TargetSpec target_;
   std::vector<std::int64_t> counts_;
   std::vector<std::optional<MemberStore>> stores_;
+  std::vector<std::optional<RememberedMembers>> remembered_;  // of the stores
   std::vector<std::optional<EnsembleJob>> jobs_;
   MultilevelLook look_;
 };
