@@ -4,6 +4,7 @@
 
 #include "scenarios/assets/assets_spec.hpp"
 #include "scenarios/choices.hpp"
+#include "scenarios/estimator/estimator.hpp"
 #include "scenarios/fluid/fluid_spec.hpp"
 #include "scenarios/grains/discrete_spec.hpp"
 #include "scenarios/map_box.hpp"
@@ -333,6 +334,10 @@ struct EnsembleSpec {
   std::map<std::string, double> correlation;  ///< "path/path" -> Gaussian copula correlation
   double max_failed_fraction = 0.05;
   double max_censored_fraction = 0.05;
+  std::optional<Estimator> estimator;  ///< absent: plain
+  std::optional<TargetSpec> target;
+  std::string levels;        ///< "full_stress 12, depth_averaged 9": cheaper ones; empty: chosen
+  std::optional<int> pilot;  ///< members of each level before their numbers are chosen
   bool operator==(const EnsembleSpec&) const = default;
 };
 

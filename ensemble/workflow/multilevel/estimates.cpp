@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/multilevel/estimates.hpp"
+
+#include "ensemble/fidelity/choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz::workflow {
+namespace {
+
+constexpr double normal_90 = 1.6449;  // half width of 90 % in standard errors
+
+/// Of the map of P(reached) by the dearest level's members alone.
+struct PlainMap {
+  double variance = 0;  // mean over the doubtful cells
+  double n = 0;
+};
+PlainMap plain_map(const LevelMembers& all, CancelFlag cancel) {
+  const std::vector<std::size_t> dearest{0};
+  const auto valid = valid_of(all, dearest);
+  const MemberParts& source = *all.members.front();
+  Window extent;
+  for (const auto& [number, summary] : valid.front()) extent = joined(extent, summary->window);
+  std::vector<double> covered(extent.n_cells(), 0);
+  for (std::size_t i = 0; i < source.members().size(); ++i) {
+    if (!valid.front().contains(source.members()[i].member)) continue;
+    cancel.check();
+    const auto cells = covered_cells(source, i, {}, extent);
+    for (std::size_t c = 0; c < covered.size(); ++c) covered[c] += cells.values[c];
+  }
+  PlainMap map;
+  map.n = static_cast<double>(valid.front().size());
+  double doubtful = 0;
+  for (const double c : covered) {
+    const double p = c / map.n;
+    if (p <= 0.05 || p >= 0.95) continue;
+    doubtful += 1;
+    map.variance += p * (1 - p) * map.n / (map.n - 1);
+  }
+  if (doubtful > 0) map.variance /= doubtful;
+  return map;
+}
+
+LevelResult map_result(const LevelMembers& all, const std::vector<std::size_t>& parts,
+                       const TargetSpec& target, CancelFlag cancel) {
+  LevelResult r;
+  r.name = map_word;
+  r.allowed = target.map_error * target.map_error;
+  if (parts.size() < 2) {
+    r.plain_variance = plain_map(all, cancel).variance;
+    r.variances = {r.plain_variance};
+    return r;
+  }
+  const MultilevelMap map = map_of(all, parts, {}, cancel);
+  const double n = std::max(1.0, static_cast<double>(map.doubtful));
+  for (const double v : map.variances) r.variances.push_back(v / n);
+  r.plain_variance = map.plain_variance / n;
+  // What smoothing shifts, no member removes; but it shrinks with what there is to be smoothed.
+  const double shift = map.smoothing_error * map.smoothing_error;
+  if (r.allowed > 0) r.allowed = std::max(r.allowed / 4, r.allowed - shift);
+  return r;
+}
+
+}  // namespace
+
+std::vector<ByNumber> valid_of(const LevelMembers& all, std::span<const std::size_t> parts) {
+  std::vector<ByNumber> valid;
+  for (const std::size_t part : parts) {
+    ByNumber members = valid_members(*all.members[part]);
+    std::erase_if(members, [&](const auto& m) { return m.first >= all.counts[part]; });
+    valid.push_back(std::move(members));
+  }
+  return valid;
+}
+
+double member_cost_s(const LevelMembers& all, std::size_t part) {
+  double sum = 0, n = 0;
+  for (const MemberSummary& m : all.members[part]->members()) {
+    if (m.member >= all.counts[part] || !is_valid(m.outcome)) continue;
+    sum += m.scalars.cpu_s;
+    n += 1;
+  }
+  return n > 0 ? std::max(sum / n, 1e-6) : nan_d;
+}
+
+MultilevelScalar scalar_of(const LevelMembers& all, std::span<const std::size_t> parts,
+                           const std::string& name) {
+  const auto valid = valid_of(all, parts);
+  return multilevel_scalar(level_draws(valid, scalar_named(name).field), parts.size());
+}
+
+MultilevelMap map_of(const LevelMembers& all, std::span<const std::size_t> parts,
+                     const Exceedance& what, CancelFlag cancel) {
+  MapLevels levels;
+  for (const std::size_t part : parts) {
+    levels.levels.push_back(all.members[part]);
+    levels.spacings_m.push_back(all.parts[part].spacing_m);
+  }
+  levels.draws = level_draws(valid_of(all, parts));
+  return multilevel_map(levels, what, cancel);
+}
+
+LevelSet level_set(const LevelMembers& all, std::vector<std::size_t> parts,
+                   const TargetSpec& target, CancelFlag cancel) {
+  LevelSet set;
+  set.levels = std::move(parts);
+  for (const std::string& name : headline_results()) {
+    const MultilevelScalar s = scalar_of(all, set.levels, name);
+    if (!std::isfinite(s.mean.mean) || !(s.variance > 0)) continue;
+    const double half = target.relative_error * std::abs(s.mean.mean) / normal_90;
+    set.results.push_back({name, s.variances, s.variance, half * half});
+  }
+  set.results.push_back(map_result(all, set.levels, target, cancel));
+  return set;
+}
+
+}  // namespace sturz::workflow
