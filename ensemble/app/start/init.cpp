@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sturz init: a commented scenario around somebody's elevation raster and release.
+// sturz init: a commented scenario around an elevation raster and a release.
 #include "engine/core/error.hpp"
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/json_text.hpp"

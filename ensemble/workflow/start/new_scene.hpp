@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A commented scenario around somebody's elevation raster and release.
+/// A commented scenario around an elevation raster and a release.
 #pragma once
 
 #include "ensemble/workflow/scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What files are, before anybody has written a scenario around them.
+/// What files are, before a scenario is written around them.
 #pragma once
 
 #include "engine/terrain/raster.hpp"
