@@ -77,6 +77,13 @@ TEST_F(Init, TakesThicknessFromAFieldOrGuessesItAndSaysSo) {
   EXPECT_THAT(ended.out, HasSubstr("10 800 m3"));
 }
 
+TEST_F(Init, SnowIsMeasuredAtRightAnglesToTheSlope) {
+  const Ended ended = init({"--process", "snow_dense", "--thickness", "1"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(read("mine/scenario.yaml"),
+              AllOf(HasSubstr("thickness: normal"), HasSubstr("cohesion_pa: {uniform: [0, 100]}")));
+}
+
 TEST_F(Init, NeverReplacesAFile) {
   ASSERT_EQ(init({"--thickness", "4"}).exit_code, 0);
   const Ended again = init({"--thickness", "5"});

@@ -163,8 +163,11 @@ void Writer::choose_release() {
                                                          file.n_features == 1 ? "" : "s")}};
     choose_polygon(file, name);
   }
-  draft_.release.push_back(
-      {"thickness: vertical", "or normal: measured at right angles to the slope, as for snow"});
+  const bool snow = request_.process.starts_with("snow");
+  draft_.release.push_back({snow ? "thickness: normal" : "thickness: vertical",
+                            snow
+                                ? "at right angles to the slope, as snow is measured; or vertical"
+                                : "or normal: measured at right angles to the slope, as for snow"});
   draft_.release.push_back({"surface: bed",
                             "the raster shows the ground without the mass; or "
                             "pre_failure: with it"});
