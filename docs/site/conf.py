@@ -32,14 +32,15 @@ html_theme_options = {"sidebar_hide_name": False, "navigation_with_keys": True}
 pygments_style = "friendly"
 pygments_dark_style = "monokai"
 
-OPTIONAL = ("docs/gis", "docs/python", "docs/studies/multilevel")
+# As a list of pages names them: docs/site/index.md and studies.md.
+OPTIONAL = {"<../../docs/gis>": "docs/gis.md", "<../../docs/python>": "docs/python.md", "../studies/printed/*": "docs/studies/printed"}
 
 
 def without_absent_pages(app, docname, source):
     """Takes lines of a list of pages out that name an optional page that is not there."""
-    if docname == root_doc:
-        absent = [name for name in OPTIONAL if not (ROOT / f"{name}.md").is_file()]
-        source[0] = "\n".join(line for line in source[0].splitlines() if not any(f"<../../{name}>" in line for name in absent)) + "\n"
+    if docname.startswith("docs/site/"):
+        absent = [line for line, path in OPTIONAL.items() if not (ROOT / path).exists()]
+        source[0] = "\n".join(line for line in source[0].splitlines() if not any(line.endswith(name) for name in absent)) + "\n"
 
 
 def setup(app):
