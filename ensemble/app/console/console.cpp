@@ -51,7 +51,8 @@ std::string fitting(const std::string& text, int columns) {
   std::string all;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    all += (at == 0 ? "" : "\n") + folded(text.substr(at, end - at), columns);
+    if (at > 0) all += '\n';
+    all += folded(text.substr(at, end - at), columns);
     at = end + 1;
   }
   return all;
@@ -100,14 +101,15 @@ void Console::warn(std::string_view line) {
   if (log_) log_->logger->warn("{}", harmless(line));
   clear_progress();
   if (json_) return event(json_text(nlohmann::json{{"event", "warning"}, {"text", line}}));
-  put(stderr, fmt::format("{}\n", fitting("warning: " + harmless(line), err_columns_)));
+  put(stderr,
+      fmt::format("{}\n", fitting(fmt::format("warning: {}", harmless(line)), err_columns_)));
 }
 
 void Console::error(std::string_view line) {
   if (log_) log_->logger->error("{}", harmless(line));
   clear_progress();
   if (json_) event(json_text(nlohmann::json{{"event", "error"}, {"text", line}}));
-  put(stderr, fmt::format("{}\n", fitting("error: " + harmless(line), err_columns_)));
+  put(stderr, fmt::format("{}\n", fitting(fmt::format("error: {}", harmless(line)), err_columns_)));
 }
 
 void Console::event(std::string_view json_object) {

@@ -106,7 +106,7 @@ void add_init(Grammar& grammar) {
   parser.add_option("-o,--out", options.out, "Folder of scenario.yaml, or its name.yaml")
       ->type_name("DIR")
       ->required();
-  parser.add_option("--process", s.process, "Typical values of: " + process_list())
+  parser.add_option("--process", s.process, fmt::format("Typical values of: {}", process_list()))
       ->type_name("PROCESS")
       ->capture_default_str();
   CLI::Option* const thickness =

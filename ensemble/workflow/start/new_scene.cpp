@@ -156,7 +156,7 @@ void Writer::choose_release() {
             "out, or give the outline as a polygon.");
     draft_.release = {{"thickness_raster: " + quoted, "in metres, 0 or nodata outside"}};
     if (request_.volume_m3)
-      draft_.release.push_back({"volume_m3: " + number_text(*request_.volume_m3),
+      draft_.release.push_back({fmt::format("volume_m3: {}", number_text(*request_.volume_m3)),
                                 "the raster's thicknesses are scaled to it"});
   } else {
     draft_.release = {{"polygon: " + quoted, fmt::format("{} feature{}", file.n_features,
@@ -177,13 +177,13 @@ void Writer::choose_polygon(const ReleaseFile& file, const std::string& name) {
   if (request_.thickness_m) {
     const double h = *request_.thickness_m;
     draft_.release.push_back(
-        {"thickness_m: " + number_text(h),
+        {fmt::format("thickness_m: {}", number_text(h)),
          fmt::format("in the mean; {{uniform: [{}, {}]}} where it is not known",
                      short_number(0.75 * h), short_number(1.25 * h))});
     return;
   }
   if (request_.volume_m3) {
-    draft_.release.push_back({"volume_m3: " + number_text(*request_.volume_m3),
+    draft_.release.push_back({fmt::format("volume_m3: {}", number_text(*request_.volume_m3)),
                               "or thickness_m in its place; may be a distribution"});
     return;
   }
@@ -235,7 +235,7 @@ void Writer::choose_spacing(const Measures& m) {
   const std::string why =
       fmt::format("{:.0f} columns, {:.0f} across the narrow side of {} m (10 are needed)",
                   m.area_m2 / (spacing * spacing), m.narrow_m / spacing, short_number(m.narrow_m));
-  draft_.spacing = {"spacing_m: " + number_text(spacing), why};
+  draft_.spacing = {fmt::format("spacing_m: {}", number_text(spacing)), why};
   choices_.push_back(fmt::format("spacing {} m: {}; the ground has cells of {} m",
                                  number_text(spacing), why, number_text(m.cell_m)));
 }

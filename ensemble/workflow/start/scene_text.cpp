@@ -43,12 +43,12 @@ std::string scene_text(const SceneDraft& d) {
       "# {uniform: [low, high]}, {log_uniform: [low, high]}, {triangular: [low, mode, high]}.\n"
       "# `sturz describe` says what will be computed and how long it takes; all keys are in the\n"
       "# user guide.\n";
-  text += "title: " + quoted(d.title) + "\n\nterrain:\n";
-  text += with_comment("  raster: " + quoted(d.terrain), d.about_ground);
-  if (!d.crs.empty()) text += "  crs: " + quoted(d.crs) + "\n";
+  text += fmt::format("title: {}\n\nterrain:\n", quoted(d.title));
+  text += with_comment(fmt::format("  raster: {}", quoted(d.terrain)), d.about_ground);
+  if (!d.crs.empty()) text += fmt::format("  crs: {}\n", quoted(d.crs));
   text += "\nrelease:\n";
   for (const SceneDraft::Line& line : d.release)
-    text += with_comment("  " + line.text, line.comment);
+    text += with_comment(fmt::format("  {}", line.text), line.comment);
   text += fmt::format(
       "\n# {}: {}. Ranges of events that others calculated back,\n"
       "# with their sources: a place to begin. What fits mapped events of your region is worth\n"
@@ -63,7 +63,7 @@ std::string scene_text(const SceneDraft& d) {
       "                            # the speed; friction alone is far too fast on real ground\n";
   text += values_of(*d.process, "basal");
   text += "\nformulation: depth_averaged # Voellmy exists in columns only\n\nnumerics:\n";
-  text += with_comment("  " + d.spacing.text, d.spacing.comment);
+  text += with_comment(fmt::format("  {}", d.spacing.text), d.spacing.comment);
   text += fmt::format(
       "\nensemble:\n"
       "  design: sobol             # can grow: -n {} now, -n {} later\n"
