@@ -73,7 +73,7 @@ workflow::CalibrateRequest request_of(const Options& o) {
 
 void tell(const workflow::Calibrated& c, const std::string& folder, bool has_page,
           Console& console) {
-  for (const std::string& line : calibration_lines(c)) console.say(line);
+  for (const std::string& line : calibration_lines(c, console.said_columns())) console.say(line);
   console.say("In " + folder + ":");
   if (has_page) console.say("  report.html     with what the observations tell");
   console.say("  posterior.csv   equal rows, for `sturz ensemble --posterior`");
