@@ -8,7 +8,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <string>
@@ -25,8 +24,13 @@ using namespace std::chrono_literals;
 
 class AnEvaluator : public Workflow {
  protected:
-  EvaluatorRequest request(int workers = 1) const {
-    write("scene.yaml", test::tiny_scene());
+  /// Members of many seconds.
+  static std::string long_scene() {
+    return test::replaced(test::tiny_scene(), "end_time_s: 3",
+                          "end_time_s: 600, stop_at_rest: false");
+  }
+  EvaluatorRequest request(int workers = 1, const std::string& text = test::tiny_scene()) const {
+    write("scene.yaml", text);
     EvaluatorRequest r;
     r.scene.file = path("scene.yaml");
     r.scene.predicts = false;
@@ -34,39 +38,36 @@ class AnEvaluator : public Workflow {
     r.threads = 1;
     return r;
   }
-  /// Computes `n` members at once, each holding on in its first progress until `wanted` run or two
-  /// seconds have gone. \return the most that ran at one time
-  static int most_at_once(Evaluator& evaluator, int n, int wanted) {
-    const std::atomic<bool> never{false};
+  /// Asks for `n` members at once, each holding on in its first progress until `wanted` run or the
+  /// time is up; then all are cancelled. \return the most that ran at one time
+  static int most_at_once(Evaluator& evaluator, int n, int wanted,
+                          std::chrono::milliseconds patience) {
+    std::atomic<bool> over{false};
     std::atomic<int> running{0}, most{0};
+    const auto meet = [&](const Progress&) {
+      const int now = ++running;
+      for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
+      }
+      const auto until = std::chrono::steady_clock::now() + patience;
+      while (most < wanted && std::chrono::steady_clock::now() < until)
+        std::this_thread::sleep_for(1ms);
+      --running;
+      over = true;
+    };
     std::vector<std::thread> threads;
     for (int k = 0; k < n; ++k)
-      threads.emplace_back([&] {
-        bool met = false;
-        const auto meet = [&](const Progress&) {
-          if (met) return;
-          met = true;
-          const int now = ++running;
-          for (int seen = most; seen < now && !most.compare_exchange_weak(seen, now);) {
-          }
-          const auto until = std::chrono::steady_clock::now() + 2s;
-          while (most < wanted && std::chrono::steady_clock::now() < until)
-            std::this_thread::sleep_for(1ms);
-        };
-        evaluator.evaluate(evaluator.medians(), never, meet);
-        if (met) --running;
-      });
+      threads.emplace_back([&] { evaluator.evaluate(evaluator.medians(), over, meet); });
     for (std::thread& thread : threads) thread.join();
     return most;
   }
 };
 
 TEST_F(AnEvaluator, computes_as_many_members_at_once_as_it_has_workers) {
-  Evaluator two(request(2));
+  Evaluator two(request(2, long_scene()));
   EXPECT_EQ(two.workers(), 2);
-  EXPECT_EQ(most_at_once(two, 4, 2), 2);
-  Evaluator one(request(1));
-  EXPECT_EQ(most_at_once(one, 3, 2), 1);
+  EXPECT_EQ(most_at_once(two, 4, 2, 10s), 2);
+  Evaluator one(request(1, long_scene()));
+  EXPECT_EQ(most_at_once(one, 3, 2, 300ms), 1);
 }
 
 TEST_F(AnEvaluator, gives_the_same_bits_for_the_same_values_and_others_for_others) {

@@ -37,9 +37,9 @@ struct Options {
 void check(const Options& o) {
   require(o.umbridge, "serve needs to know the protocol (only UM-Bridge so far). Add --umbridge.");
   require(is_loopback(o.address) || o.remote_clients,
-          fmt::format("--address {} (other machines reach it, and whoever reaches it can have this "
-                      "one compute; there is no password). Leave it out for this machine alone, or "
-                      "add --allow-remote-clients inside a network that you trust.",
+          fmt::format("--address {} (other machines reach it and can have this one compute; there "
+                      "is no password). Leave it out for this machine alone, or add "
+                      "--allow-remote-clients inside a network that you trust.",
                       o.address));
 }
 

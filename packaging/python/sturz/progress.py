@@ -32,8 +32,6 @@ class Bar:
             self.done += 1
             self.total = max(self.total, self.done)
             self.failed += event["outcome"] not in ("settled", "out_of_time", "left_terrain")
-        elif kind == "look" and event.get("forecast_members"):
-            self.total = max(self.total, int(event["forecast_members"]))
         elif kind in ("done", "interrupted", "error"):
             return self.close()
         else:
