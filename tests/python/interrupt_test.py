@@ -34,7 +34,7 @@ class Interrupts(InFolder):
         self.assertEqual(resumed.hazard_hash, whole.hazard_hash)
 
     def test_ctrl_c_of_a_script(self):
-        code = (f"import sturz\nscene = {long_slide(3600)!r}\n"
+        code = (f"import sturz\nscene = {long_slide()!r}\n"
                 "try:\n    sturz.ensemble(scene, 'out', progress=lambda e: print(e['event'], flush=True))\n"
                 "except KeyboardInterrupt:\n    print('stopped')\n")
         script = subprocess.Popen([sys.executable, "-W", "ignore", "-c", code], stdout=subprocess.PIPE,

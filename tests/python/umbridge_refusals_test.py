@@ -9,7 +9,7 @@ import sturz
 from scenes import InFolder, slide
 from umbridge_client import Model, Refused
 
-GOOD = {"name": "sturz", "input": [[0.3, 500]], "config": {}}
+GOOD = {"name": "sturz", "input": [[0.5, 500]], "config": {}}
 
 
 class Refusals(InFolder):
@@ -18,11 +18,11 @@ class Refusals(InFolder):
         self.server = sturz.serve(slide(), workers=1)
         self.addCleanup(self.server.stop)
         self.model = Model(self.server.url)
-        self.right = self.model([[0.3, 500]])
+        self.right = self.model([[0.5, 500]])
 
     def tearDown(self):
         """The server has survived and still computes the same."""
-        self.assertEqual(self.model([[0.3, 500]]), self.right)
+        self.assertEqual(self.model([[0.5, 500]]), self.right)
 
     def refused(self, request="Evaluate", **message):
         with self.assertRaises(Refused) as caught:

@@ -28,7 +28,7 @@ class Protocol(InFolder):
             "Evaluate": True, "Gradient": False, "ApplyJacobian": False, "ApplyHessian": False}})
         self.assertEqual(model.post("InputSizes"), {"inputSizes": [2]})
         self.assertEqual(model.post("OutputSizes"), {"outputSizes": [len(OUTPUTS)]})
-        answer = model.post("Evaluate", input=[[0.3, 500]])
+        answer = model.post("Evaluate", input=[[0.5, 500]])
         self.assertEqual(set(answer), {"output"})
         self.assertEqual([len(vector) for vector in answer["output"]], [len(OUTPUTS)])
 
@@ -37,14 +37,14 @@ class Protocol(InFolder):
         told = model.ask("GET", "/Description")
         self.assertEqual([i["key"] for i in told["inputs"]],
                          ["basal.friction_coefficient", "basal.turbulent_coefficient_m_s2"])
-        self.assertEqual(told["inputs"][0]["distribution"], "{uniform: [0.2, 0.5]}")
-        self.assertAlmostEqual(told["inputs"][0]["median"], 0.35)
+        self.assertEqual(told["inputs"][0]["distribution"], "{uniform: [0.45, 0.65]}")
+        self.assertAlmostEqual(told["inputs"][0]["median"], 0.55)
         self.assertEqual([o["name"] for o in told["outputs"]], OUTPUTS)
         self.assertEqual((server.inputs, server.outputs), (told["inputs"], told["outputs"]))
 
     def test_sixteen_at_once_are_the_numbers_of_sixteen_runs(self):
         _, model = self.serve(workers=2)
-        points = [[0.2 + 0.02 * k, 200 + 80 * k] for k in range(16)]
+        points = [[0.45 + 0.0125 * k, 200 + 80 * k] for k in range(16)]
         with concurrent.futures.ThreadPoolExecutor(16) as pool:
             answers = list(pool.map(lambda point: model([point])[0], points))
         self.assertEqual(len({tuple(answer) for answer in answers}), 16)
@@ -56,14 +56,14 @@ class Protocol(InFolder):
 
     def test_a_client_chooses_its_outputs(self):
         _, model = self.serve(outputs=["runout_m", "max_speed_m_s"])
-        both = model([[0.3, 500]])[0]
+        both = model([[0.5, 500]])[0]
         self.assertEqual(model.output_sizes(), [2])
         chosen = {"outputs": ["max_speed_m_s"]}
         self.assertEqual(model.output_sizes(chosen), [1])
-        self.assertEqual(model([[0.3, 500]], chosen), [[both[1]]])
+        self.assertEqual(model([[0.5, 500]], chosen), [[both[1]]])
         # The centre of mass of a mass that never moved has no travel to divide by.
         with self.assertRaises(Refused) as caught:
-            model([[5.0, 500]], {"outputs": ["com_ratio"]})
+            model([[1.5, 500]], {"outputs": ["com_ratio"]})
         self.assertEqual((caught.exception.status, caught.exception.type), (500, "InvalidOutput"))
         self.assertIn("com_ratio", caught.exception.message)
 
@@ -84,17 +84,17 @@ class Ends(InFolder):
     def test_term_and_int_end_it_in_order(self):
         for ending in (signal.SIGTERM, signal.SIGINT):
             process, serving = self.start(slide())
-            Model(serving["url"])([[0.3, 500]])
+            Model(serving["url"])([[0.5, 500]])
             process.send_signal(ending)
             last = json.loads(process.stdout.readlines()[-1])
             self.assertEqual(process.wait(timeout=10), 0)
             self.assertEqual(last, {"event": "done", "evaluations": 1, "refused": 0})
 
     def test_a_member_that_runs_does_not_hold_it_up(self):
-        process, serving = self.start(long_slide(3600), "--workers", "1")
+        process, serving = self.start(long_slide(), "--workers", "1")
         model = Model(serving["url"])
         with concurrent.futures.ThreadPoolExecutor(3) as pool:
-            asked = [pool.submit(model, [[0.2, 1500]]) for _ in range(3)]  # one runs, two wait
+            asked = [pool.submit(model, [[0.6, 1500]]) for _ in range(3)]  # one runs, two wait
             time.sleep(1)
             self.assertFalse(any(one.done() for one in asked))
             begin = time.monotonic()

@@ -26,9 +26,9 @@ scene = sturz.Scenario({
     "terrain": {"synthetic": {"plane": {"cell_size_m": 4, "slope_deg": 25, "length_m": 300, "width_m": 100}}},
     "release": {"box": {"x_m": [-130, -105], "y_m": [-12, 12]}, "thickness_m": 4},
     "grains": {"density_kg_m3": 2600, "solid_fraction": 0.6},
-    "basal": {"friction_coefficient": {"uniform": [0.3, 0.6]},
+    "basal": {"friction_coefficient": {"uniform": [0.45, 0.7]},
               "turbulent_coefficient_m_s2": {"log_uniform": [200, 1500]}},
-    "numerics": {"spacing_m": 4, "end_time_s": 30},
+    "numerics": {"spacing_m": 4, "end_time_s": 60},
     "ensemble": {"design": "sobol", "members": 32, "seed": 1},
     "hazard": {"cell_size_m": 4, "thickness_m": [0.5, 1], "speed_m_s": [5], "energy_kj_m2": [10],
                "pressure_kpa": [10]},
@@ -69,23 +69,23 @@ assert outlines.area_m2.is_monotonic_decreasing
 # engine's own arrays.
 simulation = sturz.Simulation(scene)
 print("arguments:", simulation.units)
-member = simulation.run({"basal.friction_coefficient": 0.4})
+member = simulation.run({"basal.friction_coefficient": 0.5})
 thickness = member.peaks["peak_thickness"]  # numpy, not a copy
 print(member, thickness.shape, thickness.dtype)
-same = sturz.run(scene, out / "one", values={"basal.friction_coefficient": 0.4})
+same = sturz.run(scene, out / "one", values={"basal.friction_coefficient": 0.5})
 assert same.state_hash == member.state_hash  # bit for bit what the command computes
 
 # %% ... and many of them, for a sampler of your own
-frictions = [0.3 + 0.03 * k for k in range(10)]
+frictions = [0.45 + 0.02 * k for k in range(10)]
 runouts = [simulation.run({"basal.friction_coefficient": friction}).scalars["runout_m"] for friction in frictions]
 print([round(runout) for runout in runouts])
 assert runouts[0] > runouts[-1]
 
 # %% What an observation says of the friction
-observed = scene.with_values(observation={"front_distance_m": {"value": member.scalars["runout_m"], "sd": 5}})
+observed = scene.with_values(observation={"runout_m": {"value": member.scalars["runout_m"], "sd": 5}})
 found = sturz.calibrate(observed, out / "back", members=32, check_best=False)
 posterior = found.posterior["basal.friction_coefficient"]
-print(f"friction {posterior.mean():.2f} +- {posterior.std():.2f}, it was 0.4")
+print(f"friction {posterior.mean():.2f} +- {posterior.std():.2f}, it was 0.5")
 
 # %% A server for samplers of other programs (UM-Bridge)
 # QUEENS, PyApprox, tinyDA, Dakota and others speak it: umbridge.HTTPModel(server.url, "sturz").

@@ -62,7 +62,7 @@ void explain(const Request& request, Response& response) {
       response);
 }
 
-void explain_exception(const Response&, const std::exception_ptr& thrown, Response& response) {
+void explain_exception(const std::exception_ptr& thrown, Response& response) {
   std::string message = "an unknown error.";
   try {
     std::rethrow_exception(thrown);
@@ -95,7 +95,7 @@ HttpDoor::HttpDoor(Umbridge& model, Hearer hearer, const std::atomic<bool>& canc
   http.set_pre_routing_handler(look_at);
   http.set_error_handler([](const Request& q, Response& r) { explain(q, r); });
   http.set_exception_handler([](const Request&, Response& r, const std::exception_ptr& thrown) {
-    explain_exception(r, thrown, r);
+    explain_exception(thrown, r);
   });
   http.Get("/Info", [&model](const Request&, Response& r) { put(model.info(), r); });
   http.Get("/Description", [&model](const Request&, Response& r) { put(model.description(), r); });

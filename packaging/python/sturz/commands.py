@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import subprocess
+from collections import deque
 from pathlib import Path
+from threading import Thread
 from typing import Any, Mapping, Sequence
 
 from .errors import MembersFailed, ScenarioError, SturzError
@@ -154,10 +156,16 @@ class Server:
         self.url: str = first["url"]  #: for ``umbridge.HTTPModel(url, "sturz")``
         self.inputs: list[dict[str, Any]] = first["inputs"]  #: key, units, distribution, median
         self.outputs: list[dict[str, Any]] = first["outputs"]  #: name, units, meaning
+        #: the last that it said, among it a warning for each question that it refused
+        self.events: deque[dict[str, Any]] = deque(maxlen=100)
+        # Read to the end, or the server would wait for room in the pipe.
+        self._reader = Thread(target=lambda: self.events.extend(child.events()), daemon=True)
+        self._reader.start()
 
     def stop(self) -> int:
         """Ends it in order. Returns its exit code, 0 when all was well."""
         code = self._child.stop()
+        self._reader.join()
         self._child.close()
         return code
 
