@@ -6,11 +6,11 @@
 build_packages=(
   g++ cmake ninja-build ccache mold pkg-config git ca-certificates python3
   libgdal-dev libnetcdf-dev libhdf5-dev libtbb-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libfmt-dev
-  zlib1g-dev libcli11-dev nlohmann-json3-dev libssl-dev libutfcpp-dev librandom123-dev libopenturns-dev libopenblas0-pthread
+  zlib1g-dev libcli11-dev libcpp-httplib-dev nlohmann-json3-dev pybind11-dev python3-dev libssl-dev libutfcpp-dev librandom123-dev libopenturns-dev libopenblas0-pthread
 )
 test_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev libomp-14-dev llvm
-  libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 gdal-bin netcdf-bin
+  libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 python3-geopandas python3-yaml gdal-bin netcdf-bin
   python3-sphinx python3-myst-parser furo python3-matplotlib
   chromium man-db slurmctld slurmd slurm-client munge parallel snakemake
 )

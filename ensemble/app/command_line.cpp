@@ -80,9 +80,9 @@ int guarded(const std::function<int(Console&)>& action, Console& console) {
 }
 
 /// A signal that came too late to stop anything is still no plain success: who sent it waits for
-/// that code.
+/// that code. One that the action spoke of is what it waited for.
 int after_signals(int code, Console& console) {
-  if (!interrupt_flag().load() || code != ok) return code;
+  if (!interrupt_flag().load() || code != ok || interruption_was_told()) return code;
   console.warn("a signal to stop came when all was done: the results are whole.");
   interruption_told();
   return interrupted;

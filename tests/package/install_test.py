@@ -64,6 +64,20 @@ class Install(unittest.TestCase):
         for name in ("hazard.nc", "report.html", "members.csv"):
             self.assertGreater((self.work / "out" / name).stat().st_size, 0)
 
+    def test_python_finds_package_module_and_program_where_they_were_moved(self):
+        folder = self.prefix / "lib/python3/dist-packages"
+        environment = {k: v for k, v in os.environ.items() if k != "STURZ"}
+        environment |= {"PYTHONPATH": str(folder), "PATH": "/usr/bin:/bin"}
+        code = ("import sturz; print(sturz.program()); print(sturz.__file__); print('template' in sturz.cases())\n"
+                "import sturz.simulation as s; print(s._module().__file__)")
+        done = subprocess.run(["/usr/bin/python3", "-c", code], cwd=self.work, text=True, capture_output=True,
+                              env=environment)
+        lines = done.stdout.splitlines()
+        self.assertEqual(lines[:3], [str(self.prefix / "bin/sturz"), str(folder / "sturz/__init__.py"), "True"])
+        if list((pathlib.Path(BUILD) / "python").glob("_sturz*.so")):
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(pathlib.Path(lines[3]).parent, folder)
+
     def test_a_copy_never_overwrites(self):
         self.sturz("cases", "template", "-o", "changed")
         (self.work / "changed/scenario.yaml").write_text("mine")

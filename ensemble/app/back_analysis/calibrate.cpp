@@ -94,6 +94,13 @@ struct Computed {
 Computed compute(const Options& options, const workflow::CalibrateRequest& request,
                  ConsoleObserver& observer, Console& console) {
   workflow::EnsembleJob job = workflow::prepare_calibration(request, observer);
+  console.event(json_text(nlohmann::ordered_json{{"event", "start"},
+                                                 {"folder", job.folder.root.string()},
+                                                 {"members", job.design.n_members()},
+                                                 {"finished_before", job.finished_before},
+                                                 {"to_do", job.to_do.size()},
+                                                 {"workers", job.workers},
+                                                 {"threads_per_member", job.threads}}));
   for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
   console.note(command_text(options));
   console.say(
