@@ -11,6 +11,7 @@ build_packages=(
 test_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev libomp-14-dev llvm
   libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 gdal-bin netcdf-bin
+  qgis python3-qgis
   chromium man-db slurmctld slurmd slurm-client munge parallel snakemake
 )
 # For scripts/test_package.sh only.

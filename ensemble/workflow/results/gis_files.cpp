@@ -34,11 +34,8 @@ class GroundSource final : public LayerSource {
  public:
   GroundSource(const Raster<double>& elevation, const Grid& maps) : elevation_(elevation) {
     about_.grid = maps;
-    Layer layer;
-    layer.name = "elevation";
-    layer.long_name = "elevation of the ground under the maps";
-    layer.units = "m";
-    about_.layers.push_back(std::move(layer));
+    about_.layers.push_back(
+        {"elevation", {}, "elevation of the ground under the maps", {}, "m", {}, {}, {}, {}});
   }
   const LayerStack& about() const override { return about_; }
   void read(std::size_t /*layer*/, std::size_t /*plane*/, const Window& w,

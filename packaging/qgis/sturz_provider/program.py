@@ -22,14 +22,16 @@ class SturzError(Exception):
 
 
 def program():
-    """Path of the program: the setting's, else the first on PATH."""
+    """Path of the program: the setting's, else the first on PATH, else the one beside this plugin."""
     chosen = (ProcessingConfig.getSetting(SETTING) or "").strip()
     if chosen:
         if os.access(chosen, os.X_OK) and os.path.isfile(chosen):
             return chosen
         raise SturzError(f"{chosen} is no program that can be run. Correct it in Settings > Options > "
                          "Processing > Providers > sturz, or empty it to take the one on PATH.")
-    found = shutil.which("sturz")
+    # On PATH; else installed beside this plugin (bin/ and share/ under one prefix), links followed.
+    beside = os.path.join(os.path.dirname(os.path.realpath(__file__)), "../../../../bin/sturz")
+    found = shutil.which("sturz") or shutil.which(os.path.normpath(beside))
     if found is None:
         raise SturzError("The program sturz is not on PATH. Install it, or say where it lies in Settings > "
                          "Options > Processing > Providers > sturz.")
