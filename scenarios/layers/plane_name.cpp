@@ -56,8 +56,8 @@ bool is_quantile(const Layer& layer) {
          layer.meaning.statistic == Statistic::source_quantile;
 }
 
-/// "P_solid_reached" of "probability_of_solid_reach", "P_high_intensity" of
-/// "probability_of_high_intensity"; other names stay.
+/// "P_reached" of "probability_of_reach", "P_high_intensity" of "probability_of_high_intensity";
+/// other names stay.
 std::string people_word(std::string name) {
   constexpr std::string_view long_word = "probability_of_";
   if (!name.starts_with(long_word)) return name;

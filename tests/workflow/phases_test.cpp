@@ -27,9 +27,9 @@ TEST_F(PhasesWorkflow, MapsTableAndMembersTellThePhasesApart) {
   whole(parting("out"), heard);
   EXPECT_TRUE(exists("out/hazard/solid_thickness_mean_m.tif"));
   EXPECT_TRUE(exists("out/hazard/P_liquid_thickness_gt_0.05m.tif"));
-  for (const char* map : {"P_solid_reached.tif", "P_liquid_reached.tif",
-                          "bounds/P_solid_reached_lower.tif",
-                          "solid_pressure_mean_kPa.tif", "liquid_fraction_p50.tif"})
+  for (const char* map :
+       {"P_solid_reached.tif", "P_liquid_reached.tif", "bounds/P_solid_reached_lower.tif",
+        "solid_pressure_mean_kPa.tif", "liquid_fraction_p50.tif"})
     EXPECT_TRUE(exists(std::string("out/hazard/") + map)) << map;
   const std::string table = read("out/members.csv");
   for (const char* column :

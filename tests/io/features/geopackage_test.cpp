@@ -4,9 +4,9 @@
 #include "io/features/feature_file.hpp"
 #include "io/features/geographic.hpp"
 #include "io/features/shapes.hpp"
+#include "io/features/zip_file.hpp"
 #include "io/files/text_files.hpp"
 #include "io/gdal/crs.hpp"
-#include "io/gdal/zip_file.hpp"
 #include "tests/io/io_fixture.hpp"
 
 #include <gdal_priv.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/gdal/zip_file.hpp"
+#include "io/features/zip_file.hpp"
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/io_error.hpp"
