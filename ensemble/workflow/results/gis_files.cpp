@@ -3,6 +3,7 @@
 
 #include "ensemble/assets/asset_risk.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
+#include "ensemble/workflow/results/ground_source.hpp"
 #include "ensemble/workflow/results/outline_tables.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/features/feature_file.hpp"
@@ -22,38 +23,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace sturz::workflow {
 namespace fs = std::filesystem;
 namespace {
-
-/// Elevations on the cells of the maps, NaN where they are not known.
-class GroundSource final : public LayerSource {
- public:
-  GroundSource(const Raster<double>& elevation, const Grid& maps) : elevation_(elevation) {
-    about_.grid = maps;
-    about_.layers.push_back(
-        {"elevation", {}, "elevation of the ground under the maps", {}, "m", {}, {}, {}, {}});
-  }
-  const LayerStack& about() const override { return about_; }
-  void read(std::size_t /*layer*/, std::size_t /*plane*/, const Window& w,
-            std::span<float> out) const override {
-    const Grid &maps = about_.grid, &ground = elevation_.grid;
-    for (int r = 0; r < w.n_rows; ++r)
-      for (int c = 0; c < w.n_cols; ++c) {
-        const int row = ground.row_of(maps.y_center(w.row0 + r)),
-                  col = ground.col_of(maps.x_center(w.col0 + c));
-        out[static_cast<std::size_t>(r) * w.n_cols + c] =
-            ground.contains(row, col) ? static_cast<float>(elevation_.at(row, col)) : nan_f;
-      }
-  }
-
- private:
-  const Raster<double>& elevation_;
-  LayerStack about_;
-};
 
 Shape shape_of(const FeatureTable& table) {
   // The fifth byte of WKB and its neighbours hold the kind: 1, 4 points; 2, 5 lines; 3, 6 areas.
@@ -136,8 +112,7 @@ class Files {
       fs::remove(folder_.ground_tif());
       return;
     }
-    const GroundSource ground(*of_.elevation, about_.grid);
-    write_cog(folder_.ground_tif(), ground, 0, 0, of_.cancel);
+    write_cog(folder_.ground_tif(), *of_.elevation, 0, 0, of_.cancel);
     write_text_atomic(fs::path(folder_.ground_tif()).replace_extension(".qml"),
                       qgis_style_file(hillshade_symbology(), "Symbology"));
   }
@@ -146,7 +121,7 @@ class Files {
     std::vector<ProjectGroup>& groups = project_.groups;
     ProjectGroup bounds{"Bounds of the probabilities", {}, false};
     std::vector<ProjectGroup> maps;
-    bool none_shown = true;
+    const Layer* first = default_layer(*of_.coarse);
     for (const PlaneFile& file : cog_files(folder_.tif_folder(), about_)) {
       const Layer& layer = about_.layers[file.layer];
       ProjectLayer one{title_of(layer, file.plane),
@@ -159,7 +134,7 @@ class Files {
         bounds.layers.push_back(std::move(one));
         continue;
       }
-      one.shown = std::exchange(none_shown, false);
+      one.shown = first != nullptr && layer.name == first->name && file.plane == 0;
       group_of(maps, layer).layers.push_back(std::move(one));
     }
     if (!site_.layers.empty()) groups.push_back(std::move(site_));
@@ -251,9 +226,13 @@ GisContent gis_content(const LayerSource& maps, const PageContent& page, const M
   content.maps = &maps;
   content.coarse = page.hazard;
   content.inputs = &inputs;
-  content.elevation = page.elevation;
+  if (page.elevation != nullptr)
+    content.elevation = ground_source(maps.about().grid, [&ground = *page.elevation](auto&) {
+      return std::shared_ptr<const Raster<double>>(std::shared_ptr<void>(), &ground);
+    });
   content.release = page.release;
   content.members = page.members;
+  content.n_members = page.members.size();
   content.started = manifest.started;
   content.hazard_hash = manifest.hazard_hash;
   content.cancel = page.cancel;

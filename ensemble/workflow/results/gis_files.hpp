@@ -12,7 +12,9 @@
 #include "scenarios/layers/layer_stream.hpp"
 #include "scenarios/scene_inputs.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,12 +27,13 @@ struct GisContent {
   const LayerSource* maps = nullptr;    ///< whose GeoTIFFs lie in the folder
   const LayerStack* coarse = nullptr;   ///< the same in few cells, for the classes of the styles
   const SceneInputs* inputs = nullptr;  ///< observation, thalweg and gauges
-  const Raster<double>* elevation = nullptr;
+  std::shared_ptr<const LayerSource> elevation;   ///< see ground_source()
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
   std::optional<FeatureTable> assets;             ///< see risk_features()
-  std::span<const MemberSummary> members;
-  std::string started;      ///< as Manifest::started
-  std::string hazard_hash;  ///< of the maps
+  std::span<const MemberSummary> members;         ///< whose deposits are shown
+  std::size_t n_members = 0;                      ///< behind the maps
+  std::string started;                            ///< as Manifest::started
+  std::string hazard_hash;                        ///< of the maps
   CancelFlag cancel;
 };
 
