@@ -46,7 +46,7 @@ Done. Packages $install_time, build $build_time, ensemble $run_time.
 Results are in $PWD/$out
   report.html   look here first: maps over hillshade, members, where the time went (any browser)
   hazard.nc     every map with its CRS (QGIS, xarray, ncview)
-  hazard/*.tif  the same maps as cloud-optimised GeoTIFF
+  hazard.qgz    the same maps in QGIS, styled; hazard/*.tif for other GIS
   members.csv   one row per member: what was drawn, how it ended, how far it went
 
 Next: a slope of your own. This writes a commented scenario around your elevation raster and the outline

@@ -12,6 +12,7 @@ test_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev libomp-14-dev llvm
   libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 python3-geopandas python3-yaml gdal-bin netcdf-bin
   python3-sphinx python3-myst-parser furo python3-matplotlib
+  qgis python3-qgis
   chromium man-db slurmctld slurmd slurm-client munge parallel snakemake
 )
 # For scripts/make_studies.sh and scripts/make_pictures.sh, and for scripts/make_site.sh.

@@ -273,8 +273,8 @@ TEST_F(Calibrate, MapsTheEnsembleUnderItsPosterior) {
   ASSERT_EQ(calibrate({}).exit_code, 0);
   EXPECT_TRUE(exists("out/weighted/hazard.nc"));
   ASSERT_EQ(calibrate({"--discrepancy", "0.4"}).exit_code, 0);
-  for (const char* file : {"hazard.nc", "report.html", "hazard/index.csv",
-                           "hazard/probability_of_reach.tif", "hazard/probability_of_reach.qml"})
+  for (const char* file : {"hazard.nc", "report.html", "hazard/index.csv", "hazard/P_reached.tif",
+                           "hazard/P_reached.qml"})
     EXPECT_FALSE(exists(std::string("out/weighted/") + file)) << file;
 }
 

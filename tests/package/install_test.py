@@ -14,7 +14,8 @@ CMAKE, BUILD, SOURCE = sys.argv[1:4]
 del sys.argv[1:]
 
 LAYOUT = ("bin/sturz", "share/sturz/cases/zhangjiawan/scenario.yaml", "share/sturz/cases/zhangjiawan/README.md",
-          "share/sturz/cases/template/scenario.yaml", "share/man/man1/sturz.1.gz",
+          "share/sturz/cases/template/scenario.yaml", "share/sturz/qgis/sturz_provider/__init__.py",
+          "share/sturz/qgis/sturz_provider/algorithms/ensemble.py", "share/man/man1/sturz.1.gz",
           "share/bash-completion/completions/sturz", "share/doc/sturz/README.md",
           "share/doc/sturz/LICENSE", "share/doc/sturz/copyright", "share/doc/sturz/CITATION.cff",
           "share/doc/sturz/docs/user_guide.md", "share/doc/sturz/examples/slopes.yaml",
@@ -52,6 +53,11 @@ class Install(unittest.TestCase):
     def test_the_version_is_the_projects(self):
         lists = (pathlib.Path(SOURCE) / "CMakeLists.txt").read_text()
         version = re.search(r"project\(sturz VERSION ([\d.]+)", lists).group(1)
+        self.assertTrue(self.sturz("--version").stdout.startswith(f"sturz {version} ("))
+
+    def test_the_plugin_has_the_version_of_the_project(self):
+        metadata = (self.prefix / "share/sturz/qgis/sturz_provider/metadata.txt").read_text()
+        version = re.search(r"^version=(.*)$", metadata, re.M).group(1)
         self.assertTrue(self.sturz("--version").stdout.startswith(f"sturz {version} ("))
 
     def test_a_shipped_case_is_listed_copied_and_computed(self):

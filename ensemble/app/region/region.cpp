@@ -75,6 +75,7 @@ int verdict(const RegionMade& made, Console& console) {
                           made.planned, folder));
   console.say("  report.html   look here first: click a cell to see which sources reach it");
   console.say("  hazard.nc     maps of all sources with their CRS; hazard/*.tif the same for GIS");
+  console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
   console.say("  sources.csv   one row per source");
   console.say(
       fmt::format("  features/     an ensemble folder for each source; sturz merge {}/features/"

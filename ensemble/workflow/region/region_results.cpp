@@ -9,6 +9,8 @@
 #include "ensemble/workflow/region/region_page.hpp"
 #include "ensemble/workflow/region/region_record.hpp"
 #include "ensemble/workflow/region/source_table.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/ground_source.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -154,6 +156,22 @@ void require_complete(const RegionJob& job, const StoredMembers& members, Missin
   observer.warning(what + "; the maps are made from the others.");
 }
 
+void write_gis(const RegionJob& job, const LayerSource& maps, const LayerStack& coarse,
+               const RegionMade& made, CancelFlag cancel) {
+  GisContent content;
+  content.title = job.scenario.title.empty() ? "Landslide hazard of a region" : job.scenario.title;
+  content.maps = &maps;
+  content.coarse = &coarse;
+  content.elevation = ground_source(maps.about().grid, [&scene = job.typical](const Grid& cells) {
+    return ground_of_map(scene.scenario, scene.inputs, cells);
+  });
+  content.n_members = static_cast<std::size_t>(made.valid);
+  content.started = job.manifest.started;
+  content.hazard_hash = made.hazard_hash;
+  content.cancel = cancel;
+  write_gis_files(job.folder, content);
+}
+
 RegionMade make_results(RegionJob& job, Missing rule, Observer& observer, CancelFlag cancel) {
   const auto begin = Clock::now();
   observer.maps_begin();
@@ -185,6 +203,7 @@ RegionMade make_results(RegionJob& job, Missing rule, Observer& observer, Cancel
     made.most_sources = std::max(made.most_sources, lists.begin[i + 1] - lists.begin[i]);
   manifest.hazard_hash = made.hazard_hash = hash;
   manifest.maps_of = members.hash();
+  write_gis(job, maps, coarse, made, cancel);
   write_region_page(job, members, std::move(lists), std::move(coarse), extent_of(members), cancel);
   manifest.write(job.folder.manifest());
   made.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

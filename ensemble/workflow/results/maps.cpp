@@ -9,6 +9,7 @@
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -149,6 +150,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   manifest.maps_of = members_hash(store, design.n_members());
   const auto posterior = shown_posterior(folder, manifest, scenario, observer);
   if (posterior) page.posterior = &*posterior;
+  write_gis_files(folder, gis_content(maps, page, manifest, scenario, inputs));
   write_page(folder, manifest, scenario, page);
   manifest.write(folder.manifest());
   made.hazard_hash = hash;

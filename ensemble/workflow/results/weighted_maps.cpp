@@ -8,6 +8,7 @@
 #include "ensemble/workflow/calibration/posterior_weights.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -85,7 +86,9 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   const Raster<std::uint8_t> release = release_footprint(of.store);
   page.release = &release;
   page.observed = inputs.observed;
-  write_page(made.folder, page_manifest(of, made), scenario, page);
+  const Manifest manifest = page_manifest(of, made);
+  write_gis_files(made.folder, gis_content(maps, page, manifest, scenario, inputs));
+  write_page(made.folder, manifest, scenario, page);
   return made;
 }
 
