@@ -12,8 +12,10 @@
 #include "ensemble/scores/score_table.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 #include "scenarios/layers/source_lists.hpp"
+#include "scenarios/overlays/overlay.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -81,6 +83,7 @@ struct RegionShown {
 };
 
 struct ReportInput {
+  std::string language = "en";  ///< one of page_languages()
   std::string title;
   std::string scenario_yaml;
   /// Version, git hash, compiler, seed, design, checksums of inputs, command, date ... in order.
@@ -110,6 +113,9 @@ struct ReportInput {
   const ScoreTable* scores = nullptr;  ///< one row per entry of `members`; null: none is scored
   const Raster<std::uint8_t>* nearest = nullptr;  ///< covered by the best member; may be null
   std::int64_t nearest_member = 0;                ///< its number
+  std::span<const Overlay> overlays;                ///< drawn over the maps
+  /// Of the window of a grid as a JPEG file; null or empty bytes: there is no orthophoto.
+  std::function<std::vector<std::uint8_t>(const Grid&)> orthophoto;
   const Assets* assets = nullptr;             ///< what may be hit; null: the scene names nothing
   const RiskTable* risk = nullptr;            ///< of these assets
   const RegionShown* region = nullptr;        ///< null: one ensemble; else `members` is empty
