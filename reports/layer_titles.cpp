@@ -32,7 +32,8 @@ std::string short_title(Quantity q) {
 
 std::string plane_label(const Layer& layer, std::size_t plane) {
   const LayerMeaning& meaning = layer.meaning;
-  if (meaning.intensity != IntensityClass::none) return tr(fmt::format("intensity.{}", to_string(meaning.intensity)));
+  if (meaning.intensity != IntensityClass::none)
+    return tr(fmt::format("intensity.{}", to_string(meaning.intensity)));
   if (layer.axis.values.empty()) {
     if (is_whether_reached(meaning.quantity)) return tr("plane.reached");
     if (meaning.quantity == Quantity::sources) return words(layer.name);
@@ -59,13 +60,10 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
   switch (meaning.statistic) {
     case Statistic::probability:
       if (meaning.quantity == Quantity::reached)
-        return layer.name == likeliest_source_layer
-                   ? tr("title.likeliest")
-                   : tr("title.flow");
+        return layer.name == likeliest_source_layer ? tr("title.likeliest") : tr("title.flow");
       if (meaning.quantity == Quantity::solid_reached) return tr("title.grains");
       if (meaning.quantity == Quantity::liquid_reached) return tr("title.liquid");
-      if (meaning.quantity == Quantity::left)
-        return tr("title.left");
+      if (meaning.quantity == Quantity::left) return tr("title.left");
       if (meaning.quantity == Quantity::intensity)
         return tr("title.intensity", plane_label(layer, plane));
       if (layer.axis.values.empty()) return tr("title.probability_of", lower);

@@ -236,7 +236,8 @@ std::string marks_legend_html(const MapMarks& marks) {
       marks.fronts.empty())
     return {};
   std::string html = "<ul class=\"legend marks\">";
-  if (!marks.release.empty()) html += "<li><span class=\"swatch release\"></span>" + html_escape(tr("js.release")) + "</li>";
+  if (!marks.release.empty())
+    html += "<li><span class=\"swatch release\"></span>" + html_escape(tr("js.release")) + "</li>";
   if (!marks.observed.empty())
     html += "<li><span class=\"swatch observed\"></span>" +
             html_escape(observed_label(marks.observed_note)) + "</li>";
@@ -246,7 +247,8 @@ std::string marks_legend_html(const MapMarks& marks) {
   for (const FrontMark& front : marks.fronts)
     html += fmt::format("<li><span class=\"swatch front-{}\"></span>{}</li>",
                         style_word(front.phase), html_escape(front.label));
-  if (left) html += "<li><span class=\"swatch left\"></span>" + html_escape(tr("js.mass_left")) + "</li>";
+  if (left)
+    html += "<li><span class=\"swatch left\"></span>" + html_escape(tr("js.mass_left")) + "</li>";
   return html + "</ul>";
 }
 

@@ -131,13 +131,10 @@ void dress_difference(Legend& legend) {
 }
 
 std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
-  if (layer.meaning.statistic == Statistic::difference)
-    return tr("legend.difference");
+  if (layer.meaning.statistic == Statistic::difference) return tr("legend.difference");
   if (layer.meaning.statistic == Statistic::probability) {
     if (layer.meaning.quantity == Quantity::sources) return tr("legend.every_source");
-    return layer.name == likeliest_source_layer
-               ? tr("legend.likeliest")
-               : tr("legend.share");
+    return layer.name == likeliest_source_layer ? tr("legend.likeliest") : tr("legend.share");
   }
   const bool named =
       layer.meaning.quantity != Quantity::other && layer.meaning.quantity != Quantity::sources;

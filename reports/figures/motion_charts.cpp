@@ -40,23 +40,20 @@ double round_up(double value, std::span<const double> steps) {
 double round_step(double least) { return round_up(least, std::array{1.0, 2.0, 2.5, 5.0}); }
 
 MotionChart travel(const MemberHistory& h) {
-  MotionChart chart{
-      .name = "travel", .title = tr("chart.travel"), .unit = "m", .lines = {}};
-  chart.lines = {
-      {tr("chart.travel.front"), "front", column(h, &HistoryRow::front_travel_m)},
-      {tr("chart.travel.centre"), "centre", column(h, &HistoryRow::com_travel_m)},
-      {tr("chart.travel.rear"), "rear", column(h, &HistoryRow::tail_travel_m)}};
+  MotionChart chart{.name = "travel", .title = tr("chart.travel"), .unit = "m", .lines = {}};
+  chart.lines = {{tr("chart.travel.front"), "front", column(h, &HistoryRow::front_travel_m)},
+                 {tr("chart.travel.centre"), "centre", column(h, &HistoryRow::com_travel_m)},
+                 {tr("chart.travel.rear"), "rear", column(h, &HistoryRow::tail_travel_m)}};
   chart.top = round_top(largest(chart));
   return chart;
 }
 
 MotionChart speed(const MemberHistory& h) {
   MotionChart chart{.name = "speed", .title = tr("chart.speed"), .unit = "m/s", .lines = {}};
-  chart.lines = {
-      {tr("chart.speed.fastest"), "fastest", column(h, &HistoryRow::max_speed_m_s)},
-      {tr("chart.speed.front"), "front", column(h, &HistoryRow::front_speed_m_s)},
-      {tr("chart.speed.mean"), "centre", column(h, &HistoryRow::mean_speed_m_s)},
-      {tr("chart.speed.rear"), "rear", column(h, &HistoryRow::tail_speed_m_s)}};
+  chart.lines = {{tr("chart.speed.fastest"), "fastest", column(h, &HistoryRow::max_speed_m_s)},
+                 {tr("chart.speed.front"), "front", column(h, &HistoryRow::front_speed_m_s)},
+                 {tr("chart.speed.mean"), "centre", column(h, &HistoryRow::mean_speed_m_s)},
+                 {tr("chart.speed.rear"), "rear", column(h, &HistoryRow::tail_speed_m_s)}};
   chart.top = round_top(largest(chart));
   return chart;
 }
@@ -65,11 +62,8 @@ std::string fraction_text(double value) { return fmt::format("{:.2f}", value); }
 
 /// Loosest at the bottom; where little is loose the axis ends above it, and dense is the rest.
 MotionChart states(const MemberHistory& h) {
-  MotionChart chart{.name = "states",
-                    .title = tr("chart.states"),
-                    .unit = "%",
-                    .stacked = true,
-                    .lines = {}};
+  MotionChart chart{
+      .name = "states", .title = tr("chart.states"), .unit = "%", .stacked = true, .lines = {}};
   const std::string d = fraction_text(dense_fraction), t = fraction_text(transition_fraction),
                     u = fraction_text(ultradilute_fraction);
   chart.lines = {{tr("chart.states.ultradilute", u), "ultradilute", {}},

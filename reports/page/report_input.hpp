@@ -113,7 +113,7 @@ struct ReportInput {
   const ScoreTable* scores = nullptr;  ///< one row per entry of `members`; null: none is scored
   const Raster<std::uint8_t>* nearest = nullptr;  ///< covered by the best member; may be null
   std::int64_t nearest_member = 0;                ///< its number
-  std::span<const Overlay> overlays;                ///< drawn over the maps
+  std::span<const Overlay> overlays;              ///< drawn over the maps
   /// Of the window of a grid as a JPEG file; null or empty bytes: there is no orthophoto.
   std::function<std::vector<std::uint8_t>(const Grid&)> orthophoto;
   const Assets* assets = nullptr;             ///< what may be hit; null: the scene names nothing

@@ -88,7 +88,8 @@ std::string shown_number(double value, int digits) {
   if (text.find_first_not_of("0123456789.") == std::string::npos) {
     const std::size_t dot = std::min(text.find('.'), text.size());
     const std::string decimals = text.substr(std::min(dot + 1, text.size()));
-    text = grouped(text.substr(0, dot)) + (dot < text.size() ? tr("number.decimal") : "") + decimals;
+    text =
+        grouped(text.substr(0, dot)) + (dot < text.size() ? tr("number.decimal") : "") + decimals;
   }
   return negative ? minus_sign + text : text;
 }

@@ -35,9 +35,7 @@ const std::string& page_language();
 const std::string& tr(std::string_view key);
 /// The same with its places "{}" filled.
 template <class... Args>
-std::string tr(std::string_view key, const Args&... args)
-  requires(sizeof...(Args) > 0)
-{
+std::string tr(std::string_view key, const Args&... args) requires(sizeof...(Args) > 0) {
   return fmt::vformat(tr(key), fmt::make_format_args(args...));
 }
 /// The text of `key` followed by ".one" or ".many", by which of the two `n` asks for, its places

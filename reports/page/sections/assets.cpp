@@ -73,8 +73,7 @@ std::string row_of(const Assets& assets, const Asset& asset, const AssetRisk& r)
     const int rest =
         5 + (assets.has_classes ? 1 : 0) + (assets.has_classes && assets.has_values ? 1 : 0);
     return row +
-           fmt::format("<td colspan=\"{}\">{}</td></tr>", rest,
-                       html_escape(tr("assets.beyond")));
+           fmt::format("<td colspan=\"{}\">{}</td></tr>", rest, html_escape(tr("assets.beyond")));
   }
   const std::string share =
       std::isnan(r.probability)
@@ -98,9 +97,7 @@ std::string total_text(const Assets& assets, const RiskTable& risk) {
   });
   const double error = risk.total_loss.standard_error;
   const std::string out =
-      risk.n_without_loss == 0
-          ? ""
-          : tr("assets.without", risk.n_without_loss, risk.rows.size());
+      risk.n_without_loss == 0 ? "" : tr("assets.without", risk.n_without_loss, risk.rows.size());
   return "<p>" +
          html_escape(tr("assets.total", at_least(more, shown_number(risk.total_loss.mean)),
                         std::isnan(error) ? "" : " \u00B1 " + shown_number(error, 2),
@@ -114,7 +111,8 @@ std::string assets_html(const ReportInput& input) {
   if (input.assets == nullptr || input.risk == nullptr || input.assets->list.empty()) return {};
   const Assets& assets = *input.assets;
   std::string html =
-      "<section id=\"assets\"><h2>" + html_escape(tr("assets.title")) + "</h2>" + total_text(assets, *input.risk) +
+      "<section id=\"assets\"><h2>" + html_escape(tr("assets.title")) + "</h2>" +
+      total_text(assets, *input.risk) +
       "<div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr>" +
       head_of(assets) + "</tr></thead><tbody>";
   const std::vector<std::size_t> order = order_of(*input.risk);

@@ -21,9 +21,10 @@ std::string head_of(const GaugeFindings& f) {
   for (const char* key : {"gauge", "quantity", "unit", "reached"})
     head += "<th scope=\"col\">" + html_escape(tr(fmt::format("gauges.col.{}", key))) + "</th>";
   for (std::size_t k = 0; k < f.quantiles.size(); ++k)
-    head += fmt::format(
-        "<th scope=\"col\">{}</th>",
-        f.one_member ? html_escape(tr("gauges.col.value")) : fmt::format("{}\u00A0%", shown_number(100 * f.quantiles[k])));
+    head +=
+        fmt::format("<th scope=\"col\">{}</th>",
+                    f.one_member ? html_escape(tr("gauges.col.value"))
+                                 : fmt::format("{}\u00A0%", shown_number(100 * f.quantiles[k])));
   return head;
 }
 
@@ -58,7 +59,8 @@ std::string chart_of(const GaugeFindings& f, const GaugeBand& band) {
   double most = 0;
   for (std::size_t q = 0; q < band.values.size() && q < paints.size(); ++q) {
     MotionLine line;
-    line.label = f.one_member ? tr("gauges.discharge") : fmt::format("{:g} %", 100 * f.quantiles[q]);
+    line.label =
+        f.one_member ? tr("gauges.discharge") : fmt::format("{:g} %", 100 * f.quantiles[q]);
     line.paint = paints[q];
     for (const double v : band.values[q]) {
       line.values.push_back(std::isnan(v) ? 0 : v);
@@ -83,17 +85,16 @@ std::string chart_of(const GaugeFindings& f, const GaugeBand& band) {
 std::string gauges_html(const ReportInput& input) {
   if (input.gauges == nullptr || input.gauges->empty()) return {};
   const GaugeFindings& f = *input.gauges;
-  std::string html =
-      "<section id=\"gauges\"><h2>" + html_escape(tr("gauges.title")) + "</h2><div class=\"table-box short\" tabindex=\"0\">"
-      "<table class=\"spaced\"><thead><tr>" +
-      head_of(f) + "</tr></thead><tbody>";
+  std::string html = "<section id=\"gauges\"><h2>" + html_escape(tr("gauges.title")) +
+                     "</h2><div class=\"table-box short\" tabindex=\"0\">"
+                     "<table class=\"spaced\"><thead><tr>" +
+                     head_of(f) + "</tr></thead><tbody>";
   for (std::size_t k = 0; k < std::min(most_rows, f.rows.size()); ++k) html += row_of(f.rows[k]);
   html += "</tbody></table></div><div class=\"charts motion\">";
   std::size_t charts = 0;
   for (const GaugeBand& band : f.bands)
     if (band.quantity == "discharge" && charts++ < most_charts) html += chart_of(f, band);
-  return html +
-         "</div><p class=\"note\">" + html_escape(tr("gauges.note")) + "</p></section>";
+  return html + "</div><p class=\"note\">" + html_escape(tr("gauges.note")) + "</p></section>";
 }
 
 }  // namespace sturz

@@ -67,10 +67,9 @@ std::string number_cell(double value) {
 std::string scalar_cell(double value, Known known) {
   if (known == Known::exactly || std::isnan(value)) return number_cell(value);
   const bool least = known == Known::at_least;
-  return fmt::format(
-      "<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value,
-      html_escape(tr(least ? "members.at_least" : "members.of_seen")),
-      least ? "\u2265\u00A0" : "(", shown_number(value), least ? "" : ")");
+  return fmt::format("<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value,
+                     html_escape(tr(least ? "members.at_least" : "members.of_seen")),
+                     least ? "\u2265\u00A0" : "(", shown_number(value), least ? "" : ")");
 }
 
 std::string unit_of(const ReportTable& table, std::size_t k) {
@@ -180,9 +179,9 @@ std::string lost_members(const std::vector<MemberSummary>& members) {
   std::string items;
   for (const auto& m : members)
     if (!is_valid(m.outcome))
-      items += fmt::format("<li><b>{}</b> {}: {}</li>", m.member,
-                           html_escape(outcome_text(m.outcome)),
-                           html_escape(m.reason.empty() ? tr("members.no_reason") : m.reason));
+      items +=
+          fmt::format("<li><b>{}</b> {}: {}</li>", m.member, html_escape(outcome_text(m.outcome)),
+                      html_escape(m.reason.empty() ? tr("members.no_reason") : m.reason));
   if (items.empty()) return {};
   return "<h3>" + html_escape(tr("members.left_out")) + "</h3><ul class=\"lost-list\">" + items +
          "</ul>";
@@ -228,10 +227,10 @@ std::string members_html(const ReportInput& input, const Headline& h) {
   const std::vector<ScalarColumn> columns = shown_columns(input.members);
   std::string rows;
   for (const std::size_t i : order) rows += table_row(input, i, columns);
-  std::string html = fmt::format(
-      "<section id=\"members\"><h2>{}</h2>{}",
-      html_escape(tr(h.n_members == 1 ? "members.title_single" : "members.title")),
-      lost_members(input.members));
+  std::string html =
+      fmt::format("<section id=\"members\"><h2>{}</h2>{}",
+                  html_escape(tr(h.n_members == 1 ? "members.title_single" : "members.title")),
+                  lost_members(input.members));
   if (n > max_rows)
     html += "<p class=\"note\">" + html_escape(tr("members.cut_table", max_rows, n)) + "</p>";
   if (h.n_members > h.n_valid || h.censoring.censored() > 0)

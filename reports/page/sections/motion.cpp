@@ -45,9 +45,7 @@ std::string figure_html(const MotionChart& chart, const std::vector<double>& tim
       html_escape(chart.title), chart.name, motion_chart_svg(chart, times), legend_of(chart));
 }
 
-std::string looser_text() {
-  return tr("motion.looser", 1 + dilated_density_change);
-}
+std::string looser_text() { return tr("motion.looser", 1 + dilated_density_change); }
 
 bool has_states(const MemberScalars& m) {
   return m.transition_fraction + m.dilute_fraction + m.ultradilute_fraction > 0;
@@ -56,14 +54,13 @@ bool has_states(const MemberScalars& m) {
 /// One sentence on what the states were, or what a scene without them left out.
 std::string states_text(const MemberScalars& m, const MemberHistory& history) {
   if (!history.has_states) {
-    if (std::isnan(m.parted_fraction))
-      return tr("motion.no_states");
+    if (std::isnan(m.parted_fraction)) return tr("motion.no_states");
     return tr("motion.left_out", share_text(m.parted_fraction), looser_text());
   }
   const double loose = m.transition_fraction + m.dilute_fraction + m.ultradilute_fraction;
-  std::string text = tr(
-      "motion.states", share_text(1 - loose), share_text(m.transition_fraction), share_text(m.dilute_fraction),
-      share_text(m.ultradilute_fraction), leave_dense_fraction);
+  std::string text =
+      tr("motion.states", share_text(1 - loose), share_text(m.transition_fraction),
+         share_text(m.dilute_fraction), share_text(m.ultradilute_fraction), leave_dense_fraction);
   if (history.has_temperature)
     return text + tr("motion.temperature", shown_number(m.max_granular_temperature_m2_s2),
                      share_text(m.granular_ratio));
@@ -77,11 +74,10 @@ std::string motion_html(const ReportInput& input) {
   const std::vector<MotionChart> charts = motion_charts(*input.history);
   if (charts.empty()) return {};
   const std::vector<double> times = motion_times(*input.history);
-  std::string html =
-      "<section id=\"motion\"><h2>" + html_escape(tr("motion.title")) + "</h2><div class=\"charts motion\">";
+  std::string html = "<section id=\"motion\"><h2>" + html_escape(tr("motion.title")) +
+                     "</h2><div class=\"charts motion\">";
   for (const MotionChart& chart : charts) html += figure_html(chart, times);
-  return html +
-         "</div><p class=\"note\">" + html_escape(tr("motion.note")) +
+  return html + "</div><p class=\"note\">" + html_escape(tr("motion.note")) +
          html_escape(states_text(input.members.front().scalars, *input.history)) + "</p></section>";
 }
 

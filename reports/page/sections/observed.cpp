@@ -23,10 +23,9 @@ std::string known_cell(const Observation& value) {
     return fmt::format("<td class=\"n\" data-v=\"{:.9g}\">{}</td>", value.value,
                        shown_number(value.value));
   const bool least = value.known == Known::at_least;
-  return fmt::format(
-      "<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value.value,
-      html_escape(tr(least ? "members.at_least" : "members.of_seen")),
-      least ? "\u2265\u00A0" : "(", shown_number(value.value), least ? "" : ")");
+  return fmt::format("<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value.value,
+                     html_escape(tr(least ? "members.at_least" : "members.of_seen")),
+                     least ? "\u2265\u00A0" : "(", shown_number(value.value), least ? "" : ")");
 }
 
 std::string head_cell(const std::string& label, const std::string& unit, const std::string& title) {
@@ -50,7 +49,8 @@ std::vector<std::size_t> shown_scores(const ScoreTable& scores) {
 
 /// Observed quantities with their standard deviations, as the table's first row.
 std::string observed_row(const ScoreTable& scores, std::size_t n_before, std::size_t n_scores) {
-  std::string row = "<tr class=\"observed\"><th scope=\"row\">" + html_escape(tr("observed.row")) + "</th>";
+  std::string row =
+      "<tr class=\"observed\"><th scope=\"row\">" + html_escape(tr("observed.row")) + "</th>";
   for (std::size_t i = 1; i < n_before; ++i) row += "<td></td>";
   for (std::size_t i = 0; i < n_scores; ++i) row += "<td></td>";
   for (const ObservedQuantity& q : scores.comparison.observed) {
@@ -109,8 +109,7 @@ std::string table_head(const ReportInput& input, const std::vector<std::size_t>&
                       score.long_name + "; " + good_values(score.better));
   }
   for (const ObservedQuantity& q : input.scores->comparison.observed)
-    head +=
-        head_cell(words_without_unit(q.name), q.unit, tr("observed.compared", q.name));
+    head += head_cell(words_without_unit(q.name), q.unit, tr("observed.compared", q.name));
   return head;
 }
 

@@ -38,8 +38,8 @@ std::string heading(const char* key) { return "<div><h3>" + html_escape(tr(key))
 std::string times_html(const ReportInput& input) {
   std::string html = timing_table(input.timings);
   html += "<p class=\"note\">" +
-          html_escape(tr("computation.clock", input.hazard != nullptr ? tr("computation.summed")
-                                                                      : std::string())) +
+          html_escape(tr("computation.clock",
+                         input.hazard != nullptr ? tr("computation.summed") : std::string())) +
           "</p>";
   if (!input.pass_timings.empty())
     html += "<details><summary>" + html_escape(tr("computation.passes")) + "</summary>" +
@@ -51,20 +51,17 @@ std::string times_html(const ReportInput& input) {
 
 std::string computation_html(const ReportInput& input, const Headline&) {
   if (input.description.empty() && input.timings.empty() && input.notes.empty()) return {};
-  std::string html =
-      "<section id=\"computation\"><h2>" + html_escape(tr("computation.title")) +
-      "</h2><details><summary>" + html_escape(tr("computation.fold")) +
-      "</summary><div class=\"columns\">";
+  std::string html = "<section id=\"computation\"><h2>" + html_escape(tr("computation.title")) +
+                     "</h2><details><summary>" + html_escape(tr("computation.fold")) +
+                     "</summary><div class=\"columns\">";
   if (!input.description.empty()) {
     html += heading("computation.scene") + "<pre class=\"lines\">";
     for (const auto& line : input.description) html += html_escape(line) + "\n";
     html += "</pre></div>";
   }
-  if (!input.timings.empty())
-    html += heading("computation.time") + times_html(input) + "</div>";
+  if (!input.timings.empty()) html += heading("computation.time") + times_html(input) + "</div>";
   if (input.hazard != nullptr) html += left_out_html(input.members);
-  if (!input.notes.empty())
-    html += heading("computation.input") + list(input.notes) + "</div>";
+  if (!input.notes.empty()) html += heading("computation.input") + list(input.notes) + "</div>";
   return html + "</div></details></section>";
 }
 
@@ -77,8 +74,8 @@ std::string provenance_html(const ReportInput& input) {
   if (input.manifest.empty() && input.scenario_yaml.empty()) return {};
   std::string html = "<section id=\"origin\"><h2>" + html_escape(tr("origin.title")) + "</h2>";
   if (!input.manifest.empty()) {
-    html += "<details><summary>" + html_escape(tr("origin.fold")) +
-            "</summary><dl class=\"manifest\">";
+    html +=
+        "<details><summary>" + html_escape(tr("origin.fold")) + "</summary><dl class=\"manifest\">";
     for (const auto& [key, value] : input.manifest)
       html += "<div><dt>" + html_escape(is_file(key) ? key : words(key)) + "</dt><dd>" +
               html_escape(value) + "</dd></div>";
@@ -113,7 +110,8 @@ std::string reading_html(const ReportInput& input) {
   if (input.resolved_thickness_m > 0)
     lines.push_back(tr("reading.not_resolved", with_unit(input.resolved_thickness_m, "m")));
   lines.push_back(tr("reading.rounded"));
-  return "<section id=\"reading\"><h2>" + html_escape(tr("reading.title")) + "</h2>" + list(lines) + "</section>";
+  return "<section id=\"reading\"><h2>" + html_escape(tr("reading.title")) + "</h2>" + list(lines) +
+         "</section>";
 }
 
 }  // namespace sturz

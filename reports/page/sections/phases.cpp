@@ -32,14 +32,13 @@ constexpr std::array rows{
              &M::liquid_reached_area_m2},
     PhaseRow{"thickness", "m", &M::max_thickness_m, &M::max_solid_thickness_m,
              &M::max_liquid_thickness_m},
-    PhaseRow{"speed", "m s-1", nullptr, &M::max_solid_speed_m_s,
-             &M::max_liquid_speed_m_s},
+    PhaseRow{"speed", "m s-1", nullptr, &M::max_solid_speed_m_s, &M::max_liquid_speed_m_s},
     PhaseRow{"energy", "J m-2", &M::max_energy_j_m2, &M::max_solid_energy_j_m2,
              &M::max_liquid_energy_j_m2},
     PhaseRow{"pressure", "Pa", &M::max_pressure_pa, &M::max_solid_pressure_pa,
              &M::max_liquid_pressure_pa},
-    PhaseRow{"left", "1", &M::lost_fraction, &M::solid_lost_fraction,
-             &M::liquid_lost_fraction, true},
+    PhaseRow{"left", "1", &M::lost_fraction, &M::solid_lost_fraction, &M::liquid_lost_fraction,
+             true},
 };
 constexpr std::array<double, 3> levels{0.05, 0.5, 0.95};
 
@@ -69,10 +68,11 @@ std::string rows_of(const ReportInput& input, const PhaseRow& row, bool single) 
   std::string html;
   for (const auto& [name, field] : of)
     if (field != nullptr)
-      html += fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td>{}</tr>",
-                          html.empty() ? " class=\"first\"" : "",
-                          html.empty() ? html_escape(tr(fmt::format("phases.row.{}", row.key))) : "",
-                          html_escape(tr(name)), cells_of(input, row, field, single));
+      html +=
+          fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td>{}</tr>",
+                      html.empty() ? " class=\"first\"" : "",
+                      html.empty() ? html_escape(tr(fmt::format("phases.row.{}", row.key))) : "",
+                      html_escape(tr(name)), cells_of(input, row, field, single));
   return html;
 }
 
@@ -94,15 +94,14 @@ std::string phases_html(const ReportInput& input) {
     html += "<th scope=\"col\" class=\"n\">" + html_escape(tr("phases.value")) + "</th>";
   } else {
     for (const double level : levels)
-      html += fmt::format(
-          "<th scope=\"col\" class=\"n\">{}</th>",
-          level == 0.5 ? html_escape(tr("phases.median")) : fmt::format("{:g}\u00A0%", 100 * level));
+      html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>",
+                          level == 0.5 ? html_escape(tr("phases.median"))
+                                       : fmt::format("{:g}\u00A0%", 100 * level));
     html += "<th scope=\"col\">" + html_escape(tr("phases.cut")) + "</th>";
   }
   html += "</tr></thead><tbody>";
   for (const PhaseRow& row : rows) html += rows_of(input, row, single);
-  return html +
-         "</tbody></table></div><p class=\"note\">" + html_escape(tr("phases.note")) +
+  return html + "</tbody></table></div><p class=\"note\">" + html_escape(tr("phases.note")) +
          "</p></section>";
 }
 

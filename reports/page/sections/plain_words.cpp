@@ -35,7 +35,8 @@ double last_arrival(const LayerStack& hazard) {
   const auto median = std::find(levels.begin(), levels.end(), 0.5);
   if (median == levels.end()) return nan_d;
   const std::size_t n = hazard.grid.n_cells();
-  const float* times = arrival->values.data() + static_cast<std::size_t>(median - levels.begin()) * n;
+  const float* times =
+      arrival->values.data() + static_cast<std::size_t>(median - levels.begin()) * n;
   double last = nan_d;
   for (std::size_t i = 0; i < n; ++i)
     if (reached->values[i] >= 0.5F && !std::isnan(times[i]) && !(last >= times[i])) last = times[i];
@@ -83,17 +84,16 @@ std::string conditions_text(const ReportInput& input) {
 std::string assets_text(const ReportInput& input) {
   if (input.assets == nullptr || input.risk == nullptr || input.risk->rows.empty()) return {};
   const auto& rows = input.risk->rows;
-  const auto hit = std::count_if(rows.begin(), rows.end(),
-                                 [](const AssetRisk& r) { return r.probability > 0; });
+  const auto hit =
+      std::count_if(rows.begin(), rows.end(), [](const AssetRisk& r) { return r.probability > 0; });
   const std::size_t all = rows.size();
   if (hit == 0) return tr("plain.no_asset", all);
   const auto worst = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return (a.probability >= 0 ? a.probability : -1) < (b.probability >= 0 ? b.probability : -1);
   });
   const Asset& asset = input.assets->list[static_cast<std::size_t>(worst - rows.begin())];
-  std::string text =
-      tr("plain.assets", hit, all, asset.name, percent_text(worst->probability),
-         percent_text(worst->bounds_95.lower), percent_text(worst->bounds_95.upper));
+  std::string text = tr("plain.assets", hit, all, asset.name, percent_text(worst->probability),
+                        percent_text(worst->bounds_95.lower), percent_text(worst->bounds_95.upper));
   if (!std::isnan(worst->arrival_s[0]))
     text += tr("plain.asset_soon", duration_text(worst->arrival_s[0]));
   return text + ".";
@@ -153,8 +153,7 @@ PlainWords plain_words(const ReportInput& input, const Headline& h) {
     return {single_sentence(h, input.members.front()), tr("plain.single_holds")};
   PlainWords words;
   words.finding = ensemble_sentence(input, h);
-  if (const std::string assets = assets_text(input); !assets.empty())
-    words.finding += " " + assets;
+  if (const std::string assets = assets_text(input); !assets.empty()) words.finding += " " + assets;
   const std::string conditions = conditions_text(input);
   words.holds = (conditions.empty() ? tr("plain.no_ranges") : tr("plain.ranges", conditions)) +
                 " " + sureness_text(h) + " " + tr("plain.not_how_often");

@@ -116,10 +116,9 @@ std::string discrepancy_html(const PosteriorShown& p) {
     return "<p>" + html_escape(tr("posterior.no_discrepancy")) + "</p>";
   std::string pieces;
   for (const PosteriorShown::Discrepancy& d : p.discrepancies)
-    pieces +=
-        fmt::format("{}{} {} ({} \u2013 {})", pieces.empty() ? "" : ", ",
-                    words_without_unit(d.kind), percent_text(d.mean), percent_text(d.lower),
-                    percent_text(d.upper));
+    pieces += fmt::format("{}{} {} ({} \u2013 {})", pieces.empty() ? "" : ", ",
+                          words_without_unit(d.kind), percent_text(d.mean), percent_text(d.lower),
+                          percent_text(d.upper));
   return "<p>" +
          html_escape(tr("posterior.discrepancy", percent_text(p.discrepancy_scale), pieces)) +
          "</p>";
@@ -151,10 +150,8 @@ std::string check_table(const PosteriorShown& p) {
     has_step = has_step || q.has_step;
   }
   html += "</tbody></table></div>";
-  if (ends_at_zero)
-    html += "<p class=\"note\">" + html_escape(tr("posterior.zero")) + "</p>";
-  if (has_step)
-    html += "<p class=\"note\">" + html_escape(tr("posterior.sides")) + "</p>";
+  if (ends_at_zero) html += "<p class=\"note\">" + html_escape(tr("posterior.zero")) + "</p>";
+  if (has_step) html += "<p class=\"note\">" + html_escape(tr("posterior.sides")) + "</p>";
   html += discrepancy_html(p);
   if (p.reliability.empty()) return html;
   std::string pieces;
@@ -169,8 +166,8 @@ std::string check_table(const PosteriorShown& p) {
 std::string posterior_html(const ReportInput& input) {
   if (input.posterior == nullptr) return {};
   const PosteriorShown& p = *input.posterior;
-  std::string html = "<section id=\"posterior\"><h2>" + html_escape(tr("posterior.title")) + "</h2><p>" +
-                     html_escape(p.origin) + "</p>";
+  std::string html = "<section id=\"posterior\"><h2>" + html_escape(tr("posterior.title")) +
+                     "</h2><p>" + html_escape(p.origin) + "</p>";
   if (!p.warnings.empty()) {
     html += "<div class=\"warnings\"><ul>";
     for (const std::string& warning : p.warnings) html += "<li>" + html_escape(warning) + "</li>";
@@ -179,9 +176,8 @@ std::string posterior_html(const ReportInput& input) {
   html += keys_table(p);
   for (const std::string& ridge : p.ridges) html += "<p>" + html_escape(ridge) + "</p>";
   const bool same = input.samples.columns == p.rows.columns;
-  html += figures(same ? input.samples : ReportTable{}, p.rows) +
-          "<p class=\"note\">" + html_escape(tr("posterior.note")) + "</p>" +
-          check_table(p);
+  html += figures(same ? input.samples : ReportTable{}, p.rows) + "<p class=\"note\">" +
+          html_escape(tr("posterior.note")) + "</p>" + check_table(p);
   return html + "</section>";
 }
 

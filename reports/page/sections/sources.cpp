@@ -21,8 +21,10 @@ std::string row_of(const RegionShown::Source& s, std::size_t number) {
       fmt::format("<tr{}><th scope=\"row\">{}</th>{}", s.cut_off > 0 ? " class=\"cut\"" : "",
                   html_escape(s.name), cell(std::to_string(number)));
   if (!s.failure.empty())
-    return row + "<td colspan=\"5\">" + html_escape(tr("sources.not_computed", s.failure)) + "</td></tr>";
-  if (s.valid == 0) return row + "<td colspan=\"5\">" + html_escape(tr("sources.no_valid")) + "</td></tr>";
+    return row + "<td colspan=\"5\">" + html_escape(tr("sources.not_computed", s.failure)) +
+           "</td></tr>";
+  if (s.valid == 0)
+    return row + "<td colspan=\"5\">" + html_escape(tr("sources.no_valid")) + "</td></tr>";
   const char* least = s.cut_off > 0 ? "\u2265\u00A0" : "";
   return row +
          cell(tr("sources.of", s.valid, s.planned) +
@@ -37,8 +39,9 @@ std::string row_of(const RegionShown::Source& s, std::size_t number) {
 std::string sources_html(const ReportInput& input) {
   if (input.region == nullptr) return {};
   const RegionShown& region = *input.region;
-  std::string html = "<section id=\"sources\"><h2>" + html_escape(tr("sources.title")) +
-                     "</h2><div class=\"table-box\" tabindex=\"0\"><table class=\"spaced\"><thead><tr>";
+  std::string html =
+      "<section id=\"sources\"><h2>" + html_escape(tr("sources.title")) +
+      "</h2><div class=\"table-box\" tabindex=\"0\"><table class=\"spaced\"><thead><tr>";
   for (const std::string_view key :
        {"source", "number", "valid", "release", "any", "half", "likeliest"})
     html += "<th scope=\"col\">" + html_escape(tr(fmt::format("sources.col.{}", key))) +

@@ -106,13 +106,10 @@ std::vector<std::string> warning_lines(const ReportInput& input, const Headline&
   if (h.n_members == 0 && input.region == nullptr)
     lines.push_back(tr("warnings.none_yet"));
   else if (h.n_valid == 0 && h.n_members > 0)
-    lines.push_back(
-h.n_members == 1 ? tr("warnings.run_not_valid")
-                                   : tr("warnings.none_valid", h.n_members));
-  if (missing(input) > 0)
-    lines.push_back(tr("warnings.missing", missing(input), input.n_planned));
-  if (h.n_valid > 0 && lost > 0)
-    lines.push_back(tr_count("warnings.left_out", lost, h.n_members));
+    lines.push_back(h.n_members == 1 ? tr("warnings.run_not_valid")
+                                     : tr("warnings.none_valid", h.n_members));
+  if (missing(input) > 0) lines.push_back(tr("warnings.missing", missing(input), input.n_planned));
+  if (h.n_valid > 0 && lost > 0) lines.push_back(tr_count("warnings.left_out", lost, h.n_members));
   if (h.censoring.censored() > 0 && banner_html(input, h).empty()) {
     const std::vector<std::string> said = cut_off_sentences(h.censoring);
     lines.push_back(said[0] + " " + said[1] + " " + said[said.size() - 2]);
@@ -120,9 +117,8 @@ h.n_members == 1 ? tr("warnings.run_not_valid")
   lines.insert(lines.end(), input.warnings.begin(), input.warnings.end());
   for (const auto& w : member_warnings(input.members)) {
     if (std::find(lines.begin(), lines.end(), w.text) != lines.end()) continue;
-    lines.push_back(h.n_members == 1
-                        ? sentence(w.text)
-                        : tr("warnings.of_members", w.count, h.n_members, w.text));
+    lines.push_back(h.n_members == 1 ? sentence(w.text)
+                                     : tr("warnings.of_members", w.count, h.n_members, w.text));
   }
   return lines;
 }
@@ -193,11 +189,11 @@ std::string area_card(const ReportInput& input, const Headline& h, bool single) 
     return median_card(tr("cards.area_reached"), h.reached_area_m2, area, single,
                        tr("cards.area_touched"));
   const bool cut = h.censoring.censored() > 0;
-  return card(
-      tr("cards.area_likely"), (cut ? "\u2265\u00A0" : "") + area_text(h.likely_area_m2.value),
-      joined({tr("cards.p_half"), area_interval(h.likely_area_m2, cut),
-              cut ? tr("cards.cut_of", h.censoring.censored(), h.censoring.valid) : "",
-              tr("cards.cells_of", metres(input.hazard->grid.cell_m))}));
+  return card(tr("cards.area_likely"),
+              (cut ? "\u2265\u00A0" : "") + area_text(h.likely_area_m2.value),
+              joined({tr("cards.p_half"), area_interval(h.likely_area_m2, cut),
+                      cut ? tr("cards.cut_of", h.censoring.censored(), h.censoring.valid) : "",
+                      tr("cards.cells_of", metres(input.hazard->grid.cell_m))}));
 }
 
 std::string crown_to_toe_card(const Headline& h, bool single) {
@@ -215,8 +211,9 @@ std::string energy_card(const Headline& h, bool single) {
   return card(
       tr("cards.energy"),
       (h.censoring.censored() > 0 ? "\u2265\u00A0" : "") + with_unit(h.max_energy_j_m2, "J m-2"),
-      joined({single ? "" : tr("cards.member", h.max_energy_member),
-              tr("cards.fastest", with_unit(h.max_speed_m_s, "m s-1"), metres(h.max_thickness_m))}));
+      joined(
+          {single ? "" : tr("cards.member", h.max_energy_member),
+           tr("cards.fastest", with_unit(h.max_speed_m_s, "m s-1"), metres(h.max_thickness_m))}));
 }
 
 std::string time_card(const ReportInput& input, const Headline& h, bool single) {
@@ -225,7 +222,8 @@ std::string time_card(const ReportInput& input, const Headline& h, bool single) 
     pace = tr("cards.per_hour", shown_number(h.members_per_hour));
   const bool cpu = h.cpu_seconds > 0;
   return card(
-      tr(cpu ? "cards.cpu_time" : "cards.computing_time"), duration_text(cpu ? h.cpu_seconds : h.member_seconds),
+      tr(cpu ? "cards.cpu_time" : "cards.computing_time"),
+      duration_text(cpu ? h.cpu_seconds : h.member_seconds),
       joined({tr(single ? "cards.of_this_run" : "cards.summed"),
               input.elapsed_s > 0 ? tr("cards.elapsed", duration_text(input.elapsed_s)) : "",
               pace}));
@@ -258,8 +256,9 @@ std::string region_cards(const ReportInput& input) {
   for (std::size_t i = 0; i < region.lists.cells.size(); ++i)
     most = std::max(most, region.lists.begin[i + 1] - region.lists.begin[i]);
   html += card(tr("cards.most_sources"), std::to_string(most), tr("cards.p_above_0"));
-  return html + card(tr("cards.elapsed_title"), duration_text(input.elapsed_s),
-                     tr("cards.all_sources")) + "</dl></section>";
+  return html +
+         card(tr("cards.elapsed_title"), duration_text(input.elapsed_s), tr("cards.all_sources")) +
+         "</dl></section>";
 }
 
 /// "grains 830 m, liquid 1011 m" where they are told apart.
@@ -282,20 +281,19 @@ std::string headline_html(const ReportInput& input, const Headline& h) {
   std::string html = cards_head();
   const bool single = input.hazard == nullptr && h.n_members == 1;
   if (single)
-    html += card(tr("cards.outcome"), sentence(outcome_text(input.members.front().outcome)),
-                 input.members.front().reason.empty()
-                     ? tr("cards.simulated",
-                          duration_text(input.members.front().scalars.end_time_s))
-                     : input.members.front().reason);
+    html +=
+        card(tr("cards.outcome"), sentence(outcome_text(input.members.front().outcome)),
+             input.members.front().reason.empty()
+                 ? tr("cards.simulated", duration_text(input.members.front().scalars.end_time_s))
+                 : input.members.front().reason);
   else
     html += card(tr("cards.valid"), tr("header.of_planned", h.n_valid, h.n_members),
                  outcome_counts(input, h));
   if (h.n_valid > 0) {
     html += area_card(input, h, single);
-    html += median_card(
-        tr("cards.runout"), h.runout_m, metres, single,
-        joined({runouts_of_each(h), single ? tr("cards.runout_from") : "",
-                tr("cards.read_to_cell", metres(cell_of(input)))}));
+    html += median_card(tr("cards.runout"), h.runout_m, metres, single,
+                        joined({runouts_of_each(h), single ? tr("cards.runout_from") : "",
+                                tr("cards.read_to_cell", metres(cell_of(input)))}));
     html += crown_to_toe_card(h, single);
     html += median_card(tr("cards.com_travel"), h.com_travel_m, metres, single, "");
     html += energy_card(h, single);
