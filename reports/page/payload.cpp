@@ -298,6 +298,27 @@ Json motion_json(const MemberHistory& history) {
   return {{"time", numbers(motion_times(history))}, {"charts", charts}};
 }
 
+/// The legend is that of the largest thickness over all times, so that colours can be followed.
+Json frames_json(const ReportInput& input) {
+  const FramesShown& frames = *input.frames;
+  Layer layer;
+  layer.meaning = {Quantity::thickness, Statistic::peak};
+  layer.units = "m";
+  Json times = Json::array(), planes = Json::array();
+  for (std::size_t k = 0; k < frames.times_s.size(); ++k) {
+    input.cancel.check();
+    times.push_back(rounded(frames.times_s[k]));
+    planes.push_back(plane_json(frames.thickness[k], frames.grid.n_cols, 0));
+    layer.values.insert(layer.values.end(), frames.thickness[k].begin(), frames.thickness[k].end());
+  }
+  return {{"label", input.hazard == nullptr ? tr("frames.this_run")
+                                            : tr("frames.member", frames.member)},
+          {"grid", grid_json(frames.grid)},
+          {"legend", legend_json(legend_for(layer))},
+          {"times", std::move(times)},
+          {"planes", std::move(planes)}};
+}
+
 }  // namespace
 
 Quantised quantise(const std::vector<float>& values, int n_members) {
@@ -347,6 +368,7 @@ std::string report_payload(const ReportInput& input, const MapScene* scene,
   page["members"] = members_json(input);
   if (input.region != nullptr && scene != nullptr)
     page["region"] = sources_json(*input.region, *scene);
+  if (input.frames != nullptr && scene != nullptr) page["frames"] = frames_json(input);
   if (input.history != nullptr) page["motion"] = motion_json(*input.history);
   page["convergence"] = convergence_json(input.convergence);
   if (scene != nullptr && maps != nullptr && default_layer(*maps) != nullptr)

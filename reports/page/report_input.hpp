@@ -82,6 +82,14 @@ struct RegionShown {
   double touched_area_m2 = 0;        ///< that some source reaches
 };
 
+/// One member's thickness over time, for the page to play.
+struct FramesShown {
+  std::int64_t member = 0;
+  Grid grid;
+  std::vector<double> times_s;                ///< rising; the last is the end
+  std::vector<std::vector<float>> thickness;  ///< [times][grid.n_cells()] vertical [m]
+};
+
 struct ReportInput {
   std::string language = "en";  ///< one of page_languages()
   std::string title;
@@ -92,6 +100,7 @@ struct ReportInput {
   const LayerStack* hazard = nullptr;         ///< maps of the ensemble; null for a single run
   const LayerStack* peaks = nullptr;          ///< maps of one member, used when `hazard` is null
   const MemberHistory* history = nullptr;     ///< of a single run; may be null or empty
+  const FramesShown* frames = nullptr;        ///< may be null: nothing is played
   const GaugeFindings* gauges = nullptr;      ///< may be null or empty
   std::vector<MemberSummary> members;
   ReportTable samples;  ///< sampled keys; one row per entry of `members`, or no rows

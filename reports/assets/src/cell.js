@@ -144,7 +144,7 @@ function regionPanel(box, list, planes, at) {
                quantileTable(worst, at));
 }
 
-export function createCellPanel(box, page, planes, sources = null) {
+export function createCellPanel(box, page, planes, sources, closed) {
   const of = (statistic, quantity) => planes.filter(
       (p) => p.layer.statistic === statistic && (!quantity || p.layer.quantity === quantity));
   const curves = [...new Set(planes.filter((p) => p.layer.statistic === 'probability' &&
@@ -164,7 +164,15 @@ export function createCellPanel(box, page, planes, sources = null) {
     const {at, coordinate, height} = shown;
     const place = `x ${Math.round(coordinate[0])}, y ${Math.round(coordinate[1])}` +
         (Number.isFinite(height) ? `, ${Math.round(height)} m` : '');
-    box.replaceChildren(named('h4', '', `${t('cell.here')} `, named('small', '', place)));
+    const close = named('button', 'tool close', '×');
+    close.type = 'button';
+    close.title = t('close');
+    close.addEventListener('click', () => {
+      shown = null;
+      draw();
+      closed();
+    });
+    box.replaceChildren(close, named('h4', '', `${t('cell.here')} `, named('small', '', place)));
     if (sources) {
       regionPanel(box, sources.at(at), planes, at);
       return;

@@ -94,7 +94,8 @@ export async function startMaps(page) {
   const parts = buildApp();
   const {pickers, title, hover, wheelHint, legendBox, comment} = parts;
 
-  const cellPanel = createCellPanel(parts.cellBox, page, planes, sources);
+  const cellPanel = createCellPanel(parts.cellBox, page, planes, sources,
+                                    () => view.point(null));
   const reached = planes.find((p) => p.layer.quantity === 'reached');
   let current = first;
   let bound = 'value';

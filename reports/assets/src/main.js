@@ -26,7 +26,10 @@ if (document.getElementById('motion')) {
 
 if (page.maps) {
   startMaps(page).then(
-      () => document.documentElement.classList.add('live-maps'),
+      () => {
+        document.documentElement.classList.add('live-maps');
+        performance.mark('first-map');
+      },
       (error) => {
         document.getElementById('map-app').hidden = true;
         document.getElementById('still-note').textContent =

@@ -141,6 +141,7 @@ function fitResults(map, cells) {
  */
 export function createMap(target, maps, heights, leftValues, on) {
   const viewExtent = extentOf(maps.view);
+  target.style.setProperty('--map-shape', `${maps.view.cols} / ${maps.view.rows}`);
   const projection = new Projection({
     code: 'sturz', units: 'm', extent: viewExtent, getPointResolution: (resolution) => resolution,
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two planes beside each other, parted by a handle that moves.
+// Two planes beside each other, with a handle between them that moves.
 import {element, toggle} from './dom.js';
 import {legendList} from './legend.js';
 import {t} from './texts.js';

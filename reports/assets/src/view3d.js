@@ -19,6 +19,24 @@ async function loadDrawing() {
   return globalThis.sturzView3d;
 }
 
+/** Release, observed event and front, as the map has them. */
+function drawOutlines(context, maps, place) {
+  const runs = (lines) => lines.map(([x0, y0, x1, y1]) => [[x0, y0], [x1, y1]]);
+  const kinds = [
+    ['#111', runs(maps.release)], ['#0a58ca', maps.observed?.rings ?? []],
+    ['#7b1fa2', runs(maps.nearest?.lines ?? [])],
+  ];
+  for (const [colour, lines] of kinds)
+    for (const [stroke, width] of [['rgba(255,255,255,0.9)', 7], [colour, 3.5]]) {
+      context.strokeStyle = stroke;
+      context.lineWidth = width;
+      context.beginPath();
+      for (const line of lines)
+        line.map(place).forEach(([x, y], i) => i === 0 ? context.moveTo(x, y) : context.lineTo(x, y));
+      context.stroke();
+    }
+}
+
 /** Relief and the colours of one plane, as large as a texture may well be. */
 function createPicture(maps) {
   const {cols, rows} = maps.ground.grid;
@@ -47,6 +65,8 @@ function createPicture(maps) {
       const perMetre = canvas.width / (view[2] - view[0]);
       context.drawImage(cells, (grid.west - view[0]) * perMetre, (view[3] - grid.north) * perMetre,
                         grid.cols * grid.cell * perMetre, grid.rows * grid.cell * perMetre);
+      context.globalAlpha = 1;
+      drawOutlines(context, maps, ([x, y]) => [(x - view[0]) * perMetre, (view[3] - y) * perMetre]);
     },
   };
 }

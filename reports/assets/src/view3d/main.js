@@ -74,7 +74,7 @@ function create(container, grid, heights, picture) {
   scene.add(sun);
   const size = Math.max(width, length);
   const camera = new PerspectiveCamera(40, 1, size / 500, 20 * size);
-  camera.position.set(0.15 * size, relief + 0.75 * size, 0.95 * size);
+  camera.position.set(0.1 * size, relief + 0.42 * size, 0.62 * size);
   const controls = new OrbitControls(camera, renderer.domElement);
   controls.target.set(0, relief / 3, 0);
   controls.maxPolarAngle = 0.49 * Math.PI;
