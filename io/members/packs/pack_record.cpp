@@ -138,7 +138,8 @@ MemberResult Record::result() const {
   // A window of so many cells is not made of so few bytes: memory is not taken on a header's word.
   if (static_cast<double>(m.window.n_cells()) > 1032.0 * static_cast<double>(head_.total))
     throw BadRecord("its window is larger than its maps can fill");
-  const RecordMaps maps = maps_of(head_, part(head_.directory_at(), head_.directory), facts.summary);
+  const RecordMaps maps =
+      maps_of(head_, part(head_.directory_at(), head_.directory), facts.summary);
   const auto bytes = part(head_.maps_at(), head_.maps);
   const auto copy = [&](std::uint64_t at, std::span<std::byte> out) {
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), out.size(), out.begin());
