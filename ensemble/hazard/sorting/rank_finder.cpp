@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 
 namespace sturz {
 namespace {
@@ -15,15 +16,34 @@ std::uint32_t key_of(float value) { return std::bit_cast<std::uint32_t>(value + 
 
 }  // namespace
 
+/// What stands at place r is the largest number than which no more than r others are smaller.
+/// Comparing all with all has no branches to guess wrong.
+void RankFinder::compare_all(std::span<const float> values, std::span<const std::size_t> ranks,
+                             std::span<float> out) {
+  constexpr std::size_t step = 8;  // that are compared at a time
+  const std::size_t n = values.size(), padded = (n + step - 1) / step * step;
+  std::array<std::int32_t, few> keys, n_smaller;  // non-negative numbers: their bits are, too
+  for (std::size_t i = 0; i < padded; ++i) {
+    keys[i] = i < n ? static_cast<std::int32_t>(key_of(values[i])) : INT32_MAX;
+    n_smaller[i] = 0;
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    const std::int32_t key = keys[j];
+    for (std::size_t i = 0; i < padded; ++i) n_smaller[i] += key < keys[i];
+  }
+  for (std::size_t r = 0; r < ranks.size(); ++r) {
+    const auto rank = static_cast<std::int32_t>(ranks[r]);
+    std::int32_t largest = 0;
+    for (std::size_t i = 0; i < padded; ++i)
+      largest = std::max(largest, n_smaller[i] <= rank ? keys[i] : 0);
+    out[r] = std::bit_cast<float>(largest);
+  }
+}
+
 void RankFinder::find(std::span<const float> values, std::span<const std::size_t> ranks,
                       std::span<float> out) {
-  if (values.size() < few) {
-    keys_.resize(values.size());
-    std::transform(values.begin(), values.end(), keys_.begin(), key_of);
-    std::sort(keys_.begin(), keys_.end());
-    for (std::size_t r = 0; r < ranks.size(); ++r) out[r] = std::bit_cast<float>(keys_[ranks[r]]);
-    return;
-  }
+  if (ranks.empty()) return;  // mostly so where few members come: all quantiles are zero
+  if (values.size() < few) return compare_all(values, ranks, out);
   std::uint32_t least = key_of(values[0]), most = least;
   for (const float v : values) {
     least = std::min(least, key_of(v));
