@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_buckets = 2048;  // they still lie in the processor's nearest cache
 
 /// More of them leave fewer numbers to sort, and cost where there are not many.
-int bucket_bits(std::size_t n_values) { return n_values < 2048 ? 8 : n_values < 8192 ? 10 : 11; }
+int bucket_bits(std::size_t n_values) { return n_values < 512 ? 8 : n_values < 2048 ? 10 : 11; }
 
 /// -0 is 0 here: its bits would come last.
 std::uint32_t key_of(float value) { return std::bit_cast<std::uint32_t>(value + 0.0F); }
