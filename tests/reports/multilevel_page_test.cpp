@@ -44,8 +44,8 @@ TEST(MultilevelPage, ShowsThreeNumbersUnderEachMean) {
   const std::string html = make_multilevel_page(page);
   for (const char* words :
        {"Slope &lt;A&gt;", "3 minutes of one core", "run-out", "812\u00A0m", "\u00B1 9.4\u00A0m",
-        "\u00B1 31\u00A0m", "unknown", "790\u00A0m", "full stress 6m", "tried, not used", "70 %",
-        "thin &amp; flow", "script-src 'none'"})
+        "\u00B1 31\u00A0m", "unknown", "790\u00A0m", "full stress 6m", "tried, not used",
+        "70\u00A0%", "thin &amp; flow", "script-src 'none'"})
     EXPECT_THAT(html, HasSubstr(words));
   // Probability, lower and upper bound.
   std::size_t figures = 0;
