@@ -50,6 +50,9 @@ MADE = {
     "who_is_right": ("who_is_right.md", [script("who_is_right", str(BUILD / "tests/tools/energy_of"), str(OUT / "who"))]),
     "formulations": ("formulations.md", [script("formulations", STURZ, DATA, str(OUT / "formulations"), str(IMAGES / "formulations.png"))]),
     "strength_inside": ("strength_inside.md", [script("strength_inside", STURZ, DATA, str(OUT / "strength"), "collapse", "pile", "slope", "s1000:4.5", "s1000:2.25")]),
+    "multilevel": ("multilevel.md", [script("multilevel", "members", STURZ, str(ROOT / "scenarios/cases"), str(OUT / "multilevel")),
+                                     script("multilevel", "repeats", str(BUILD / "tests/tools/multilevel_repeats"), str(OUT / "multilevel")),
+                                     script("multilevel", "show", str(OUT / "multilevel"), str(IMAGES / "multilevel.png"))]),
     "performance": ("performance.md", [script("performance", BENCH, STURZ, str(OUT / "performance"), str(IMAGES / "performance.png"))]),
 }
 
