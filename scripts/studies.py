@@ -32,40 +32,8 @@ def processor():
     return next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), platform.machine())
 
 
-<<<<<<< HEAD
 def commit():
     return subprocess.run(["git", "-C", str(ROOT), "describe", "--always", "--dirty"], capture_output=True, text=True).stdout.strip()
-=======
-def hard(states, page):
-    return [BENCH, "hard", "--full", "--states", states, "--markdown", str(STUDIES / page)]
-
-
-DATA = "folder of --data"
-IMAGES = ROOT / "docs/images"
-# Name: (page, commands; what the last one prints is put in). WHOLE: that is the page; no page: the commands write theirs.
-WHOLE = "whole "
-MADE = {
-    "verification": (WHOLE + "verification_table.md",
-                     [["ctest", "--test-dir", str(BUILD), "-L", "^physics$"],
-                      ["python3", str(ROOT / "scripts/verification_table.py"), str(BUILD / "tests/physics/results.csv")]]),
-    "stability": ("", [hard("dense", "stability.md"), hard("all", "stability_states.md")]),
-    "error_against_seconds": ("error_against_seconds.md",
-                              [script("error_against_seconds", "measure", STURZ, str(OUT / "ladder")),
-                               script("error_against_seconds", "show", str(OUT / "ladder/figures.json"),
-                                      str(STUDIES / "error_against_seconds_earlier.json"),
-                                      str(IMAGES / "error_against_seconds.png"))]),
-    "beside_the_paper": ("beside_the_paper.md", [script("beside_the_paper", STURZ, str(OUT / "paper"))]),
-    "paper": ("paper.md", [script("paper", STURZ, str(ROOT / "scenarios/cases"), str(OUT / "paper_wet"))]),
-    "usgs_flume_3d": ("usgs_flume_3d.md", [script("usgs_flume_3d", STURZ, str(ROOT / "scenarios/cases/usgs_flume"), str(OUT / "usgs_flume"))]),
-    "who_is_right": ("who_is_right.md", [script("who_is_right", str(BUILD / "tests/tools/energy_of"), str(OUT / "who"))]),
-    "formulations": ("formulations.md", [script("formulations", STURZ, DATA, str(OUT / "formulations"), str(IMAGES / "formulations.png"))]),
-    "strength_inside": ("strength_inside.md", [script("strength_inside", STURZ, DATA, str(OUT / "strength"), "collapse", "pile", "slope", "s1000:4.5", "s1000:2.25")]),
-    "multilevel": ("multilevel.md", [script("multilevel", "members", STURZ, str(ROOT / "scenarios/cases"), str(OUT / "multilevel")),
-                                     script("multilevel", "repeats", str(BUILD / "tests/tools/multilevel_repeats"), str(OUT / "multilevel")),
-                                     script("multilevel", "show", str(OUT / "multilevel"), str(IMAGES / "multilevel.png"))]),
-    "performance": ("performance.md", [script("performance", BENCH, STURZ, str(OUT / "performance"), str(IMAGES / "performance.png"))]),
-}
->>>>>>> multilevel
 
 
 def machine():
