@@ -43,5 +43,11 @@ def without_absent_pages(app, docname, source):
         source[0] = "\n".join(line for line in source[0].splitlines() if not any(line.endswith(name) for name in absent)) + "\n"
 
 
+def folders_as_pages(app, docname, source):
+    """Links to a folder lead to the page that lists it."""
+    source[0] = source[0].replace("](docs/decisions)", "](docs/site/decisions.md)")
+
+
 def setup(app):
     app.connect("source-read", without_absent_pages)
+    app.connect("source-read", folders_as_pages)
