@@ -3,7 +3,9 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/sampling/marginal.hpp"
+#include "ensemble/workflow/evaluation/own_reach.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "io/site/scene_inputs.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/checks/validate.hpp"
 #include "scenarios/schema/suggest.hpp"
@@ -116,9 +118,17 @@ MemberResult Evaluator::evaluate(std::span<const double> values, const std::atom
     if (on_progress) on_progress(progress);
     return !cancel.load();
   };
-  return scene_.ground->computed([&](const SceneInputs& inputs) {
-    return assemble(numbers, inputs, 0, threads_).run(control);
+  const bool shares_ground = with_own_reach(numbers, *scene_.ground->now()).has_value();
+  const auto ground = shares_ground ? scene_.ground : own_ground(numbers);
+  return ground->computed([&](const SceneInputs& inputs) {
+    const auto own = shares_ground ? with_own_reach(numbers, inputs) : std::nullopt;
+    return assemble(numbers, own ? *own : inputs, 0, threads_).run(control);
   });
+}
+
+std::shared_ptr<GrowingGround> Evaluator::own_ground(const Scenario& numbers) {
+  const std::lock_guard one_at_a_time(reading_);
+  return std::make_shared<GrowingGround>(numbers, load_scene_inputs(numbers));
 }
 
 std::vector<EvaluatorOutput> outputs_named(std::span<const std::string> names) {

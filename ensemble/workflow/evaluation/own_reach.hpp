@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// How far one member can come by its own numbers, where the inputs say it of all members together.
+#pragma once
+
+#include "scenarios/scenario.hpp"
+#include "scenarios/scene_inputs.hpp"
+
+#include <optional>
+
+namespace sturz::workflow {
+
+/// Inputs of a whole scene with the reach of one member's numbers, from which its stop rule and its
+/// longest time follow: what `sturz run` loads for the scene of these numbers, but for the ground
+/// that is held. \return nothing where that takes more than the held ground, or hangs together with
+/// rasters of the bed, dams or buildings: load the scene of these numbers then
+std::optional<SceneInputs> with_own_reach(const Scenario& numbers, const SceneInputs& of_all);
+
+}  // namespace sturz::workflow
