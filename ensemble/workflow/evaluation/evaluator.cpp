@@ -3,7 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/sampling/marginal.hpp"
-#include "ensemble/workflow/evaluation/own_reach.hpp"
+#include "ensemble/workflow/evaluation/own_inputs.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "io/site/scene_inputs.hpp"
 #include "scenarios/assembly/assemble.hpp"
@@ -118,10 +118,10 @@ MemberResult Evaluator::evaluate(std::span<const double> values, const std::atom
     if (on_progress) on_progress(progress);
     return !cancel.load();
   };
-  const bool shares_ground = with_own_reach(numbers, *scene_.ground->now()).has_value();
+  const bool shares_ground = inputs_of_member(numbers, *scene_.ground->now()).has_value();
   const auto ground = shares_ground ? scene_.ground : own_ground(numbers);
   return ground->computed([&](const SceneInputs& inputs) {
-    const auto own = shares_ground ? with_own_reach(numbers, inputs) : std::nullopt;
+    const auto own = shares_ground ? inputs_of_member(numbers, inputs) : std::nullopt;
     return assemble(numbers, own ? *own : inputs, 0, threads_).run(control);
   });
 }

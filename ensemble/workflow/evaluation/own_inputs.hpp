@@ -13,6 +13,6 @@ namespace sturz::workflow {
 /// longest time follow: what `sturz run` loads for the scene of these numbers, but for the ground
 /// that is held. \return nothing where that takes more than the held ground, or hangs together with
 /// rasters of the bed, dams or buildings: load the scene of these numbers then
-std::optional<SceneInputs> with_own_reach(const Scenario& numbers, const SceneInputs& of_all);
+std::optional<SceneInputs> inputs_of_member(const Scenario& numbers, const SceneInputs& of_all);
 
 }  // namespace sturz::workflow

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/workflow/evaluation/own_reach.hpp"
+#include "ensemble/workflow/evaluation/own_inputs.hpp"
 
 #include "io/site/terrain_window.hpp"
 #include "scenarios/assembly/reach.hpp"
@@ -25,7 +25,7 @@ Raster<double> cut_out(const SceneInputs& in, const Window& w) {
 
 }  // namespace
 
-std::optional<SceneInputs> with_own_reach(const Scenario& numbers, const SceneInputs& of_all) {
+std::optional<SceneInputs> inputs_of_member(const Scenario& numbers, const SceneInputs& of_all) {
   if (!of_all.bed_layers.empty() || of_all.structures.any()) return std::nullopt;
   SceneInputs own = of_all;
   try {
