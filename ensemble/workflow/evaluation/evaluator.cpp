@@ -118,11 +118,12 @@ MemberResult Evaluator::evaluate(std::span<const double> values, const std::atom
     if (on_progress) on_progress(progress);
     return !cancel.load();
   };
-  const bool shares_ground = inputs_of_member(numbers, *scene_.ground->now()).has_value();
-  const auto ground = shares_ground ? scene_.ground : own_ground(numbers);
-  return ground->computed([&](const SceneInputs& inputs) {
-    const auto own = shares_ground ? inputs_of_member(numbers, inputs) : std::nullopt;
-    return assemble(numbers, own ? *own : inputs, 0, threads_).run(control);
+  const auto first = ground_of_member(numbers, *scene_.ground->now());
+  const auto ground = first ? scene_.ground : own_ground(numbers);
+  return ground->computed([&](const SceneInputs& shared) {
+    SceneInputs inputs = shared;
+    if (first) inputs.reach = first->reach;
+    return assemble(numbers, inputs, 0, threads_).run(control);
   });
 }
 

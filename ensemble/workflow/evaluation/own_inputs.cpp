@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/evaluation/own_inputs.hpp"
 
-#include "io/site/terrain_window.hpp"
 #include "scenarios/assembly/reach.hpp"
 
 #include <algorithm>
@@ -25,16 +24,14 @@ Raster<double> cut_out(const SceneInputs& in, const Window& w) {
 
 }  // namespace
 
-std::optional<SceneInputs> inputs_of_member(const Scenario& numbers, const SceneInputs& of_all) {
+std::optional<FirstGround> ground_of_member(const Scenario& numbers, const SceneInputs& of_all) {
   if (!of_all.bed_layers.empty() || of_all.structures.any()) return std::nullopt;
-  SceneInputs own = of_all;
+  const ReadGround read = [&of_all](const Window& w) { return cut_out(of_all, w); };
   try {
-    const ReadGround read = [&of_all](const Window& w) { return cut_out(of_all, w); };
-    own.reach = first_ground(numbers, of_all, read, "release").reach;
+    return first_ground(numbers, of_all, read, "release");
   } catch (const NotHeld&) {
     return std::nullopt;
   }
-  return own;
 }
 
 }  // namespace sturz::workflow
