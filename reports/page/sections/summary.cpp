@@ -55,7 +55,7 @@ std::string outcome_counts(const ReportInput& input, const Headline& h) {
   for (const auto& [outcome, n] : h.outcomes)
     if (!is_valid(outcome))
       out += (out.empty() ? "" : ", ") + std::to_string(n) + " " + outcome_text(outcome);
-  if (missing(input) > 0) out += ", " + tr("cards.not_computed", missing(input));
+  if (missing(input) > 0) out.append(", ").append(tr("cards.not_computed", missing(input)));
   return out;
 }
 
