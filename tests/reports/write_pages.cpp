@@ -86,8 +86,7 @@ void write_overlays(const std::filesystem::path& path, sturz::ReportInput input)
          {{{413200, 4651700}, {413260, 4651700}, {413260, 4651760}, {413200, 4651700}}},
          "chapel"},
         {OverlayFeature::Kind::point, {{{413500, 4651800}}}, "well"}}},
-      {"Roads",
-       {{OverlayFeature::Kind::line, {{{413000, 4651400}, {413900, 4651900}}}, "pass"}}}};
+      {"Roads", {{OverlayFeature::Kind::line, {{{413000, 4651400}, {413900, 4651900}}}, "pass"}}}};
   input.overlays = overlays;
   input.orthophoto = [](const Grid&) {
     return grey_png(std::vector<std::uint8_t>{40, 200, 90, 160}, 2, 2);
@@ -99,7 +98,8 @@ void write_overlays(const std::filesystem::path& path, sturz::ReportInput input)
 void write_frames(const std::filesystem::path& path, const sturz::testing::MadeUpResults& r) {
   using namespace sturz;
   FramesShown frames{0, r.peaks.grid, {}, {}};
-  const Layer &peak = *r.peaks.find("peak_thickness"), &deposit = *r.peaks.find("deposit_thickness");
+  const Layer &peak = *r.peaks.find("peak_thickness"),
+              &deposit = *r.peaks.find("deposit_thickness");
   for (int k = 0; k <= 8; ++k) {
     frames.times_s.push_back(7.5 * k);
     auto& plane = frames.thickness.emplace_back(deposit.values);

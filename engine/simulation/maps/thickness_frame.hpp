@@ -14,8 +14,8 @@ struct ThicknessFrame {
   std::vector<float> values;  ///< [window.n_cells()] vertical thickness [m]
 };
 
-/// Spread over the cells as the deposit is (PeakMaps): of the final state it is the deposit, bit for
-/// bit. Costs as much as one record of the peaks.
+/// Spread over the cells as the deposit is (PeakMaps): of the final state it is the deposit, bit
+/// for bit. Costs as much as one record of the peaks.
 ThicknessFrame thickness_frame(const SimulationParts&);
 
 }  // namespace sturz
