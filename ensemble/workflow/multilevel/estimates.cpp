@@ -9,8 +9,6 @@
 namespace sturz::workflow {
 namespace {
 
-constexpr double normal_90 = 1.6449;  // half width of 90 % in standard errors
-
 /// Of the map of P(reached) by the dearest level's members alone.
 struct PlainMap {
   double variance = 0;  // mean over the doubtful cells
@@ -108,7 +106,8 @@ LevelSet level_set(const LevelMembers& all, std::vector<std::size_t> parts,
   for (const std::string& name : headline_results()) {
     const MultilevelScalar s = scalar_of(all, set.levels, name);
     if (!std::isfinite(s.mean.mean) || !(s.variance > 0)) continue;
-    const double half = target.relative_error * std::abs(s.mean.mean) / normal_90;
+    const double half =
+        target.relative_error * std::abs(s.mean.mean) / student_width(0.9, s.mean.degrees);
     set.results.push_back({name, s.variances, s.variance, half * half});
   }
   set.results.push_back(map_result(all, set.levels, target, cancel));

@@ -44,6 +44,21 @@ void require_draws(const Scene& scene) {
           "there is). Use `sturz run`, or give a key a distribution.");
 }
 
+/// Levels that nobody asked for may be impossible, such as too few layers of particles: they are
+/// left out.
+std::vector<LevelPart> possible_parts(const EnsembleRequest& request, const Scene& scene,
+                                      Observer& observer) {
+  std::vector<LevelPart> parts = level_parts(scene), possible{parts.front()};
+  if (!scene.scenario.ensemble.levels.empty()) return parts;
+  for (std::size_t p = 1; p < parts.size(); ++p) try {
+      load_scene(level_request(request, parts[p], scene.inputs.hazard_grid.cell_m, 1).scene);
+      possible.push_back(parts[p]);
+    } catch (const SetupError& problem) {
+      observer.warning(fmt::format("level {} is left out: {}", parts[p].name, problem.what()));
+    }
+  return possible;
+}
+
 class Levels {
  public:
   Levels(MultilevelJob& job, Observer& observer, PlanListener& listener,
@@ -219,7 +234,7 @@ MultilevelJob prepare_multilevel(const EnsembleRequest& request, Observer& obser
   job.request = request;
   job.scene = load_scene(scene_of(request));
   require_draws(job.scene);
-  job.parts = level_parts(job.scene);
+  job.parts = possible_parts(request, job.scene, observer);
   const OutputFolder folder{request.folder};
   require(!fs::exists(folder.manifest()),
           fmt::format("{} holds results of another kind. Choose another folder with --out.",
