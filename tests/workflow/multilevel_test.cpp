@@ -154,6 +154,7 @@ TEST_F(Multilevel, SaysWhatIsWrongBeforeItComputes) {
   };
   EXPECT_THAT(refusal("", {"ensemble.target.relative_error"}),
               HasSubstr("Give relative_error, map_error or core_hours"));
+  EXPECT_THAT(refusal("", {"ensemble.estimator"}), HasSubstr("ensemble.estimator (missing"));
   EXPECT_THAT(refusal("ensemble.target.core_hours=1"), HasSubstr("Keep the one or the other"));
   EXPECT_THAT(refusal("ensemble.levels=columns 4"), HasSubstr("no formulation of that name"));
   EXPECT_THAT(refusal("ensemble.levels=depth_averaged"), HasSubstr("no spacing"));

@@ -50,12 +50,14 @@ std::vector<LevelPart> possible_parts(const EnsembleRequest& request, const Scen
                                       Observer& observer) {
   std::vector<LevelPart> parts = level_parts(scene), possible{parts.front()};
   if (!scene.scenario.ensemble.levels.empty()) return parts;
-  for (std::size_t p = 1; p < parts.size(); ++p) try {
+  for (std::size_t p = 1; p < parts.size(); ++p) {
+    try {
       load_scene(level_request(request, parts[p], scene.inputs.hazard_grid.cell_m, 1).scene);
       possible.push_back(parts[p]);
     } catch (const SetupError& problem) {
       observer.warning(fmt::format("level {} is left out: {}", parts[p].name, problem.what()));
     }
+  }
   return possible;
 }
 
