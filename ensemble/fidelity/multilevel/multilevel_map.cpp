@@ -84,12 +84,18 @@ class CellSums {
   std::vector<double> noise_;
 };
 
-MultilevelMap blank(const DrawDistances& distances) {
+/// Where all draws agree: bounds by their number, as of n of n by Clopper and Pearson (1934).
+MultilevelMap blank(const DrawDistances& distances, std::size_t n_draws) {
   MultilevelMap map;
   map.extent = distances.extent();
-  for (Raster<double>* r : {&map.probability, &map.low, &map.high}) {
+  const double possible = 1 - std::pow(0.05, 1 / static_cast<double>(n_draws));
+  for (Raster<double>* r : {&map.probability, &map.low, &map.high})
     *r = Raster<double>(distances.grid(), 0);
-    for (std::size_t i = 0; i < r->values.size(); ++i) r->values[i] = distances.always(i) ? 1 : 0;
+  for (std::size_t i = 0; i < map.probability.values.size(); ++i) {
+    const bool always = distances.always(i);
+    map.probability.values[i] = always ? 1 : 0;
+    map.low.values[i] = always ? 1 - possible : 0;
+    map.high.values[i] = always ? 1 : possible;
   }
   return map;
 }
@@ -122,7 +128,7 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
   const std::size_t n_levels = levels.levels.size();
   expect(n_levels >= 2 && n_levels <= most_levels, "a dear level and some cheaper ones");
   const DrawDistances distances(levels, what, cancel);
-  MultilevelMap map = blank(distances);
+  MultilevelMap map = blank(distances, levels.draws.size());
   map.variances.assign(n_levels, 0);
   const std::vector<std::size_t>& cells = distances.cells();
   if (cells.empty()) return map;

@@ -26,8 +26,9 @@ struct MapLevels {
 };
 
 struct MultilevelMap {
-  Window extent;                          ///< of the levels' grid; P = 0 beyond
-  Raster<double> probability, low, high;  ///< within [0, 1]; 90 % bounds
+  Window extent;  ///< of the levels' grid; P = 0 beyond
+  /// Within [0, 1]; 90 % bounds. Where all draws of all levels agree: bounds by their number.
+  Raster<double> probability, low, high;
   /// Cells whose probability is between 0.05 and 0.95, and over them: the root mean square of the
   /// standard error, sums of the variances of the increments [n_levels], and of P (1 - P), which is
   /// what plain sampling has.

@@ -44,7 +44,7 @@ void require_draws(const Scene& scene) {
           "there is). Use `sturz run`, or give a key a distribution.");
 }
 
-/// Levels that nobody asked for may be impossible, such as too few layers of particles: they are
+/// Levels that were not asked for may be impossible, such as too few layers of particles: they are
 /// left out.
 std::vector<LevelPart> possible_parts(const EnsembleRequest& request, const Scene& scene,
                                       Observer& observer) {
