@@ -171,5 +171,38 @@ TEST(MultilevelQuantiles, AreThoseOfTheDearestLevel) {
   }
 }
 
+/// Of 16 draws the largest is often below what 5 % exceed: a bound that ended with them would hold
+/// the truth in three of four cases.
+TEST(MultilevelQuantiles, HaveNoBoundWhereFewDrawsTellNone) {
+  const std::vector<double> levels{0.05, 0.95};
+  const double truth[] = {-1.6449 * std::sqrt(1.64), 1.6449 * std::sqrt(1.64)};
+  double covered[2] = {}, open[2] = {};
+  constexpr int some = 150;
+  for (int r = 0; r < some; ++r) {
+    const auto found = multilevel_quantiles(
+        family({0.8, 0.8}, {16, 120}, 400000 + 10 * static_cast<std::uint64_t>(r)), 2, levels);
+    for (int q = 0; q < 2; ++q) {
+      const Interval bounds = found[q].bounds_90;
+      EXPECT_TRUE(std::isfinite(found[q].value));
+      EXPECT_TRUE(std::isfinite(q == 0 ? bounds.high : bounds.low));
+      open[q] += std::isinf(q == 0 ? bounds.low : bounds.high) ? 1.0 / some : 0;
+      covered[q] += bounds.low <= truth[q] && truth[q] <= bounds.high ? 1.0 / some : 0;
+    }
+  }
+  for (int q = 0; q < 2; ++q) {
+    EXPECT_GE(covered[q], 0.87) << q;
+    EXPECT_GT(open[q], 0.1) << q;
+  }
+}
+
+TEST(MultilevelQuantiles, OfDrawsThatAreAllTheSameAreThese) {
+  std::vector<LevelDraw> same;
+  for (std::int64_t k = 0; k < 20; ++k) same.push_back({k, k < 8 ? 0U : 1U, {3, 5, 0, 0}});
+  const auto found = multilevel_quantiles(same, 2, std::vector<double>{0.5});
+  EXPECT_DOUBLE_EQ(found[0].value, 3);
+  EXPECT_DOUBLE_EQ(found[0].bounds_90.low, 3);
+  EXPECT_DOUBLE_EQ(found[0].bounds_90.high, 3);
+}
+
 }  // namespace
 }  // namespace sturz::test
