@@ -72,14 +72,22 @@ std::vector<ByNumber> valid_of(const LevelMembers& all, std::span<const std::siz
   return valid;
 }
 
+std::size_t shared_draws(const LevelMembers& all, std::span<const std::size_t> parts) {
+  return draws_of_levels(level_draws(valid_of(all, parts)), parts.size()).front();
+}
+
 double member_cost_s(const LevelMembers& all, std::size_t part) {
-  double sum = 0, n = 0;
+  double sum = 0, n = 0, sum_all = 0, n_all = 0;
   for (const MemberSummary& m : all.members[part]->members()) {
-    if (m.member >= all.counts[part] || !is_valid(m.outcome)) continue;
+    if (m.member >= all.counts[part]) continue;
+    sum_all += m.scalars.cpu_s;
+    n_all += 1;
+    if (!is_valid(m.outcome)) continue;
     sum += m.scalars.cpu_s;
     n += 1;
   }
-  return n > 0 ? std::max(sum / n, 1e-6) : nan_d;
+  // Plans are kept as numbers: a level without any valid member has a cost, too.
+  return std::max(n > 0 ? sum / n : sum_all / std::max(n_all, 1.0), 1e-6);
 }
 
 MultilevelScalar scalar_of(const LevelMembers& all, std::span<const std::size_t> parts,
