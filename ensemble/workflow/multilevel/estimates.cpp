@@ -46,8 +46,10 @@ LevelResult map_result(const LevelMembers& all, const std::vector<std::size_t>& 
   r.name = map_word;
   r.allowed = target.map_error * target.map_error;
   if (parts.size() < 2) {
-    r.plain_variance = plain_map(all, cancel).variance;
+    const PlainMap map = plain_map(all, cancel);
+    r.plain_variance = map.variance;
     r.variances = {r.plain_variance};
+    r.reached = map.variance / map.n;
     return r;
   }
   const MultilevelMap map = map_of(all, parts, {}, cancel);
@@ -56,6 +58,7 @@ LevelResult map_result(const LevelMembers& all, const std::vector<std::size_t>& 
   r.plain_variance = map.plain_variance / n;
   // What smoothing shifts, no member removes; but it shrinks with what there is to be smoothed.
   const double shift = map.smoothing_error * map.smoothing_error;
+  r.reached = map.doubtful > 0 ? std::max(0.0, map.rms_error * map.rms_error - shift) : 0;
   if (r.allowed > 0) r.allowed = std::max(r.allowed / 4, r.allowed - shift);
   return r;
 }
@@ -111,12 +114,19 @@ LevelSet level_set(const LevelMembers& all, std::vector<std::size_t> parts,
                    const TargetSpec& target, CancelFlag cancel) {
   LevelSet set;
   set.levels = std::move(parts);
+  const std::vector<ByNumber> valid = valid_of(all, set.levels);
   for (const std::string& name : headline_results()) {
     const MultilevelScalar s = scalar_of(all, set.levels, name);
     if (!std::isfinite(s.mean.mean) || !(s.variance > 0)) continue;
     const double half =
         target.relative_error * std::abs(s.mean.mean) / student_width(0.9, s.mean.degrees);
-    set.results.push_back({name, s.variances, s.variance, half * half});
+    LevelResult r{name, s.variances, s.variance, half * half, 0};
+    r.reached = s.mean.standard_error * s.mean.standard_error;
+    // Of some valid members this result is not known: so many more are needed of each level.
+    for (std::size_t l = 0; l < set.levels.size(); ++l)
+      r.variances[l] *= static_cast<double>(valid[l].size()) / s.draws[l];
+    r.plain_variance *= static_cast<double>(valid.front().size()) / s.draws.front();
+    set.results.push_back(std::move(r));
   }
   set.results.push_back(map_result(all, set.levels, target, cancel));
   return set;

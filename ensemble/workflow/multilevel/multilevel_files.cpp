@@ -179,6 +179,7 @@ std::string multilevel_json_text(const MultilevelMade& made) {
             {"cpu_s", number(made.seconds)},
             {"failed_members", made.failed},
             {"censored_members", made.censored},
+            {"missed", made.missed},
             {"warnings", made.warnings}};
   for (const LevelShare& l : made.levels) json["levels"].push_back(level_json(l));
   for (const MultilevelHeadline& h : made.headlines) json["headlines"].push_back(headline_json(h));

@@ -96,7 +96,9 @@ class Levels {
     for (std::size_t r = 0;; ++r) {
       if (r == job_.plan.rounds.size()) {
         if (!wants_more()) break;
-        job_.plan.rounds.push_back(decide());
+        PlanRound round = decide();
+        if (r > 0 && round.members == counts_) break;  // no more of them would help
+        job_.plan.rounds.push_back(std::move(round));
         write_plan(plan_of(job_.request), job_.plan);
       }
       look_.rounds.push_back(job_.plan.rounds[r]);
@@ -178,11 +180,9 @@ class Levels {
       return 3600 * target_.core_hours > near_enough * rounds.back().budget_s;
     if (rounds.size() >= most_rounds) return false;
     const LevelSet set = level_set(members(), rounds.back().plan.levels, target_, cancel_);
+    // By the draws that tell it: members that failed, or whose end was not seen, are none.
     return std::any_of(set.results.begin(), set.results.end(), [&](const LevelResult& r) {
-      double variance = 0;
-      for (std::size_t l = 0; l < set.levels.size(); ++l)
-        variance += r.variances[l] / static_cast<double>(counts_[set.levels[l]]);
-      return r.allowed > 0 && variance > near_enough * near_enough * r.allowed;
+      return r.allowed > 0 && r.reached > near_enough * near_enough * r.allowed;
     });
   }
 

@@ -85,7 +85,7 @@ std::string gain_text(const MultilevelMade& made) {
 }
 
 std::vector<std::string> page_sentences(const MultilevelMade& made) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = made.missed;
   if (std::isfinite(made.map_error))
     lines.push_back(
         fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "

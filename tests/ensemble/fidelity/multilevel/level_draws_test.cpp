@@ -2,6 +2,7 @@
 // Means, distributions and allocations on families of levels with known means, variances, biases.
 #include "ensemble/fidelity/multilevel/level_draws.hpp"
 
+#include "ensemble/fidelity/multilevel/level_plan.hpp"
 #include "tests/ensemble/fidelity/multilevel/normal_draws.hpp"
 
 #include <gmock/gmock.h>
@@ -143,6 +144,18 @@ TEST(AnAllocation, NeverAsksForFewerOfACheaperLevel) {
   EXPECT_DOUBLE_EQ(a.draws[0], a.draws[1]);
   EXPECT_GT(a.draws[2], a.draws[1]);
   EXPECT_NEAR(a.variance, 0.01, 1e-12);
+}
+
+/// A plan is kept as numbers: NaN could not be read again.
+TEST(APlan, OfWhatDoesNotVaryIsPlainAndHasNumbers) {
+  const std::vector<LevelSet> sets{{{0}, {{"map", {0}, 0, 0}}}, {{0, 1}, {{"map", {0, 0}, 0, 0}}}};
+  const std::vector<double> costs{2, 1}, have{8, 8};
+  for (const double seconds : {0.0, 100.0}) {
+    const LevelPlan plan = plan_levels(sets, costs, have, {seconds});
+    EXPECT_EQ(plan.levels, std::vector<std::size_t>{0}) << seconds;
+    EXPECT_DOUBLE_EQ(plan.gain, 1) << seconds;
+    EXPECT_TRUE(std::isfinite(plan.seconds)) << seconds;
+  }
 }
 
 TEST(MultilevelQuantiles, AreThoseOfTheDearestLevel) {
