@@ -60,10 +60,17 @@ class Look {
     made_.headlines.push_back(std::move(h));
   }
 
+  /// Levels of which no draw is valid everywhere cannot be compared.
+  bool still_share(std::vector<std::size_t> parts, std::size_t part) const {
+    parts.push_back(part);
+    return !common_members(valid_of(all_, parts)).empty();
+  }
+
   std::vector<std::size_t> same_formulation() const {
     std::vector<std::size_t> parts;
     for (std::size_t p = 0; p < all_.parts.size(); ++p)
-      if (all_.parts[p].formulation == all_.parts.front().formulation) parts.push_back(p);
+      if (all_.parts[p].formulation == all_.parts.front().formulation && still_share(parts, p))
+        parts.push_back(p);
     std::sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) {
       return all_.parts[a].spacing_m > all_.parts[b].spacing_m;
     });
@@ -191,8 +198,8 @@ class Look {
       const auto found = std::find_if(made_.headlines.begin(), made_.headlines.end(),
                                       [&](const MultilevelHeadline& h) { return h.name == name; });
       if (found == made_.headlines.end()) {
-        made_.missed.push_back(fmt::format(
-            "Not reached: {} is not known of enough members to tell its mean.", name));
+        made_.missed.push_back(
+            fmt::format("Not reached: {} is not known of enough members to tell its mean.", name));
         continue;
       }
       const double wanted = target.relative_error * std::abs(found->scalar.mean.mean);
