@@ -88,8 +88,17 @@ std::string rule_of(const MultilevelMade& made) {
                      levels);
 }
 
+/// What a map says of members of which mass left or still moved, as plain maps say it.
+std::string cut_note(Statistic statistic, std::int64_t n_censored) {
+  if (n_censored == 0) return {};
+  return statistic == Statistic::upper_bound
+             ? "; not an upper bound of what was not seen"
+             : fmt::format("; a lower bound: the end of {} members was not seen", n_censored);
+}
+
 /// One map and its bounds, all planes.
-void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule) {
+void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
+                std::int64_t n_censored) {
   const Quantity quantity = map.thresholds.empty() ? Quantity::reached : quantity_of(map.layer);
   const std::string what =
       map.thresholds.empty()
@@ -112,7 +121,8 @@ void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule)
     layer.long_name = what + kind.words;
     layer.units = "1";
     layer.comment = (kind.statistic == Statistic::probability ? "" : "90 % bounds; ") + rule +
-                    ", within 0 and 1" + monotone;
+                    ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored);
+    layer.n_censored = static_cast<int>(n_censored);
     if (!map.thresholds.empty()) {
       const std::string word = map.name.substr(0, map.name.find("_exceedance"));
       layer.axis = {word + "_threshold", "", map_unit(map.layer).name, map.thresholds};
@@ -132,7 +142,7 @@ LayerStack stack_of(const MultilevelJob& job, const MultilevelMembers& found,
   const HazardContext context = hazard_context(own.manifest, job.scene.scenario, own.design);
   stack.attributes = context.attributes;
   stack.attributes.emplace_back("estimator", rule_of(made));
-  for (const NamedMap& map : made.maps) add_layers(stack, map, rule_of(made));
+  for (const NamedMap& map : made.maps) add_layers(stack, map, rule_of(made), made.censored);
   return stack;
 }
 

@@ -94,7 +94,7 @@ std::vector<std::string> page_sentences(const MultilevelMade& made) {
   lines.push_back(gain_text(made));
   if (made.failed > 0)
     lines.push_back(
-        fmt::format("{} members failed; their draws count at the cheaper levels that "
+        fmt::format("{} members failed; their draws count where a level and all cheaper ones "
                     "have them.",
                     made.failed));
   if (made.censored > 0)
