@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/multilevel/estimates.hpp"
 
+#include "engine/core/error.hpp"
 #include "ensemble/fidelity/choice.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +106,11 @@ MultilevelMap map_of(const LevelMembers& all, std::span<const std::size_t> parts
                      const Exceedance& what, CancelFlag cancel) {
   MapLevels levels;
   for (const std::size_t part : parts) {
+    // A cell of the one would be another place on the other.
+    require(all.members[part]->grid().same_place(all.members[parts.front()]->grid()),
+            fmt::format("level {}: its maps lie on other cells than those of {}. Give the scene a "
+                        "hazard.cell_size_m and a domain that do not depend on the spacing.",
+                        all.parts[part].name, all.parts[parts.front()].name));
     levels.levels.push_back(all.members[part]);
     levels.spacings_m.push_back(all.parts[part].spacing_m);
   }
