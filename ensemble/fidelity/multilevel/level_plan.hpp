@@ -28,6 +28,7 @@ struct LevelSet {
 /// Seconds that all draws together may take; 0: the results say what is enough.
 struct LevelBudget {
   double seconds = 0;
+  std::vector<double> spent_s = {};  ///< [levels] so far; gone where a set does not use the level
 };
 
 struct LevelPlan {

@@ -204,18 +204,16 @@ class Levels {
     round.cost_s = look_.cost_s;
     round.budget_s = 3600 * target_.core_hours;
     std::vector<double> have, valid_share;
-    double spent_s = 0;
+    LevelBudget budget{round.budget_s, {}};
     for (std::size_t p = 0; p < counts_.size(); ++p) {
       const auto valid =
           static_cast<double>(valid_of(all, std::vector<std::size_t>{p}).front().size());
       const auto n = static_cast<double>(counts_[p]);
       have.push_back(valid);
       valid_share.push_back(std::max(valid, 1.0) / n);
-      spent_s += p == 0 ? 0 : n * round.cost_s[p];
+      budget.spent_s.push_back(n * round.cost_s[p]);
     }
-    // What the pilot of all cheaper levels took is gone, whether they are used or not.
-    const double left_s = target_.core_hours > 0 ? std::max(round.budget_s - spent_s, 1e-3) : 0;
-    round.plan = plan_levels(sets, round.cost_s, have, {left_s});
+    round.plan = plan_levels(sets, round.cost_s, have, budget);
     round.members = counts_;
     for (std::size_t l = 0; l < round.plan.levels.size(); ++l) {
       const std::size_t p = round.plan.levels[l];

@@ -158,6 +158,17 @@ TEST(APlan, OfWhatDoesNotVaryIsPlainAndHasNumbers) {
   }
 }
 
+/// What the levels of a set took is part of what they may take; what others took is gone.
+TEST(APlan, CountsWhatWasSpentOnce) {
+  const std::vector<LevelSet> sets{{{0}, {{"map", {1}, 1, 0}}},
+                                   {{0, 1}, {{"map", {0.1, 0.9}, 1, 0}}}};
+  const std::vector<double> costs{10, 0.1, 1}, have{8, 1000, 16};
+  const LevelPlan plan = plan_levels(sets, costs, have, {600, {80, 100, 16}});
+  EXPECT_EQ(plan.levels, (std::vector<std::size_t>{0, 1}));
+  EXPECT_LE(plan.seconds, 600 - 16);
+  EXPECT_GT(plan.seconds, 600 - 16 - 10 - 0.1);
+}
+
 TEST(MultilevelQuantiles, AreThoseOfTheDearestLevel) {
   const std::vector<double> levels{0.1, 0.5, 0.9};
   const double spread = std::sqrt(1.04), truth[] = {-1.2816 * spread, 0, 1.2816 * spread};
