@@ -46,13 +46,14 @@ Done. Packages $install_time, build $build_time, ensemble $run_time.
 Results are in $PWD/$out
   report.html   look here first: maps over hillshade, members, where the time went (any browser)
   hazard.nc     every map with its CRS (QGIS, xarray, ncview)
-  hazard/*.tif  the same maps as cloud-optimised GeoTIFF
+  hazard.qgz    the same maps in QGIS, styled; hazard/*.tif for other GIS
   members.csv   one row per member: what was drawn, how it ended, how far it went
 
-Next: a slope of your own. This puts a scenario with its README into my_slope; add your terrain and
-the outline of the mass as the README says, and ask what will be computed:
-  $program cases template -o my_slope
+Next: a slope of your own. This writes a commented scenario around your elevation raster and the outline
+of the mass; then ask what will be computed:
+  $program init dtm.tif source.gpkg --thickness 6 -o my_slope
   $program describe my_slope/scenario.yaml
+Ten minutes with real ground that is shipped: docs/tutorial.md
 
 To have the command \`sturz\` with manual page and completion (another --prefix needs no sudo):
   sudo cmake --install build/release

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bundles the page's script and style: node build.mjs OUT, where OUT holds node_modules.
-import {readdirSync, readFileSync} from 'node:fs';
+// Bundles the page's script and style, and the 3-D view by itself, deflated as base64:
+// node build.mjs OUT, where OUT holds node_modules.
+import {readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {dirname, join, resolve} from 'node:path';
 import {fileURLToPath} from 'node:url';
+import {deflateSync} from 'node:zlib';
 
 const out = resolve(process.argv[2]);
 const source = dirname(fileURLToPath(import.meta.url));
 const esbuild = createRequire(join(out, 'package.json'))('esbuild');
 
 const options = {
-  entryPoints: {report: join(source, 'src/main.js')},
   outdir: out,
   bundle: true,
   minify: true,
@@ -23,8 +24,8 @@ const options = {
 };
 
 /** The licence texts of all packages that a first, unwritten bundle takes code from. */
-async function licenceTexts() {
-  const {metafile} = await esbuild.build({...options, write: false, metafile: true});
+async function licenceTexts(entryPoints) {
+  const {metafile} = await esbuild.build({...options, entryPoints, write: false, metafile: true});
   const names = new Set();
   for (const path of Object.keys(metafile.inputs)) {
     const found = path.match(/node_modules\/((?:@[^/]+\/)?[^/]+)\//g)?.at(-1);
@@ -39,4 +40,12 @@ async function licenceTexts() {
   return `/*\nThis page holds code of these packages:\n\n${texts.join('\n\n').replaceAll('*/', '* /')}\n*/`;
 }
 
-await esbuild.build({...options, banner: {js: await licenceTexts()}});
+async function bundle(name, entry) {
+  const entryPoints = {[name]: join(source, entry)};
+  await esbuild.build({...options, entryPoints, banner: {js: await licenceTexts(entryPoints)}});
+}
+
+await bundle('report', 'src/main.js');
+await bundle('view3d', 'src/view3d/main.js');
+const drawing = readFileSync(join(out, 'view3d.js'));
+writeFileSync(join(out, 'view3d.js.z64'), deflateSync(drawing, {level: 9}).toString('base64'));

@@ -2,6 +2,7 @@
 #include "reports/figures/figures.hpp"
 
 #include "reports/figures/png.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -202,9 +203,8 @@ std::vector<FrontMark> front_marks(const LayerStack& maps) {
       reached.values[k] = share ? layer->values[k] >= 0.5F : !std::isnan(layer->values[k]);
     FrontMark front{phase, "", cell_outline(reached)};
     const bool grains = phase == Phase::grains;
-    front.label = share ? fmt::format("{} with a probability of 50\u00A0% or more",
-                                      grains ? "grains arrive" : "liquid arrives")
-                        : fmt::format("reached by {}", grains ? "grains" : "liquid");
+    front.label = tr(share ? (grains ? "mark.front_grains" : "mark.front_liquid")
+                           : (grains ? "mark.reached_grains" : "mark.reached_liquid"));
     if (!front.lines.empty()) fronts.push_back(std::move(front));
   }
   return fronts;
@@ -222,12 +222,11 @@ MapMarks map_marks(const MapScene& scene, const LayerStack& maps,
 }
 
 std::string observed_label(const std::string& note) {
-  return note.empty() ? "observed" : "observed: " + note;
+  return note.empty() ? tr("mark.observed") : tr("mark.observed_note", note);
 }
 
 std::string nearest_label(std::int64_t member, bool single) {
-  return single ? "covered by this run"
-                : fmt::format("covered by member {}, the nearest to what was observed", member);
+  return single ? tr("mark.this_run") : tr("mark.nearest", member);
 }
 
 std::string marks_legend_html(const MapMarks& marks) {
@@ -237,7 +236,8 @@ std::string marks_legend_html(const MapMarks& marks) {
       marks.fronts.empty())
     return {};
   std::string html = "<ul class=\"legend marks\">";
-  if (!marks.release.empty()) html += "<li><span class=\"swatch release\"></span>release</li>";
+  if (!marks.release.empty())
+    html += "<li><span class=\"swatch release\"></span>" + html_escape(tr("js.release")) + "</li>";
   if (!marks.observed.empty())
     html += "<li><span class=\"swatch observed\"></span>" +
             html_escape(observed_label(marks.observed_note)) + "</li>";
@@ -247,7 +247,8 @@ std::string marks_legend_html(const MapMarks& marks) {
   for (const FrontMark& front : marks.fronts)
     html += fmt::format("<li><span class=\"swatch front-{}\"></span>{}</li>",
                         style_word(front.phase), html_escape(front.label));
-  if (left) html += "<li><span class=\"swatch left\"></span>mass left the terrain here</li>";
+  if (left)
+    html += "<li><span class=\"swatch left\"></span>" + html_escape(tr("js.mass_left")) + "</li>";
   return html + "</ul>";
 }
 

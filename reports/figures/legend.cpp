@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/figures/legend.hpp"
 
+#include "reports/texts/text_table.hpp"
 #include "scenarios/layers/source_lists.hpp"
 
 #include <fmt/format.h>
@@ -118,25 +119,22 @@ void dress_difference(Legend& legend) {
   constexpr std::size_t n = edges.size() - 1;
   legend.diverging = true;
   const auto less = ramp_colours(Ramp::magnitude, n), more = ramp_colours(Ramp::hazard, n);
-  const auto label = [&](const char* word, std::size_t k) {
+  const auto label = [&](const char* key, std::size_t k) {
     const std::string range = k + 1 == n ? "\u2265\u00A0" + shown_number(100 * edges[k])
                                          : range_label(100 * edges[k], 100 * edges[k + 1]);
-    return fmt::format("{} by {}\u00A0%", word, range);
+    return tr(key, range);
   };
   for (std::size_t k = n; k-- > 0;)
-    legend.classes.push_back({-edges[k + 1], label("less", k), less[k]});
+    legend.classes.push_back({-edges[k + 1], label("legend.less", k), less[k]});
   for (std::size_t k = 0; k < n; ++k)
-    legend.classes.push_back({edges[k], label("more", k), more[k]});
+    legend.classes.push_back({edges[k], label("legend.more", k), more[k]});
 }
 
 std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
-  if (layer.meaning.statistic == Statistic::difference)
-    return "Difference of the shares of the valid simulations";
+  if (layer.meaning.statistic == Statistic::difference) return tr("legend.difference");
   if (layer.meaning.statistic == Statistic::probability) {
-    if (layer.meaning.quantity == Quantity::sources) return "Probability if every source releases";
-    return layer.name == likeliest_source_layer
-               ? "Probability if the cell's likeliest source releases"
-               : "Share of the valid simulations";
+    if (layer.meaning.quantity == Quantity::sources) return tr("legend.every_source");
+    return layer.name == likeliest_source_layer ? tr("legend.likeliest") : tr("legend.share");
   }
   const bool named =
       layer.meaning.quantity != Quantity::other && layer.meaning.quantity != Quantity::sources;

@@ -3,6 +3,7 @@
 
 #include "engine/laws/grain_states.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -39,23 +40,20 @@ double round_up(double value, std::span<const double> steps) {
 double round_step(double least) { return round_up(least, std::array{1.0, 2.0, 2.5, 5.0}); }
 
 MotionChart travel(const MemberHistory& h) {
-  MotionChart chart{
-      .name = "travel", .title = "How far the mass has come", .unit = "m", .lines = {}};
-  chart.lines = {
-      {"front: farthest particle", "front", column(h, &HistoryRow::front_travel_m)},
-      {"centre of mass", "centre", column(h, &HistoryRow::com_travel_m)},
-      {"rear: 5 % of the mass are behind", "rear", column(h, &HistoryRow::tail_travel_m)}};
+  MotionChart chart{.name = "travel", .title = tr("chart.travel"), .unit = "m", .lines = {}};
+  chart.lines = {{tr("chart.travel.front"), "front", column(h, &HistoryRow::front_travel_m)},
+                 {tr("chart.travel.centre"), "centre", column(h, &HistoryRow::com_travel_m)},
+                 {tr("chart.travel.rear"), "rear", column(h, &HistoryRow::tail_travel_m)}};
   chart.top = round_top(largest(chart));
   return chart;
 }
 
 MotionChart speed(const MemberHistory& h) {
-  MotionChart chart{.name = "speed", .title = "How fast it is", .unit = "m/s", .lines = {}};
-  chart.lines = {
-      {"fastest particle", "fastest", column(h, &HistoryRow::max_speed_m_s)},
-      {"front: foremost 1 % of the mass", "front", column(h, &HistoryRow::front_speed_m_s)},
-      {"mean of the mass", "centre", column(h, &HistoryRow::mean_speed_m_s)},
-      {"rear: last 1 % of the mass", "rear", column(h, &HistoryRow::tail_speed_m_s)}};
+  MotionChart chart{.name = "speed", .title = tr("chart.speed"), .unit = "m/s", .lines = {}};
+  chart.lines = {{tr("chart.speed.fastest"), "fastest", column(h, &HistoryRow::max_speed_m_s)},
+                 {tr("chart.speed.front"), "front", column(h, &HistoryRow::front_speed_m_s)},
+                 {tr("chart.speed.mean"), "centre", column(h, &HistoryRow::mean_speed_m_s)},
+                 {tr("chart.speed.rear"), "rear", column(h, &HistoryRow::tail_speed_m_s)}};
   chart.top = round_top(largest(chart));
   return chart;
 }
@@ -64,17 +62,14 @@ std::string fraction_text(double value) { return fmt::format("{:.2f}", value); }
 
 /// Loosest at the bottom; where little is loose the axis ends above it, and dense is the rest.
 MotionChart states(const MemberHistory& h) {
-  MotionChart chart{.name = "states",
-                    .title = "Share of the mass by state",
-                    .unit = "%",
-                    .stacked = true,
-                    .lines = {}};
+  MotionChart chart{
+      .name = "states", .title = tr("chart.states"), .unit = "%", .stacked = true, .lines = {}};
   const std::string d = fraction_text(dense_fraction), t = fraction_text(transition_fraction),
                     u = fraction_text(ultradilute_fraction);
-  chart.lines = {{"ultradilute: under " + u, "ultradilute", {}},
-                 {"dilute: " + u + " to " + t, "dilute", {}},
-                 {"transition: " + t + " to " + d, "transition", {}},
-                 {"dense: solid fraction over " + d, "dense", {}}};
+  chart.lines = {{tr("chart.states.ultradilute", u), "ultradilute", {}},
+                 {tr("chart.states.dilute", u, t), "dilute", {}},
+                 {tr("chart.states.transition", t, d), "transition", {}},
+                 {tr("chart.states.dense", d), "dense", {}}};
   double loose = 0;
   for (const HistoryRow& row : h.rows) {
     double sum = 0;
@@ -86,7 +81,7 @@ MotionChart states(const MemberHistory& h) {
     loose = std::max(loose, chart.lines[2].values.back());
   }
   chart.top = std::min(100.0, round_top(std::max(4.0, 1.15 * loose)));
-  if (chart.top < 100) chart.lines[3].label += " (the rest)";
+  if (chart.top < 100) chart.lines[3].label += tr("chart.the_rest");
   return chart;
 }
 

@@ -4,6 +4,7 @@
 #include "reports/figures/codec.hpp"
 #include "reports/page/bundle.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -22,13 +23,13 @@ std::string policy_hash(std::string_view hex) {
 
 std::string page_head(const std::string& title, const std::string& script) {
   return fmt::format(
-             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+             "<!doctype html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
              "script-src {}; style-src {}; img-src data: blob:\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
              "<meta name=\"color-scheme\" content=\"light dark\">\n"
              "<meta name=\"generator\" content=\"sturz\">\n<title>{}</title>\n<style>",
-             script, policy_hash(bundled_style_sha256()), html_escape(title)) +
+             page_language(), script, policy_hash(bundled_style_sha256()), html_escape(title)) +
          std::string(bundled_style()) + "</style>\n</head>\n";
 }
 

@@ -8,9 +8,12 @@
 #include "reports/figures/figures.hpp"
 #include "reports/figures/legend.hpp"
 #include "reports/figures/motion_charts.hpp"
+#include "reports/page/crs_text.hpp"
 #include "reports/page/headline.hpp"
+#include "reports/page/overlay_payload.hpp"
 #include "reports/page/region_payload.hpp"
 #include "reports/page/sections/sections.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -130,8 +133,7 @@ Json legend_json(const Legend& legend) {
 std::string shown_comment(const Layer& layer, int n_valid) {
   constexpr std::string_view counted = "members / valid members";
   if (!layer.comment.starts_with(counted)) return layer.comment;
-  return "share of the " + std::to_string(n_valid) + " valid simulations" +
-         layer.comment.substr(counted.size());
+  return tr("layer.share_of", n_valid) + layer.comment.substr(counted.size());
 }
 
 Json layer_json(const MapScene& scene, const LayerStack& maps, const Layer& layer,
@@ -178,10 +180,13 @@ Json maps_json(const ReportInput& input, const MapScene& scene, const LayerStack
           {"ground", ground_json(scene.ground)},
           {"view", grid_json(scene.ground.grid)},
           {"start", start},
+          {"system", system_text(maps.grid.crs_wkt)},
           {"release", release_json(input.release)},
           {"observed", observed_json(input)},
           {"nearest", nearest_json(input)},
           {"fronts", fronts_json(maps)},
+          {"overlays", overlays_json(input.overlays)},
+          {"orthophoto", orthophoto_json(input, scene.ground.grid)},
           {"layers", std::move(layers)}};
 }
 
@@ -251,22 +256,22 @@ Json members_json(const ReportInput& input) {
 /// What the convergence chart can follow, each with the number of members.
 Json convergence_json(const std::vector<ConvergencePoint>& points) {
   struct Column {
-    const char* label;
+    const char* key;  ///< of its text
     const char* unit;
     double factor;
     double ConvergencePoint::*field;
   };
   static constexpr Column columns[] = {
-      {"area with P \u2265 50 %", "ha", 1e-4, &ConvergencePoint::area_likely_m2},
-      {"area with P \u2265 5 %", "ha", 1e-4, &ConvergencePoint::area_possible_m2},
-      {"mean P(reached) of touched cells", "%", 100, &ConvergencePoint::mean_probability_reached},
-      {"mean half-width of the 95 % interval of P", "%", 100, &ConvergencePoint::mean_half_width}};
+      {"convergence.area_50", "ha", 1e-4, &ConvergencePoint::area_likely_m2},
+      {"convergence.area_5", "ha", 1e-4, &ConvergencePoint::area_possible_m2},
+      {"convergence.mean_p", "%", 100, &ConvergencePoint::mean_probability_reached},
+      {"convergence.half_width", "%", 100, &ConvergencePoint::mean_half_width}};
   Json n = Json::array(), series = Json::array();
   for (const auto& p : points) n.push_back(p.n_members);
   for (const auto& c : columns) {
     Json values = Json::array();
     for (const auto& p : points) values.push_back(rounded(c.factor * p.*c.field));
-    series.push_back({{"label", c.label}, {"unit", c.unit}, {"values", values}});
+    series.push_back({{"label", tr(c.key)}, {"unit", c.unit}, {"values", values}});
   }
   return {{"n", n}, {"series", series}};
 }
@@ -291,6 +296,27 @@ Json motion_json(const MemberHistory& history) {
                       {"lines", lines}});
   }
   return {{"time", numbers(motion_times(history))}, {"charts", charts}};
+}
+
+/// The legend is that of the largest thickness over all times, so that colours can be followed.
+Json frames_json(const ReportInput& input) {
+  const FramesShown& frames = *input.frames;
+  Layer layer;
+  layer.meaning = {Quantity::thickness, Statistic::peak};
+  layer.units = "m";
+  Json times = Json::array(), planes = Json::array();
+  for (std::size_t k = 0; k < frames.times_s.size(); ++k) {
+    input.cancel.check();
+    times.push_back(rounded(frames.times_s[k]));
+    planes.push_back(plane_json(frames.thickness[k], frames.grid.n_cols, 0));
+    layer.values.insert(layer.values.end(), frames.thickness[k].begin(), frames.thickness[k].end());
+  }
+  return {{"label",
+           input.hazard == nullptr ? tr("frames.this_run") : tr("frames.member", frames.member)},
+          {"grid", grid_json(frames.grid)},
+          {"legend", legend_json(legend_for(layer))},
+          {"times", std::move(times)},
+          {"planes", std::move(planes)}};
 }
 
 }  // namespace
@@ -338,9 +364,11 @@ std::string report_payload(const ReportInput& input, const MapScene* scene,
             {"valid", h.n_valid},
             {"single", input.hazard == nullptr},
             {"runout", median_json(h.runout_m)}};
+  page["texts"] = Json::parse(script_texts());
   page["members"] = members_json(input);
   if (input.region != nullptr && scene != nullptr)
     page["region"] = sources_json(*input.region, *scene);
+  if (input.frames != nullptr && scene != nullptr) page["frames"] = frames_json(input);
   if (input.history != nullptr) page["motion"] = motion_json(*input.history);
   page["convergence"] = convergence_json(input.convergence);
   if (scene != nullptr && maps != nullptr && default_layer(*maps) != nullptr)

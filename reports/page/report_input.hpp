@@ -12,8 +12,10 @@
 #include "ensemble/scores/score_table.hpp"
 #include "scenarios/layers/layer_stack.hpp"
 #include "scenarios/layers/source_lists.hpp"
+#include "scenarios/overlays/overlay.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -80,7 +82,16 @@ struct RegionShown {
   double touched_area_m2 = 0;        ///< that some source reaches
 };
 
+/// One member's thickness over time, for the page to play.
+struct FramesShown {
+  std::int64_t member = 0;
+  Grid grid;
+  std::vector<double> times_s;                ///< rising; the last is the end
+  std::vector<std::vector<float>> thickness;  ///< [times][grid.n_cells()] vertical [m]
+};
+
 struct ReportInput {
+  std::string language = "en";  ///< one of page_languages()
   std::string title;
   std::string scenario_yaml;
   /// Version, git hash, compiler, seed, design, checksums of inputs, command, date ... in order.
@@ -89,6 +100,7 @@ struct ReportInput {
   const LayerStack* hazard = nullptr;         ///< maps of the ensemble; null for a single run
   const LayerStack* peaks = nullptr;          ///< maps of one member, used when `hazard` is null
   const MemberHistory* history = nullptr;     ///< of a single run; may be null or empty
+  const FramesShown* frames = nullptr;        ///< may be null: nothing is played
   const GaugeFindings* gauges = nullptr;      ///< may be null or empty
   std::vector<MemberSummary> members;
   ReportTable samples;  ///< sampled keys; one row per entry of `members`, or no rows
@@ -110,6 +122,9 @@ struct ReportInput {
   const ScoreTable* scores = nullptr;  ///< one row per entry of `members`; null: none is scored
   const Raster<std::uint8_t>* nearest = nullptr;  ///< covered by the best member; may be null
   std::int64_t nearest_member = 0;                ///< its number
+  std::span<const Overlay> overlays;              ///< drawn over the maps
+  /// Of the window of a grid as a JPEG file; null or empty bytes: there is no orthophoto.
+  std::function<std::vector<std::uint8_t>(const Grid&)> orthophoto;
   const Assets* assets = nullptr;             ///< what may be hit; null: the scene names nothing
   const RiskTable* risk = nullptr;            ///< of these assets
   const RegionShown* region = nullptr;        ///< null: one ensemble; else `members` is empty

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/page/text.hpp"
 
+#include "reports/texts/text_table.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -85,14 +87,16 @@ std::string shown_number(double value, int digits) {
   if (negative) text.erase(0, 1);
   if (text.find_first_not_of("0123456789.") == std::string::npos) {
     const std::size_t dot = std::min(text.find('.'), text.size());
-    text = grouped(text.substr(0, dot)) + text.substr(dot);
+    const std::string decimals = text.substr(std::min(dot + 1, text.size()));
+    text =
+        grouped(text.substr(0, dot)) + (dot < text.size() ? tr("number.decimal") : "") + decimals;
   }
   return negative ? minus_sign + text : text;
 }
 
 std::string duration_text(double seconds) {
   if (!(seconds >= 0)) return "\u2013";
-  if (seconds < 10) return plain_number(seconds, 2) + " s";
+  if (seconds < 10) return shown_number(seconds, 2) + " s";
   const auto whole = static_cast<long long>(std::llround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);

@@ -1,76 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pages in a real browser: no errors, no requests, maps and charts that react.
-//   STURZ_PAGES     folder with ensemble.html, cut.html, single.html, empty.html, region.html
-//   STURZ_MODULES   folder whose node_modules holds playwright-core
-//   STURZ_CHROMIUM  the browser; the test is skipped with a message when it is missing
+// The page's switches, charts and tables in headless Chromium, see browser.mjs.
 import assert from 'node:assert/strict';
-import {existsSync} from 'node:fs';
-import {createRequire} from 'node:module';
-import {join} from 'node:path';
-import {after, before, test} from 'node:test';
-import {pathToFileURL} from 'node:url';
+import {test} from 'node:test';
 
-const pages = process.env.STURZ_PAGES;
-const modules = process.env.STURZ_MODULES ?? '';
-const executablePath = process.env.STURZ_CHROMIUM ?? '/usr/bin/chromium';
-
-function missing() {
-  if (!existsSync(executablePath)) return `no browser at ${executablePath}`;
-  if (!existsSync(join(modules, 'node_modules/playwright-core')))
-    return 'playwright-core is not installed in the build folder';
-  return false;
-}
-const skip = missing();
-if (skip) console.log(`skipped: ${skip}`);
-
-let browser;
-before(async () => {
-  if (skip) return;
-  const {chromium} = createRequire(join(modules, 'package.json'))('playwright-core');
-  browser = await chromium.launch({
-    executablePath,
-    args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-           '--disable-background-networking', '--disable-component-update', '--disable-sync'],
-  });
-});
-after(async () => browser?.close());
-
-/** Opens a page and collects everything that must not happen on it. */
-async function open(name, options = {}) {
-  const context = await browser.newContext({viewport: {width: 1280, height: 900}, ...options});
-  const page = await context.newPage();
-  const trouble = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) trouble.push(message.text());
-  });
-  page.on('pageerror', (error) => trouble.push(error.message));
-  page.on('request', (request) => {
-    if (!/^(file|data|blob):/.test(request.url())) trouble.push(`request: ${request.url()}`);
-  });
-  await page.goto(pathToFileURL(join(pages, `${name}.html`)).href);
-  return {page, trouble, close: () => context.close()};
-}
-
-/** What the map looks like right now, as one text. */
-async function picture(page) {
-  await page.mouse.move(2, 2);
-  await page.waitForTimeout(400);
-  return (await page.locator('#map').screenshot()).toString('base64');
-}
-
-async function liveMap(page) {
-  await page.waitForSelector('.live-maps #map canvas', {timeout: 60000});
-  await page.waitForTimeout(400);
-}
-
-/** Clicks the map at fractions of its width and height. */
-async function clickMap(page, fx, fy) {
-  await page.locator('#map').scrollIntoViewIfNeeded();
-  const box = await page.locator('#map').boundingBox();
-  await page.mouse.move(box.x + fx * box.width, box.y + fy * box.height);
-  await page.mouse.click(box.x + fx * box.width, box.y + fy * box.height);
-  await page.waitForTimeout(500);
-}
+import {clickMap, liveMap, open, picture, skip} from './browser.mjs';
 
 test('every page opens without errors or requests', {skip}, async () => {
   for (const name of ['ensemble', 'single', 'cut', 'phases', 'phases_single', 'empty', 'region']) {

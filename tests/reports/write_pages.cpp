@@ -2,8 +2,12 @@
 /// Writes the pages that the browser test opens: write_pages DIRECTORY [COLUMNS ROWS MEMBERS].
 #include "ensemble/region/region_maps.hpp"
 #include "reports/figures/figures.hpp"
+#include "reports/figures/png.hpp"
 #include "tests/reports/made_up_results.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -52,6 +56,61 @@ void write_region(const std::filesystem::path& path, const sturz::testing::MadeU
   write(path, make_report(input));
 }
 
+/// Layers as text, for the browser to compare with; NaN as null.
+void write_layers_json(const std::filesystem::path& path, const sturz::testing::MadeUpResults& r) {
+  const auto& g = r.hazard.grid;
+  const auto list = [](const float* values, std::size_t n) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < n; ++i)
+      text += (i == 0 ? "" : ",") +
+              (std::isnan(values[i]) ? std::string("null") : fmt::format("{:.9g}", values[i]));
+    return text + "]";
+  };
+  const sturz::Layer& thickness = *r.hazard.find("thickness_quantile");
+  const std::string json = fmt::format(
+      "{{\"grid\":{{\"west\":{},\"north\":{},\"cell\":{},\"cols\":{},\"rows\":{}}},"
+      "\"road\":[[413000,4651400],[413900,4651900]],"
+      "\"probability_of_reach\":{},\"median_thickness\":{}}}",
+      g.west_m, g.north_m, g.cell_m, g.n_cols, g.n_rows,
+      list(r.hazard.find("probability_of_reach")->values.data(), g.n_cells()),
+      list(thickness.values.data() + g.n_cells(), g.n_cells()));
+  write(path, json);
+}
+
+/// Houses and a road, and a grey picture in place of a photo.
+void write_overlays(const std::filesystem::path& path, sturz::ReportInput input) {
+  using namespace sturz;
+  const std::vector<Overlay> overlays = {
+      {"Houses <new>",
+       {{OverlayFeature::Kind::polygon,
+         {{{413200, 4651700}, {413260, 4651700}, {413260, 4651760}, {413200, 4651700}}},
+         "chapel"},
+        {OverlayFeature::Kind::point, {{{413500, 4651800}}}, "well"}}},
+      {"Roads", {{OverlayFeature::Kind::line, {{{413000, 4651400}, {413900, 4651900}}}, "pass"}}}};
+  input.overlays = overlays;
+  input.orthophoto = [](const Grid&) {
+    return grey_png(std::vector<std::uint8_t>{40, 200, 90, 160}, 2, 2);
+  };
+  write(path, make_report(input));
+}
+
+/// A run that thins out from its peak to its deposit.
+void write_frames(const std::filesystem::path& path, const sturz::testing::MadeUpResults& r) {
+  using namespace sturz;
+  FramesShown frames{0, r.peaks.grid, {}, {}};
+  const Layer &peak = *r.peaks.find("peak_thickness"),
+              &deposit = *r.peaks.find("deposit_thickness");
+  for (int k = 0; k <= 8; ++k) {
+    frames.times_s.push_back(7.5 * k);
+    auto& plane = frames.thickness.emplace_back(deposit.values);
+    for (std::size_t i = 0; i < plane.size(); ++i)
+      plane[i] += static_cast<float>(8 - k) / 8 * (peak.values[i] - plane[i]);
+  }
+  ReportInput input = r.single_input();
+  input.frames = &frames;
+  write(path, make_report(input));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -68,6 +127,12 @@ int main(int argc, char** argv) {
   const auto results = make_up_results(scene);
   const auto input = results.ensemble_input();
   write(directory / "ensemble.html", sturz::make_report(input));
+  write_layers_json(directory / "ensemble_layers.json", results);
+  write_overlays(directory / "overlays.html", input);
+  write_frames(directory / "frames.html", results);
+  auto german = results.ensemble_input();
+  german.language = "de";
+  write(directory / "german.html", sturz::make_report(german));
   write_region(directory / "region.html", results);
   write(directory / "single.html", sturz::make_report(results.single_input()));
 
@@ -81,6 +146,13 @@ int main(int argc, char** argv) {
   const auto phases = make_up_results(phases_scene);
   write(directory / "phases.html", sturz::make_report(phases.ensemble_input()));
   write(directory / "phases_single.html", sturz::make_report(phases.single_input()));
+
+  // As large as a page gets: 500 x 500 cells, more than twenty planes.
+  auto large_scene = scene;
+  large_scene.n_cols = large_scene.n_rows = 500, large_scene.cell_m = 5;
+  large_scene.n_members = 12;
+  const auto large = make_up_results(large_scene);
+  write(directory / "large.html", sturz::make_report(large.ensemble_input()));
 
   auto empty_scene = scene;
   empty_scene.n_members = 0;

@@ -42,10 +42,12 @@ double quota_v1(const std::string& folder) {
   return quota / period;
 }
 
-/// The smallest quota on the way from this process's control group to the root.
-double cores_by_quota() {
+/// The smallest value on the way from this process's control group to the root. \param of_folder
+/// what a group's folder says, `unlimited` where it says nothing
+template <class OfFolder>
+double smallest_of_groups(const OfFolder& of_folder) {
   const std::string root = "/sys/fs/cgroup";
-  double cores = std::min(quota_v2(root), quota_v1(root + "/cpu"));
+  double smallest = of_folder(root);
   std::ifstream groups("/proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with("0::")) continue;
@@ -54,10 +56,41 @@ double cores_by_quota() {
     for (std::string part; std::getline(parts, part, '/');) {
       if (part.empty()) continue;
       folder += "/" + part;
-      cores = std::min(cores, quota_v2(folder));
+      smallest = std::min(smallest, of_folder(folder));
     }
   }
-  return cores;
+  return smallest;
+}
+
+double cores_by_quota() {
+  return std::min(smallest_of_groups(quota_v2), quota_v1("/sys/fs/cgroup/cpu"));
+}
+
+double number_in(const std::string& file) {
+  std::ifstream from(file);
+  double value = 0;
+  return from >> value ? value : unlimited;  // "max" is no number
+}
+
+/// What a control group of version 2 leaves of its memory [bytes].
+double memory_left_v2(const std::string& folder) {
+  const double most = number_in(folder + "/memory.max"),
+               held = number_in(folder + "/memory.current");
+  return most < unlimited && held < unlimited ? std::max(0.0, most - held) : unlimited;
+}
+double memory_left_v1(const std::string& folder) {
+  const double most = number_in(folder + "/memory.limit_in_bytes"),
+               held = number_in(folder + "/memory.usage_in_bytes");
+  return most < unlimited && held < unlimited ? std::max(0.0, most - held) : unlimited;
+}
+
+double free_memory_of_machine() {
+  std::ifstream info("/proc/meminfo");
+  std::string name, unit;
+  double kib = 0;
+  while (info >> name >> kib && std::getline(info, unit))
+    if (name == "MemAvailable:") return kib * 1024;
+  return 0;
 }
 
 }  // namespace
@@ -70,12 +103,21 @@ int available_cores() {
 }
 
 double available_memory_bytes() {
-  std::ifstream info("/proc/meminfo");
-  std::string name, unit;
-  double kib = 0;
-  while (info >> name >> kib && std::getline(info, unit))
-    if (name == "MemAvailable:") return kib * 1024;
-  return 0;
+  const double left =
+      std::min(smallest_of_groups(memory_left_v2), memory_left_v1("/sys/fs/cgroup/memory"));
+  const double free = free_memory_of_machine();
+  return free > 0 ? std::min(free, left) : (left < unlimited ? left : 0);
+}
+
+std::size_t records_memory_bytes(double max_process_bytes) {
+  constexpr double share = 0.125;
+  constexpr std::size_t least = std::size_t{128} << 20, most = std::size_t{1} << 30;
+  double wanted = share * available_memory_bytes();
+  if (max_process_bytes > 0)  // a half: maps take memory as well
+    wanted = std::min(wanted, (max_process_bytes - resident_memory_bytes()) / 2);
+  return wanted < static_cast<double>(most)
+             ? std::max(least, static_cast<std::size_t>(std::max(wanted, 0.0)))
+             : most;
 }
 
 double resident_memory_bytes() {

@@ -106,13 +106,9 @@ void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule)
        {Kind{"", "", Statistic::probability, &MultilevelMap::probability},
         Kind{"_lower", ", lower bound", Statistic::lower_bound, &MultilevelMap::low},
         Kind{"_upper", ", upper bound", Statistic::upper_bound, &MultilevelMap::high}}) {
-    Layer layer;
-    layer.name = map.name + kind.suffix;
-    layer.meaning = {quantity, kind.statistic};
-    layer.long_name = what + kind.words;
-    layer.units = "1";
-    layer.comment = (kind.statistic == Statistic::probability ? "" : "90 % bounds; ") + rule +
-                    ", within 0 and 1" + monotone;
+    const std::string bounds = kind.statistic == Statistic::probability ? "" : "90 % bounds; ";
+    Layer layer = plain_layer(map.name + kind.suffix, {quantity, kind.statistic}, what + kind.words,
+                              "1", bounds + rule + ", within 0 and 1" + monotone);
     if (!map.thresholds.empty()) {
       const std::string word = map.name.substr(0, map.name.find("_exceedance"));
       layer.axis = {word + "_threshold", "", map_unit(map.layer).name, map.thresholds};

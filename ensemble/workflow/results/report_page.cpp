@@ -11,6 +11,7 @@
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
 #include "io/files/plain_text.hpp"
@@ -232,7 +233,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   if (!one_run) {
     page.design = &design;
     page.stop = finished.manifest.stop ? &*finished.manifest.stop : nullptr;
-    convergence = probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
+    convergence = probability_convergence(store, records_memory_bytes(), 40, cancel);
     page.convergence = convergence;
   }
   page.elevation = ground.get();

@@ -4,6 +4,7 @@ import uPlot from 'uplot';
 
 import {colours, onColourChange} from './colours.js';
 import {numberText, percentText, valueText, wilson} from './data.js';
+import {t} from './texts.js';
 
 const named = (tag, className, ...children) => {
   const node = document.createElement(tag);
@@ -70,7 +71,7 @@ function thresholdTable(entries, at, page) {
     const [low, high] = wilson(p, page.valid, page.z);
     const row = body.insertRow();
     row.append(named('th', '', plane.label,
-                     plane.resolved === false ? named('small', 'flag', 'not resolved') : ''));
+                     plane.resolved === false ? named('small', 'flag', t('not_resolved')) : ''));
     row.append(named('td', 'n', valueText(layer.legend, p)));
     row.append(named('td', 'n soft', `${percentText(low)} – ${percentText(high)}`));
   }
@@ -85,7 +86,7 @@ function quantileTable(planes, at) {
   const head = table.createTHead().insertRow();
   head.append(named('th', ''));
   for (const plane of layers[0].planes)
-    head.append(named('th', 'n', plane.label.replace('\u00a0% quantile', ' %')));
+    head.append(named('th', 'n', plane.axis === 0.5 ? t('median') : `${numberText(100 * plane.axis)}\u00a0%`));
   const body = table.createTBody();
   for (const layer of layers) {
     const row = body.insertRow();
@@ -118,7 +119,7 @@ function sourceTable(list) {
   }
   if (list.length > most) {
     const row = body.insertRow();
-    row.append(named('th', '', `and ${list.length - most} more`), named('td', 'n', ''));
+    row.append(named('th', '', t('and_more', list.length - most)), named('td', 'n', ''));
   }
   return table;
 }
@@ -126,23 +127,24 @@ function sourceTable(list) {
 /** What comes to a cell of a region: its sources, and values of all of them together. */
 function regionPanel(box, list, planes, at) {
   if (list.length === 0) {
-    box.append(named('p', 'note', 'No source reaches this cell.'));
+    box.append(named('p', 'note', t('cell.no_source')));
     return;
   }
   const n = list.length;
-  box.append(named('p', 'cell-line', 'Reached by ', named('b', '', `${n} source${n > 1 ? 's' : ''}`),
-                   n > 1 ? ', each with its probability if it releases:' : ', with its probability if it releases:'),
+  box.append(named('p', 'cell-line', t('cell.reached_by_sources'),
+                   named('b', '', t(n > 1 ? 'cell.sources.many' : 'cell.sources.one', n)),
+                   t(n > 1 ? 'cell.each_probability' : 'cell.its_probability')),
              sourceTable(list));
   const together = planes.filter((p) => p.layer.quantity === 'sources' && !p.layer.legend.nominal);
   if (together.length > 0)
-    box.append(named('p', 'chart-title', 'If all release'), peakTable(together, at));
+    box.append(named('p', 'chart-title', t('cell.if_all')), peakTable(together, at));
   const worst = planes.filter((p) => p.layer.statistic === 'source_quantile');
   if (worst.length > 0)
-    box.append(named('p', 'chart-title', 'Quantiles of the worst source'),
+    box.append(named('p', 'chart-title', t('cell.worst_source')),
                quantileTable(worst, at));
 }
 
-export function createCellPanel(box, page, planes, sources = null) {
+export function createCellPanel(box, page, planes, sources, closed) {
   const of = (statistic, quantity) => planes.filter(
       (p) => p.layer.statistic === statistic && (!quantity || p.layer.quantity === quantity));
   const curves = [...new Set(planes.filter((p) => p.layer.statistic === 'probability' &&
@@ -155,16 +157,22 @@ export function createCellPanel(box, page, planes, sources = null) {
 
   const draw = () => {
     if (!shown) {
-      box.replaceChildren(named('p', 'note', sources
-          ? 'Click a cell to see which sources reach it.' : page.single
-          ? 'Click a cell to read all its peaks.'
-          : 'Click a cell to see its exceedance curve and quantiles.'));
+      box.replaceChildren(named('p', 'note', t(
+          sources ? 'cell.click_sources' : page.single ? 'cell.click_peaks' : 'cell.click_curve')));
       return;
     }
     const {at, coordinate, height} = shown;
     const place = `x ${Math.round(coordinate[0])}, y ${Math.round(coordinate[1])}` +
         (Number.isFinite(height) ? `, ${Math.round(height)} m` : '');
-    box.replaceChildren(named('h4', '', 'At this cell ', named('small', '', place)));
+    const close = named('button', 'tool close', '×');
+    close.type = 'button';
+    close.title = t('close');
+    close.addEventListener('click', () => {
+      shown = null;
+      draw();
+      closed();
+    });
+    box.replaceChildren(close, named('h4', '', `${t('cell.here')} `, named('small', '', place)));
     if (sources) {
       regionPanel(box, sources.at(at), planes, at);
       return;
@@ -172,22 +180,21 @@ export function createCellPanel(box, page, planes, sources = null) {
     const touched = at >= 0 &&
         (reached ? reached.values[at] > 0 : planes.some((p) => p.values[at] > 0));
     if (!touched) {
-      box.append(named('p', 'note', page.single ? 'The flow did not come here.'
-                                                : 'No valid member came here.'));
+      box.append(named('p', 'note', t(page.single ? 'cell.flow_not' : 'cell.none_came')));
       return;
     }
     if (reached) {
       const p = reached.values[at];
       const [low, high] = wilson(p, page.valid, page.z);
       box.append(named('p', 'cell-line',
-                       `Reached by ${Math.round(p * page.valid)} of ${page.valid} members: `,
+                       t('cell.reached_by', Math.round(p * page.valid), page.valid),
                        named('b', '', percentText(p)),
                        ` (${percentText(low)} – ${percentText(high)})`));
-      for (const [quantity, name] of [['solid_reached', 'Grains'], ['liquid_reached', 'Liquid']]) {
+      for (const [quantity, name] of [['solid_reached', t('cell.grains_in')], ['liquid_reached', t('cell.liquid_in')]]) {
         const own = planes.find((p) => p.layer.quantity === quantity)?.values[at];
         if (own === undefined) continue;
         const [least, most] = wilson(own, page.valid, page.z);
-        box.append(named('p', 'cell-line', `${name} in ${Math.round(own * page.valid)}: `,
+        box.append(named('p', 'cell-line', `${name} ${Math.round(own * page.valid)}: `,
                          named('b', '', percentText(own)),
                          ` (${percentText(least)} – ${percentText(most)})`));
       }
@@ -195,15 +202,14 @@ export function createCellPanel(box, page, planes, sources = null) {
     if (quantity) {
       const entries = of('probability', quantity);
       const chart = named('div', 'cell-chart');
-      box.append(named('p', 'chart-title', `Share of members above a threshold`), chart);
+      box.append(named('p', 'chart-title', t('cell.share_above')), chart);
       drawCurve(chart, entries, of('quantile', quantity), at, page);
-      const key = 'Dots: thresholds. Rings: quantiles. Band: 95\u00a0% interval.';
-      box.append(named('p', 'note', key), thresholdTable(entries, at, page));
+      box.append(named('p', 'note', t('cell.curve_key')), thresholdTable(entries, at, page));
     }
     const own = (p) => p.layer.material === material;
     const quantiles = of('quantile').filter(own);
     if (quantiles.length > 0)
-      box.append(named('p', 'chart-title', 'Quantiles over the members'),
+      box.append(named('p', 'chart-title', t('cell.quantiles')),
                  quantileTable(quantiles, at));
     if (!quantity && quantiles.length === 0) box.append(peakTable(planes.filter(own), at));
   };
@@ -212,6 +218,7 @@ export function createCellPanel(box, page, planes, sources = null) {
   draw();
 
   return {
+    redraw: draw,
     show(at, coordinate, height) {
       shown = {at, coordinate, height};
       draw();

@@ -4,7 +4,8 @@
 import uPlot from 'uplot';
 
 import {colours, onColourChange} from './colours.js';
-import {numberText} from './data.js';
+import {fixedText, numberText} from './data.js';
+import {t} from './texts.js';
 
 const font = '11px system-ui, sans-serif';
 
@@ -78,7 +79,7 @@ function drawMedian(plot, runout, c) {
   ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   ctx.textAlign = x(runout.median) > bbox.left + bbox.width / 2 ? 'right' : 'left';
   const gap = (ctx.textAlign === 'left' ? 6 : -6) * devicePixelRatio;
-  ctx.fillText(runout.atLeast ? 'median ≥' : 'median', x(runout.median) + gap, bbox.top + 12 * devicePixelRatio);
+  ctx.fillText(runout.atLeast ? `${t('median')} ≥` : t('median'), x(runout.median) + gap, bbox.top + 12 * devicePixelRatio);
   ctx.restore();
 }
 
@@ -111,7 +112,7 @@ function drawRunout(page) {
       histogram(rows.map((i) => members.scalars.runout[i]), rows.map((i) => members.cut[i]));
   const anyCut = cutCounts.some((n) => n > 0);
   if (anyCut)
-    document.getElementById('read-runout').textContent = 'hatched: cut off, ran at least so far';
+    document.getElementById('read-runout').textContent = t('hatched');
   keepDrawn(box, (width) => {
     const c = colours();
     const bars = {width: 1, points: {show: false}, paths: uPlot.paths.bars({size: [0.92], gap: 1})};
@@ -121,7 +122,7 @@ function drawRunout(page) {
         x: {time: false, range: [centres[0] - step, centres[centres.length - 1] + step]},
         y: {range: (_, __, max) => [0, Math.max(1, max * 1.12)]},
       },
-      axes: axes(c, 'runout [m]', 'simulations'),
+      axes: axes(c, t('runout_m'), t('simulations')),
       series: [
         {}, {fill: c.accent, stroke: c.accent, ...bars},
         {fill: () => hatch(c), stroke: c.accent, ...bars},
@@ -146,7 +147,7 @@ function drawConvergence(page) {
         x: {time: false, range: [0, n[n.length - 1] * 1.02]},
         y: {range: (_, __, max) => [0, max > 0 ? max * 1.1 : 1]},
       },
-      axes: axes(c, 'simulations counted', chosen.unit),
+      axes: axes(c, t('simulations_counted'), chosen.unit),
       series: [{}, {
         stroke: c.accent, width: 2, fill: c.band,
         points: {show: true, size: 5, fill: c.accent},
@@ -205,9 +206,9 @@ function drawCut(plot, xs, ys, c) {
 
 /** "τ = 0.52", and how many pairs that is counted from where not from all. */
 function agreementText({tau, ordered, pairs}) {
-  if (tau === null) return 'τ not known';
-  const text = `τ = ${tau.toFixed(2).replace('-', '−')}`;
-  return ordered < pairs ? `${text} from ${Math.round(100 * ordered / pairs)} % of the pairs` : text;
+  if (tau === null) return t('tau_not_known');
+  const text = `τ = ${fixedText(tau, 2)}`;
+  return ordered < pairs ? t('tau_from', text, Math.round(100 * ordered / pairs)) : text;
 }
 
 function scatterPlot(figure, sample, page) {
@@ -242,7 +243,7 @@ function scatterPlot(figure, sample, page) {
         }},
         y: {range: (_, min, max) => [0, Math.max(max * 1.12, 1e-9)]},
       },
-      axes: axes(c, sample.unit ? `[${sample.unit}]` : '', 'runout [m]'),
+      axes: axes(c, sample.unit ? `[${sample.unit}]` : '', t('runout_m')),
       series: [
         {}, {
           stroke: c.accent, paths: () => null,
@@ -255,7 +256,7 @@ function scatterPlot(figure, sample, page) {
           const k = plot.cursor.idx ?? -1;
           const least = k >= 0 && cut[k] !== null ? '≥ ' : '';
           const pair = k >= 0 ? `${numberText(x[k])} → ${least}${numberText(y[k])} m` : '';
-          readout.textContent = pair ? `member ${members.member[usable[k]]}: ${pair}` : agreement;
+          readout.textContent = pair ? t('member_pair', members.member[usable[k]], pair) : agreement;
         }],
         draw: [(plot) => {
           drawCut(plot, x, cut, c);

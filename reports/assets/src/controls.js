@@ -1,105 +1,105 @@
 // SPDX-License-Identifier: Apache-2.0
-// The map's panel: which quantity, which statistic, which threshold; legend, hover, opacity.
+// The map's panel: which quantity, which statistic, which threshold; legend, hover, tools.
 import {createCellPanel} from './cell.js';
 import {cellIndex, classOf, numberText, percentText, unpack, valueText, wilson} from './data.js';
+import {chips, element, northArrow} from './dom.js';
+import {drawLegend, marksOf} from './legend.js';
 import {createMap} from './map.js';
+import {profileTool} from './profile.js';
+import {printWhatIsSeen, saveTools} from './save.js';
 import {loadSources} from './sources.js';
+import {swipeTool} from './swipe.js';
+import {t} from './texts.js';
+import {view3dTool} from './view3d.js';
 
-const statisticNames = {
-  probability: 'Probability', quantile: 'Quantile', source_quantile: 'Quantile of the worst source', mean: 'Mean', peak: 'Peak', value: 'Value',
-};
-const materialNames = {'': 'Whole flow', grains: 'Grains alone', liquid: 'Liquid alone'};
-const boundNames = {lower: 'lower end', upper: 'upper end'};
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
-export function element(tag, attributes = {}, ...children) {
-  const node = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-  node.append(...children);
-  return node;
-}
+const nothingYet = new Float32Array(0);
 
-/** A row of buttons of which one is pressed; `entries` are {key, label, title, flag}. */
-function chips(label, entries, active, pick) {
-  const row = element('div', {class: 'chips', role: 'group', 'aria-label': label});
-  for (const entry of entries) {
-    const chip = element('button', {
-      type: 'button', 'aria-pressed': String(entry.key === active), 'data-key': entry.key,
-    }, entry.label);
-    if (entry.title) chip.title = entry.title;
-    if (entry.flag) chip.append(element('span', {class: 'flag'}, entry.flag));
-    chip.addEventListener('click', () => pick(entry.key));
-    row.append(chip);
-  }
-  return row;
-}
-
-/** The map is never turned: north is up. */
-function northArrow() {
-  const space = 'http://www.w3.org/2000/svg';
-  const svg = document.createElementNS(space, 'svg');
-  for (const [name, value] of Object.entries(
-           {viewBox: '0 0 24 36', width: '24', height: '36', class: 'north', role: 'img',
-            'aria-label': 'North is up'}))
-    svg.setAttribute(name, value);
-  const part = (tag, attributes, text = '') => {
-    const node = document.createElementNS(space, tag);
-    for (const [name, value] of Object.entries(attributes)) node.setAttribute(name, value);
-    node.textContent = text;
-    svg.append(node);
-  };
-  part('path', {d: 'M12 1 19 23 12 18 5 23Z', fill: '#111', stroke: '#fff', 'stroke-width': '1.2'});
-  part('text', {x: '12', y: '34', 'text-anchor': 'middle', 'font-size': '11', 'font-weight': '700',
-                fill: '#111', stroke: '#fff', 'stroke-width': '2.4', 'paint-order': 'stroke'}, 'N');
-  return svg;
-}
-
-/** All planes of a page as {layer, plane, values}, unpacked. */
-async function loadPlanes(maps) {
-  const jobs = [];
+/** All planes of a page as {layer, plane, values, ready}; values come one by one. */
+function loadPlanes(maps) {
+  const entries = [];
   for (const layer of maps.layers)
-    for (const plane of layer.planes)
-      jobs.push(unpack(plane, maps.cells.cols).then((values) => ({layer, plane, values})));
-  return Promise.all(jobs);
+    for (const plane of layer.planes) entries.push({layer, plane, values: nothingYet, ready: null});
+  const load = (entry) => {
+    entry.ready ??= unpack(entry.plane, maps.cells.cols).then((values) => { entry.values = values; });
+    return entry.ready;
+  };
+  return {entries, load};
+}
+
+/** Opacity, contours, overlays: what is drawn how. */
+function switchesOf(view, maps, heights) {
+  const opacity = element('input', {type: 'range', min: '0', max: '100', value: '78', id: 'pick-opacity'});
+  opacity.addEventListener('input', () => view.setOpacity(Number(opacity.value) / 100));
+  const box = element('div', {class: 'switches'},
+                      element('label', {for: 'pick-opacity'}, t('opacity'), opacity));
+  const check = (id, label, on, change) => {
+    const input = element('input', {type: 'checkbox', id});
+    input.checked = on;
+    input.addEventListener('change', () => change(input.checked));
+    box.append(element('label', {for: id}, input, label));
+  };
+  if (heights) check('pick-contours', t('contours'), true, view.setContours);
+  view.overlays.named.forEach(({name, layer, look}, k) => {
+    const swatch = element('span', {class: 'swatch line'});
+    swatch.style.borderColor = look.colour;
+    check(`pick-overlay-${k}`, element('span', {}, swatch, ' ', name), true,
+          (on) => layer.setVisible(on));
+  });
+  if (view.overlays.photo)
+    check('pick-photo', t('orthophoto'), false, (on) => view.overlays.photo.setVisible(on));
+  return box;
+}
+
+/** The elements of the panel, put into the page. */
+function buildApp() {
+  const app = document.getElementById('map-app');
+  app.hidden = false;
+  const parts = {
+    app,
+    pickers: element('div', {class: 'pickers'}),
+    title: element('h3', {class: 'map-title'}),
+    tools: element('div', {class: 'tools', role: 'group', 'aria-label': t('tools')}),
+    target: element('div', {id: 'map', class: 'map', tabindex: '0', 'aria-label': t('map_label')}),
+    hover: element('div', {class: 'hover', 'aria-live': 'off'}),
+    wheelHint: element('div', {class: 'wheel-hint'}, t('wheel_hint')),
+    legendBox: element('div', {class: 'legend-box'}),
+    panel: element('div', {class: 'map-panel'}),
+    comment: element('p', {class: 'note map-comment'}),
+    cellBox: element('div', {class: 'cell-box'}),
+  };
+  parts.wheelHint.hidden = parts.hover.hidden = true;
+  parts.panel.append(parts.legendBox);
+  parts.stage = element('div', {class: 'map-stage'}, parts.target, northArrow(),
+                        element('span', {class: 'cross-hair', 'aria-hidden': 'true'}),
+                        parts.hover, parts.wheelHint);
+  app.append(parts.pickers,
+             element('div', {class: 'map-head'}, parts.title, parts.tools),
+             element('div', {class: 'map-area'}, parts.stage, parts.panel, parts.cellBox),
+             parts.comment);
+  return parts;
 }
 
 export async function startMaps(page) {
   const maps = page.maps;
-  const planes = await loadPlanes(maps);
+  const {entries: planes, load} = loadPlanes(maps);
+  const first = planes.find((p) => p.layer === maps.layers[maps.start]);
+  // What the first map needs comes first; the others follow while it is looked at.
+  const wanted = planes.filter(
+      (p) => p === first || ['reached', 'left'].includes(p.layer.quantity));
+  await Promise.all(wanted.map(load));
   const sources = await loadSources(page.region, maps.cells.cols);
   const heights = maps.ground ? await unpack(maps.ground, maps.ground.grid.cols) : null;
-  const app = document.getElementById('map-app');
-  app.hidden = false;
+  const parts = buildApp();
+  const {pickers, title, hover, wheelHint, legendBox, comment} = parts;
 
-  const pickers = element('div', {class: 'pickers'});
-  const title = element('h3', {class: 'map-title'});
-  const target = element('div', {id: 'map', class: 'map', tabindex: '0', 'aria-label': 'Map'});
-  const hover = element('div', {class: 'hover', 'aria-live': 'off'});
-  const wheelHint = element('div', {class: 'wheel-hint'}, 'Ctrl and the wheel zoom the map');
-  wheelHint.hidden = true;
-  const legendBox = element('div', {class: 'legend-box'});
-  const comment = element('p', {class: 'note map-comment'});
-  const cellBox = element('div', {class: 'cell-box'});
-  const opacity = element('input', {
-    type: 'range', min: '0', max: '100', value: '78', id: 'pick-opacity',
-  });
-  const contours = element('input', {type: 'checkbox', id: 'pick-contours'});
-  contours.checked = true;
-  const switches = element(
-      'div', {class: 'switches'}, element('label', {for: 'pick-opacity'}, 'Opacity', opacity));
-  if (heights)
-    switches.append(element('label', {for: 'pick-contours'}, contours, 'Contours'));
-  app.append(
-      pickers,
-      element('div', {class: 'map-grid'},
-              element('div', {class: 'map-column'}, title,
-                      element('div', {class: 'map-box'}, target, northArrow(), hover, wheelHint), comment),
-              element('aside', {class: 'map-side'}, legendBox, switches, cellBox)));
-
-  const cellPanel = createCellPanel(cellBox, page, planes, sources);
+  const cellPanel = createCellPanel(parts.cellBox, page, planes, sources,
+                                    () => view.point(null));
   const reached = planes.find((p) => p.layer.quantity === 'reached');
-  let current = planes.find((p) => p.layer === maps.layers[maps.start]);
+  let current = first;
   let bound = 'value';
+  let seenValues = current.values;  // or one end of their interval
 
   const groundHeight = ([x, y]) => {
     const at = heights ? cellIndex(maps.ground.grid, x, y) : -1;
@@ -114,27 +114,28 @@ export async function startMaps(page) {
     const at = cellIndex(maps.cells, x, y);
     const value = at < 0 ? NaN : current.values[at];
     const legend = current.layer.legend;
-    let text = at < 0 ? '–' : valueText(legend, value);
-    if (legend.probability && value >= 0 && page.valid > 0) {
+    let text = at < 0 ? '–' : valueText(legend, seenValues[at]);
+    if (bound === 'value' && legend.probability && value >= 0 && page.valid > 0) {
       const [low, high] = wilson(value, page.valid, page.z);
       text += ` (${percentText(low)} – ${percentText(high)})`;
     }
-    if (at < 0 || (reached && !(reached.values[at] > 0))) text = 'not reached';
+    if (at < 0 || (reached && !(reached.values[at] > 0))) text = t('not_reached');
     hover.append(element('b', {}, text), ` x ${Math.round(x)} y ${Math.round(y)}`);
     const z = groundHeight(coordinate);
-    if (Number.isFinite(z)) hover.append(` · ground ${numberText(Math.round(z))} m`);
+    if (Number.isFinite(z)) hover.append(` · ${t('ground')} ${numberText(Math.round(z))} m`);
     if (sources) {
       const list = sources.at(at);
       const shown = list.slice(0, 3).map(({name, p}) => `${name} ${percentText(p)}`);
-      if (list.length > 3) shown.push(`${list.length} sources in all`);
+      if (list.length > 3) shown.push(t('sources_in_all', list.length));
       if (list.length > 0) hover.append(element('span', {class: 'hover-sources'}, shown.join(' · ')));
     }
     const k = at < 0 ? -1 : classOf(legend, value);
     if (k >= 0) legendBox.querySelector(`[data-class="${k}"]`)?.classList.add('on');
   };
   const left = planes.find((p) => p.layer.quantity === 'left') ?? null;
+  const marks = marksOf(maps, left?.values);
   let hintTimer = 0;
-  const view = createMap(target, maps, heights, left?.values ?? null, {
+  const view = createMap(parts.target, maps, heights, left?.values ?? null, {
     hover: showHover,
     plainWheel() {
       wheelHint.hidden = false;
@@ -146,49 +147,9 @@ export async function startMaps(page) {
       view.mark(coordinate);
       cellPanel.show(at, coordinate, groundHeight(coordinate));
     },
+    line: (coordinates) => profile.follow(coordinates),
   });
-  hover.hidden = true;
-
-  const drawLegend = (legend) => {
-    const list = element('ul', {class: 'legend'});
-    const listed = legend.nominal ? legend.classes.slice(0, 12) : legend.classes;
-    listed.forEach((c, k) => {
-      const swatch = element('span', {class: 'swatch'});
-      swatch.style.background = c.colour;
-      list.append(element('li', {'data-class': k}, swatch, c.label));
-    });
-    if (listed.length < legend.classes.length)
-      list.append(element('li', {}, `… ${legend.classes.length} in all`));
-    const marks = element('ul', {class: 'legend marks'});
-    if (maps.release.length > 0)
-      marks.append(element('li', {}, element('span', {class: 'swatch release'}), 'release'));
-    if (maps.observed)
-      marks.append(element('li', {}, element('span', {class: 'swatch observed'}),
-                           maps.observed.label));
-    if (maps.nearest)
-      marks.append(element('li', {}, element('span', {class: 'swatch nearest'}),
-                           maps.nearest.label));
-    for (const front of maps.fronts)
-      marks.append(element('li', {}, element('span', {class: `swatch front-${front.kind}`}),
-                           front.label));
-    if (left?.values.some((v) => v > 0))
-      marks.append(element('li', {}, element('span', {class: 'swatch left'}),
-                           'mass left the terrain here'));
-    legendBox.replaceChildren(element('p', {class: 'legend-title'}, legend.title), list, marks);
-  };
-
-  const show = (next) => {
-    current = next;
-    const {layer, plane} = current;
-    const shown = boundOf(current, bound);
-    title.textContent = bound === 'value' || !layer.legend.probability
-        ? plane.title : `${plane.title}: ${boundNames[bound]} of its 95 % interval`;
-    comment.textContent = layer.comment ? `${capital(layer.comment)}.` : '';
-    drawLegend(layer.legend);
-    view.show(layer.legend, shown);
-    cellPanel.follow(layer.quantity, layer.material);
-    drawPickers();
-  };
+  parts.panel.append(switchesOf(view, maps, heights));
 
   /** A plane's probabilities, or one end of their interval where the flow came at all. */
   const boundOf = ({layer, values}, which) => {
@@ -204,7 +165,7 @@ export async function startMaps(page) {
     const wanted = same.filter((p) => p.layer.statistic === statistic);
     const from = wanted.length > 0 ? wanted : same.filter((p) => p.layer === same[0].layer);
     const kept = from.find((p) => p.plane.label === current.plane.label);
-    const middle = from.find((p) => p.plane.label === 'median');
+    const middle = from.find((p) => p.layer.statistic === 'quantile' && p.plane.axis === 0.5);
     show(kept ?? middle ?? from.find((p) => p.plane.resolved !== false) ?? from[0]);
   };
 
@@ -216,6 +177,9 @@ export async function startMaps(page) {
     go(same.layer.quantity, current.layer.statistic);
   };
 
+  const pickRow = (label, keys, labelOf, active, pick) => chips(
+      label, keys.map((key) => ({key, label: labelOf(key)})), active, pick);
+
   const drawPickers = () => {
     const {quantity, statistic, material} = current.layer;
     const focused = document.activeElement?.dataset?.key;
@@ -225,7 +189,7 @@ export async function startMaps(page) {
     const statistics = [...new Set(same.map((p) => p.layer.statistic))];
     const choices = same.filter((p) => p.layer.statistic === statistic);
     const rows = [chips(
-        'Quantity',
+        t('quantity'),
         quantities.map((key) => {
           const {short, quantityTitle} = own.find((p) => p.layer.quantity === key).layer;
           return {key, label: short, title: quantityTitle};
@@ -233,35 +197,64 @@ export async function startMaps(page) {
         quantity, (key) => go(key, statistic))];
     if (materials.length > 1)
       rows.unshift(chips(
-          'Material',
-          materials.map((key) => ({key: `material-${key}`, label: materialNames[key]})),
+          t('material'),
+          materials.map((key) => ({key: `material-${key}`, label: t(`material.${key || 'all'}`)})),
           `material-${material}`, (key) => goMaterial(key.slice('material-'.length))));
     if (statistics.length > 1)
-      rows.push(chips(
-          'Statistic', statistics.map((key) => ({key, label: statisticNames[key] ?? key})),
-          statistic, (key) => go(quantity, key)));
+      rows.push(pickRow(t('statistic'), statistics, (key) => t(`statistic.${key}`), statistic,
+                        (key) => go(quantity, key)));
     if (choices.length > 1)
       rows.push(chips(
-          'Level',
+          t('level'),
           choices.map((p, k) => ({
                         key: `level-${k}`, label: p.plane.label,
-                        flag: p.plane.resolved === false ? 'not resolved' : '',
+                        flag: p.plane.resolved === false ? t('not_resolved') : '',
                       })),
           `level-${choices.indexOf(current)}`, (key) => show(choices[Number(key.slice(6))])));
     if (current.layer.legend.probability && page.valid > 0)
-      rows.push(chips(
-          'End of the interval',
-          [{key: 'value', label: 'Share'}, {key: 'lower', label: '95 % lower'},
-           {key: 'upper', label: '95 % upper'}],
-          bound, (key) => {
-            bound = key;
-            show(current);
-          }));
+      rows.push(pickRow(t('end_of_interval'), ['value', 'lower', 'upper'], (key) => t(`end.${key}`),
+                        bound, (key) => {
+                          bound = key;
+                          show(current);
+                        }));
     pickers.replaceChildren(...rows);
     if (focused) pickers.querySelector(`[data-key="${focused}"]`)?.focus();
   };
 
-  opacity.addEventListener('input', () => view.setOpacity(Number(opacity.value) / 100));
-  contours.addEventListener('change', () => view.setContours(contours.checked));
-  show(current);
+  /** What a saved or printed picture holds. */
+  const seen = () => ({
+    view, marks, name: current.layer.name + (bound === 'value' ? '' : `_${bound}`),
+    title: title.textContent, legend: current.layer.legend, values: seenValues,
+    scene: document.querySelector('h1').textContent, system: maps.system, beside: swipe.beside(),
+  });
+  const profile = profileTool(view, maps.cells, () => ({...current, values: seenValues}), groundHeight);
+  const swipe = swipeTool(parts.stage, view, planes, load);
+  parts.panel.append(swipe.panel);
+  parts.tools.append(profile.button);
+  if (planes.length > 1) parts.tools.append(swipe.button);
+  const solid = view3dTool(parts.stage, page, heights, () => ({...current, values: seenValues}));
+  if (solid) parts.tools.append(solid.button);
+  parts.tools.append(...saveTools(seen, maps.cells));
+  comment.after(profile.box);
+  parts.stage.append(element('span', {class: 'map-system'}, maps.system));
+
+  const show = async (next) => {
+    current = next;
+    await load(next);
+    if (current !== next) return;  // another one was chosen meanwhile
+    const {layer, plane} = current;
+    seenValues = boundOf(current, bound);
+    title.textContent = bound === 'value' || !layer.legend.probability
+        ? plane.title : t('title_of_end', plane.title, t(`end_in_title.${bound}`));
+    comment.textContent = layer.comment ? `${capital(layer.comment)}.` : '';
+    drawLegend(legendBox, layer.legend, marks);
+    view.show(layer.legend, seenValues);
+    cellPanel.follow(layer.quantity, layer.material);
+    profile.redraw();
+    solid?.redraw();
+    drawPickers();
+  };
+  await show(first);
+  setTimeout(() => Promise.all(planes.map(load)).then(() => cellPanel.redraw()), 60);
+  printWhatIsSeen(seen, () => current === first && bound === 'value');
 }

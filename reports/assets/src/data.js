@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Unpacks rasters: base64, deflate, differences along rows, whole numbers to values.
 
-async function inflate(base64) {
+import {languageOf} from './texts.js';
+
+export async function inflate(base64) {
   const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
   return new Uint8Array(await new Response(stream).arrayBuffer());
@@ -61,15 +63,20 @@ export function wilson(p, n, z) {
 }
 
 const grouped = new Intl.NumberFormat('en', {maximumSignificantDigits: 3, useGrouping: 'always'});
+const local = (text) => languageOf() === 'en' ? text : text.replace('.', decimalMark());
+const decimalMark = () => new Intl.NumberFormat(languageOf()).format(0.5)[1];
 
 /** Three significant digits, thousands separated by narrow spaces. */
 export function numberText(value) {
   if (!Number.isFinite(value)) return '–';
   const whole = Math.abs(value) >= 1000 ? Math.round(value).toString() : null;
-  if (whole === null) return grouped.format(value).replace('-', '−');
+  if (whole === null) return local(grouped.format(value).replace('-', '−'));
   const digits = Math.abs(value) >= 10000 ? whole.replace(/\B(?=(\d{3})+$)/g, '\u202f') : whole;
   return digits.replace('-', '−');
 }
+
+/** With so many decimals. */
+export const fixedText = (value, decimals) => local(value.toFixed(decimals).replace('-', '−'));
 
 export function percentText(p) {
   if (!Number.isFinite(p)) return '–';

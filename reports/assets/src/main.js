@@ -3,13 +3,17 @@
 import 'ol/ol.css';
 import 'uplot/dist/uPlot.min.css';
 import '../page.css';
+import '../map.css';
+import '../print.css';
 
 import {drawCharts} from './charts.js';
 import {startMaps} from './controls.js';
 import {drawMotion} from './motion.js';
 import {makeSortable} from './table.js';
+import {t, useTexts} from './texts.js';
 
 const page = JSON.parse(document.getElementById('sturz-data').textContent);
+useTexts(page.texts, document.documentElement.lang);
 
 makeSortable(document.getElementById('member-table'));
 
@@ -22,10 +26,13 @@ if (document.getElementById('motion')) {
 
 if (page.maps) {
   startMaps(page).then(
-      () => document.documentElement.classList.add('live-maps'),
+      () => {
+        document.documentElement.classList.add('live-maps');
+        performance.mark('first-map');
+      },
       (error) => {
         document.getElementById('map-app').hidden = true;
         document.getElementById('still-note').textContent =
-            `These are still pictures: the live maps could not start (${error.message}).`;
+            t('no_live_maps', error.message);
       });
 }

@@ -5,6 +5,7 @@ import uPlot from 'uplot';
 import {axes, keepDrawn} from './charts.js';
 import {colourOf, colours} from './colours.js';
 import {numberText} from './data.js';
+import {t} from './texts.js';
 
 /** Share or length that a line stands for; lines of a stack hold their upper edges. */
 function own(chart, k, i) {
@@ -45,7 +46,7 @@ function draw(chart, time) {
       x: {time: false, range: [0, time[time.length - 1]]},
       y: {range: [0, chart.top]},
     },
-    axes: axes(gridded(chart), 'time [s]', `[${chart.unit}]`),
+    axes: axes(gridded(chart), t('time_s'), `[${chart.unit}]`),
     series: [{}, ...lines.map((line) => seriesOf(chart, line))],
     hooks: {
       setCursor: [(plot) => {

@@ -2,6 +2,7 @@
 // What each asset has to expect.
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -34,13 +35,15 @@ std::string head_cell(const std::string& label, const std::string& unit) {
 }
 
 std::string head_of(const Assets& assets) {
-  std::string head = head_cell("asset", "");
-  if (assets.has_classes) head += head_cell("class", "");
-  head += head_cell("hit (95 % interval)", "") + head_cell("thickness", "m") +
-          head_cell("speed", "m/s") + head_cell("pressure", "kPa") + head_cell("arrival", "s");
-  if (assets.has_classes) head += head_cell("expected damage", "");
-  if (assets.has_classes && assets.has_values)
-    head += head_cell("expected loss", assets.value_unit);
+  const auto column = [](const char* key, const std::string& unit) {
+    return head_cell(tr(fmt::format("assets.col.{}", key)), unit);
+  };
+  std::string head = column("asset", "");
+  if (assets.has_classes) head += column("class", "");
+  head += column("hit", "") + column("thickness", "m") + column("speed", "m/s") +
+          column("pressure", "kPa") + column("arrival", "s");
+  if (assets.has_classes) head += column("damage", "");
+  if (assets.has_classes && assets.has_values) head += column("loss", assets.value_unit);
   return head;
 }
 
@@ -70,8 +73,7 @@ std::string row_of(const Assets& assets, const Asset& asset, const AssetRisk& r)
     const int rest =
         5 + (assets.has_classes ? 1 : 0) + (assets.has_classes && assets.has_values ? 1 : 0);
     return row +
-           fmt::format("<td colspan=\"{}\">beyond the known ground: nothing is known</td></tr>",
-                       rest);
+           fmt::format("<td colspan=\"{}\">{}</td></tr>", rest, html_escape(tr("assets.beyond")));
   }
   const std::string share =
       std::isnan(r.probability)
@@ -95,14 +97,12 @@ std::string total_text(const Assets& assets, const RiskTable& risk) {
   });
   const double error = risk.total_loss.standard_error;
   const std::string out =
-      risk.n_without_loss == 0
-          ? ""
-          : fmt::format(" That is without {} of {} assets, whose loss is not known.",
-                        risk.n_without_loss, risk.rows.size());
-  return fmt::format("<p>Expected loss of all assets together, by one event: {}{} {}.{}</p>",
-                     at_least(more, shown_number(risk.total_loss.mean)),
-                     std::isnan(error) ? "" : " \u00B1 " + shown_number(error, 2),
-                     html_escape(assets.value_unit), out);
+      risk.n_without_loss == 0 ? "" : tr("assets.without", risk.n_without_loss, risk.rows.size());
+  return "<p>" +
+         html_escape(tr("assets.total", at_least(more, shown_number(risk.total_loss.mean)),
+                        std::isnan(error) ? "" : " \u00B1 " + shown_number(error, 2),
+                        assets.value_unit, out)) +
+         "</p>";
 }
 
 }  // namespace
@@ -111,26 +111,17 @@ std::string assets_html(const ReportInput& input) {
   if (input.assets == nullptr || input.risk == nullptr || input.assets->list.empty()) return {};
   const Assets& assets = *input.assets;
   std::string html =
-      "<section id=\"assets\"><h2>Assets</h2>" + total_text(assets, *input.risk) +
+      "<section id=\"assets\"><h2>" + html_escape(tr("assets.title")) + "</h2>" +
+      total_text(assets, *input.risk) +
       "<div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr>" +
       head_of(assets) + "</tr></thead><tbody>";
   const std::vector<std::size_t> order = order_of(*input.risk);
   for (std::size_t k = 0; k < std::min(most_rows, order.size()); ++k)
     html += row_of(assets, assets.list[order[k]], input.risk->rows[order[k]]);
-  html +=
-      "</tbody></table></div><p class=\"note\">Hit: a member reached a cell that the asset "
-      "touches; the share of the valid members. Thickness, speed and pressure: the largest "
-      "over those cells, median (5 \u2013 95 %) among the members that hit; arrival: the "
-      "earliest. ";
-  if (assets.has_classes)
-    html +=
-        "Expected damage: share of the value, over all valid members, \u00B1 its standard "
-        "error. ";
-  html +=
-      "All by one event, not by year. \u201C\u2265\u201D: members that were cut off make it a "
-      "lower bound. All assets are in assets.csv and assets.gpkg.";
-  if (order.size() > most_rows)
-    html += fmt::format(" Here are the first {} of {}.", most_rows, order.size());
+  html += "</tbody></table></div><p class=\"note\">" + html_escape(tr("assets.note"));
+  if (assets.has_classes) html += html_escape(tr("assets.note_damage"));
+  html += html_escape(tr("assets.note_end"));
+  if (order.size() > most_rows) html += html_escape(tr("table.first_of", most_rows, order.size()));
   return html + "</p></section>";
 }
 

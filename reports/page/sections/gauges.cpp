@@ -2,6 +2,7 @@
 #include "reports/figures/motion_charts.hpp"
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -16,13 +17,14 @@ namespace {
 constexpr std::size_t most_rows = 200, most_charts = 12;
 
 std::string head_of(const GaugeFindings& f) {
-  std::string head =
-      "<th scope=\"col\">gauge</th><th scope=\"col\">quantity</th><th scope=\"col\">unit</th>"
-      "<th scope=\"col\">reached</th>";
+  std::string head;
+  for (const char* key : {"gauge", "quantity", "unit", "reached"})
+    head += "<th scope=\"col\">" + html_escape(tr(fmt::format("gauges.col.{}", key))) + "</th>";
   for (std::size_t k = 0; k < f.quantiles.size(); ++k)
-    head += fmt::format(
-        "<th scope=\"col\">{}</th>",
-        f.one_member ? "value" : fmt::format("{}\u00A0%", shown_number(100 * f.quantiles[k])));
+    head +=
+        fmt::format("<th scope=\"col\">{}</th>",
+                    f.one_member ? html_escape(tr("gauges.col.value"))
+                                 : fmt::format("{}\u00A0%", shown_number(100 * f.quantiles[k])));
   return head;
 }
 
@@ -38,9 +40,10 @@ std::string shown_quantile(const std::string& value, double factor) {
 std::string row_of(const GaugeRow& r) {
   const DisplayUnit unit = display_unit(r.units);
   std::string row = fmt::format(
-      "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{} of {}{}</td>", html_escape(r.gauge),
-      html_escape(words(r.quantity)), html_escape(unit.label), r.reached, r.members,
-      r.unknown > 0 ? fmt::format(", {} not known", r.unknown) : "");
+      "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td>", html_escape(r.gauge),
+      html_escape(words(r.quantity)), html_escape(unit.label),
+      html_escape(tr("gauges.of", r.reached, r.members,
+                     r.unknown > 0 ? tr("gauges.not_known", r.unknown) : std::string())));
   for (const std::string& v : r.values)
     row += fmt::format("<td class=\"n\">{}</td>", html_escape(shown_quantile(v, unit.factor)));
   return row + "</tr>";
@@ -51,12 +54,13 @@ std::string chart_of(const GaugeFindings& f, const GaugeBand& band) {
   constexpr std::array<const char*, 3> paints{"rear", "front", "fastest"};
   MotionChart chart;
   chart.name = "gauge";
-  chart.title = "Discharge at " + band.gauge;
+  chart.title = tr("gauges.chart", band.gauge);
   chart.unit = "m\u00B3/s";
   double most = 0;
   for (std::size_t q = 0; q < band.values.size() && q < paints.size(); ++q) {
     MotionLine line;
-    line.label = f.one_member ? "discharge" : fmt::format("{:g} %", 100 * f.quantiles[q]);
+    line.label =
+        f.one_member ? tr("gauges.discharge") : fmt::format("{:g} %", 100 * f.quantiles[q]);
     line.paint = paints[q];
     for (const double v : band.values[q]) {
       line.values.push_back(std::isnan(v) ? 0 : v);
@@ -81,22 +85,16 @@ std::string chart_of(const GaugeFindings& f, const GaugeBand& band) {
 std::string gauges_html(const ReportInput& input) {
   if (input.gauges == nullptr || input.gauges->empty()) return {};
   const GaugeFindings& f = *input.gauges;
-  std::string html =
-      "<section id=\"gauges\"><h2>Gauges</h2><div class=\"table-box short\" tabindex=\"0\">"
-      "<table class=\"spaced\"><thead><tr>" +
-      head_of(f) + "</tr></thead><tbody>";
+  std::string html = "<section id=\"gauges\"><h2>" + html_escape(tr("gauges.title")) +
+                     "</h2><div class=\"table-box short\" tabindex=\"0\">"
+                     "<table class=\"spaced\"><thead><tr>" +
+                     head_of(f) + "</tr></thead><tbody>";
   for (std::size_t k = 0; k < std::min(most_rows, f.rows.size()); ++k) html += row_of(f.rows[k]);
   html += "</tbody></table></div><div class=\"charts motion\">";
   std::size_t charts = 0;
   for (const GaugeBand& band : f.bands)
     if (band.quantity == "discharge" && charts++ < most_charts) html += chart_of(f, band);
-  return html +
-         "</div><p class=\"note\">Over the valid members: the value that so many of them do not "
-         "exceed. "
-         "\u201Cnever\u201D: so many were not reached that this one is among them; \u201C>\u201D "
-         "and "
-         "\u201C>=\u201D: members that were cut off while they moved do not let it be told nearer. "
-         "All gauges are in gauges.csv, over time in gauge_series.csv.</p></section>";
+  return html + "</div><p class=\"note\">" + html_escape(tr("gauges.note")) + "</p></section>";
 }
 
 }  // namespace sturz

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reports/figures/figures.hpp"
+#include "reports/page/crs_text.hpp"
+#include "reports/page/cut_off_text.hpp"
 #include "reports/page/report.hpp"
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -86,87 +89,85 @@ std::string still_figures(const ReportInput& input, const MapScene& scene, const
   return html + "</div>";
 }
 
-/// " (EPSG:32633)" where the whole system, not only a part of it, has a code: the last thing in
-/// its WKT.
-std::string epsg_text(const std::string& wkt) {
-  const std::size_t at = wkt.rfind("\"EPSG\",");
-  if (at == std::string::npos) return {};
-  const std::size_t from = wkt.find_first_of("0123456789", at);
-  const std::size_t to = wkt.find_first_not_of("0123456789", from);
-  if (from == std::string::npos || to == std::string::npos) return {};
-  std::size_t closed = 0;
-  for (std::size_t i = to; i < wkt.size(); ++i) closed += wkt[i] == ']';
-  return closed == 2 ? " (EPSG:" + wkt.substr(from, to - from) + ")" : "";
-}
-
-/// Name of the coordinate system: the first quoted text of its WKT, and its code.
-std::string crs_name(const std::string& wkt) {
-  const std::size_t open = wkt.find('"');
-  if (open == std::string::npos) return "local coordinates";
-  return wkt.substr(open + 1, wkt.find('"', open + 1) - open - 1) + epsg_text(wkt);
-}
-
 }  // namespace
 
-std::string map_html(const ReportInput& input, const MapScene* scene, const LayerStack* maps) {
-  const bool hazard = input.hazard != nullptr;
-  std::string html = fmt::format("<section id=\"maps\"><h2>{}</h2>", input.region != nullptr
-                                                                         ? "Maps of all sources"
-                                                                     : hazard ? "Hazard maps"
-                                                                              : "Maps of the run");
+std::string title_block_html(const ReportInput& input, const Headline& h, const MapScene& scene,
+                             const LayerStack& maps) {
+  const PlainWords words = plain_words(input, h);
+  const auto value = [&](const std::string& key) {
+    for (const auto& [k, v] : input.manifest)
+      if (k == key) return v;
+    return std::string();
+  };
+  std::string rows;
+  const auto row = [&rows](const char* key, const std::string& text) {
+    if (!text.empty())
+      rows += "<div><dt>" + html_escape(tr(key)) + "</dt><dd>" + html_escape(text) + "</dd></div>";
+  };
+  row("sheet.system", crs_name(maps.grid.crs_wkt));
+  row("sheet.cells", with_unit(scene.cells.cell_m, "m"));
+  row("sheet.rests_on", input.region != nullptr ? tr("sheet.region", input.region->sources.size())
+                        : input.hazard != nullptr
+                            ? tr("sheet.valid_of", h.n_valid, std::max(h.n_members, h.n_valid))
+                            : tr("sheet.one_run"));
+  row("sheet.started", value("started"));
+  row("sheet.program", value("program"));
+  row("sheet.hash", value("hash of the maps"));
+  row("sheet.sheets", tr("sheet.map_sheet"));
+  const std::vector<std::string> cut = cut_off_sentences(h.censoring);
+  return "<aside class=\"title-block print-only\"><h1>" +
+         html_escape(input.title.empty() ? tr("header.untitled") : input.title) +
+         "</h1><p class=\"finding\">" + html_escape(words.finding) + "</p><p>" +
+         html_escape(words.holds) + "</p>" +
+         (cut.empty() ? "" : "<p class=\"cut-line\">" + html_escape(cut.front()) + "</p>") +
+         "<dl>" + rows + "</dl><p>" + html_escape(tr("sheet.not_official")) + "</p></aside>";
+}
+
+std::string map_html(const ReportInput& input, const Headline& h, const MapScene* scene,
+                     const LayerStack* maps) {
+  std::string html = "<section id=\"maps\"><h2 class=\"screen-only\">" +
+                     html_escape(tr(input.region != nullptr   ? "map.title_region"
+                                    : input.hazard != nullptr ? "map.title_ensemble"
+                                                              : "map.title_single")) +
+                     "</h2>";
   if (scene == nullptr || maps == nullptr || default_layer(*maps) == nullptr)
-    return html +
-           "<p class=\"empty\">There is no map to show: no member left a valid one.</p></section>";
+    return html + "<p class=\"empty\">" + html_escape(tr("map.none")) + "</p></section>";
   html += "<div id=\"map-app\" class=\"map-app\" hidden></div>";
   html += "<p id=\"still-note\" class=\"note\">";
-  html += report_has_script()
-              ? "These are still pictures. The maps that can be switched and queried need script "
-                "and a browser from 2023 on."
-              : "These are still pictures: this sturz was built without the script bundle "
-                "(STURZ_REPORT_JS=OFF, or node was missing). All maps are in the result files.";
-  html += "</p>" + hillshade_defs(*scene) + still_figures(input, *scene, *maps);
+  html += html_escape(tr(report_has_script() ? "map.stills_script" : "map.stills_built_without"));
+  html += "</p>" + hillshade_defs(*scene) + "<div class=\"map-sheet\">" +
+          still_figures(input, *scene, *maps) +
+          "<figure id=\"seen-map\" class=\"print-only\" hidden></figure>" +
+          title_block_html(input, h, *scene, *maps) + "</div>";
   const int joined = scene->coarsening * maps->joined;
-  html += fmt::format(
-      "<p class=\"note\">{}; cells of {}{}.</p>", html_escape(crs_name(maps->grid.crs_wkt)),
-      with_unit(scene->cells.cell_m, "m"),
-      joined > 1 ? fmt::format(" (the most severe of {0} x {0} cells of the result files)", joined)
-                 : std::string());
-  return html + "</section>";
+  return html + "<p class=\"note screen-only\">" +
+         html_escape(tr("map.cells", crs_name(maps->grid.crs_wkt),
+                        with_unit(scene->cells.cell_m, "m"),
+                        joined > 1 ? tr("map.joined", joined) : std::string())) +
+         "</p></section>";
 }
 
 std::string charts_html(const ReportInput& input, const Headline& h) {
   if (h.n_valid < 2 || !report_has_script()) return {};
-  std::string html =
-      "<section id=\"spread\" class=\"needs-script\" hidden><h2>Spread of the simulations</h2>"
-      "<div class=\"charts\">"
-      "<figure class=\"chart\"><figcaption>How far the simulations ran<small id=\"read-runout\">"
-      "</small></figcaption>"
-      "<div id=\"chart-runout\"></div></figure>";
+  std::string html = "<section id=\"spread\" class=\"needs-script\" hidden><h2>" +
+                     html_escape(tr("spread.title")) +
+                     "</h2><div class=\"charts\"><figure class=\"chart\"><figcaption>" +
+                     html_escape(tr("spread.runout")) +
+                     "<small id=\"read-runout\"></small></figcaption>"
+                     "<div id=\"chart-runout\"></div></figure>";
   if (input.convergence.size() > 1)
-    html +=
-        "<figure class=\"chart\"><figcaption>Would more simulations change the map? "
-        "<select id=\"pick-convergence\" aria-label=\"Number to follow\"></select></figcaption>"
-        "<div id=\"chart-convergence\"></div></figure>";
+    html += "<figure class=\"chart\"><figcaption>" + html_escape(tr("spread.more")) +
+            " <select id=\"pick-convergence\" aria-label=\"" + html_escape(tr("spread.follow")) +
+            "\"></select></figcaption><div id=\"chart-convergence\"></div></figure>";
   html += "</div>";
   if (!input.stop_rule.empty())
-    html += fmt::format(
-        "<p class=\"note\">The number of simulations followed from a stop rule: {}. Each cell's "
-        "interval was made for one look; of a rule that looks often, a few more than 5 % lie "
-        "beyond."
-        "</p>",
-        html_escape(input.stop_rule));
+    html += "<p class=\"note\">" + html_escape(tr("spread.stop_rule", input.stop_rule)) + "</p>";
   if (!input.samples.rows.empty())
-    html +=
-        "<h3>What drives the runout</h3><p class=\"note\">One dot per simulation. \u03C4 is the "
-        "rank "
-        "correlation with runout (Kendall): of the pairs of simulations whose order is known, the "
-        "share that runs farther with the larger value, less the share that runs less far. " +
-        std::string(h.censoring.censored() > 0
-                        ? "Rings with an arrow are cut off: they ran at least so far, and pairs of "
-                          "them, or with one that came to rest farther, are not counted. "
-                        : "") +
-        "Crosses are simulations that failed.</p>"
-        "<div id=\"chart-scatter\" class=\"charts scatter\"></div>";
+    html += "<h3>" + html_escape(tr("spread.drives")) + "</h3><p class=\"note\">" +
+            html_escape(tr("spread.note") +
+                        (h.censoring.censored() > 0 ? tr("spread.note_cut") : std::string()) +
+                        tr("spread.note_failed")) +
+            "</p><div id=\"chart-scatter\" class=\"charts scatter\"></div>";
   return html + "</section>";
 }
 

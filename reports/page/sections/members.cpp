@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/core/error.hpp"
 #include "ensemble/censoring/scalar_censoring.hpp"
+#include "reports/page/cut_off_text.hpp"
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +20,7 @@ namespace {
 constexpr std::size_t max_rows = 500;
 
 struct ScalarColumn {
-  const char* label;
+  const char* key;  ///< of its label among the texts: members.col.KEY
   const char* units;
   double MemberScalars::*field;
   bool percent = false;   ///< a share, shown to compare members, where some member has one
@@ -26,28 +28,28 @@ struct ScalarColumn {
 };
 constexpr ScalarColumn scalar_columns[] = {
     {"runout", "m", &MemberScalars::runout_m},
-    {"crown to toe, L", "m", &MemberScalars::crown_to_toe_length_m},
-    {"H/L", "1", &MemberScalars::crown_to_toe_ratio},
-    {"centre-of-mass travel", "m", &MemberScalars::com_travel_m},
+    {"length", "m", &MemberScalars::crown_to_toe_length_m},
+    {"ratio", "1", &MemberScalars::crown_to_toe_ratio},
+    {"com", "m", &MemberScalars::com_travel_m},
     {"area", "m2", &MemberScalars::reached_area_m2},
-    {"max speed", "m s-1", &MemberScalars::max_speed_m_s},
-    {"max thickness", "m", &MemberScalars::max_thickness_m},
-    {"max energy", "J m-2", &MemberScalars::max_energy_j_m2},
+    {"speed", "m s-1", &MemberScalars::max_speed_m_s},
+    {"thickness", "m", &MemberScalars::max_thickness_m},
+    {"energy", "J m-2", &MemberScalars::max_energy_j_m2},
     {"eroded", "m3", &MemberScalars::eroded_volume_m3, false, true},
-    {"growth V_f/V_0", "1", &MemberScalars::volume_growth, false, true},
-    {"runout of grains", "m", &MemberScalars::solid_runout_m, false, true},
-    {"runout of liquid", "m", &MemberScalars::liquid_runout_m, false, true},
-    {"grains that left", "1", &MemberScalars::solid_lost_fraction, true, true},
-    {"liquid that left", "1", &MemberScalars::liquid_lost_fraction, true, true},
+    {"growth", "1", &MemberScalars::volume_growth, false, true},
+    {"solid_runout", "m", &MemberScalars::solid_runout_m, false, true},
+    {"liquid_runout", "m", &MemberScalars::liquid_runout_m, false, true},
+    {"solid_left", "1", &MemberScalars::solid_lost_fraction, true, true},
+    {"liquid_left", "1", &MemberScalars::liquid_lost_fraction, true, true},
     {"layers", "1", &MemberScalars::release_layers},
     {"dilated", "1", &MemberScalars::parted_fraction, true},
-    {"in transition", "1", &MemberScalars::transition_fraction, true},
+    {"transition", "1", &MemberScalars::transition_fraction, true},
     {"dilute", "1", &MemberScalars::dilute_fraction, true},
     {"ultradilute", "1", &MemberScalars::ultradilute_fraction, true},
     {"simulated", "s", &MemberScalars::end_time_s},
     {"steps", "1", &MemberScalars::n_steps},
-    {"computed in", "s", &MemberScalars::wall_s},
-    {"CPU", "s", &MemberScalars::cpu_s},
+    {"wall", "s", &MemberScalars::wall_s},
+    {"cpu", "s", &MemberScalars::cpu_s},
 };
 
 std::string header_cell(const std::string& label, const std::string& unit,
@@ -65,10 +67,9 @@ std::string number_cell(double value) {
 std::string scalar_cell(double value, Known known) {
   if (known == Known::exactly || std::isnan(value)) return number_cell(value);
   const bool least = known == Known::at_least;
-  return fmt::format(
-      "<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value,
-      least ? "at least: the member is cut off" : "of what was seen: the member is cut off",
-      least ? "\u2265\u00A0" : "(", shown_number(value), least ? "" : ")");
+  return fmt::format("<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value,
+                     html_escape(tr(least ? "members.at_least" : "members.of_seen")),
+                     least ? "\u2265\u00A0" : "(", shown_number(value), least ? "" : ")");
 }
 
 std::string unit_of(const ReportTable& table, std::size_t k) {
@@ -96,11 +97,13 @@ std::vector<ScalarColumn> shown_columns(const std::vector<MemberSummary>& member
 std::string unit_of(const ScalarColumn& c) { return c.percent ? "%" : display_unit(c.units).label; }
 double factor_of(const ScalarColumn& c) { return c.percent ? 100 : display_unit(c.units).factor; }
 
+std::string label_of(const ScalarColumn& c) { return tr(fmt::format("members.col.{}", c.key)); }
+
 std::string full_name(const ScalarColumn& c) {
-  if (!c.percent) return c.label;
+  if (!c.percent) return label_of(c);
   for (const ScalarInfo& scalar : scalar_table())
     if (scalar.field == c.field) return scalar.long_name;
-  return c.label;
+  return label_of(c);
 }
 
 /// The scores by which a reader sorts members; the others are in members.csv.
@@ -133,13 +136,14 @@ std::string score_cells(const ReportInput& input, std::size_t i) {
 
 std::string table_head(const ReportTable& samples, bool with_samples,
                        const std::vector<ScalarColumn>& columns) {
-  std::string head = header_cell("member", "", "Number of the member") +
-                     header_cell("outcome", "", "How the member ended") +
-                     header_cell("cut off", "", "Why its end is not known, where it is not");
+  std::string head;
+  for (const char* key : {"member", "outcome", "cut"})
+    head += header_cell(tr(fmt::format("members.col.{}", key)), "",
+                        tr(fmt::format("members.col.{}_full", key)));
   for (std::size_t k = 0; with_samples && k < samples.columns.size(); ++k)
     head += header_cell(key_label(samples, k), display_unit(unit_of(samples, k)).label,
                         samples.columns[k]);
-  for (const auto& c : columns) head += header_cell(c.label, unit_of(c), full_name(c));
+  for (const auto& c : columns) head += header_cell(label_of(c), unit_of(c), full_name(c));
   return head;
 }
 
@@ -148,13 +152,19 @@ std::string row_class(const MemberSummary& m) {
   return is_censored(m.censoring) ? " class=\"cut\"" : "";
 }
 
+/// What colour says, said without it.
+const char* mark_of(const MemberSummary& m) {
+  if (!is_valid(m.outcome)) return "\u2715\u00A0";
+  return is_censored(m.censoring) ? "\u2192\u00A0" : "";
+}
+
 std::string table_row(const ReportInput& input, std::size_t i,
                       const std::vector<ScalarColumn>& columns) {
   const MemberSummary& m = input.members[i];
   std::string row = fmt::format(
-      "<tr{}><td class=\"n\" data-v=\"{}\">{}</td><td title=\"{}\">{}</td><td>{}</td>",
-      row_class(m), m.member, m.member, html_escape(m.reason), words(to_string(m.outcome)),
-      is_censored(m.censoring) ? words(to_string(m.censoring)) : "");
+      "<tr{}><td class=\"n\" data-v=\"{}\">{}</td><td title=\"{}\">{}{}</td><td>{}</td>",
+      row_class(m), m.member, m.member, html_escape(m.reason), mark_of(m),
+      html_escape(outcome_text(m.outcome)), html_escape(censoring_text(m.censoring)));
   if (!input.samples.rows.empty())
     for (std::size_t k = 0; k < input.samples.columns.size(); ++k)
       row += number_cell(display_unit(unit_of(input.samples, k)).factor * input.samples.rows[i][k]);
@@ -169,10 +179,12 @@ std::string lost_members(const std::vector<MemberSummary>& members) {
   std::string items;
   for (const auto& m : members)
     if (!is_valid(m.outcome))
-      items += fmt::format("<li><b>{}</b> {}: {}</li>", m.member, words(to_string(m.outcome)),
-                           html_escape(m.reason.empty() ? "no reason recorded" : m.reason));
+      items +=
+          fmt::format("<li><b>{}</b> {}: {}</li>", m.member, html_escape(outcome_text(m.outcome)),
+                      html_escape(m.reason.empty() ? tr("members.no_reason") : m.reason));
   if (items.empty()) return {};
-  return "<h3>Members left out</h3><ul class=\"lost-list\">" + items + "</ul>";
+  return "<h3>" + html_escape(tr("members.left_out")) + "</h3><ul class=\"lost-list\">" + items +
+         "</ul>";
 }
 
 }  // namespace
@@ -217,16 +229,12 @@ std::string members_html(const ReportInput& input, const Headline& h) {
   for (const std::size_t i : order) rows += table_row(input, i, columns);
   std::string html =
       fmt::format("<section id=\"members\"><h2>{}</h2>{}",
-                  h.n_members == 1 ? "The run in numbers" : "Members", lost_members(input.members));
+                  html_escape(tr(h.n_members == 1 ? "members.title_single" : "members.title")),
+                  lost_members(input.members));
   if (n > max_rows)
-    html += fmt::format(
-        "<p class=\"note\">{} of {} members are shown, all that failed among them "
-        "where they fit; the rest is in members.csv.</p>",
-        max_rows, n);
-  if (n > 1)
-    html +=
-        "<p class=\"print-only\">The table of all members is in members.csv, and in this page "
-        "on a screen.</p>";
+    html += "<p class=\"note\">" + html_escape(tr("members.cut_table", max_rows, n)) + "</p>";
+  if (h.n_members > h.n_valid || h.censoring.censored() > 0)
+    html += "<p class=\"note\">" + html_escape(tr("members.marks")) + "</p>";
   return html +
          (n > 1 ? "<div class=\"table-box\" tabindex=\"0\">"
                 : "<div class=\"table-box short\" tabindex=\"0\">") +

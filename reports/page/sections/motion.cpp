@@ -4,6 +4,7 @@
 #include "reports/figures/motion_charts.hpp"
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -44,9 +45,7 @@ std::string figure_html(const MotionChart& chart, const std::vector<double>& tim
       html_escape(chart.title), chart.name, motion_chart_svg(chart, times), legend_of(chart));
 }
 
-std::string looser_text() {
-  return fmt::format("looser than {} of its packing at release", 1 + dilated_density_change);
-}
+std::string looser_text() { return tr("motion.looser", 1 + dilated_density_change); }
 
 bool has_states(const MemberScalars& m) {
   return m.transition_fraction + m.dilute_fraction + m.ultradilute_fraction > 0;
@@ -55,29 +54,17 @@ bool has_states(const MemberScalars& m) {
 /// One sentence on what the states were, or what a scene without them left out.
 std::string states_text(const MemberScalars& m, const MemberHistory& history) {
   if (!history.has_states) {
-    if (std::isnan(m.parted_fraction))
-      return "Columns (depth_averaged) have no states, nor has a liquid by itself: how loose the "
-             "grains were is not known.";
-    return fmt::format(
-        "At most {} of the mass and time was {}; what such grains do beyond falling freely was "
-        "left out, since grains.states was not asked for.",
-        share_text(m.parted_fraction), looser_text());
+    if (std::isnan(m.parted_fraction)) return tr("motion.no_states");
+    return tr("motion.left_out", share_text(m.parted_fraction), looser_text());
   }
   const double loose = m.transition_fraction + m.dilute_fraction + m.ultradilute_fraction;
-  std::string text = fmt::format(
-      "Of mass and time {} were dense, {} in transition, {} dilute, {} ultradilute. A dense grain "
-      "counts as dense down to a solid fraction of {:.2f}; particles that lie by themselves have "
-      "few neighbours and count as dilute or ultradilute at rest too.",
-      share_text(1 - loose), share_text(m.transition_fraction), share_text(m.dilute_fraction),
-      share_text(m.ultradilute_fraction), leave_dense_fraction);
+  std::string text =
+      tr("motion.states", share_text(1 - loose), share_text(m.transition_fraction),
+         share_text(m.dilute_fraction), share_text(m.ultradilute_fraction), leave_dense_fraction);
   if (history.has_temperature)
-    return text + fmt::format(
-                      " The largest granular temperature was {} m\u00B2/s\u00B2, {} of the "
-                      "largest speed squared.",
-                      shown_number(m.max_granular_temperature_m2_s2), share_text(m.granular_ratio));
-  return text +
-         " Collisions of dilute grains were left out, since grains.states.dilute was not "
-         "asked for.";
+    return text + tr("motion.temperature", shown_number(m.max_granular_temperature_m2_s2),
+                     share_text(m.granular_ratio));
+  return text + tr("motion.no_dilute");
 }
 
 }  // namespace
@@ -87,13 +74,10 @@ std::string motion_html(const ReportInput& input) {
   const std::vector<MotionChart> charts = motion_charts(*input.history);
   if (charts.empty()) return {};
   const std::vector<double> times = motion_times(*input.history);
-  std::string html =
-      "<section id=\"motion\"><h2>Motion over time</h2><div class=\"charts motion\">";
+  std::string html = "<section id=\"motion\"><h2>" + html_escape(tr("motion.title")) +
+                     "</h2><div class=\"charts motion\">";
   for (const MotionChart& chart : charts) html += figure_html(chart, times);
-  return html +
-         "</div><p class=\"note\">Travel is the horizontal displacement of each particle from "
-         "where "
-         "it started, of the mass still on the terrain. " +
+  return html + "</div><p class=\"note\">" + html_escape(tr("motion.note")) +
          html_escape(states_text(input.members.front().scalars, *input.history)) + "</p></section>";
 }
 
@@ -104,12 +88,10 @@ std::string left_out_html(const std::vector<MemberSummary>& members) {
       dilated.push_back(m.scalars.parted_fraction);
   if (dilated.empty()) return {};
   std::sort(dilated.begin(), dilated.end());
-  return fmt::format(
-      "<div><h3>What was left out</h3><p>Grains that separate and meet again: at most {} of the "
-      "mass "
-      "and time was {} in the median member, {} in the worst. Where that is much, ask for "
-      "grains.states.</p></div>",
-      share_text(dilated[dilated.size() / 2]), looser_text(), share_text(dilated.back()));
+  return "<div><h3>" + html_escape(tr("motion.what_left_out")) + "</h3><p>" +
+         html_escape(tr("motion.dilated", share_text(dilated[dilated.size() / 2]), looser_text(),
+                        share_text(dilated.back()))) +
+         "</p></div>";
 }
 
 }  // namespace sturz

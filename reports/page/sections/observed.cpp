@@ -3,6 +3,7 @@
 #include "engine/core/error.hpp"
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -22,10 +23,9 @@ std::string known_cell(const Observation& value) {
     return fmt::format("<td class=\"n\" data-v=\"{:.9g}\">{}</td>", value.value,
                        shown_number(value.value));
   const bool least = value.known == Known::at_least;
-  return fmt::format(
-      "<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value.value,
-      least ? "at least: the member is cut off" : "of what was seen: the member is cut off",
-      least ? "\u2265\u00A0" : "(", shown_number(value.value), least ? "" : ")");
+  return fmt::format("<td class=\"n\" data-v=\"{:.9g}\" title=\"{}\">{}{}{}</td>", value.value,
+                     html_escape(tr(least ? "members.at_least" : "members.of_seen")),
+                     least ? "\u2265\u00A0" : "(", shown_number(value.value), least ? "" : ")");
 }
 
 std::string head_cell(const std::string& label, const std::string& unit, const std::string& title) {
@@ -49,7 +49,8 @@ std::vector<std::size_t> shown_scores(const ScoreTable& scores) {
 
 /// Observed quantities with their standard deviations, as the table's first row.
 std::string observed_row(const ScoreTable& scores, std::size_t n_before, std::size_t n_scores) {
-  std::string row = "<tr class=\"observed\"><th scope=\"row\">observed</th>";
+  std::string row =
+      "<tr class=\"observed\"><th scope=\"row\">" + html_escape(tr("observed.row")) + "</th>";
   for (std::size_t i = 1; i < n_before; ++i) row += "<td></td>";
   for (std::size_t i = 0; i < n_scores; ++i) row += "<td></td>";
   for (const ObservedQuantity& q : scores.comparison.observed) {
@@ -81,22 +82,22 @@ std::string member_row(const ReportInput& input, std::size_t i,
   return row + "</tr>";
 }
 
-const char* good_values(Better better) {
+const std::string& good_values(Better better) {
   switch (better) {
     case Better::larger:
-      return "larger is better";
+      return tr("observed.larger");
     case Better::smaller:
-      return "smaller is better";
+      return tr("observed.smaller");
     case Better::nearer_one:
-      return "nearer to 1 is better";
+      return tr("observed.nearer_one");
     case Better::nearer_zero:
       break;
   }
-  return "nearer to 0 is better";
+  return tr("observed.nearer_zero");
 }
 
 std::string table_head(const ReportInput& input, const std::vector<std::size_t>& shown) {
-  std::string head = head_cell("member", "", "Number of the member");
+  std::string head = head_cell(tr("members.col.member"), "", tr("members.col.member_full"));
   if (!input.samples.rows.empty())
     for (std::size_t k = 0; k < input.samples.columns.size(); ++k)
       head += head_cell(key_label(input.samples, k),
@@ -108,8 +109,7 @@ std::string table_head(const ReportInput& input, const std::vector<std::size_t>&
                       score.long_name + "; " + good_values(score.better));
   }
   for (const ObservedQuantity& q : input.scores->comparison.observed)
-    head +=
-        head_cell(words_without_unit(q.name), q.unit, "Compared with what was observed: " + q.name);
+    head += head_cell(words_without_unit(q.name), q.unit, tr("observed.compared", q.name));
   return head;
 }
 
@@ -137,15 +137,10 @@ std::string observed_html(const ReportInput& input, const Headline& h) {
   const std::size_t before = 1 + (input.samples.rows.empty() ? 0 : input.samples.columns.size());
   std::string rows = observed_row(scores, before, shown.size());
   for (const std::size_t i : best) rows += member_row(input, i, shown, simulated_of(input, i));
-  std::string html = "<section id=\"observed\"><h2>Beside what was observed</h2><p class=\"note\">";
-  if (h.n_members > 1)
-    html += fmt::format("The {} of {} members with the smallest misfit; all are in members.csv. ",
-                        best.size(), all);
-  html +=
-      "Misfit is the root mean square of (simulated \u2212 observed) over the standard deviation: "
-      "1 differs as much as the observations are uncertain. Outlines and areas are compared with "
-      "what was passed over, deposits with what lies at rest. Members that are cut off come last, "
-      "their values marked.</p>";
+  std::string html = "<section id=\"observed\"><h2>" + html_escape(tr("observed.title")) +
+                     "</h2><p class=\"note\">";
+  if (h.n_members > 1) html += html_escape(tr("observed.best", best.size(), all));
+  html += html_escape(tr("observed.note")) + "</p>";
   return html +
          "<div class=\"table-box short\" tabindex=\"0\"><table id=\"observed-table\" "
          "class=\"spaced\"><thead><tr>" +

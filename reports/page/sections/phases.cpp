@@ -3,6 +3,7 @@
 #include "reports/page/estimate_text.hpp"
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,7 @@ using M = MemberScalars;
 
 /// One quantity of the flow and of its materials.
 struct PhaseRow {
-  const char* label;
+  const char* key;  ///< of its text: phases.row.KEY
   const char* units;
   double M::*flow;  ///< null: not to be compared
   double M::*grains;
@@ -26,19 +27,18 @@ struct PhaseRow {
   bool percent = false;
 };
 constexpr std::array rows{
-    PhaseRow{"Runout", "m", &M::runout_m, &M::solid_runout_m, &M::liquid_runout_m},
-    PhaseRow{"Area reached", "m2", &M::reached_area_m2, &M::solid_reached_area_m2,
+    PhaseRow{"runout", "m", &M::runout_m, &M::solid_runout_m, &M::liquid_runout_m},
+    PhaseRow{"area", "m2", &M::reached_area_m2, &M::solid_reached_area_m2,
              &M::liquid_reached_area_m2},
-    PhaseRow{"Largest thickness", "m", &M::max_thickness_m, &M::max_solid_thickness_m,
+    PhaseRow{"thickness", "m", &M::max_thickness_m, &M::max_solid_thickness_m,
              &M::max_liquid_thickness_m},
-    PhaseRow{"Largest speed of a cell", "m s-1", nullptr, &M::max_solid_speed_m_s,
-             &M::max_liquid_speed_m_s},
-    PhaseRow{"Largest kinetic energy", "J m-2", &M::max_energy_j_m2, &M::max_solid_energy_j_m2,
+    PhaseRow{"speed", "m s-1", nullptr, &M::max_solid_speed_m_s, &M::max_liquid_speed_m_s},
+    PhaseRow{"energy", "J m-2", &M::max_energy_j_m2, &M::max_solid_energy_j_m2,
              &M::max_liquid_energy_j_m2},
-    PhaseRow{"Largest dynamic pressure", "Pa", &M::max_pressure_pa, &M::max_solid_pressure_pa,
+    PhaseRow{"pressure", "Pa", &M::max_pressure_pa, &M::max_solid_pressure_pa,
              &M::max_liquid_pressure_pa},
-    PhaseRow{"Left the known terrain", "1", &M::lost_fraction, &M::solid_lost_fraction,
-             &M::liquid_lost_fraction, true},
+    PhaseRow{"left", "1", &M::lost_fraction, &M::solid_lost_fraction, &M::liquid_lost_fraction,
+             true},
 };
 constexpr std::array<double, 3> levels{0.05, 0.5, 0.95};
 
@@ -64,13 +64,15 @@ std::string cells_of(const ReportInput& input, const PhaseRow& row, double M::*f
 
 std::string rows_of(const ReportInput& input, const PhaseRow& row, bool single) {
   const std::array<std::pair<const char*, double M::*>, 3> of{
-      {{"grains", row.grains}, {"liquid", row.liquid}, {"whole flow", row.flow}}};
+      {{"phases.grains", row.grains}, {"phases.liquid", row.liquid}, {"phases.flow", row.flow}}};
   std::string html;
   for (const auto& [name, field] : of)
     if (field != nullptr)
-      html += fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td>{}</tr>",
-                          html.empty() ? " class=\"first\"" : "", html.empty() ? row.label : "",
-                          name, cells_of(input, row, field, single));
+      html +=
+          fmt::format("<tr{}><th scope=\"row\">{}</th><td>{}</td>{}</tr>",
+                      html.empty() ? " class=\"first\"" : "",
+                      html.empty() ? html_escape(tr(fmt::format("phases.row.{}", row.key))) : "",
+                      html_escape(tr(name)), cells_of(input, row, field, single));
   return html;
 }
 
@@ -84,26 +86,23 @@ std::string phases_html(const ReportInput& input) {
   if (!known) return {};
   const bool single = input.hazard == nullptr && input.members.size() == 1;
   std::string html =
-      "<section id=\"phases\"><h2>Grains and liquid</h2><div class=\"table-box short whole\" "
-      "tabindex=\"0\"><table class=\"plain phases\"><thead><tr><th></th><th scope=\"col\">of</th>";
+      "<section id=\"phases\"><h2>" + html_escape(tr("phases.title")) +
+      "</h2><div class=\"table-box short whole\" "
+      "tabindex=\"0\"><table class=\"plain phases\"><thead><tr><th></th><th scope=\"col\">" +
+      html_escape(tr("phases.of")) + "</th>";
   if (single) {
-    html += "<th scope=\"col\" class=\"n\">value</th>";
+    html += "<th scope=\"col\" class=\"n\">" + html_escape(tr("phases.value")) + "</th>";
   } else {
     for (const double level : levels)
-      html += fmt::format(
-          "<th scope=\"col\" class=\"n\">{}</th>",
-          level == 0.5 ? std::string("median") : fmt::format("{:g}\u00A0%", 100 * level));
-    html += "<th scope=\"col\">cut off</th>";
+      html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>",
+                          level == 0.5 ? html_escape(tr("phases.median"))
+                                       : fmt::format("{:g}\u00A0%", 100 * level));
+    html += "<th scope=\"col\">" + html_escape(tr("phases.cut")) + "</th>";
   }
   html += "</tr></thead><tbody>";
   for (const PhaseRow& row : rows) html += rows_of(input, row, single);
-  return html +
-         "</tbody></table></div><p class=\"note\">Grains are cut off where grains left the known "
-         "terrain, liquid where liquid did, the whole flow where either did, and all of them where "
-         "the flow still moved at the end. Thickness of grains and of liquid is the volume of "
-         "their own matter over area, without the pores. The dynamic pressure of each is its mass "
-         "over the flow's volume times its own speed squared: its share of what the flow pushes "
-         "with.</p></section>";
+  return html + "</tbody></table></div><p class=\"note\">" + html_escape(tr("phases.note")) +
+         "</p></section>";
 }
 
 }  // namespace sturz

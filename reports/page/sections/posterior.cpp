@@ -3,6 +3,7 @@
 #include "reports/figures/posterior_figures.hpp"
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
+#include "reports/texts/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -50,7 +51,7 @@ std::string figures(const ReportTable& before, const ReportTable& after) {
   for (std::size_t b = 1; b < is.size(); ++b)
     for (std::size_t a = 0; a < b; ++a)
       html +=
-          figure(key_label(after, b) + " against " + key_label(after, a),
+          figure(tr("posterior.against", key_label(after, b), key_label(after, a)),
                  pair_svg(was[a], was[b], is[a], is[b], label_of(after, a), label_of(after, b)));
   return html + "</div>";
 }
@@ -66,15 +67,21 @@ bool any_best(const PosteriorShown& p) {
                      [](const PosteriorShown::Key& k) { return std::isfinite(k.best); });
 }
 
+/// With its explanation, where it has one.
+std::string head_cell(const char* name) {
+  const std::string key = fmt::format("posterior.col.{}", name);
+  const std::string full = key + "_full";
+  return "<th scope=\"col\"" +
+         (has_text(full) ? " title=\"" + html_escape(tr(full)) + "\">" : std::string(">")) +
+         html_escape(tr(key)) + "</th>";
+}
+
 std::string keys_table(const PosteriorShown& p) {
   const bool best = any_best(p);
   std::string html =
-      "<div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr><th "
-      "scope=\"col\">value</th>"
-      "<th scope=\"col\">before (5 \u2013 95 %)</th><th scope=\"col\">after</th>"
-      "<th scope=\"col\" title=\"Share of the prior's variance that the observations took\">told"
-      "</th>";
-  if (best) html += "<th scope=\"col\" title=\"Largest likelihood\">best fit</th>";
+      "<div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr>" +
+      head_cell("value") + head_cell("before") + head_cell("after") + head_cell("told");
+  if (best) html += head_cell("best");
   html += "</tr></thead><tbody>";
   for (std::size_t k = 0; k < p.keys.size(); ++k) {
     const PosteriorShown::Key& key = p.keys[k];
@@ -96,44 +103,35 @@ std::string best_text(const PosteriorShown::Quantity& q, double factor) {
   if (q.best_computed.empty() && std::isnan(q.best_member)) return text;
   const std::string gave = std::isnan(q.best_member) ? "" : shown_number(factor * q.best_member);
   const char* gap = q.best_computed.empty() || gave.empty() ? "" : " ";
-  return fmt::format("{}; member {}{}{}", text, q.best_computed, gap, gave);
+  return tr("posterior.member", text, q.best_computed, gap, gave);
 }
 
 std::string q2_text(const PosteriorShown::Quantity& q) {
   if (std::isnan(q.q2)) return "\u2013";
-  return shown_number(q.q2, 2) + (q.has_step ? " (two sides)" : "");
+  return shown_number(q.q2, 2) + (q.has_step ? tr("posterior.two_sides") : std::string());
 }
 
 std::string discrepancy_html(const PosteriorShown& p) {
   if (!(p.discrepancy_scale > 0))
-    return "<p>Model discrepancy: none was allowed; the posterior is as sure as if the model were "
-           "perfect.</p>";
+    return "<p>" + html_escape(tr("posterior.no_discrepancy")) + "</p>";
   std::string pieces;
   for (const PosteriorShown::Discrepancy& d : p.discrepancies)
-    pieces +=
-        fmt::format("{}{} {} ({} \u2013 {})", pieces.empty() ? "" : ", ",
-                    html_escape(words_without_unit(d.kind)), html_escape(percent_text(d.mean)),
-                    html_escape(percent_text(d.lower)), html_escape(percent_text(d.upper)));
-  return fmt::format(
-      "<p>Model discrepancy, what the model misses whatever the values are: prior scale {} of what "
-      "was observed; found (5 \u2013 95 %): {}.</p>",
-      html_escape(percent_text(p.discrepancy_scale)), pieces);
+    pieces += fmt::format("{}{} {} ({} \u2013 {})", pieces.empty() ? "" : ", ",
+                          words_without_unit(d.kind), percent_text(d.mean), percent_text(d.lower),
+                          percent_text(d.upper));
+  return "<p>" +
+         html_escape(tr("posterior.discrepancy", percent_text(p.discrepancy_scale), pieces)) +
+         "</p>";
 }
 
 std::string check_table(const PosteriorShown& p) {
   const bool best = any_best(p);
   bool ends_at_zero = false, has_step = false;
   std::string html =
-      "<h3>Does it give what was observed?</h3><div class=\"table-box short\" "
-      "tabindex=\"0\"><table class=\"spaced\">"
-      "<thead><tr><th scope=\"col\">quantity</th><th scope=\"col\">observed</th>"
-      "<th scope=\"col\">predicted (5 \u2013 95 %)</th><th scope=\"col\" title=\"By what the other "
-      "quantities tell\">predicted without it</th>";
-  if (best)
-    html +=
-        "<th scope=\"col\" title=\"What the emulator expects there, and what the member gave that "
-        "was computed there\">at the best fit</th><th scope=\"col\" title=\"Share of the variance "
-        "that the emulator tells of a member that is left out; 1 is perfect\">emulator's Q2</th>";
+      "<h3>" + html_escape(tr("posterior.check")) +
+      "</h3><div class=\"table-box short\" tabindex=\"0\"><table class=\"spaced\"><thead><tr>" +
+      head_cell("quantity") + head_cell("observed") + head_cell("predicted") + head_cell("without");
+  if (best) html += head_cell("at_best") + head_cell("q2");
   html += "</tr></thead><tbody>";
   for (const PosteriorShown::Quantity& q : p.quantities) {
     const auto [label, factor] = display_unit(q.unit);
@@ -152,22 +150,15 @@ std::string check_table(const PosteriorShown& p) {
     has_step = has_step || q.has_step;
   }
   html += "</tbody></table></div>";
-  if (ends_at_zero)
-    html +=
-        "<p class=\"note\">A predicted 0 is the least that a quantity can be: what normal errors "
-        "put below stands there.</p>";
-  if (has_step)
-    html +=
-        "<p class=\"note\">Two sides: members jump there, and none gives what lies between. Each "
-        "side is emulated by itself; an interval may span the gap.</p>";
+  if (ends_at_zero) html += "<p class=\"note\">" + html_escape(tr("posterior.zero")) + "</p>";
+  if (has_step) html += "<p class=\"note\">" + html_escape(tr("posterior.sides")) + "</p>";
   html += discrepancy_html(p);
   if (p.reliability.empty()) return html;
-  html += "<p class=\"note\">Held out one by one: ";
   std::string pieces;
   for (const auto& [nominal, inside] : p.reliability)
-    pieces += fmt::format("{}{} of {} intervals", pieces.empty() ? "" : ", ",
-                          html_escape(percent_text(inside)), html_escape(percent_text(nominal)));
-  return html + "share of quantities inside the central interval: " + pieces + ".</p>";
+    pieces += (pieces.empty() ? "" : ", ") +
+              tr("posterior.of_intervals", percent_text(inside), percent_text(nominal));
+  return html + "<p class=\"note\">" + html_escape(tr("posterior.reliability", pieces)) + "</p>";
 }
 
 }  // namespace
@@ -175,8 +166,8 @@ std::string check_table(const PosteriorShown& p) {
 std::string posterior_html(const ReportInput& input) {
   if (input.posterior == nullptr) return {};
   const PosteriorShown& p = *input.posterior;
-  std::string html = "<section id=\"posterior\"><h2>What the observations tell</h2><p>" +
-                     html_escape(p.origin) + "</p>";
+  std::string html = "<section id=\"posterior\"><h2>" + html_escape(tr("posterior.title")) +
+                     "</h2><p>" + html_escape(p.origin) + "</p>";
   if (!p.warnings.empty()) {
     html += "<div class=\"warnings\"><ul>";
     for (const std::string& warning : p.warnings) html += "<li>" + html_escape(warning) + "</li>";
@@ -185,10 +176,8 @@ std::string posterior_html(const ReportInput& input) {
   html += keys_table(p);
   for (const std::string& ridge : p.ridges) html += "<p>" + html_escape(ridge) + "</p>";
   const bool same = input.samples.columns == p.rows.columns;
-  html += figures(same ? input.samples : ReportTable{}, p.rows) +
-          "<p class=\"note\">Line: what the members drew; area and dots: what is left of it after "
-          "the observations.</p>" +
-          check_table(p);
+  html += figures(same ? input.samples : ReportTable{}, p.rows) + "<p class=\"note\">" +
+          html_escape(tr("posterior.note")) + "</p>" + check_table(p);
   return html + "</section>";
 }
 

@@ -10,15 +10,31 @@
 
 namespace sturz {
 
+/// What came out, in one sentence, and what that holds for; empty without a valid member.
+struct PlainWords {
+  std::string finding;  ///< what is reached, how likely, how soon, how sure
+  std::string holds;    ///< under which conditions, on how many simulations
+};
+PlainWords plain_words(const ReportInput& input, const Headline& h);
+std::string plain_words_html(const ReportInput& input, const Headline& h);
+
 /// Title, one line of origin, links to the parts below.
 std::string header_html(const ReportInput& input, const Headline& h);
 /// What is cut off, where more members are than the scenario accepts; else empty text.
 std::string banner_html(const ReportInput& input, const Headline& h);
+/// One line that leads to the warnings below the map; empty text when there are none.
+std::string attention_html(const ReportInput& input, const Headline& h);
 /// Warnings of the run and of its members; empty text when there are none.
 std::string warnings_html(const ReportInput& input, const Headline& h);
 std::string headline_html(const ReportInput& input, const Headline& h);
 /// Map panel, and still figures for readers without script. `scene`, `maps` may be null.
-std::string map_html(const ReportInput& input, const MapScene* scene, const LayerStack* maps);
+std::string map_html(const ReportInput& input, const Headline& h, const MapScene* scene,
+                     const LayerStack* maps);
+/// Least, middle and largest of each value that was drawn, for print; empty text without any.
+std::string ranges_html(const ReportInput& input);
+/// Beside the map on the printed sheet: what it shows, of what, by whom and when.
+std::string title_block_html(const ReportInput& input, const Headline& h, const MapScene& scene,
+                             const LayerStack& maps);
 /// Travel, speeds and states over time of a single run, and what it left out; empty text for an
 /// ensemble.
 std::string motion_html(const ReportInput& input);

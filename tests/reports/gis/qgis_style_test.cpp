@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/figures/qgis_style.hpp"
+#include "reports/gis/qgis_style.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

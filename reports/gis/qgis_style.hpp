@@ -14,4 +14,12 @@ namespace sturz {
 /// \param layer with values, which set the largest class; bounds and probabilities need none
 std::string qgis_style(const Layer& layer);
 
+/// What of it a project repeats for each layer: the elements pipe and blendMode.
+std::string raster_symbology(const Layer& layer);
+/// The same of elevations: light from all sides, pale.
+std::string hillshade_symbology();
+/// The frame of a .qml file.
+/// \param categories what of a layer it sets, e.g. "Symbology|Labeling"
+std::string qgis_style_file(const std::string& symbology, const char* categories);
+
 }  // namespace sturz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "reports/figures/qgis_style.hpp"
+#include "reports/gis/qgis_style.hpp"
 
 #include "reports/figures/legend.hpp"
 #include "reports/page/text.hpp"
@@ -22,13 +22,11 @@ std::string upper_end(const Legend& legend, std::size_t k) {
 
 }  // namespace
 
-std::string qgis_style(const Layer& layer) {
+std::string raster_symbology(const Layer& layer) {
   const Legend legend = legend_for(layer);
   const double first = legend.diverging ? legend.classes.front().lower / legend.unit.factor : 0;
   const double last = legend.classes.back().lower / legend.unit.factor;
   std::string text = fmt::format(
-      "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
-      "<qgis version=\"3.22\" styleCategories=\"Symbology\">\n"
       " <pipe>\n"
       "  <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"0.85\" "
       "alphaBand=\"-1\" classificationMin=\"{2:.9g}\" classificationMax=\"{0:.9g}\">\n"
@@ -50,7 +48,29 @@ std::string qgis_style(const Layer& layer) {
          "    </colorrampshader>\n   </rastershader>\n  </rasterrenderer>\n"
          "  <brightnesscontrast brightness=\"0\" contrast=\"0\"/>\n"
          "  <huesaturation saturation=\"0\"/>\n"
-         "  <rasterresampler/>\n </pipe>\n <blendMode>0</blendMode>\n</qgis>\n";
+         "  <rasterresampler/>\n </pipe>\n <blendMode>0</blendMode>\n";
+}
+
+std::string hillshade_symbology() {
+  return " <pipe>\n"
+         "  <rasterrenderer type=\"hillshade\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" "
+         "azimuth=\"315\" angle=\"45\" zfactor=\"1\" multidirection=\"1\">\n"
+         "   <rasterTransparency/>\n  </rasterrenderer>\n"
+         // Pale, so that what lies on it is read first.
+         "  <brightnesscontrast brightness=\"40\" contrast=\"-20\"/>\n"
+         "  <huesaturation saturation=\"0\"/>\n"
+         "  <rasterresampler/>\n </pipe>\n <blendMode>0</blendMode>\n";
+}
+
+std::string qgis_style(const Layer& layer) {
+  return qgis_style_file(raster_symbology(layer), "Symbology");
+}
+
+std::string qgis_style_file(const std::string& symbology, const char* categories) {
+  return fmt::format(
+      "<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>\n"
+      "<qgis version=\"3.22\" styleCategories=\"{}\">\n{}</qgis>\n",
+      categories, symbology);
 }
 
 }  // namespace sturz
