@@ -78,7 +78,8 @@ LevelPlan plan_levels(std::span<const LevelSet> sets, std::span<const double> co
     least = c.worth;
     best = c;
   }
-  best.plan.gain = plain.worth / best.worth;
+  // Of nothing that varies there is nothing to gain.
+  best.plan.gain = best.worth > 0 ? plain.worth / best.worth : 1;
   return best.plan;
 }
 
