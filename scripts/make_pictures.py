@@ -101,7 +101,6 @@ def draw_ground(axes, heights, affine):
     span = np.nanmax(heights) - np.nanmin(heights)
     step = next(s for s in (5, 10, 20, 50, 100, 200, 500) if span / s < 14)
     axes.contour(x, y, heights, np.arange(np.floor(np.nanmin(heights) / step) * step, np.nanmax(heights), step), colors="k", linewidths=0.25, alpha=0.5)
-    return extent
 
 
 def draw_classes(axes, plane, classes):
@@ -122,14 +121,27 @@ def draw_scale(axes, extent):
     axes.plot([x, x + length], [y, y], color="k", lw=3, solid_capstyle="butt")
     axes.text(x + length / 2, y + 0.015 * (extent[3] - extent[2]), f"{length} m", ha="center", va="bottom", fontsize=8)
     axes.annotate("N", xy=(0.96, 0.97), xytext=(0.96, 0.85), xycoords="axes fraction", ha="center", va="center", fontsize=9,
-                  arrowprops={"arrowstyle": "<-", "lw": 1.2})
+                  arrowprops={"arrowstyle": "->", "lw": 1.2})
+
+
+def part_shown(plane, least, extent):
+    """The rectangle around what is drawn, with a margin of a third and at least eight cells, inside the ground's."""
+    values, west, east, south, north = plane
+    rows, columns = np.where(values >= least)
+    cell = (east - west) / values.shape[1]
+    x = west + cell * np.array([columns.min(), columns.max() + 1])
+    y = north - cell * np.array([rows.max() + 1, rows.min()])
+    margin = max(max(np.ptp(x), np.ptp(y)) / 3, 8 * cell)
+    return (max(x[0] - margin, extent[0]), min(x[1] + 1.6 * margin, extent[1]), max(y[0] - margin, extent[2]), min(y[1] + margin, extent[3]))
 
 
 def map_picture(file, name, plane, classes, outlines, title):
     heights, affine, projection = ground_of(name)
     rows, columns = heights.shape
-    figure, axes = plt.subplots(figsize=(7.5, min(7.5, 1.2 + 7.0 * rows / columns)), layout="constrained")
-    extent = draw_ground(axes, heights, affine)
+    whole = (affine[0], affine[0] + columns * affine[1], affine[3] + rows * affine[5], affine[3])
+    extent = part_shown(plane, classes[0][0], whole)
+    figure, axes = plt.subplots(figsize=(7.5, min(7.5, 0.4 + 7.3 * (extent[3] - extent[2]) / (extent[1] - extent[0]))), layout="constrained")
+    draw_ground(axes, heights, affine)
     handles, words = draw_classes(axes, plane, classes)
     for path, colour, text in outlines:
         for k, ring in enumerate(rings_of(path, projection)):

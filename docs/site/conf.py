@@ -33,15 +33,21 @@ pygments_style = "friendly"
 pygments_dark_style = "monokai"
 
 # As a list of pages names them: docs/site/index.md and studies.md.
-OPTIONAL = {"<../../docs/gis>": "docs/gis.md", "<../../docs/python>": "docs/python.md", "../studies/printed/*": "docs/studies/printed"}
+OPTIONAL = {"<../../docs/gis>": "docs/gis", "<../../docs/python>": "docs/python", "../studies/printed/*": "docs/studies/printed"}
 
 
 def without_absent_pages(app, docname, source):
     """Takes lines of a list of pages out that name an optional page that is not there."""
     if docname.startswith("docs/site/"):
-        absent = [line for line, path in OPTIONAL.items() if not (ROOT / path).exists()]
+        absent = [line for line, path in OPTIONAL.items() if not ((ROOT / path).exists() or (ROOT / f"{path}.md").exists())]
         source[0] = "\n".join(line for line in source[0].splitlines() if not any(line.endswith(name) for name in absent)) + "\n"
+
+
+def folders_as_pages(app, docname, source):
+    """Links to a folder lead to the page that lists it."""
+    source[0] = source[0].replace("](docs/decisions)", "](docs/site/decisions.md)")
 
 
 def setup(app):
     app.connect("source-read", without_absent_pages)
+    app.connect("source-read", folders_as_pages)

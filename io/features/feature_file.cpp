@@ -125,7 +125,12 @@ OGRSpatialReference system_of(const FeatureTable& table) {
 
 bool write_table(GDALDataset& dataset, const FeatureTable& table) {
   OGRSpatialReference system = system_of(table);
-  OGRLayer* layer = dataset.CreateLayer(table.name.c_str(), &system, type_of(table), nullptr);
+  // The index of a few features is longer than they are.
+  constexpr std::size_t worth_an_index = 1000;
+  CPLStringList options;
+  options.SetNameValue("SPATIAL_INDEX", table.size() < worth_an_index ? "NO" : "YES");
+  OGRLayer* layer =
+      dataset.CreateLayer(table.name.c_str(), &system, type_of(table), options.List());
   if (layer == nullptr || dataset.StartTransaction() != OGRERR_NONE) return false;
   for (const FeatureColumn& column : table.columns) {
     OGRFieldDefn field(column.name.c_str(), type_of(column));

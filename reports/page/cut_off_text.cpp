@@ -23,7 +23,9 @@ std::string what_left(const CensoringReport& r) {
   if (r.valid == 1)
     return tr("cut.of_both", percent(r.grains.largest_lost_fraction),
               percent(r.liquid.largest_lost_fraction));
-  return ": " + of_each("grains", r.grains) + ", " + of_each("liquid", r.liquid);
+  std::string text(": ");
+  text.append(of_each("grains", r.grains)).append(", ").append(of_each("liquid", r.liquid));
+  return text;
 }
 
 std::string where_left(const CensoringReport& r, bool one) {

@@ -27,9 +27,10 @@ std::string head_html(const ReportInput& input) {
 
 /// Links to the parts that are there.
 std::string navigation_html(const std::string& body) {
-  static constexpr std::string_view parts[] = {
-      "maps",   "numbers", "sources", "phases",  "assets",      "observed", "posterior",
-      "motion", "gauges",  "spread",  "members", "computation", "origin",   "reading"};
+  static constexpr std::string_view parts[] = {"maps",        "numbers",  "sources",    "phases",
+                                               "assets",      "observed", "posterior",  "motion",
+                                               "gauges",      "spread",   "multilevel", "members",
+                                               "computation", "origin",   "reading"};
   std::string html = "<nav aria-label=\"" + html_escape(tr("nav.label")) + "\">";
   for (const std::string_view id : parts)
     if (body.find(fmt::format("<section id=\"{}\"", id)) != std::string::npos)
@@ -77,11 +78,11 @@ std::string make_report(const ReportInput& input) {
   const std::string body =
       banner_html(input, h) + attention_html(input, h) + map_html(input, h, shown, maps) +
       "<div class=\"number-sheet\">" + headline_html(input, h) + warnings_html(input, h) +
-      "</div>" + "<div class=\"annex\"><h2 class=\"print-only\">" + html_escape(tr("sheet.annex")) +
-      "</h2>" + sources_html(input) + phases_html(input) + assets_html(input) +
-      observed_html(input, h) + posterior_html(input) + motion_html(input) + gauges_html(input) +
-      charts_html(input, h) + members_html(input, h) + computation_html(input, h) +
-      provenance_html(input) + reading_html(input) + "</div>";
+      ranges_html(input) + "</div>" + "<div class=\"annex\"><h2 class=\"print-only\">" +
+      html_escape(tr("sheet.annex")) + "</h2>" + sources_html(input) + phases_html(input) +
+      assets_html(input) + observed_html(input, h) + posterior_html(input) + motion_html(input) +
+      gauges_html(input) + charts_html(input, h) + members_html(input, h) +
+      computation_html(input, h) + provenance_html(input) + reading_html(input) + "</div>";
   std::string page = head_html(input) + "<body>\n<main>\n" + header_html(input, h) +
                      navigation_html(body) + plain_words_html(input, h) + body + "\n</main>\n";
   if (report_has_script())

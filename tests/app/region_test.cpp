@@ -64,8 +64,9 @@ TEST_F(Region, HasAnEnsembleForEachFeatureAndMapsOfAll) {
   EXPECT_EQ(done["valid"], 12);
   EXPECT_EQ(n_members("out/features/upper"), 4u);
   EXPECT_EQ(n_members("out/features/aside%2F2"), 4u);
-  for (const char* file : {"hazard.nc", "sources.csv", "report.html",
-                           "hazard/most_likely_source.tif", "hazard/energy_largest_p50_kJ_m2.tif"})
+  for (const char* file :
+       {"hazard.nc", "sources.csv", "report.html", "hazard.qgz", "hazard.gpkg", "ground.tif",
+        "hazard/most_likely_source.tif", "hazard/energy_largest_p50_kJ_m2.tif"})
     EXPECT_TRUE(exists(std::string("out/") + file)) << file;
   EXPECT_THAT(read("out/sources.csv"),
               AllOf(HasSubstr("\n1,upper,features/upper,4,4,4,"), HasSubstr("\n3,aside/2,")));

@@ -4,6 +4,7 @@ import concurrent.futures
 import gc
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -33,6 +34,17 @@ class Bits(InFolder):
             self.assertEqual(member.outcome, command.outcome)
             self.assert_same_scalars(member, command)
             self.assert_same_maps(member, f"{name}/members/000000.nc")
+
+    def test_a_raster_of_which_only_a_part_is_read(self):
+        whole = sturz.Scenario(slide()).write("whole.yaml")
+        subprocess.run([sturz.program(), "terrain", whole, "-o", "ground"], check=True, capture_output=True)
+        scene = slide(terrain={"raster": str(self.folder / "ground/elevation.tif"), "crs": "local"},
+                      basal={"friction_coefficient": {"uniform": [0.6, 0.65]}})
+        simulation = sturz.Simulation(scene)
+        for friction in (0.61, 0.65, 0.5, 0.2):  # the last two lie beyond distribution and part
+            values = {KEY: friction}
+            command = sturz.run(scene, "out", values=values, replace=True)
+            self.assertEqual(simulation.run(values).state_hash, command.state_hash, friction)
 
     def assert_same_scalars(self, member, command):
         self.assertEqual(set(member.scalars), set(command.scalars))

@@ -50,9 +50,9 @@ class Results(InFolder):
         self.assertTrue(table.geometry[1].within(table.geometry[0]))
 
     def test_a_calibration(self):
-        truth = sturz.run(slide(), "truth", values={"basal.friction_coefficient": 0.5})
-        scene = slide(observation={"runout_m": {"value": truth.scalars["runout_m"], "sd": 5}},
-                      basal={"friction_coefficient": {"uniform": [0.45, 0.65]}})
+        unknown = slide(basal={"friction_coefficient": {"uniform": [0.45, 0.65]}})
+        truth = sturz.run(unknown, "truth", values={"basal.friction_coefficient": 0.5})
+        scene = {**unknown, "observation": {"runout_m": {"value": truth.scalars["runout_m"], "sd": 5}}}
         events = []
         found = sturz.calibrate(scene, "fit", members=16, check_best=False, progress=events.append)
         self.assertEqual([e["members"] for e in events if e["event"] == "start"], [16])

@@ -33,7 +33,7 @@ def without_comment(line):
 
 
 def is_app(name):
-    return name.startswith("ensemble/app/")
+    return name.startswith("ensemble/app/") or name == "ensemble/python/interpreter.cpp"
 
 
 def length(root):

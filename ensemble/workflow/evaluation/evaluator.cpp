@@ -3,7 +3,9 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/sampling/marginal.hpp"
+#include "ensemble/workflow/evaluation/own_inputs.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "io/site/scene_inputs.hpp"
 #include "scenarios/assembly/assemble.hpp"
 #include "scenarios/checks/validate.hpp"
 #include "scenarios/schema/suggest.hpp"
@@ -116,9 +118,18 @@ MemberResult Evaluator::evaluate(std::span<const double> values, const std::atom
     if (on_progress) on_progress(progress);
     return !cancel.load();
   };
-  return scene_.ground->computed([&](const SceneInputs& inputs) {
+  const auto first = ground_of_member(numbers, *scene_.ground->now());
+  const auto ground = first ? scene_.ground : own_ground(numbers);
+  return ground->computed([&](const SceneInputs& shared) {
+    SceneInputs inputs = shared;
+    if (first) inputs.reach = first->reach;
     return assemble(numbers, inputs, 0, threads_).run(control);
   });
+}
+
+std::shared_ptr<GrowingGround> Evaluator::own_ground(const Scenario& numbers) {
+  const std::lock_guard one_at_a_time(reading_);
+  return std::make_shared<GrowingGround>(numbers, load_scene_inputs(numbers));
 }
 
 std::vector<EvaluatorOutput> outputs_named(std::span<const std::string> names) {

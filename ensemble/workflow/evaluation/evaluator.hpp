@@ -11,6 +11,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <string>
@@ -24,7 +25,10 @@ struct EvaluatorRequest {
   int threads = 0;  ///< of each member; 0: what is left of the cores
 };
 
-/// Files are read once; members share them. Safe to call from any number of threads.
+/// Files are read once and members share them, except members of scenes with rasters of the bed,
+/// dams or buildings, and those whose values lie so far outside the distributions that they may
+/// come beyond the ground that was read: these read their own. Safe to call from any number of
+/// threads.
 class Evaluator {
  public:
   /// \throws SetupError for what is wrong with the scene
@@ -51,12 +55,14 @@ class Evaluator {
 
  private:
   Scenario numbers_of(std::span<const double> values) const;
+  std::shared_ptr<GrowingGround> own_ground(const Scenario& numbers);
   bool take_turn(const std::atomic<bool>& cancel);
   void give_turn();
 
   Scene scene_;
   std::vector<UncertainKey> keys_;
   int workers_ = 1, threads_ = 1;
+  std::mutex reading_;  ///< of files for one member
   std::mutex lock_;
   std::condition_variable free_;
   int running_ = 0;

@@ -7,6 +7,7 @@
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/machine/temporary_folder.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -107,6 +108,11 @@ void write_all(const fs::path& folder, const LayerStack& maps, const MemberStore
   write_map_files(folder / "hazard", reader, coarse, {});
   const OutputFolder out{folder};
   write_text_atomic(out.scenario(), "");
+  GisContent gis;
+  gis.maps = &reader;
+  gis.coarse = &coarse;
+  gis.members = members.members();
+  write_gis_files(out, gis);
   PageContent page;
   page.hazard = &coarse;
   page.members = members.members();

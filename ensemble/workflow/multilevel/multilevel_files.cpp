@@ -115,13 +115,10 @@ void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
        {Kind{"", "", Statistic::probability, &MultilevelMap::probability},
         Kind{"_lower", ", lower bound", Statistic::lower_bound, &MultilevelMap::low},
         Kind{"_upper", ", upper bound", Statistic::upper_bound, &MultilevelMap::high}}) {
-    Layer layer;
-    layer.name = map.name + kind.suffix;
-    layer.meaning = {quantity, kind.statistic};
-    layer.long_name = what + kind.words;
-    layer.units = "1";
-    layer.comment = (kind.statistic == Statistic::probability ? "" : "90 % bounds; ") + rule +
-                    ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored);
+    const std::string bounds = kind.statistic == Statistic::probability ? "" : "90 % bounds; ";
+    Layer layer = plain_layer(
+        map.name + kind.suffix, {quantity, kind.statistic}, what + kind.words, "1",
+        bounds + rule + ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored));
     layer.n_censored = static_cast<int>(n_censored);
     if (!map.thresholds.empty()) {
       const std::string word = map.name.substr(0, map.name.find("_exceedance"));

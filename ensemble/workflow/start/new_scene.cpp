@@ -122,8 +122,9 @@ class Writer {
         grid_text(inputs.whole.n_cols > 0 ? inputs.whole : inputs.elevation->grid);
     choose_spacing(measures_of(scenario(), inputs));
     NewScene made;
-    made.text = scene_text(draft_);
     made.scene = scene_of(file(), {});
+    explain_spacing(made.scene.description);
+    made.text = scene_text(draft_);
     made.choices = std::move(choices_);
     return made;
   }
@@ -133,6 +134,7 @@ class Writer {
   void choose_polygon(const ReleaseFile& file, const std::string& name);
   void guess_thickness(double area_m2);
   void choose_spacing(const Measures&);
+  void explain_spacing(const SceneDescription&);
   ScenarioFile file() const {
     return read_scenario_file_text(scene_text(draft_), "the new scenario", request_.folder);
   }
@@ -142,6 +144,7 @@ class Writer {
   const Material& process_;
   SceneDraft draft_;
   bool guesses_thickness_ = false;
+  double cell_m_ = 0;
   std::vector<std::string> choices_;
 };
 
@@ -231,12 +234,17 @@ void Writer::choose_spacing(const Measures& m) {
     if (spacing < finest) spacing = finest * 1.0001;
     spacing = std::strtod(short_number(spacing).c_str(), nullptr);
   }
-  const std::string why =
-      fmt::format("{:.0f} columns, {:.0f} across the narrow side of {} m (10 are needed)",
-                  m.area_m2 / (spacing * spacing), m.narrow_m / spacing, short_number(m.narrow_m));
-  draft_.spacing = {fmt::format("spacing_m: {}", number_text(spacing)), why};
+  draft_.spacing.text = fmt::format("spacing_m: {}", number_text(spacing));
+  cell_m_ = m.cell_m;
+}
+
+void Writer::explain_spacing(const SceneDescription& d) {
+  draft_.spacing.comment =
+      fmt::format("{} columns, {:.0f} across the narrow side of {} m (10 are needed)",
+                  d.n_particles, d.narrow_side_m / d.spacing_m, short_number(d.narrow_side_m));
   choices_.push_back(fmt::format("spacing {} m: {}; the ground has cells of {} m",
-                                 number_text(spacing), why, number_text(m.cell_m)));
+                                 number_text(d.spacing_m), draft_.spacing.comment,
+                                 number_text(cell_m_)));
 }
 
 }  // namespace

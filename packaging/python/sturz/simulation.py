@@ -22,9 +22,10 @@ def _module() -> Any:
     try:
         import _sturz
     except ImportError as missing:
-        raise Missing("Members in this process need the module _sturz, which this sturz was built "
-                      f"without, or for another Python ({missing}). Build it with pybind11-dev and "
-                      "python3-dev installed (-DSTURZ_PYTHON=ON), or use sturz.run.") from missing
+        raise Missing("Members in this process need the module _sturz, which this Python has not "
+                      f"({missing}). Start the script with sturz-python, build the module for any "
+                      "python3 (-DSTURZ_PYTHON_MODULE=ON, with pybind11-dev and python3-dev), or use "
+                      "sturz.run.") from missing
     return _sturz
 
 
@@ -113,7 +114,7 @@ class Simulation:
 
     Raises:
         ScenarioError: with every problem of the scene and its files.
-        Missing: when sturz was built without the module.
+        Missing: in a Python without the module; the text says what to do.
 
     Reading a scene holds Python's lock; `run` does not, so threads of Python compute side by side.
     """

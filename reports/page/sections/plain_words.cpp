@@ -53,8 +53,8 @@ std::string volume_text(const std::vector<MemberSummary>& members) {
     if (!(most >= v)) most = v;
   }
   if (std::isnan(least)) return {};
-  if (most <= 1.02 * least) return " " + tr("plain.volume", with_unit(most, "m3"));
-  return " " + tr("plain.volume_range", shown_number(least), with_unit(most, "m3"));
+  if (most <= 1.02 * least) return tr("plain.volume", with_unit(most, "m3"));
+  return tr("plain.volume_range", shown_number(least), with_unit(most, "m3"));
 }
 
 /// What the sampled values are, each with the range that was drawn.
@@ -63,7 +63,7 @@ std::string conditions_text(const ReportInput& input) {
   std::string text;
   for (std::size_t k = 0; k < samples.columns.size() && !samples.rows.empty(); ++k) {
     if (k == most_conditions) {
-      text += ", " + tr_count("plain.more_values",
+      text += tr_count("plain.more_values",
                               static_cast<long long>(samples.columns.size() - most_conditions));
       break;
     }
@@ -155,8 +155,8 @@ PlainWords plain_words(const ReportInput& input, const Headline& h) {
   words.finding = ensemble_sentence(input, h);
   if (const std::string assets = assets_text(input); !assets.empty()) words.finding += " " + assets;
   const std::string conditions = conditions_text(input);
-  words.holds = (conditions.empty() ? tr("plain.no_ranges") : tr("plain.ranges", conditions)) +
-                " " + sureness_text(h) + " " + tr("plain.not_how_often");
+  words.holds = conditions.empty() ? tr("plain.no_ranges") : tr("plain.ranges", conditions);
+  words.holds.append(" ").append(sureness_text(h)).append(" ").append(tr("plain.not_how_often"));
   return words;
 }
 

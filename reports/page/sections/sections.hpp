@@ -30,6 +30,8 @@ std::string headline_html(const ReportInput& input, const Headline& h);
 /// Map panel, and still figures for readers without script. `scene`, `maps` may be null.
 std::string map_html(const ReportInput& input, const Headline& h, const MapScene* scene,
                      const LayerStack* maps);
+/// Least, middle and largest of each value that was drawn, for print; empty text without any.
+std::string ranges_html(const ReportInput& input);
 /// Beside the map on the printed sheet: what it shows, of what, by whom and when.
 std::string title_block_html(const ReportInput& input, const Headline& h, const MapScene& scene,
                              const LayerStack& maps);

@@ -55,7 +55,7 @@ std::string outcome_counts(const ReportInput& input, const Headline& h) {
   for (const auto& [outcome, n] : h.outcomes)
     if (!is_valid(outcome))
       out += (out.empty() ? "" : ", ") + std::to_string(n) + " " + outcome_text(outcome);
-  if (missing(input) > 0) out += ", " + tr("cards.not_computed", missing(input));
+  if (missing(input) > 0) out.append(", ").append(tr("cards.not_computed", missing(input)));
   return out;
 }
 
@@ -135,13 +135,20 @@ std::string attention_html(const ReportInput& input, const Headline& h) {
 
 std::string warnings_html(const ReportInput& input, const Headline& h) {
   const std::vector<std::string> lines = warning_lines(input, h);
-  if (lines.empty()) return {};
-  std::string html = "<section id=\"warnings\" class=\"warnings\" aria-label=\"" +
-                     html_escape(tr("warnings.label")) + "\"><h2>" +
-                     html_escape(tr("warnings.title")) + "</h2><ul>";
+  // The banner is not on the printed sheets; what it says is.
+  std::string cut;
+  if (!banner_html(input, h).empty())
+    for (const std::string& sentence : cut_off_sentences(h.censoring))
+      cut.append(cut.empty() ? "" : " ").append(sentence);
+  if (lines.empty() && cut.empty()) return {};
+  std::string html = "<section id=\"warnings\" class=\"warnings";
+  html += lines.empty() ? " print-only" : "";
+  html += "\" aria-label=\"" + html_escape(tr("warnings.label")) + "\"><h2>" +
+          html_escape(tr("warnings.title")) + "</h2><ul>";
+  if (!cut.empty()) html += "<li class=\"print-only\">" + html_escape(cut) + "</li>";
   // A printed page holds so many lines beside the numbers, and says how many it does not.
   constexpr std::size_t most_letters = 1500;
-  std::size_t letters = 0, left_out = 0;
+  std::size_t letters = cut.size(), left_out = 0;
   for (const auto& line : lines) {
     letters += line.size();
     const bool printed = letters <= most_letters;

@@ -3,7 +3,7 @@
 """Writes elevation.tif and source.geojson of this case from Matplotlib's sample data (python-matplotlib-data).
 
 usage: make_case.py [jacksboro_fault_dem.npz]     (needs python3-numpy, python3-gdal)
-A window of 78 x 86 cells of 3 arc seconds, kept as it is: degrees, whole metres. The source is an octagon of our own.
+A window of 170 x 142 cells of 3 arc seconds, kept as it is: degrees, whole metres. The source is an octagon of our own.
 """
 import json
 import math
@@ -16,8 +16,8 @@ from osgeo import gdal, osr
 gdal.UseExceptions()
 HERE = pathlib.Path(__file__).resolve().parent
 SAMPLE = "/usr/share/matplotlib/mpl-data/sample_data/jacksboro_fault_dem.npz"
-ROWS, COLUMNS = slice(256, 342), slice(192, 270)
-MIDDLE, HALF_M = (-84.2225, 36.4855), (170, 150)  # of the source: degrees, semi-axes east and north [m]
+ROWS, COLUMNS = slice(176, 318), slice(96, 266)
+MIDDLE, HALF_M = (-84.2625, 36.5267), (170, 150)  # of the source: degrees, semi-axes east and north [m]
 
 
 def main(sample=SAMPLE):
