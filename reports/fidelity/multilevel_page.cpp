@@ -45,6 +45,14 @@ std::string half_width(double value, const std::string& units) {
   return std::isfinite(value) ? "\u00B1 " + with_unit(value, units, 2) : "unknown";
 }
 
+/// Bounds of a quantile; an open end where the draws do not tell one.
+std::string between(double low, double high, const std::string& units) {
+  if (std::isfinite(low) && std::isfinite(high))
+    return with_unit(low, units) + " \u2013 " + with_unit(high, units);
+  if (std::isfinite(high)) return "below " + with_unit(high, units);
+  return std::isfinite(low) ? "above " + with_unit(low, units) : "unknown";
+}
+
 std::string share(double value) {
   return std::isfinite(value) ? percent_text(value) : std::string("\u2013");
 }
@@ -65,8 +73,8 @@ std::string results_html(const MultilevelPage& page) {
   for (const MultilevelPageResult& r : page.results) {
     std::vector<std::string> cells;
     for (const auto& q : r.quantiles)
-      cells.push_back(fmt::format("{} ({} \u2013 {})", with_unit(q.value, r.units),
-                                  with_unit(q.low, r.units), with_unit(q.high, r.units)));
+      cells.push_back(
+          fmt::format("{} ({})", with_unit(q.value, r.units), between(q.low, q.high, r.units)));
     quantiles.row(result_words(r.name), cells);
   }
   return html + "<h3>Quantiles, with 90 % bounds</h3>" + quantiles.html() + "</section>\n";

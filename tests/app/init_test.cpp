@@ -50,6 +50,15 @@ TEST_F(Init, WritesASceneThatDescribesAndRuns) {
   EXPECT_EQ(run.exit_code, 0) << run.err;
 }
 
+TEST_F(Init, TakesFilesOfAnyName) {
+  write("the \"upper\" mass.geojson", outline(""));
+  const Ended ended =
+      sturz({"init", path("ground/elevation.tif"), path("the \"upper\" mass.geojson"), "-o",
+             path("mine"), "--crs", "local", "--thickness", "4"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(sturz({"describe", path("mine/scenario.yaml")}).exit_code, 0);
+}
+
 TEST_F(Init, PicksASpacingThatResolvesTheNarrowSide) {
   ASSERT_EQ(init({"--thickness", "20"}).exit_code, 0);
   // Cells of 5 m and 20 m of thickness would allow 5 m; ten across 60 m allow 6.

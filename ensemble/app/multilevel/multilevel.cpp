@@ -56,13 +56,20 @@ void require_usable(const workflow::EnsembleRequest& request) {
 int verdict(const MultilevelMade& made, Console& console) {
   for (const std::string& line : workflow::result_lines(made)) console.say(line);
   for (const std::string& warning : made.warnings) console.warn(warning);
+  const bool too_many = made.too_many_failed();
+  if (too_many)
+    console.error(
+        fmt::format("more members of a level failed than the accepted share "
+                    "(ensemble.max_failed_fraction = {}). `sturz merge {}/levels/NAME` writes "
+                    "members.csv with their reasons; the results are of the others.",
+                    made.max_failed_fraction, made.folder.string()));
   console.say("In " + made.folder.string() +
               ": report.html (look here first), multilevel.json, hazard.nc and hazard/*.tif, and "
               "an ensemble per level in levels/");
   Json done{{"event", "done"}, {"folder", made.folder.string()}};
   done["multilevel"] = Json::parse(workflow::multilevel_json_text(made));
   console.event(json_text(done));
-  return ok;
+  return too_many ? too_many_failed : ok;
 }
 
 }  // namespace

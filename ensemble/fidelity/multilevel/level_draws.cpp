@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace sturz {
 namespace {
@@ -103,11 +104,35 @@ struct Distribution {
   std::vector<double> places, low, middle, high;
 };
 
-/// Where a rising function reaches `level`, between its places.
-double reached(const Distribution& d, const std::vector<double>& f, double level) {
+/// The nearest rising function in the mean square, within 0 and 1. The running maximum would lie
+/// above: every quantile too low.
+void make_rising(std::vector<double>& f) {
+  struct Block {
+    double sum = 0, n = 0;
+    double mean() const { return sum / n; }
+  };
+  std::vector<Block> blocks;
+  for (const double v : f) {
+    blocks.push_back({v, 1});
+    while (blocks.size() > 1 && blocks.back().mean() < blocks[blocks.size() - 2].mean()) {
+      const Block last = blocks.back();
+      blocks.pop_back();
+      blocks.back().sum += last.sum;
+      blocks.back().n += last.n;
+    }
+  }
+  auto at = f.begin();
+  for (const Block& b : blocks)
+    at = std::fill_n(at, static_cast<std::ptrdiff_t>(b.n), std::clamp(b.mean(), 0.0, 1.0));
+}
+
+/// Where a rising function reaches `level`, between its places. \param before what is said where it
+/// is above at the first \param beyond where it is below at the last
+double reached(const Distribution& d, const std::vector<double>& f, double level, double before,
+               double beyond) {
   const auto at = std::lower_bound(f.begin(), f.end(), level) - f.begin();
-  if (at == 0) return d.places.front();
-  if (at == static_cast<std::ptrdiff_t>(f.size())) return d.places.back();
+  if (at == 0) return before;
+  if (at == static_cast<std::ptrdiff_t>(f.size())) return beyond;
   const auto i = static_cast<std::size_t>(at);
   const double share = (level - f[i - 1]) / (f[i] - f[i - 1]);
   return d.places[i - 1] + share * (d.places[i] - d.places[i - 1]);
@@ -140,13 +165,11 @@ Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels
     const MultilevelMean at = sums.estimate(noise / sums.draws(0));
     const Interval bounds = at.bounds_90();
     d.places.push_back(t);
-    const auto rising = [](std::vector<double>& f, double v) {
-      f.push_back(std::clamp(std::max(v, f.empty() ? 0 : f.back()), 0.0, 1.0));
-    };
-    rising(d.low, bounds.low);
-    rising(d.middle, at.mean);
-    rising(d.high, bounds.high);
+    d.low.push_back(bounds.low);
+    d.middle.push_back(at.mean);
+    d.high.push_back(bounds.high);
   }
+  for (std::vector<double>* f : {&d.low, &d.middle, &d.high}) make_rising(*f);
   return d;
 }
 
@@ -199,10 +222,14 @@ std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw> dr
   for (const double level : levels) all.push_back({level, nan_d, {}});
   if (!enough(draws, n_levels)) return all;
   const Distribution d = distribution(draws, n_levels);
+  const double first = d.places.front(), last = d.places.back();
+  // Beyond all draws nothing is known, unless they are all the same.
+  const double nowhere = last > first ? std::numeric_limits<double>::infinity() : 0;
   for (QuantileEstimate& q : all) {
-    q.value = reached(d, d.middle, q.level);
+    q.value = reached(d, d.middle, q.level, first, last);
     // The function's upper bound is at `level` first.
-    q.bounds_90 = {reached(d, d.high, q.level), reached(d, d.low, q.level)};
+    q.bounds_90 = {reached(d, d.high, q.level, first - nowhere, last),
+                   reached(d, d.low, q.level, first, last + nowhere)};
   }
   return all;
 }

@@ -44,8 +44,10 @@ struct MultilevelScalar {
 /// Linear predictions. Everything is NaN with fewer than least_draws at the dearest level.
 MultilevelScalar multilevel_scalar(std::span<const LevelDraw>, std::size_t n_levels);
 
-/// Through the estimated distribution function, made monotone from below; its bounds are those of
-/// the distribution function, read the other way. \param levels rising, within 0 and 1
+/// Through the estimated distribution function, as the nearest rising one in the mean square; its
+/// bounds are those of the distribution function, read the other way. A bound is infinite where the
+/// draws do not tell one: few of them have no upper bound of what 5 % exceed.
+/// \param levels rising, within 0 and 1
 std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw>, std::size_t n_levels,
                                                    std::span<const double> levels);
 

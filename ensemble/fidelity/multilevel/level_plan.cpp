@@ -36,6 +36,16 @@ std::vector<double> draws_for(const LevelSet& set, std::span<const double> costs
   return draws;
 }
 
+/// Seconds that a set's own levels may take together, what they took included; 0: no budget.
+double left_for(const LevelSet& set, const LevelBudget& budget) {
+  if (!(budget.seconds > 0)) return 0;
+  double left = budget.seconds;
+  for (std::size_t l = 0; l < budget.spent_s.size(); ++l)
+    if (std::find(set.levels.begin(), set.levels.end(), l) == set.levels.end())
+      left -= budget.spent_s[l];
+  return std::max(left, 1e-3);
+}
+
 struct Candidate {
   LevelPlan plan;
   double worth = 0;  ///< what is least for the best: seconds, or variance under a budget
@@ -69,16 +79,17 @@ Candidate candidate_of(const LevelSet& set, std::span<const double> cost_s,
 LevelPlan plan_levels(std::span<const LevelSet> sets, std::span<const double> cost_s,
                       std::span<const double> have, const LevelBudget& budget) {
   expect(!sets.empty() && sets.front().levels.size() == 1, "plain sampling first");
-  const Candidate plain = candidate_of(sets.front(), cost_s, have, budget.seconds);
+  const Candidate plain = candidate_of(sets.front(), cost_s, have, left_for(sets.front(), budget));
   Candidate best = plain;
   double least = plain.worth / worth_it;
   for (const LevelSet& set : sets.subspan(1)) {
-    const Candidate c = candidate_of(set, cost_s, have, budget.seconds);
+    const Candidate c = candidate_of(set, cost_s, have, left_for(set, budget));
     if (!(c.worth < least)) continue;
     least = c.worth;
     best = c;
   }
-  best.plan.gain = plain.worth / best.worth;
+  // Of nothing that varies there is nothing to gain.
+  best.plan.gain = best.worth > 0 ? plain.worth / best.worth : 1;
   return best.plan;
 }
 

@@ -16,6 +16,7 @@ struct LevelResult {
   std::vector<double> variances;  ///< [levels used] of the increments, the dearest first
   double plain_variance = 0;      ///< of plain sampling, for one draw
   double allowed = 0;             ///< variance that its mean may have; 0: nothing is asked of it
+  double reached = nan_d;         ///< variance that its mean has by the draws that there are
 };
 
 /// Levels that may be used together.
@@ -27,6 +28,7 @@ struct LevelSet {
 /// Seconds that all draws together may take; 0: the results say what is enough.
 struct LevelBudget {
   double seconds = 0;
+  std::vector<double> spent_s = {};  ///< [levels] so far; gone where a set does not use the level
 };
 
 struct LevelPlan {

@@ -10,6 +10,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace sturz::workflow {
@@ -72,16 +73,33 @@ double number_in(const std::string& file) {
   return from >> value ? value : unlimited;  // "max" is no number
 }
 
-/// What a control group of version 2 leaves of its memory [bytes].
+/// Of what a control group holds, what it gives back when memory is wanted: files that were read or
+/// written. A container that has read many members mostly holds as much as it may. [bytes]
+double reclaimable_in(const std::string& folder, std::string_view prefix) {
+  std::ifstream from(folder + "/memory.stat");
+  std::string name;
+  double value = 0, files = 0;
+  while (from >> name >> value)
+    if (name.starts_with(prefix) && (name.substr(prefix.size()) == "inactive_file" ||
+                                     name.substr(prefix.size()) == "active_file"))
+      files += value;
+  return files;
+}
+
+/// What a control group of either version leaves of its memory [bytes].
+double memory_left(double most, double held, double reclaimable) {
+  return most < unlimited && held < unlimited
+             ? std::max(0.0, most - std::max(0.0, held - reclaimable))
+             : unlimited;
+}
 double memory_left_v2(const std::string& folder) {
-  const double most = number_in(folder + "/memory.max"),
-               held = number_in(folder + "/memory.current");
-  return most < unlimited && held < unlimited ? std::max(0.0, most - held) : unlimited;
+  return memory_left(number_in(folder + "/memory.max"), number_in(folder + "/memory.current"),
+                     reclaimable_in(folder, ""));
 }
 double memory_left_v1(const std::string& folder) {
-  const double most = number_in(folder + "/memory.limit_in_bytes"),
-               held = number_in(folder + "/memory.usage_in_bytes");
-  return most < unlimited && held < unlimited ? std::max(0.0, most - held) : unlimited;
+  return memory_left(number_in(folder + "/memory.limit_in_bytes"),
+                     number_in(folder + "/memory.usage_in_bytes"),
+                     reclaimable_in(folder, "total_"));
 }
 
 double free_memory_of_machine() {

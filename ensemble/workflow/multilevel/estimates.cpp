@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/workflow/multilevel/estimates.hpp"
 
+#include "engine/core/error.hpp"
 #include "ensemble/fidelity/choice.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,8 +49,10 @@ LevelResult map_result(const LevelMembers& all, const std::vector<std::size_t>& 
   r.name = map_word;
   r.allowed = target.map_error * target.map_error;
   if (parts.size() < 2) {
-    r.plain_variance = plain_map(all, cancel).variance;
+    const PlainMap map = plain_map(all, cancel);
+    r.plain_variance = map.variance;
     r.variances = {r.plain_variance};
+    r.reached = map.variance / map.n;
     return r;
   }
   const MultilevelMap map = map_of(all, parts, {}, cancel);
@@ -56,6 +61,7 @@ LevelResult map_result(const LevelMembers& all, const std::vector<std::size_t>& 
   r.plain_variance = map.plain_variance / n;
   // What smoothing shifts, no member removes; but it shrinks with what there is to be smoothed.
   const double shift = map.smoothing_error * map.smoothing_error;
+  r.reached = map.doubtful > 0 ? std::max(0.0, map.rms_error * map.rms_error - shift) : 0;
   if (r.allowed > 0) r.allowed = std::max(r.allowed / 4, r.allowed - shift);
   return r;
 }
@@ -72,14 +78,22 @@ std::vector<ByNumber> valid_of(const LevelMembers& all, std::span<const std::siz
   return valid;
 }
 
+std::size_t shared_draws(const LevelMembers& all, std::span<const std::size_t> parts) {
+  return draws_of_levels(level_draws(valid_of(all, parts)), parts.size()).front();
+}
+
 double member_cost_s(const LevelMembers& all, std::size_t part) {
-  double sum = 0, n = 0;
+  double sum = 0, n = 0, sum_all = 0, n_all = 0;
   for (const MemberSummary& m : all.members[part]->members()) {
-    if (m.member >= all.counts[part] || !is_valid(m.outcome)) continue;
+    if (m.member >= all.counts[part]) continue;
+    sum_all += m.scalars.cpu_s;
+    n_all += 1;
+    if (!is_valid(m.outcome)) continue;
     sum += m.scalars.cpu_s;
     n += 1;
   }
-  return n > 0 ? std::max(sum / n, 1e-6) : nan_d;
+  // Plans are kept as numbers: a level without any valid member has a cost, too.
+  return std::max(n > 0 ? sum / n : sum_all / std::max(n_all, 1.0), 1e-6);
 }
 
 MultilevelScalar scalar_of(const LevelMembers& all, std::span<const std::size_t> parts,
@@ -92,6 +106,11 @@ MultilevelMap map_of(const LevelMembers& all, std::span<const std::size_t> parts
                      const Exceedance& what, CancelFlag cancel) {
   MapLevels levels;
   for (const std::size_t part : parts) {
+    // A cell of the one would be another place on the other.
+    require(all.members[part]->grid().same_place(all.members[parts.front()]->grid()),
+            fmt::format("level {}: its maps lie on other cells than those of {}. Give the scene a "
+                        "hazard.cell_size_m and a domain that do not depend on the spacing.",
+                        all.parts[part].name, all.parts[parts.front()].name));
     levels.levels.push_back(all.members[part]);
     levels.spacings_m.push_back(all.parts[part].spacing_m);
   }
@@ -103,12 +122,19 @@ LevelSet level_set(const LevelMembers& all, std::vector<std::size_t> parts,
                    const TargetSpec& target, CancelFlag cancel) {
   LevelSet set;
   set.levels = std::move(parts);
+  const std::vector<ByNumber> valid = valid_of(all, set.levels);
   for (const std::string& name : headline_results()) {
     const MultilevelScalar s = scalar_of(all, set.levels, name);
     if (!std::isfinite(s.mean.mean) || !(s.variance > 0)) continue;
     const double half =
         target.relative_error * std::abs(s.mean.mean) / student_width(0.9, s.mean.degrees);
-    set.results.push_back({name, s.variances, s.variance, half * half});
+    LevelResult r{name, s.variances, s.variance, half * half, 0};
+    r.reached = s.mean.standard_error * s.mean.standard_error;
+    // Of some valid members this result is not known: so many more are needed of each level.
+    for (std::size_t l = 0; l < set.levels.size(); ++l)
+      r.variances[l] *= static_cast<double>(valid[l].size()) / s.draws[l];
+    r.plain_variance *= static_cast<double>(valid.front().size()) / s.draws.front();
+    set.results.push_back(std::move(r));
   }
   set.results.push_back(map_result(all, set.levels, target, cancel));
   return set;

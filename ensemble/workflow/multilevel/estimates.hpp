@@ -33,7 +33,9 @@ inline const std::vector<std::string>& headline_results() {
 
 /// Valid members of some parts below their counts.
 std::vector<ByNumber> valid_of(const LevelMembers&, std::span<const std::size_t> parts);
-/// Mean CPU seconds of a part's valid members below its count.
+/// Draws that all of these parts have valid members of.
+std::size_t shared_draws(const LevelMembers&, std::span<const std::size_t> parts);
+/// Mean CPU seconds of a part's valid members below its count, of all where none is valid.
 double member_cost_s(const LevelMembers&, std::size_t part);
 
 MultilevelScalar scalar_of(const LevelMembers&, std::span<const std::size_t> parts,
@@ -42,7 +44,7 @@ MultilevelScalar scalar_of(const LevelMembers&, std::span<const std::size_t> par
 MultilevelMap map_of(const LevelMembers&, std::span<const std::size_t> parts, const Exceedance&,
                      CancelFlag);
 
-/// All results of one set of levels, with what the target allows.
+/// All results of one set of levels, with what the target allows. \pre least_draws shared ones
 LevelSet level_set(const LevelMembers&, std::vector<std::size_t> parts, const TargetSpec&,
                    CancelFlag);
 

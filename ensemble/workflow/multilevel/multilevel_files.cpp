@@ -88,8 +88,17 @@ std::string rule_of(const MultilevelMade& made) {
                      levels);
 }
 
+/// What a map says of members of which mass left or still moved, as plain maps say it.
+std::string cut_note(Statistic statistic, std::int64_t n_censored) {
+  if (n_censored == 0) return {};
+  return statistic == Statistic::upper_bound
+             ? "; not an upper bound of what was not seen"
+             : fmt::format("; a lower bound: the end of {} members was not seen", n_censored);
+}
+
 /// One map and its bounds, all planes.
-void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule) {
+void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
+                std::int64_t n_censored) {
   const Quantity quantity = map.thresholds.empty() ? Quantity::reached : quantity_of(map.layer);
   const std::string what =
       map.thresholds.empty()
@@ -107,8 +116,10 @@ void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule)
         Kind{"_lower", ", lower bound", Statistic::lower_bound, &MultilevelMap::low},
         Kind{"_upper", ", upper bound", Statistic::upper_bound, &MultilevelMap::high}}) {
     const std::string bounds = kind.statistic == Statistic::probability ? "" : "90 % bounds; ";
-    Layer layer = plain_layer(map.name + kind.suffix, {quantity, kind.statistic}, what + kind.words,
-                              "1", bounds + rule + ", within 0 and 1" + monotone);
+    Layer layer = plain_layer(
+        map.name + kind.suffix, {quantity, kind.statistic}, what + kind.words, "1",
+        bounds + rule + ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored));
+    layer.n_censored = static_cast<int>(n_censored);
     if (!map.thresholds.empty()) {
       const std::string word = map.name.substr(0, map.name.find("_exceedance"));
       layer.axis = {word + "_threshold", "", map_unit(map.layer).name, map.thresholds};
@@ -128,7 +139,7 @@ LayerStack stack_of(const MultilevelJob& job, const MultilevelMembers& found,
   const HazardContext context = hazard_context(own.manifest, job.scene.scenario, own.design);
   stack.attributes = context.attributes;
   stack.attributes.emplace_back("estimator", rule_of(made));
-  for (const NamedMap& map : made.maps) add_layers(stack, map, rule_of(made));
+  for (const NamedMap& map : made.maps) add_layers(stack, map, rule_of(made), made.censored);
   return stack;
 }
 
@@ -175,6 +186,7 @@ std::string multilevel_json_text(const MultilevelMade& made) {
             {"cpu_s", number(made.seconds)},
             {"failed_members", made.failed},
             {"censored_members", made.censored},
+            {"missed", made.missed},
             {"warnings", made.warnings}};
   for (const LevelShare& l : made.levels) json["levels"].push_back(level_json(l));
   for (const MultilevelHeadline& h : made.headlines) json["headlines"].push_back(headline_json(h));

@@ -5,6 +5,8 @@
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/hazard/map_units.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -39,6 +41,7 @@ class Look {
     if (made_.used.size() > 1) add_maps();
     add_levels();
     add_members();
+    add_misses();
     return std::move(made_);
   }
 
@@ -57,10 +60,17 @@ class Look {
     made_.headlines.push_back(std::move(h));
   }
 
+  /// Levels of which no draw is valid everywhere cannot be compared.
+  bool still_share(std::vector<std::size_t> parts, std::size_t part) const {
+    parts.push_back(part);
+    return !common_members(valid_of(all_, parts)).empty();
+  }
+
   std::vector<std::size_t> same_formulation() const {
     std::vector<std::size_t> parts;
     for (std::size_t p = 0; p < all_.parts.size(); ++p)
-      if (all_.parts[p].formulation == all_.parts.front().formulation) parts.push_back(p);
+      if (all_.parts[p].formulation == all_.parts.front().formulation && still_share(parts, p))
+        parts.push_back(p);
     std::sort(parts.begin(), parts.end(), [&](std::size_t a, std::size_t b) {
       return all_.parts[a].spacing_m > all_.parts[b].spacing_m;
     });
@@ -176,6 +186,39 @@ class Look {
         if (is_valid(m.outcome) && m.censoring != Censoring::none) ++made_.censored;
       }
     made_.warnings = job_.scene.description.warnings;
+    made_.max_failed_fraction = job_.scene.scenario.ensemble.max_failed_fraction;
+  }
+
+  /// What was asked for and is not there, by more than what a round would not be worth.
+  void add_misses() {
+    constexpr double near_enough = 1.05;
+    const TargetSpec target = job_.scene.scenario.ensemble.target.value_or(TargetSpec{});
+    for (const std::string& name : headline_results()) {
+      if (!(target.relative_error > 0)) break;
+      const auto found = std::find_if(made_.headlines.begin(), made_.headlines.end(),
+                                      [&](const MultilevelHeadline& h) { return h.name == name; });
+      if (found == made_.headlines.end()) {
+        made_.missed.push_back(
+            fmt::format("Not reached: {} is not known of enough members to tell its mean.", name));
+        continue;
+      }
+      const double wanted = target.relative_error * std::abs(found->scalar.mean.mean);
+      if (!(found->sampling <= near_enough * wanted))
+        made_.missed.push_back(fmt::format(
+            "Not reached: 90 % bounds of the mean of {} are +- {:.3g} {}, and +- {:.3g} {} was "
+            "asked for.",
+            name, found->sampling, found->units, wanted, found->units));
+    }
+    if (!(target.map_error > 0)) return;
+    const double map_error =
+        made_.maps.empty()
+            ? std::sqrt(level_set(all_, made_.used, target, cancel_).results.back().reached)
+            : made_.map_error;
+    if (map_error > near_enough * target.map_error)
+      made_.missed.push_back(
+          fmt::format("Not reached: the standard error of P(reached) is {:.3g}, and {:.3g} was "
+                      "asked for.",
+                      map_error, target.map_error));
   }
 
   const MultilevelJob& job_;
@@ -187,6 +230,13 @@ class Look {
 };
 
 }  // namespace
+
+bool MultilevelMade::too_many_failed() const {
+  return std::any_of(levels.begin(), levels.end(), [&](const LevelShare& l) {
+    const auto failed_here = static_cast<double>(l.members - l.valid);
+    return l.used && failed_here > max_failed_fraction * static_cast<double>(l.members);
+  });
+}
 
 MultilevelMade look_at_members(const MultilevelJob& job, const MultilevelMembers& found,
                                CancelFlag cancel) {

@@ -59,7 +59,12 @@ struct MultilevelMade {
   double seconds = 0;                ///< CPU of all members
   std::int64_t failed = 0;           ///< members of any level
   std::int64_t censored = 0;         ///< valid ones whose end was not seen
+  std::vector<std::string> missed;   ///< of ensemble.target, a sentence each
+  double max_failed_fraction = 1;    ///< of the scene
   std::vector<std::string> warnings;
+
+  /// Of a level that is used, as ensemble.max_failed_fraction.
+  bool too_many_failed() const;
 };
 
 /// \throws Cancelled

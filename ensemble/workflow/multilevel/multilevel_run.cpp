@@ -61,6 +61,15 @@ std::vector<LevelPart> possible_parts(const EnsembleRequest& request, const Scen
   return possible;
 }
 
+/// A set whose members do not let one know some result asks for nothing of it, and would look
+/// cheap.
+bool tells_all_of(const LevelSet& set, const LevelSet& plain) {
+  return std::all_of(plain.results.begin(), plain.results.end(), [&](const LevelResult& wanted) {
+    return std::any_of(set.results.begin(), set.results.end(),
+                       [&](const LevelResult& r) { return r.name == wanted.name; });
+  });
+}
+
 class Levels {
  public:
   Levels(MultilevelJob& job, Observer& observer, PlanListener& listener,
@@ -87,7 +96,9 @@ class Levels {
     for (std::size_t r = 0;; ++r) {
       if (r == job_.plan.rounds.size()) {
         if (!wants_more()) break;
-        job_.plan.rounds.push_back(decide());
+        PlanRound round = decide();
+        if (r > 0 && round.members == counts_) break;  // no more of them would help
+        job_.plan.rounds.push_back(std::move(round));
         write_plan(plan_of(job_.request), job_.plan);
       }
       look_.rounds.push_back(job_.plan.rounds[r]);
@@ -151,6 +162,10 @@ class Levels {
         row.push_back(1);
         continue;
       }
+      if (shared_draws(all, pair_with(p)) < least_draws) {
+        row.push_back(nan_d);
+        continue;
+      }
       const MultilevelMap map = map_of(all, pair_with(p), {}, cancel_);
       row.push_back(map.plain_variance > 0 ? 1 - map.variances[0] / map.plain_variance : nan_d);
     }
@@ -165,11 +180,9 @@ class Levels {
       return 3600 * target_.core_hours > near_enough * rounds.back().budget_s;
     if (rounds.size() >= most_rounds) return false;
     const LevelSet set = level_set(members(), rounds.back().plan.levels, target_, cancel_);
+    // By the draws that tell it: members that failed, or whose end was not seen, are none.
     return std::any_of(set.results.begin(), set.results.end(), [&](const LevelResult& r) {
-      double variance = 0;
-      for (std::size_t l = 0; l < set.levels.size(); ++l)
-        variance += r.variances[l] / static_cast<double>(counts_[set.levels[l]]);
-      return r.allowed > 0 && variance > near_enough * near_enough * r.allowed;
+      return r.allowed > 0 && r.reached > near_enough * near_enough * r.allowed;
     });
   }
 
@@ -182,24 +195,25 @@ class Levels {
         subsets.push_back(job_.plan.rounds.back().plan.levels);
     }
     std::vector<LevelSet> sets;
-    for (std::vector<std::size_t>& subset : subsets)
-      sets.push_back(level_set(all, std::move(subset), target_, cancel_));
+    for (std::vector<std::size_t>& subset : subsets) {
+      if (shared_draws(all, subset) < least_draws) continue;
+      LevelSet set = level_set(all, std::move(subset), target_, cancel_);
+      if (sets.empty() || tells_all_of(set, sets.front())) sets.push_back(std::move(set));
+    }
     PlanRound round;
     round.cost_s = look_.cost_s;
     round.budget_s = 3600 * target_.core_hours;
     std::vector<double> have, valid_share;
-    double spent_s = 0;
+    LevelBudget budget{round.budget_s, {}};
     for (std::size_t p = 0; p < counts_.size(); ++p) {
       const auto valid =
           static_cast<double>(valid_of(all, std::vector<std::size_t>{p}).front().size());
       const auto n = static_cast<double>(counts_[p]);
       have.push_back(valid);
       valid_share.push_back(std::max(valid, 1.0) / n);
-      spent_s += p == 0 ? 0 : n * round.cost_s[p];
+      budget.spent_s.push_back(n * round.cost_s[p]);
     }
-    // What the pilot of all cheaper levels took is gone, whether they are used or not.
-    const double left_s = target_.core_hours > 0 ? std::max(round.budget_s - spent_s, 1e-3) : 0;
-    round.plan = plan_levels(sets, round.cost_s, have, {left_s});
+    round.plan = plan_levels(sets, round.cost_s, have, budget);
     round.members = counts_;
     for (std::size_t l = 0; l < round.plan.levels.size(); ++l) {
       const std::size_t p = round.plan.levels[l];

@@ -85,7 +85,7 @@ std::string gain_text(const MultilevelMade& made) {
 }
 
 std::vector<std::string> page_sentences(const MultilevelMade& made) {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = made.missed;
   if (std::isfinite(made.map_error))
     lines.push_back(
         fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
@@ -94,7 +94,7 @@ std::vector<std::string> page_sentences(const MultilevelMade& made) {
   lines.push_back(gain_text(made));
   if (made.failed > 0)
     lines.push_back(
-        fmt::format("{} members failed; their draws count at the cheaper levels that "
+        fmt::format("{} members failed; their draws count where a level and all cheaper ones "
                     "have them.",
                     made.failed));
   if (made.censored > 0)

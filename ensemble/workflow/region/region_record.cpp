@@ -79,8 +79,12 @@ bool RegionRecord::is_finished(const std::string& source, std::int64_t members_p
   std::error_code failed;
   for (const fs::path& file : {folder.manifest(), folder.scenario(), folder.design()})
     if (!fs::exists(file, failed)) return false;
-  const auto n = static_cast<std::int64_t>(member_numbers_in(folder.members()).size());
-  return n == members_per_source;
+  try {
+    const auto n = static_cast<std::int64_t>(member_numbers_in(folder.members()).size());
+    return n == members_per_source;
+  } catch (const IoError&) {
+    return false;  // a pack that cannot be read: who opens the source says so
+  }
 }
 
 void RegionRecord::write() const {

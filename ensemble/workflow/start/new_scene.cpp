@@ -151,19 +151,18 @@ class Writer {
 void Writer::choose_release() {
   const std::string name = from_folder(request_.release, request_.folder);
   const ReleaseFile file = look_at_release(request_.release, fs::current_path().string());
-  // A name of one word needs no quotes, and any other is data.
-  const std::string quoted = "\"" + name + "\"";
+  const std::string in_quotes = quoted(name);
   if (file.is_raster) {
     require(!request_.thickness_m,
             "--thickness (the release is a raster, which says it). Leave it "
             "out, or give the outline as a polygon.");
-    draft_.release = {{"thickness_raster: " + quoted, "in metres, 0 or nodata outside"}};
+    draft_.release = {{"thickness_raster: " + in_quotes, "in metres, 0 or nodata outside"}};
     if (request_.volume_m3)
       draft_.release.push_back({fmt::format("volume_m3: {}", number_text(*request_.volume_m3)),
                                 "the raster's thicknesses are scaled to it"});
   } else {
-    draft_.release = {{"polygon: " + quoted, fmt::format("{} feature{}", file.n_features,
-                                                         file.n_features == 1 ? "" : "s")}};
+    draft_.release = {{"polygon: " + in_quotes, fmt::format("{} feature{}", file.n_features,
+                                                            file.n_features == 1 ? "" : "s")}};
     choose_polygon(file, name);
   }
   const bool snow = request_.process.starts_with("snow");
@@ -192,12 +191,12 @@ void Writer::choose_polygon(const ReleaseFile& file, const std::string& name) {
   }
   if (const std::string field = field_named(file, {"thickness_m", "thickness", "thick", "depth_m"});
       !field.empty()) {
-    draft_.release.push_back({"thickness_attribute: \"" + field + "\"", "a field of " + name});
+    draft_.release.push_back({"thickness_attribute: " + quoted(field), "a field of " + name});
     choices_.push_back(fmt::format("thickness from the field {} of {}", field, name));
     return;
   }
   if (const std::string field = field_named(file, {"volume_m3", "volume"}); !field.empty()) {
-    draft_.release.push_back({"volume_attribute: \"" + field + "\"", "a field of " + name});
+    draft_.release.push_back({"volume_attribute: " + quoted(field), "a field of " + name});
     choices_.push_back(fmt::format("volume from the field {} of {}", field, name));
     return;
   }

@@ -23,6 +23,9 @@ struct SceneDraft {
   int members = 64;
 };
 
+/// A file's name, a title or the name of a field as YAML; JSON strings are YAML, too.
+std::string quoted(const std::string& text);
+
 /// YAML with comments.
 std::string scene_text(const SceneDraft&);
 

@@ -2,6 +2,7 @@
 // Means, distributions and allocations on families of levels with known means, variances, biases.
 #include "ensemble/fidelity/multilevel/level_draws.hpp"
 
+#include "ensemble/fidelity/multilevel/level_plan.hpp"
 #include "tests/ensemble/fidelity/multilevel/normal_draws.hpp"
 
 #include <gmock/gmock.h>
@@ -145,6 +146,29 @@ TEST(AnAllocation, NeverAsksForFewerOfACheaperLevel) {
   EXPECT_NEAR(a.variance, 0.01, 1e-12);
 }
 
+/// A plan is kept as numbers: NaN could not be read again.
+TEST(APlan, OfWhatDoesNotVaryIsPlainAndHasNumbers) {
+  const std::vector<LevelSet> sets{{{0}, {{"map", {0}, 0, 0}}}, {{0, 1}, {{"map", {0, 0}, 0, 0}}}};
+  const std::vector<double> costs{2, 1}, have{8, 8};
+  for (const double seconds : {0.0, 100.0}) {
+    const LevelPlan plan = plan_levels(sets, costs, have, {seconds});
+    EXPECT_EQ(plan.levels, std::vector<std::size_t>{0}) << seconds;
+    EXPECT_DOUBLE_EQ(plan.gain, 1) << seconds;
+    EXPECT_TRUE(std::isfinite(plan.seconds)) << seconds;
+  }
+}
+
+/// What the levels of a set took is part of what they may take; what others took is gone.
+TEST(APlan, CountsWhatWasSpentOnce) {
+  const std::vector<LevelSet> sets{{{0}, {{"map", {1}, 1, 0}}},
+                                   {{0, 1}, {{"map", {0.1, 0.9}, 1, 0}}}};
+  const std::vector<double> costs{10, 0.1, 1}, have{8, 1000, 16};
+  const LevelPlan plan = plan_levels(sets, costs, have, {600, {80, 100, 16}});
+  EXPECT_EQ(plan.levels, (std::vector<std::size_t>{0, 1}));
+  EXPECT_LE(plan.seconds, 600 - 16);
+  EXPECT_GT(plan.seconds, 600 - 16 - 10 - 0.1);
+}
+
 TEST(MultilevelQuantiles, AreThoseOfTheDearestLevel) {
   const std::vector<double> levels{0.1, 0.5, 0.9};
   const double spread = std::sqrt(1.04), truth[] = {-1.2816 * spread, 0, 1.2816 * spread};
@@ -169,6 +193,39 @@ TEST(MultilevelQuantiles, AreThoseOfTheDearestLevel) {
     // that 0.21 remains in the best case, and 0.16.
     EXPECT_LT(std::sqrt(squares[q]), q == 1 ? 0.2 : 0.25) << q;
   }
+}
+
+/// Of 16 draws the largest is often below what 5 % exceed: a bound that ended with them would hold
+/// the truth in three of four cases.
+TEST(MultilevelQuantiles, HaveNoBoundWhereFewDrawsTellNone) {
+  const std::vector<double> levels{0.05, 0.95};
+  const double truth[] = {-1.6449 * std::sqrt(1.64), 1.6449 * std::sqrt(1.64)};
+  double covered[2] = {}, open[2] = {};
+  constexpr int some = 150;
+  for (int r = 0; r < some; ++r) {
+    const auto found = multilevel_quantiles(
+        family({0.8, 0.8}, {16, 120}, 400000 + 10 * static_cast<std::uint64_t>(r)), 2, levels);
+    for (int q = 0; q < 2; ++q) {
+      const Interval bounds = found[q].bounds_90;
+      EXPECT_TRUE(std::isfinite(found[q].value));
+      EXPECT_TRUE(std::isfinite(q == 0 ? bounds.high : bounds.low));
+      open[q] += std::isinf(q == 0 ? bounds.low : bounds.high) ? 1.0 / some : 0;
+      covered[q] += bounds.low <= truth[q] && truth[q] <= bounds.high ? 1.0 / some : 0;
+    }
+  }
+  for (int q = 0; q < 2; ++q) {
+    EXPECT_GE(covered[q], 0.87) << q;
+    EXPECT_GT(open[q], 0.1) << q;
+  }
+}
+
+TEST(MultilevelQuantiles, OfDrawsThatAreAllTheSameAreThese) {
+  std::vector<LevelDraw> same;
+  for (std::int64_t k = 0; k < 20; ++k) same.push_back({k, k < 8 ? 0U : 1U, {3, 5, 0, 0}});
+  const auto found = multilevel_quantiles(same, 2, std::vector<double>{0.5});
+  EXPECT_DOUBLE_EQ(found[0].value, 3);
+  EXPECT_DOUBLE_EQ(found[0].bounds_90.low, 3);
+  EXPECT_DOUBLE_EQ(found[0].bounds_90.high, 3);
 }
 
 }  // namespace
