@@ -7,6 +7,7 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/workflow/readable.hpp"
 #include "ensemble/workflow/region/region_run.hpp"
+#include "ensemble/workflow/results/maps.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
