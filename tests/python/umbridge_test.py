@@ -44,7 +44,8 @@ class Protocol(InFolder):
 
     def test_sixteen_at_once_are_the_numbers_of_sixteen_runs(self):
         _, model = self.serve(workers=2)
-        points = [[0.45 + 0.0125 * k, 200 + 80 * k] for k in range(15)] + [[0.25, 1500]]  # beyond its distribution
+        points = [[0.45 + 0.0125 * k, 200 + 80 * k] for k in range(15)]
+        points += [[0.25, 1500]]  # beyond its distribution
         with concurrent.futures.ThreadPoolExecutor(16) as pool:
             answers = list(pool.map(lambda point: model([point])[0], points))
         self.assertEqual(len({tuple(answer) for answer in answers}), 16)
