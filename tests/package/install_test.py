@@ -81,7 +81,7 @@ class Install(unittest.TestCase):
     def test_the_interpreter_has_the_module_built_in(self):
         if not (pathlib.Path(BUILD) / "python/sturz-python").exists():
             self.skipTest("built without Python")
-        done = subprocess.run([self.prefix / "bin/sturz-python", "-c", "import _sturz, sys; import sturz; print(_sturz.version)"],
+        done = subprocess.run([self.prefix / "bin/sturz-python", "-c", "import _sturz, sturz; print(_sturz.version)"],
                               cwd=self.work, text=True, capture_output=True)
         self.assertEqual(done.stdout, self.sturz("--version").stdout.split()[1] + "\n", done.stderr)
 
