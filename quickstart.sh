@@ -25,7 +25,10 @@ cmake --preset release -DSTURZ_TESTS=OFF >build/configure.log 2>&1 ||
   { tail -n 20 build/configure.log >&2
     echo "cmake could not configure; the whole text is in build/configure.log." >&2; exit 1; }
 echo "Building for about $(build_forecast) on $(nproc) cores, less if it was built before."
-build_quietly build/build.log cmake --build build/release --target sturz
+targets=(sturz)
+# Members in Python's process, where its headers are installed.
+grep -q '^build sturz_interpreter:' build/release/build.ninja && targets+=(sturz_interpreter)
+build_quietly build/build.log cmake --build build/release --target "${targets[@]}"
 build_time=$(seconds_since "$begin")
 
 stage="running the shipped ensemble"

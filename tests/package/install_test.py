@@ -84,6 +84,13 @@ class Install(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(pathlib.Path(lines[3]).parent, folder)
 
+    def test_the_interpreter_has_the_module_built_in(self):
+        if not (pathlib.Path(BUILD) / "python/sturz-python").exists():
+            self.skipTest("built without Python")
+        done = subprocess.run([self.prefix / "bin/sturz-python", "-c", "import _sturz, sturz; print(_sturz.version)"],
+                              cwd=self.work, text=True, capture_output=True)
+        self.assertEqual(done.stdout, self.sturz("--version").stdout.split()[1] + "\n", done.stderr)
+
     def test_a_copy_never_overwrites(self):
         self.sturz("cases", "template", "-o", "changed")
         (self.work / "changed/scenario.yaml").write_text("mine")

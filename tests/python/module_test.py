@@ -140,7 +140,8 @@ class Python(InFolder):
         over.set()
         thread.join()
         self.assertGreater(seconds, 0.05)
-        self.assertGreater(during, 100 * seconds)  # a thousand a second on a quiet machine; none under the lock
+        # A thousand a second on a quiet machine; none under the lock.
+        self.assertGreater(during, 100 * seconds)
 
     def test_errors_name_the_key(self):
         with self.assertRaises(sturz.ScenarioError) as caught:

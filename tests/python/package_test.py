@@ -26,7 +26,7 @@ class Scenes(InFolder):
         code = ("import numpy, pathlib, sturz\n"
                 "s = sturz.Scenario({'a': numpy.float64(0.5), 'b': numpy.arange(2), 'c': (1, 2),\n"
                 "                    'd': pathlib.Path('x/y.tif'), 'e': {'f': numpy.int32(3)}})\n"
-                "assert s.data == {'a': 0.5, 'b': [0, 1], 'c': [1, 2], 'd': 'x/y.tif', 'e': {'f': 3}}, s.data")
+                "assert s.data == {'a': 0.5, 'b': [0, 1], 'c': [1, 2], 'd': 'x/y.tif', 'e': {'f': 3}}, s")
         subprocess.run([sys.executable, "-c", code], check=True)
         with self.assertRaisesRegex(sturz.SturzError, "set has no place"):
             sturz.Scenario({"a": {1, 2}})
@@ -67,8 +67,8 @@ class Scenes(InFolder):
         subprocess.run([sturz.program(), "terrain", "plane", "-o", str(inputs)], check=True,
                        capture_output=True)
         raster = next(inputs.glob("*.tif")).name
-        scene = slide(terrain={"raster": raster, "crs": "local"}, release={"box": {"x_m": [-80, -60], "y_m": [-10, 10]},
-                                                           "thickness_m": 3})
+        scene = slide(terrain={"raster": raster, "crs": "local"},
+                      release={"box": {"x_m": [-80, -60], "y_m": [-10, 10]}, "thickness_m": 3})
         with self.assertRaisesRegex(sturz.ScenarioError, "terrain.raster"):
             sturz.check(scene)
         sturz.check(sturz.Scenario(scene, folder=inputs))
@@ -112,8 +112,8 @@ class Alone(InFolder):
     """With nothing but Python: what others need is named when it is asked for."""
 
     def python(self, code):
-        masked = "import sys\nfor m in ('xarray', 'pandas', 'geopandas', 'yaml', 'numpy', 'netCDF4', '_sturz'):\n" \
-                 "    sys.modules[m] = None\nimport sturz\n"
+        others = ("xarray", "pandas", "geopandas", "yaml", "numpy", "netCDF4", "_sturz")
+        masked = f"import sys\nfor name in {others}:\n    sys.modules[name] = None\nimport sturz\n"
         scene = f"scene = {slide()!r}\n"
         done = subprocess.run([sys.executable, "-W", "ignore", "-c", masked + scene + code], text=True,
                               capture_output=True, check=False)

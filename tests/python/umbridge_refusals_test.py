@@ -73,7 +73,8 @@ class Refusals(InFolder):
         self.assertEqual(self.refused("OutputSizes", config=[1]).type, "InvalidInput")
 
     def test_bodies_that_are_no_json(self):
-        for body in (b"", b"{", b"nonsense", b"[]", b"7", b"\xff\xfe\x00", b'{"name": "sturz", "input": [[NaN, 1]]}',
+        for body in (b"", b"{", b"nonsense", b"[]", b"7", b"\xff\xfe\x00",
+                     b'{"name": "sturz", "input": [[NaN, 1]]}',
                      b'{"name": "sturz", "input": [[1e999, 1]]}', b"[" * 100000, b'{"a":' * 50000):
             status, kind, message = self.error("POST", "/Evaluate", body)
             self.assertEqual((status, kind), (400, "InvalidInput"), body[:40])
@@ -107,7 +108,8 @@ class Refusals(InFolder):
 
     def test_what_is_no_http_at_all(self):
         host, port = self.model.place.split(":")
-        for words in (b"", b"\r\n\r\n", b"\x16\x03\x01\x02\x00\x01", b"POST /Evaluate HTTP/1.1\r\n" + b"a: b\r\n" * 9000,
+        for words in (b"", b"\r\n\r\n", b"\x16\x03\x01\x02\x00\x01",
+                      b"POST /Evaluate HTTP/1.1\r\n" + b"a: b\r\n" * 9000,
                       b"POST /Evaluate HTTP/1.1\r\nContent-Length: -5\r\n\r\n{}",
                       b"POST /Evaluate HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n{}"):
             with socket.create_connection((host, int(port)), timeout=20) as one:

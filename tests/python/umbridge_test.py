@@ -44,7 +44,8 @@ class Protocol(InFolder):
 
     def test_sixteen_at_once_are_the_numbers_of_sixteen_runs(self):
         _, model = self.serve(workers=2)
-        points = [[0.45 + 0.0125 * k, 200 + 80 * k] for k in range(15)] + [[0.25, 1500]]  # beyond its distribution
+        points = [[0.45 + 0.0125 * k, 200 + 80 * k] for k in range(15)]
+        points += [[0.25, 1500]]  # beyond its distribution
         with concurrent.futures.ThreadPoolExecutor(16) as pool:
             answers = list(pool.map(lambda point: model([point])[0], points))
         self.assertEqual(len({tuple(answer) for answer in answers}), 16)
@@ -116,7 +117,7 @@ class Starts(InFolder):
 
     def test_what_cannot_be_served_is_said_at_once(self):
         self.assertIn("Add --umbridge", self.refused())
-        for address in ("0.0.0.0", "::", "192.0.2.1"):
+        for address in ("0.0.0.0", "::", "192.0.2.1", "127.0.0.1.example.org"):
             self.assertIn("--allow-remote-clients", self.refused("--umbridge", "--address", address))
         fixed = slide(basal={"friction_coefficient": 0.3})
         self.assertIn("no uncertain value", self.refused("--umbridge", "--port", "0", scene=fixed))

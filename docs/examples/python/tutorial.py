@@ -52,7 +52,8 @@ print(plan["formulation"], "with", plan["n_particles"], "columns,", plan["member
 # On a terminal or in a notebook a bar shows how far it is. Ctrl-C is safe: the same call goes on.
 results = sturz.ensemble(scene, out / "map")
 members = results.members  # pandas
-print(members[["basal.friction_coefficient", "runout_m", "max_speed_m_s"]].describe().loc[["min", "50%", "max"]])
+columns = ["basal.friction_coefficient", "runout_m", "max_speed_m_s"]
+print(members[columns].describe().loc[["min", "50%", "max"]])
 with results.hazard as hazard:  # xarray
     reached = hazard.probability_of_reach
     print("cells that every member reaches:", int((reached == 1).sum()), "of", int((reached > 0).sum()))
@@ -77,7 +78,8 @@ assert same.state_hash == member.state_hash  # bit for bit what the command comp
 
 # %% ... and many of them, for a sampler of your own
 frictions = [0.45 + 0.02 * k for k in range(10)]
-runouts = [simulation.run({"basal.friction_coefficient": friction}).scalars["runout_m"] for friction in frictions]
+computed = [simulation.run({"basal.friction_coefficient": friction}) for friction in frictions]
+runouts = [each.scalars["runout_m"] for each in computed]
 print([round(runout) for runout in runouts])
 assert runouts[0] > runouts[-1]
 

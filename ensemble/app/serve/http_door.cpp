@@ -76,7 +76,8 @@ void explain_exception(const std::exception_ptr& thrown, Response& response) {
 }  // namespace
 
 bool is_loopback(const std::string& address) {
-  return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0;
+  const bool number = address.find_first_not_of("0123456789.") == std::string::npos;
+  return address == "localhost" || address == "::1" || (number && address.rfind("127.", 0) == 0);
 }
 
 struct HttpDoor::Server {

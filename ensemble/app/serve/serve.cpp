@@ -106,7 +106,7 @@ int serve(const Options& options, Console& console) {
   console.event(json_text(
       nlohmann::ordered_json{{"event", "done"}, {"evaluations", answered}, {"refused", refused}}));
   console.say(
-      fmt::format("Stopped. {} members were computed, {} requests refused.", answered, refused));
+      fmt::format("Stopped. Members computed: {}, requests refused: {}.", answered, refused));
   interruption_told();  // to be stopped is how a server ends
   return ok;
 }

@@ -165,8 +165,9 @@ class Simulation:
             return [float(value) for value in values]
         unknown = [key for key in values if key not in self.units]
         if unknown:
-            raise ScenarioError(f"{unknown[0]} (not uncertain in this scene: {', '.join(self.keys) or 'nothing is'})"
-                                ". Give it a distribution there, or set it when the scene is read.")
+            known = ", ".join(self.keys) or "nothing is"
+            raise ScenarioError(f"{unknown[0]} (not uncertain in this scene: {known}). Give it a "
+                                "distribution there, or set it when the scene is read.")
         return [float(values.get(key, median)) for key, median in self.medians.items()]
 
 
