@@ -19,7 +19,8 @@ std::string xml_text(std::string_view words) {
   return html_escape(text);
 }
 
-/// Letters, digits and underscores, and a number that no other layer has.
+/// Letters, digits and underscores, and a number that no other layer has. QGIS passes over ids of
+/// ten letters and less.
 std::string id_of(const ProjectLayer& layer, std::size_t number) {
   std::string id = layer.shape ? layer.table : layer.source;
   std::replace_if(
@@ -28,7 +29,7 @@ std::string id_of(const ProjectLayer& layer, std::size_t number) {
         return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'));
       },
       '_');
-  return fmt::format("{}_{}", id, number);
+  return fmt::format("sturz_layer_{}_{}", id, number);
 }
 
 std::string source_of(const ProjectLayer& layer) {
@@ -119,6 +120,7 @@ std::string qgis_project(const QgisProject& project) {
       "  <destinationsrs>{1}</destinationsrs>\n </mapcanvas>\n"
       " <projectlayers>\n{4} </projectlayers>\n <layerorder>\n{5} </layerorder>\n"
       " <properties>\n  <Paths><Absolute type=\"bool\">false</Absolute></Paths>\n"
+      "  <SpatialRefSys><ProjectionsEnabled type=\"int\">1</ProjectionsEnabled></SpatialRefSys>\n"
       " </properties>\n"
       " <ProjectViewSettings UseProjectScales=\"0\">\n  <Scales/>\n"
       "  <DefaultViewExtent xmin=\"{6}\" ymin=\"{7}\" xmax=\"{8}\" ymax=\"{9}\">{1}"

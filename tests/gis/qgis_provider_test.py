@@ -156,12 +156,13 @@ class Provider(unittest.TestCase):
 
     def test_a_wrong_setting_says_where_to_correct_it(self):
         from sturz_provider.program import SETTING
-        self.config.setSettingValue(SETTING, "/nowhere/sturz")
+        self.config.setSettingValue(SETTING, self.scene)  # a file, but no program
         try:
             found, done, heard = self.run_algorithm("describe", {"SCENARIO": self.scene})
         finally:
             self.config.setSettingValue(SETTING, "")
         self.assertFalse(done)
+        self.assertIn("is no program that can be run", heard.htmlLog())
         self.assertIn("Settings > Options", heard.htmlLog().replace("&gt;", ">"))
 
 

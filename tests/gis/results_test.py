@@ -5,6 +5,7 @@ members (xarray). Usage: results_test.py PROGRAM"""
 import json
 import pathlib
 import sqlite3
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -236,6 +237,12 @@ class Stack(Results):
             stored = maps["thickness_exceedance"].sel(thickness_threshold=0.5)
             numpy.testing.assert_allclose(share.values, stored.reindex_like(share).values, atol=1e-6)
             self.assertEqual(float(stored.sum()), float(stored.reindex_like(share).sum()), "all of it")
+
+    def test_the_file_keeps_the_conventions(self):
+        lint = pathlib.Path(__file__).parent.parent / "support/cf_lint.py"
+        found = subprocess.run([sys.executable, lint, self.stack("--quantity", "arrival")], capture_output=True, text=True,
+                               check=False)
+        self.assertEqual(found.stdout + found.stderr, "")
 
     def test_climada_finds_its_coordinates_unaided(self):
         """As Hazard.from_xarray_raster reads: default names, stacked to events by places."""

@@ -100,6 +100,8 @@ class Call:
         code = self.process.wait()
         for reader in self.readers:
             reader.join()
+        self.process.stdout.close()
+        self.process.stderr.close()
         if code in (OK, TOO_MANY_FAILED, INTERRUPTED):
             return code
         text = "".join(word for word in self.words if word).strip().removeprefix("error: ")

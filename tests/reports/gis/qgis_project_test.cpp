@@ -43,9 +43,10 @@ TEST(QgisProject, IsXmlWhateverTheTitle) {
 
 TEST(QgisProject, ShowsWhatIsToBeShown) {
   const std::string text = qgis_project(project());
-  EXPECT_THAT(text, HasSubstr("id=\"hazard_P_reached_tif_0\" name=\"Reached\" "
+  EXPECT_THAT(text, HasSubstr("id=\"sturz_layer_hazard_P_reached_tif_0\" name=\"Reached\" "
                               "checked=\"Qt::Checked\""));
-  EXPECT_THAT(text, HasSubstr("id=\"P_reached_1\" name=\"Areas\" checked=\"Qt::Unchecked\""));
+  EXPECT_THAT(text,
+              HasSubstr("id=\"sturz_layer_P_reached_1\" name=\"Areas\" checked=\"Qt::Unchecked\""));
 }
 
 TEST(QgisProject, OfAMapWithoutASystemHasNone) {
