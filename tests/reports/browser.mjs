@@ -50,11 +50,27 @@ export async function open(name, options = {}) {
   return {page, trouble, close: () => context.close()};
 }
 
+/** Two frames of the browser, however slow the machine is. */
+const twoFrames = (page) => page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** What an element looks like once it stays as it is, as one text. */
+export async function steady(page, shot) {
+  let before = '';
+  for (let k = 0; k < 40; k++) {
+    await page.waitForTimeout(250);
+    await twoFrames(page);
+    const now = (await shot()).toString('base64');
+    if (now === before) return now;
+    before = now;
+  }
+  throw new Error('the picture does not come to rest');
+}
+
 /** What the map looks like right now, as one text. */
 export async function picture(page) {
   await page.mouse.move(2, 2);
-  await page.waitForTimeout(400);
-  return (await page.locator('#map').screenshot()).toString('base64');
+  return steady(page, () => page.locator('#map').screenshot());
 }
 
 export async function liveMap(page) {

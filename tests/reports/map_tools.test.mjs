@@ -6,7 +6,7 @@ import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {test} from 'node:test';
 
-import {clickMap, liveMap, open, pages, picture, skip} from './browser.mjs';
+import {clickMap, liveMap, open, pages, picture, skip, steady} from './browser.mjs';
 
 const truth = skip ? null : JSON.parse(readFileSync(join(pages, 'ensemble_layers.json'), 'utf8'));
 
@@ -90,10 +90,10 @@ test('swipe shows another plane to the right of its handle only', {skip}, async 
   const clip = async (left) => {
     const box = await page.locator('#map').boundingBox();
     await page.mouse.move(2, 2);
-    await page.waitForTimeout(400);
-    return (await page.screenshot({clip: {x: box.x + (left ? 0.3 : 0.55) * box.width, y: box.y + 60,
-                                          width: 0.15 * box.width, height: box.height - 120}}))
-        .toString('base64');
+    return steady(page, () => page.screenshot({
+      clip: {x: box.x + (left ? 0.3 : 0.55) * box.width, y: box.y + 60,
+             width: 0.15 * box.width, height: box.height - 120},
+    }));
   };
   const [left, right] = [await clip(true), await clip(false)];
   await page.click('#tool-swipe');
@@ -189,10 +189,7 @@ test('the 3-D view turns, follows the layer, and plays a member to its deposit',
   await page.click('#tool-3d');
   await page.waitForSelector('#view3d canvas', {timeout: 30000});
   await page.waitForSelector('#frame');
-  const shot = async () => {
-    await page.waitForTimeout(250);
-    return (await page.locator('#view3d canvas').screenshot()).toString('base64');
-  };
+  const shot = () => steady(page, () => page.locator('#view3d canvas').screenshot());
   const start = await shot();
   await page.fill('#frame', '3');
   const later = await shot();
@@ -201,9 +198,10 @@ test('the 3-D view turns, follows the layer, and plays a member to its deposit',
   await page.fill('#frame', last);
   const end = await shot();
   assert.notEqual(end, later);
+  assert.ok(!await page.locator('.map-panel').isVisible(), 'the frames have a legend of their own');
   await page.click('#play');  // from the end it begins anew
-  await page.waitForTimeout(3000);
-  assert.equal(await page.inputValue('#frame'), last);
+  await page.waitForFunction((end) => document.getElementById('frame').value !== end, last);
+  await page.waitForFunction((end) => document.getElementById('frame').value === end, last);
   assert.equal(await shot(), end);
   const box = await page.locator('#view3d').boundingBox();
   await page.mouse.move(box.x + 500, box.y + 200);

@@ -44,6 +44,7 @@ function switchesOf(view, maps, heights) {
   view.overlays.named.forEach(({name, layer, look}, k) => {
     const swatch = element('span', {class: 'swatch line'});
     swatch.style.borderColor = look.colour;
+    if (look.dash) swatch.style.borderTopStyle = 'dashed';
     check(`pick-overlay-${k}`, element('span', {}, swatch, ' ', name), true,
           (on) => layer.setVisible(on));
   });

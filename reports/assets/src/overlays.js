@@ -16,8 +16,8 @@ import Text from 'ol/style/Text.js';
 
 /** Dark on a pale seam, told apart by dashes as well as by hue. */
 const looks = [
-  {colour: '#1f2937', dash: undefined}, {colour: '#5b2a86', dash: [7, 4]},
-  {colour: '#0b5394', dash: [2, 4]}, {colour: '#7a3b00', dash: [10, 3, 2, 3]},
+  {colour: '#0b5345', dash: undefined}, {colour: '#34495e', dash: [7, 4]},
+  {colour: '#4d5d00', dash: [2, 4]}, {colour: '#5e3370', dash: [10, 3, 2, 3]},
 ];
 export const lookOf = (k) => looks[k % looks.length];
 

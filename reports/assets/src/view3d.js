@@ -121,8 +121,11 @@ export function view3dTool(stage, page, heights, current) {
   let picture = null;
   let player = null;
 
+  const area = stage.parentNode;
   const redraw = () => {
     if (!drawing) return;
+    player?.stop();
+    area.classList.remove('is-playing');
     const {layer, values} = current();
     picture.draw(maps.cells, layer.legend, values);
     drawing.update();
@@ -130,11 +133,13 @@ export function view3dTool(stage, page, heights, current) {
   const addPlayer = async () => {
     const planes = await Promise.all(frames.planes.map((p) => unpack(p, frames.grid.cols)));
     player = createPlayer(frames, (k) => {
+      area.classList.add('is-playing');  // the map's own legend is not that of the frames
       picture.draw(frames.grid, frames.legend, planes[k]);
       drawing.update();
     });
     const legend = element('div', {class: 'frame-legend'},
-                           element('p', {class: 'legend-title'}, frames.legend.title),
+                           element('p', {class: 'legend-title'},
+                                   `${frames.legend.title}, ${frames.label}`),
                            legendList(frames.legend));
     box.append(player.box, legend);
   };
@@ -153,6 +158,7 @@ export function view3dTool(stage, page, heights, current) {
   const {button} = toggle('tool-3d', t('solid'), (on) => {
     box.hidden = !on;
     stage.classList.toggle('is-solid', on);
+    area.classList.remove('is-playing');
     if (on) {
       start();
       return;
