@@ -71,6 +71,7 @@ TEST_F(Region, HasAnEnsembleForEachFeatureAndMapsOfAll) {
               AllOf(HasSubstr("\n1,upper,features/upper,4,4,4,"), HasSubstr("\n3,aside/2,")));
   EXPECT_EQ(read("out/features/upper/design.csv"), read("out/features/lower/design.csv"))
       << "all sources share their rows";
+  EXPECT_THAT(read("out/stac_item.json"), HasSubstr("Maps of 12 simulations"));
   EXPECT_EQ(hazard_hash("out"), undisturbed()) << "one worker";
 }
 
