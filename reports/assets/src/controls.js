@@ -6,7 +6,7 @@ import {chips, element, northArrow} from './dom.js';
 import {drawLegend, marksOf} from './legend.js';
 import {createMap} from './map.js';
 import {profileTool} from './profile.js';
-import {printWhatIsSeen, saveTools} from './save.js';
+import {nameOf, printWhatIsSeen, saveTools} from './save.js';
 import {loadSources} from './sources.js';
 import {swipeTool} from './swipe.js';
 import {t} from './texts.js';
@@ -223,11 +223,15 @@ export async function startMaps(page) {
 
   /** What a saved or printed picture holds. */
   const seen = () => ({
-    view, marks, name: current.layer.name + (bound === 'value' ? '' : `_${bound}`),
+    view, marks, name: nameOf(current, bound),
     title: title.textContent, legend: current.layer.legend, values: seenValues,
     scene: document.querySelector('h1').textContent, system: maps.system, beside: swipe.beside(),
   });
-  const profile = profileTool(view, maps.cells, () => ({...current, values: seenValues}), groundHeight);
+  const profile = profileTool(
+      view, maps.cells,
+      () => ({layer: current.layer, values: seenValues, title: title.textContent,
+              name: nameOf(current, bound)}),
+      groundHeight);
   const swipe = swipeTool(parts.stage, view, planes, load);
   parts.panel.append(swipe.panel);
   parts.tools.append(profile.button);
@@ -238,10 +242,12 @@ export async function startMaps(page) {
   comment.after(profile.box);
   parts.stage.append(element('span', {class: 'map-system'}, maps.system));
 
+  let chosen = first;
   const show = async (next) => {
-    current = next;
+    chosen = next;
     await load(next);
-    if (current !== next) return;  // another one was chosen meanwhile
+    if (chosen !== next) return;  // another one was chosen meanwhile
+    current = next;
     const {layer, plane} = current;
     seenValues = boundOf(current, bound);
     title.textContent = bound === 'value' || !layer.legend.probability
