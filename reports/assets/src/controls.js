@@ -115,8 +115,8 @@ export async function startMaps(page) {
     const value = at < 0 ? NaN : current.values[at];
     const legend = current.layer.legend;
     let text = at < 0 ? '–' : valueText(legend, seenValues[at]);
-    if (bound === 'value' && legend.probability && value >= 0 && page.valid > 0) {
-      const [low, high] = wilson(value, page.valid, page.z);
+    if (bound === 'value' && legend.probability && value >= 0 && page.trials > 0) {
+      const [low, high] = wilson(value, page.trials, page.z);
       text += ` (${percentText(low)} – ${percentText(high)})`;
     }
     if (at < 0 || (reached && !(reached.values[at] > 0))) text = t('not_reached');
@@ -153,10 +153,10 @@ export async function startMaps(page) {
 
   /** A plane's probabilities, or one end of their interval where the flow came at all. */
   const boundOf = ({layer, values}, which) => {
-    if (which === 'value' || !layer.legend.probability || !(page.valid > 0)) return values;
+    if (which === 'value' || !layer.legend.probability || !(page.trials > 0)) return values;
     const end = which === 'lower' ? 0 : 1;
     return values.map(
-        (p, i) => reached && !(reached.values[i] > 0) ? p : wilson(p, page.valid, page.z)[end]);
+        (p, i) => reached && !(reached.values[i] > 0) ? p : wilson(p, page.trials, page.z)[end]);
   };
 
   /** Goes to a quantity and statistic; keeps what was chosen where it exists there. */
@@ -211,7 +211,7 @@ export async function startMaps(page) {
                         flag: p.plane.resolved === false ? t('not_resolved') : '',
                       })),
           `level-${choices.indexOf(current)}`, (key) => show(choices[Number(key.slice(6))])));
-    if (current.layer.legend.probability && page.valid > 0)
+    if (current.layer.legend.probability && page.trials > 0)
       rows.push(pickRow(t('end_of_interval'), ['value', 'lower', 'upper'], (key) => t(`end.${key}`),
                         bound, (key) => {
                           bound = key;
