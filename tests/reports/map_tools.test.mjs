@@ -84,6 +84,10 @@ test('the profile along a drawn line equals the raster', {skip}, async () => {
   const upper = await csvOf(page, '#profile-csv');
   assert.equal(upper.head[4], 'probability_of_reach_upper', 'an end of the interval is called one');
   assert.ok(upper.rows.some(([, , , , v], i) => v > drawn.rows[i][4]));
+  await page.click('[data-key="arrival"]');
+  await page.waitForTimeout(300);
+  assert.equal((await csvOf(page, '#profile-csv')).head[4], 'arrival_quantile_0.5_s', 'times have none');
+  await page.click('[data-key="reached"]');
   await page.click('[data-key="value"]');
   await page.click('#tool-profile');
   assert.ok(!await page.locator('#profile').isVisible());

@@ -151,12 +151,14 @@ export async function startMaps(page) {
   });
   parts.panel.append(switchesOf(view, maps, heights));
 
-  /** A plane's probabilities, or one end of their interval where the flow came at all. */
+  /** A plane's probabilities, or one end of their interval where the flow came at all. Where it did
+   *  not, the upper end is no 0: it is that of the files, and left out here. */
   const boundOf = ({layer, values}, which) => {
     if (which === 'value' || !layer.legend.probability || !(page.trials > 0)) return values;
     const end = which === 'lower' ? 0 : 1;
     return values.map(
-        (p, i) => reached && !(reached.values[i] > 0) ? p : wilson(p, page.trials, page.z)[end]);
+        (p, i) => p > 0 || !reached || reached.values[i] > 0 ? wilson(p, page.trials, page.z)[end]
+            : which === 'upper' ? NaN : p);
   };
 
   /** Goes to a quantity and statistic; keeps what was chosen where it exists there. */

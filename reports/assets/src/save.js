@@ -164,7 +164,8 @@ const asWord = (text) => text.replaceAll('²', '2').replaceAll('³', '3').replac
 export function nameOf({layer, plane}, bound) {
   const level = layer.planes.length > 1 && plane.axis !== undefined
       ? `_${round(plane.axis)}${layer.axisUnit}` : '';
-  return asWord(layer.name + level + (bound === 'value' ? '' : `_${bound}`));
+  const end = bound === 'value' || !layer.legend.probability ? '' : `_${bound}`;
+  return asWord(layer.name + level + end);
 }
 
 /** The same with the unit of its shown numbers behind it. */
