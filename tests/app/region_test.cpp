@@ -159,7 +159,7 @@ TEST_F(Region, WhatIsFinishedIsNotLoadedAgain) {
   EXPECT_THAT(mended.err + mended.out, HasSubstr("000002.nc"));
   EXPECT_EQ(hazard_hash("out"), hash);
 
-  fs::remove(path("out/features/lower/members/000001.nc"));
+  std::filesystem::remove(path("out/features/lower/members/000001.nc"));
   ASSERT_EQ(ensemble("out").exit_code, 0);
   EXPECT_EQ(n_members("out/features/lower"), 4u);
   EXPECT_EQ(hazard_hash("out"), hash);
