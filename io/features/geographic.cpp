@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/features/geographic.hpp"
 
+#include "engine/core/error.hpp"
 #include "io/files/io_error.hpp"
 #include "io/gdal/crs.hpp"
 #include "io/gdal/gdal_handles.hpp"
@@ -31,8 +32,12 @@ class Geographic::Parts {
     const OGRSpatialReference from = crs_from_wkt(crs_wkt);
     if (!from.IsProjected() && !from.IsGeographic()) return;
     std::string warning;  // that the datum is taken for WGS 84, where it has no name
-    transform_ = transform_between(from, degrees(), "the maps", &warning);
-    known_ = true;
+    try {
+      transform_ = transform_between(from, degrees(), "the maps", &warning);
+      known_ = true;
+    } catch (const SetupError&) {
+      // The Moon, Mars, or a datum whose shift is not known: maps are right without degrees.
+    }
   }
   bool known() const { return known_; }
   void transform(std::vector<double>& x, std::vector<double>& y) const {
@@ -68,7 +73,11 @@ std::vector<Vec2> geographic_outline(const Grid& grid) {
       const Vec2 at = (1 - t) * corners[edge] + t * corners[(edge + 1) % 4];
       x.push_back(at.x()), y.push_back(at.y());
     }
-  place.transform(x, y);
+  try {
+    place.transform(x, y);
+  } catch (const IoError&) {
+    return {};  // the projection has no degrees for some of it
+  }
   std::vector<Vec2> ring;
   for (std::size_t i = 0; i < x.size(); ++i) ring.emplace_back(x[i], y[i]);
   ring.push_back(ring.front());

@@ -15,13 +15,13 @@ namespace sturz {
 /// Longitude and latitude (WGS 84, degrees) of places on a map.
 class Geographic {
  public:
-  /// \throws SetupError where the system is not to be transformed
   explicit Geographic(const std::string& crs_wkt);
   ~Geographic();
   Geographic(const Geographic&) = delete;
   Geographic& operator=(const Geographic&) = delete;
 
-  /// False for a map that lies nowhere on the earth: then it may not be asked.
+  /// False for a map that lies nowhere on the earth, or in a system whose shift to WGS 84 is not
+  /// known: then it may not be asked.
   bool is_known() const;
   /// In place: x, y [m] become longitude, latitude [degrees]. \throws IoError
   void transform(std::vector<double>& x, std::vector<double>& y) const;
@@ -32,7 +32,7 @@ class Geographic {
 };
 
 /// The outline of a grid in degrees: closed, counterclockwise, with points along the edges, which
-/// are no straight lines there. Empty where it lies nowhere on the earth. \throws IoError
+/// are no straight lines there. Empty where it has no place in degrees.
 std::vector<Vec2> geographic_outline(const Grid& grid);
 
 /// Code of a coordinate system in the EPSG's list; nothing where it has none.

@@ -72,6 +72,7 @@ TEST_F(Region, HasAnEnsembleForEachFeatureAndMapsOfAll) {
               AllOf(HasSubstr("\n1,upper,features/upper,4,4,4,"), HasSubstr("\n3,aside/2,")));
   EXPECT_EQ(read("out/features/upper/design.csv"), read("out/features/lower/design.csv"))
       << "all sources share their rows";
+  EXPECT_THAT(read("out/stac_item.json"), HasSubstr("Maps of 12 simulations"));
   EXPECT_EQ(hazard_hash("out"), undisturbed()) << "one worker";
 }
 
@@ -159,7 +160,7 @@ TEST_F(Region, WhatIsFinishedIsNotLoadedAgain) {
   EXPECT_THAT(mended.err + mended.out, HasSubstr("000002.nc"));
   EXPECT_EQ(hazard_hash("out"), hash);
 
-  fs::remove(path("out/features/lower/members/000001.nc"));
+  std::filesystem::remove(path("out/features/lower/members/000001.nc"));
   ASSERT_EQ(ensemble("out").exit_code, 0);
   EXPECT_EQ(n_members("out/features/lower"), 4u);
   EXPECT_EQ(hazard_hash("out"), hash);

@@ -18,7 +18,7 @@ os.environ.update(QT_QPA_PLATFORM="offscreen", HOME=HOME.name, QGIS_CUSTOM_CONFI
                   PATH=f"{PROGRAM.parent}{os.pathsep}{os.environ['PATH']}")
 sys.path[:0] = [str(pathlib.Path(__file__).parent), str(PLUGIN.parent), "/usr/share/qgis/python/plugins"]
 
-from qgis.core import QgsApplication, QgsProcessingContext, QgsProcessingFeedback, QgsProject  # noqa: E402
+from qgis.core import NULL, QgsApplication, QgsProcessingContext, QgsProcessingFeedback, QgsProject  # noqa: E402
 
 import made_scene  # noqa: E402
 
@@ -83,6 +83,14 @@ class Provider(unittest.TestCase):
         provider = QgsApplication.processingRegistry().providerById("sturz")
         self.assertEqual({a.name() for a in provider.algorithms()},
                          {"describe", "run", "ensemble", "calibrate", "open_results"})
+
+    def test_numbers_that_nobody_gave_are_not_handed_on(self):
+        """Models and batches of QGIS give NULL, which is not None."""
+        algorithm = QgsApplication.processingRegistry().createAlgorithmById("sturz:ensemble")
+        algorithm.folder = self.out
+        for given, words in (({}, []), ({"MEMBERS": None}, []), ({"MEMBERS": NULL, "WORKERS": 2}, ["--workers", 2])):
+            said = algorithm.arguments({"SCENARIO": self.scene, **given}, QgsProcessingContext())
+            self.assertEqual(said, ["ensemble", self.scene, "-o", self.out, *words])
 
     def test_describe_says_what_the_scene_is(self):
         found, done, heard = self.run_algorithm("describe", {"SCENARIO": self.scene})

@@ -5,12 +5,16 @@ import os
 import pathlib
 import subprocess
 import sys
+import time
 import unittest
+from unittest import mock
 
 import sturz
 from scenes import InFolder, slide
 from sturz.errors import problem_of
+from sturz.program import call
 from sturz.progress import Bar
+from sturz.scenario import as_file
 
 
 class Scenes(InFolder):
@@ -21,6 +25,18 @@ class Scenes(InFolder):
         again = sturz.Scenario.read(file)
         self.assertEqual((again.data, again.name), (scene.data, "scene"))
         self.assertEqual(again["numerics.spacing_m"], 4)
+
+    def test_numbers_are_read_as_the_program_reads_them(self):
+        """PyYAML alone has texts for 1e6 and 1.5e-3, 10 for 012, 90 for 1:30 and true for on."""
+        pathlib.Path("scene.yaml").write_text(
+            "a: 1e6\nb: 1.5e-3\nc: 012\nd: 1:30\ne: on\nf: 2026-01-01\ng: '1 m'\nh: true\ni: -.5\nj:\nk: +3\n"
+            "l: [1., .inf]\n")
+        scene = sturz.Scenario.read("scene.yaml")
+        wanted = {"a": 1e6, "b": 0.0015, "c": 12, "d": "1:30", "e": "on", "f": "2026-01-01", "g": "1 m", "h": True,
+                  "i": -0.5, "j": None, "k": 3, "l": [1.0, float("inf")]}
+        self.assertEqual(scene.data, wanted)
+        scene.write("again.yaml")
+        self.assertEqual(sturz.Scenario.read("again.yaml").data, wanted)
 
     def test_numbers_of_numpy_and_paths_are_taken(self):
         code = ("import numpy, pathlib, sturz\n"
@@ -85,6 +101,72 @@ class Scenes(InFolder):
         self.assertIn("basal", sturz.Scenario.read(scene).data)
         with self.assertRaisesRegex(sturz.SturzError, "Did you mean zhangjiawan"):
             sturz.copy_case("zangjiawan", "other")
+
+
+STUB = """#!{python}
+import signal, sys
+told = []
+signal.signal(signal.SIGINT, lambda *_: told.append(1))
+for k in range(20000):  # far more than a pipe holds
+    print('{{"event": "member", "number": %d}}' % k, flush=True)
+open("put_away", "w").write(str(len(told)))
+sys.exit(3)
+"""
+
+
+class Stopped(InFolder):
+    """A program that has much to say when it is told to stop puts its things away all the same."""
+
+    def test_a_full_pipe_does_not_get_it_killed(self):
+        stub = pathlib.Path("stub")
+        stub.write_text(STUB.format(python=sys.executable))
+        stub.chmod(0o755)
+
+        def enough(_):
+            time.sleep(0.5)  # the pipe is full now
+            raise ZeroDivisionError
+
+        with mock.patch.dict(os.environ, STURZ=str(stub.resolve())):
+            begin = time.monotonic()
+            with self.assertRaises(ZeroDivisionError):
+                call(["ensemble"], enough)
+        self.assertEqual(pathlib.Path("put_away").read_text(), "1")
+        self.assertLess(time.monotonic() - begin, 8)
+
+    def test_a_server_that_nobody_stopped_ends_with_the_script(self):
+        stub = pathlib.Path("stub")
+        stub.write_text(f"#!{sys.executable}\nimport pathlib, signal\n"
+                        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+                        "print('{\"event\": \"serving\", \"url\": \"\", \"inputs\": [], \"outputs\": []}', flush=True)\n"
+                        "try:\n    signal.pause()\n"
+                        "except KeyboardInterrupt:\n    pathlib.Path('ended').touch()\n")
+        stub.chmod(0o755)
+        subprocess.run([sys.executable, "-c", "import sturz\nserver = sturz.serve({})"], check=True, timeout=30,
+                       env={**os.environ, "STURZ": str(stub.resolve())})
+        self.assertTrue(pathlib.Path("ended").exists())
+
+    def test_names_that_begin_with_a_dash_are_no_options(self):
+        for scene in ("-x.yaml", pathlib.Path("-x.yaml")):
+            with as_file(scene) as file:
+                self.assertEqual(file, "./-x.yaml")
+        with as_file(sturz.Scenario({"title": "a"}, name="../-a/b")) as file:
+            self.assertEqual(os.path.dirname(os.path.abspath(file)), os.getcwd())
+
+
+class Tables(InFolder):
+    def test_a_hash_in_a_name_does_not_cut_its_row(self):
+        pathlib.Path("assets.csv").write_text("# of the event\nname,probability\nHaus #3,0.25\nHaus 4,0.5\n")
+        table = sturz.EnsembleResults(".").table("assets.csv")
+        self.assertEqual(list(table.name), ["Haus #3", "Haus 4"])
+        self.assertEqual(list(table.probability), [0.25, 0.5])
+
+    def test_cells_of_just_the_level_belong_to_its_outline(self):
+        import numpy
+        from sturz.outlines import cells_at_least
+        import xarray
+        plane = xarray.DataArray(numpy.array([[0.95, 0.9]], dtype="float32"), dims=("y", "x"),
+                                 coords={"y": [0.0], "x": [0.0, 10.0]})
+        self.assertEqual(cells_at_least(plane, 0.95).area, 100)
 
 
 class Words(unittest.TestCase):

@@ -117,6 +117,7 @@ class Starts(InFolder):
 
     def test_what_cannot_be_served_is_said_at_once(self):
         self.assertIn("Add --umbridge", self.refused())
+        # The last is a name, which may stand for any machine.
         for address in ("0.0.0.0", "::", "192.0.2.1", "127.0.0.1.example.org"):
             self.assertIn("--allow-remote-clients", self.refused("--umbridge", "--address", address))
         fixed = slide(basal={"friction_coefficient": 0.3})

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 
+#include <arpa/inet.h>
 #include <fmt/core.h>
 #include <httplib.h>
 
@@ -76,8 +77,10 @@ void explain_exception(const std::exception_ptr& thrown, Response& response) {
 }  // namespace
 
 bool is_loopback(const std::string& address) {
-  const bool number = address.find_first_not_of("0123456789.") == std::string::npos;
-  return address == "localhost" || address == "::1" || (number && address.rfind("127.", 0) == 0);
+  // A name may begin with 127. and stand for any machine: only a number counts.
+  in_addr four{};
+  const bool is_number = inet_pton(AF_INET, address.c_str(), &four) == 1;
+  return address == "localhost" || address == "::1" || (is_number && address.starts_with("127."));
 }
 
 struct HttpDoor::Server {

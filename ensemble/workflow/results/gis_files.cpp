@@ -108,13 +108,14 @@ class Files {
   }
 
   void write_ground() {
+    const fs::path style = fs::path(folder_.ground_tif()).replace_extension(".qml");
     if (of_.elevation == nullptr) {
       fs::remove(folder_.ground_tif());
+      fs::remove(style);
       return;
     }
     write_cog(folder_.ground_tif(), *of_.elevation, 0, 0, of_.cancel);
-    write_text_atomic(fs::path(folder_.ground_tif()).replace_extension(".qml"),
-                      qgis_style_file(hillshade_symbology(), "Symbology"));
+    write_text_atomic(style, qgis_style_file(hillshade_symbology(), "Symbology"));
   }
 
   void write_project() {
@@ -180,7 +181,7 @@ class Files {
     item.description = fmt::format(
         "Maps of {} simulations of a moving mass, of which parameters "
         "that are not known were drawn.",
-        of_.members.size());
+        of_.n_members);
     item.datetime = of_.started;
     item.software = fmt::format("{} ({})", version, git_commit);
     item.grid = about_.grid;
@@ -232,7 +233,9 @@ GisContent gis_content(const LayerSource& maps, const PageContent& page, const M
     });
   content.release = page.release;
   content.members = page.members;
-  content.n_members = page.members.size();
+  content.n_members = static_cast<std::size_t>(
+      std::count_if(page.members.begin(), page.members.end(),
+                    [](const MemberSummary& m) { return is_valid(m.outcome); }));
   content.started = manifest.started;
   content.hazard_hash = manifest.hazard_hash;
   content.cancel = page.cancel;

@@ -31,7 +31,7 @@ struct GisContent {
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()
   std::optional<FeatureTable> assets;             ///< see risk_features()
   std::span<const MemberSummary> members;         ///< whose deposits are shown
-  std::size_t n_members = 0;                      ///< behind the maps
+  std::size_t n_members = 0;                      ///< behind the maps: the valid ones
   std::string started;                            ///< as Manifest::started
   std::string hazard_hash;                        ///< of the maps
   CancelFlag cancel;

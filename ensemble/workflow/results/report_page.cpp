@@ -162,6 +162,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.hazard = content.hazard;
   input.peaks = content.peaks;
   input.gauges = content.gauges;
+  input.effective_members = content.effective_members;
   input.members.assign(content.members.begin(), content.members.end());
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);

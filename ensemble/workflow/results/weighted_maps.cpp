@@ -80,6 +80,7 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   page.scenario_file = of.finished.folder.scenario();
   page.hazard = &coarse;
   page.design = &of.design;
+  page.effective_members = made.effective_members;
   page.elevation = ground.get();
   page.members = of.store.members();
   page.cancel = cancel;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import weakref
 from collections import deque
 from pathlib import Path
 from threading import Thread
@@ -13,7 +14,7 @@ from .errors import MembersFailed, ScenarioError, SturzError
 from .program import FAILED_MEMBERS, Child, Ended, _words_of, call, program, set_options
 from .progress import ProgressLike, listener
 from .results import CalibrationResults, EnsembleResults, Results, RunResults
-from .scenario import SceneLike, as_file, name_of
+from .scenario import SceneLike, as_file, name_of, no_option
 
 
 
@@ -81,7 +82,7 @@ def run(scene: SceneLike, out: str | os.PathLike[str] | None = None, *,
     """
     folder = Path(out) if out is not None else Path("out") / f"{name_of(scene)}_run"
     with as_file(scene) as file:
-        ended = call(["run", file, "--json", "-o", str(folder), *set_options(values),
+        ended = call(["run", file, "--json", "-o", no_option(folder), *set_options(values),
                       *_options(threads=threads, particles=particles_every_s, replace=replace)],
                      listener(progress))
     return _ended(ended, RunResults(folder))
@@ -115,7 +116,7 @@ def ensemble(scene: SceneLike, out: str | os.PathLike[str] | None = None, *,
     """
     folder = Path(out) if out is not None else Path("out") / name_of(scene)
     with as_file(scene) as file:
-        ended = call(["ensemble", file, "--json", "-o", str(folder), *set_options(values),
+        ended = call(["ensemble", file, "--json", "-o", no_option(folder), *set_options(values),
                       *_options(members=members, workers=workers, posterior=posterior,
                                 until_converged=until_converged, at_most=at_most,
                                 retry_failed=retry_failed)], listener(progress))
@@ -141,11 +142,15 @@ def calibrate(scene: SceneLike, out: str | os.PathLike[str] | None = None, *,
     """
     folder = Path(out) if out is not None else Path("out") / name_of(scene)
     with as_file(scene) as file:
-        ended = call(["calibrate", file, "--json", "-o", str(folder), *set_options(values),
+        ended = call(["calibrate", file, "--json", "-o", no_option(folder), *set_options(values),
                       *_options(members=members, workers=workers, method=method,
                                 discrepancy=discrepancy, active=active, no_check=not check_best)],
                      listener(progress))
     return _ended(ended, CalibrationResults(folder))
+
+
+def _extend(events: deque[dict[str, Any]], child: Child) -> None:
+    events.extend(child.events())
 
 
 class Server:
@@ -159,12 +164,14 @@ class Server:
         #: the last that it said, among it a warning for each question that it refused
         self.events: deque[dict[str, Any]] = deque(maxlen=100)
         # Read to the end, or the server would wait for room in the pipe.
-        self._reader = Thread(target=lambda: self.events.extend(child.events()), daemon=True)
+        self._reader = Thread(target=_extend, args=(self.events, child), daemon=True)
         self._reader.start()
+        # A server that nobody stopped would hold its port after the script has ended.
+        weakref.finalize(self, child.stop, True)
 
     def stop(self) -> int:
         """Ends it in order. Returns its exit code, 0 when all was well."""
-        code = self._child.stop()
+        code = self._child.stop(True)
         self._reader.join()
         self._child.close()
         return code
@@ -193,9 +200,14 @@ def serve(scene: SceneLike, *, port: int = 0, workers: int | None = None,
     with as_file(scene) as file:
         child = Child(["serve", file, "--umbridge", "--json", "--port", str(port), *set_options(values),
                        *_options(workers=workers, outputs=",".join(outputs) if outputs else None)])
-        for event in child.events():
-            if event.get("event") == "serving":
-                return Server(child, event)
+        try:
+            for event in child.events():
+                if event.get("event") == "serving":
+                    return Server(child, event)
+        except BaseException:  # Ctrl-C while it reads the scene
+            child.stop()
+            child.close()
+            raise
     child.stop()
     text = _words_of(child.said())
     child.close()
@@ -211,7 +223,7 @@ def cases() -> dict[str, str]:
 
 def copy_case(name: str, to: str | os.PathLike[str]) -> Path:
     """A shipped case in a folder of its own; returns its scenario file."""
-    done = subprocess.run([program(), "cases", name, "-o", os.fspath(to)], capture_output=True, text=True,
+    done = subprocess.run([program(), "cases", name, "-o", no_option(to)], capture_output=True, text=True,
                           check=False)
     if done.returncode != 0:
         raise SturzError(_words_of(done.stderr))

@@ -18,7 +18,8 @@ def cells_at_least(plane: Any, level: float) -> Any | None:
     from shapely.ops import unary_union
     x, y = numpy.asarray(plane["x"], float), numpy.asarray(plane["y"], float)
     half = abs(x[1] - x[0]) / 2 if len(x) > 1 else abs(y[1] - y[0]) / 2
-    inside = numpy.asarray(plane, float) >= level  # NaN is not
+    # As the map's own numbers: 0.95 of a map in single precision is a little less. NaN is not.
+    inside = numpy.asarray(plane) >= level
     boxes = []
     for row, north in zip(inside, y):
         edges = numpy.flatnonzero(numpy.diff(numpy.concatenate(([False], row, [False])).astype(int)))

@@ -11,6 +11,7 @@ import tempfile
 import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
+from threading import Thread
 from typing import Any, Callable, Iterable, Mapping, Sequence
 
 from .errors import Missing, ScenarioError, SturzError, SturzWarning
@@ -88,15 +89,30 @@ class Child:
             if line.strip():
                 yield json.loads(line)
 
-    def stop(self) -> int:
-        """Asks it to end in order and waits; it keeps what is finished."""
+    def stop(self, is_read: bool = False) -> int:
+        """Asks it to end in order and waits; it keeps what is finished.
+
+        Args:
+            is_read: somebody else reads its lines to the end. What nobody reads is read here: with a
+                full pipe it would wait, be killed, and could put nothing away.
+        """
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
+        if not is_read:
+            Thread(target=self._read_away, daemon=True).start()
         try:
             return self.process.wait(timeout=10)
         except subprocess.TimeoutExpired:  # it promises 1.5 s
             self.process.kill()
             return self.process.wait()
+
+    def _read_away(self) -> None:
+        assert self.process.stdout is not None
+        try:
+            while self.process.stdout.read(1 << 16):
+                pass
+        except ValueError:  # closed: it has ended
+            pass
 
     def said(self) -> str:
         """What it wrote to standard error so far."""

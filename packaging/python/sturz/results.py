@@ -10,6 +10,7 @@ import importlib
 import json
 import os
 from functools import cached_property
+from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Sequence
 
@@ -74,8 +75,11 @@ class Results:
                                    decode_times=False, decode_timedelta=False)
 
     def table(self, name: str) -> "pandas.DataFrame":
-        """A CSV file of the folder."""
-        return need("pandas", "Reading tables").read_csv(self.file(name), comment="#")
+        """A CSV file of the folder, without the lines of comment at its beginning."""
+        pandas, path = need("pandas", "Reading tables"), self.file(name)
+        with open(path, encoding="utf-8", newline="") as lines:  # a name may hold a #
+            head = sum(1 for _ in takewhile(lambda line: line.startswith("#"), lines))
+        return pandas.read_csv(path, skiprows=head)
 
     def layer(self, name: str, layer: str | None = None) -> "geopandas.GeoDataFrame":
         """A layer of a vector file of the folder, such as ``assets.gpkg``."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import os
+import re
 import subprocess
 import tempfile
 from contextlib import contextmanager
@@ -30,6 +31,23 @@ def plain(value: Any) -> Any:
         return value
     raise SturzError(f"{value!r} ({type(value).__name__} has no place in a scenario). Use numbers, "
                      "texts, lists and dictionaries.")
+
+
+@lru_cache(maxsize=1)
+def _loader(yaml: Any) -> Any:
+    """Reads plain words as the program does (YAML 1.2, core schema). PyYAML's own are of YAML 1.1, where
+    1e6 and 1.5e6 are texts, 012 is 10, 1:30 is 90 and `on` is true."""
+    class Loader(yaml.SafeLoader):
+        yaml_implicit_resolvers: dict[str, Any] = {}
+
+    for kind, pattern, first in (("null", r"~|null|Null|NULL|", ["~", "n", "N", ""]),
+                                 ("bool", r"true|True|TRUE|false|False|FALSE", list("tTfF")),
+                                 ("int", r"[-+]?[0-9]+", list("-+0123456789")),
+                                 ("float", r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?"
+                                           r"|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)", list("-+.0123456789"))):
+        Loader.add_implicit_resolver(f"tag:yaml.org,2002:{kind}", re.compile(f"^(?:{pattern})$"), first)
+    Loader.add_constructor("tag:yaml.org,2002:int", lambda loader, node: int(node.value))
+    return Loader
 
 
 class Scenario:
@@ -59,7 +77,7 @@ class Scenario:
             raise Missing("Reading YAML needs python3-yaml (apt-get install python3-yaml).") from missing
         path = Path(file)
         with open(path, encoding="utf-8") as text:
-            data = yaml.safe_load(text)
+            data = yaml.load(text, _loader(yaml))
         if not isinstance(data, dict):
             raise SturzError(f"{path} (must be a YAML mapping of blocks and keys).")
         return cls(data, path.parent, path.stem)
@@ -121,14 +139,20 @@ def name_of(scene: SceneLike) -> str:
     return "scenario" if isinstance(scene, Mapping) else Path(scene).stem
 
 
+def no_option(path: str | os.PathLike[str]) -> str:
+    """A path as a word of a command line: a name that begins with a dash is no option."""
+    text = os.fspath(path)
+    return f"./{text}" if text.startswith("-") else text
+
+
 @contextmanager
 def as_file(scene: SceneLike) -> Iterator[str]:
     """The scene as a file that the program can read; a dictionary's is gone afterwards."""
     if isinstance(scene, (str, os.PathLike)):
-        yield os.fspath(scene)
+        yield no_option(scene)
         return
     scenario = scene if isinstance(scene, Scenario) else Scenario(scene)
-    with tempfile.NamedTemporaryFile("w", prefix=f".{scenario.name}-", suffix=".yaml",
+    with tempfile.NamedTemporaryFile("w", prefix=f".{Path(scenario.name).name}-", suffix=".yaml",
                                      dir=scenario.folder, encoding="utf-8") as file:
         file.write(scenario.to_yaml())
         file.flush()

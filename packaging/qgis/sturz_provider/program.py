@@ -6,6 +6,7 @@ finished and end with code 3, so that the same call goes on later."""
 import json
 import os
 import queue
+import shlex
 import shutil
 import subprocess
 import threading
@@ -50,9 +51,9 @@ class Call:
     def __init__(self, arguments, feedback, events=True):
         self.feedback = feedback
         command = [program(), *map(str, arguments)] + (["--json"] if events else [])
-        feedback.pushCommandInfo(" ".join(command))
+        feedback.pushCommandInfo(shlex.join(command))
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True, errors="replace")
+                                        stderr=subprocess.PIPE, encoding="utf-8", errors="replace")
         self.lines = queue.Queue()
         self.words = []  # of stderr
         self.readers = [threading.Thread(target=_read_lines, args=(self.process.stdout, self.lines.put),

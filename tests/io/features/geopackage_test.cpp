@@ -124,6 +124,15 @@ TEST_F(GeoPackages, APlaceInDegrees) {
   EXPECT_EQ(epsg_code(""), std::nullopt);
 }
 
+TEST_F(GeoPackages, OtherBodiesAreNoPlaceInDegreesAndNoError) {
+  for (const char* system : {"IAU_2015:30110", "IAU_2015:49910", "+proj=eqc +R=1737400 +units=m"}) {
+    const std::string wkt = crs_wkt2(parse_crs(system, "test"));
+    ASSERT_FALSE(wkt.empty()) << system;
+    EXPECT_FALSE(Geographic(wkt).is_known()) << system;
+    EXPECT_TRUE(geographic_outline({10, 20, 0, 0, 10, wkt}).empty()) << system;
+  }
+}
+
 TEST_F(GeoPackages, AnArchiveHoldsItsTextAndNoTime) {
   write_zip(path("a.qgz"), "hazard.qgs", "<qgis/>");
   write_zip(path("b.qgz"), "hazard.qgs", "<qgis/>");

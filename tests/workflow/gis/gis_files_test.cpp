@@ -30,6 +30,7 @@ TEST_F(GisWorkflow, FilesAreMadeWithoutAPlaceOnTheEarth) {
     EXPECT_TRUE(exists(std::string("out/") + file)) << file;
   EXPECT_THAT(read("out/stac_item.json"), HasSubstr("\"geometry\": null"));
   EXPECT_THAT(read("out/stac_item.json"), Not(HasSubstr("\"bbox\"")));
+  EXPECT_THAT(read("out/stac_item.json"), HasSubstr("Maps of 6 simulations"));
 }
 
 TEST_F(GisWorkflow, NothingOfOursStaysWhereItIsRemoved) {

@@ -57,8 +57,11 @@ class SturzAlgorithm(QgsProcessingAlgorithm):
         if self.parameterDefinition("OUT") is not None:
             words += ["-o", self.folder]
         for name, option in (("MEMBERS", "-n"), ("WORKERS", "--workers")):
-            if self.parameterDefinition(name) is not None and parameters.get(name) is not None:
-                words += [option, self.parameterAsInt(parameters, name, context)]
+            if self.parameterDefinition(name) is None:
+                continue
+            number = self.parameterAsInt(parameters, name, context)  # 0 where nothing, or NULL, was given
+            if number > 0:
+                words += [option, number]
         return words
 
     def prepareAlgorithm(self, parameters, context, feedback):  # noqa: N802
