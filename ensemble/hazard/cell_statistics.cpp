@@ -61,29 +61,18 @@ void CellStatistics::quantity(const QuantityLayers& to, const CellRows& rows, st
   const std::span<const float> members = rows.of(to.source, i);
   keep_where(members, [](float v) { return v > 0; });
   if (kept_.empty()) return;  // the layers hold the value of an untouched cell already
-  if (to.exceedance) exceedance(*to.exceedance, cell);
+  if (to.exceedance)
+    for (std::size_t plane = 0; plane < to.exceedance->thresholds.size(); ++plane) {
+      const float threshold = to.exceedance->thresholds[plane];
+      put_probability(*to.exceedance, plane, cell,
+                      count_where(kept_, [threshold](float v) { return v > threshold; }));
+    }
   if (to.mean)
     block_.put(*to.mean, 0, cell,
                rows.sums[static_cast<std::size_t>(to.source)][i] / static_cast<double>(n_) *
                    to.units_per_si);
   if (to.quantile)
     put_quantiles(*to.quantile, cell, static_cast<std::size_t>(n_) - kept_.size(), to.units_per_si);
-}
-
-/// Two thresholds in one go over the values, which may be many.
-void CellStatistics::exceedance(const ProbabilityLayers& to, std::size_t cell) {
-  const std::vector<float>& thresholds = to.thresholds;
-  for (std::size_t plane = 0; plane < thresholds.size(); plane += 2) {
-    const bool two = plane + 1 < thresholds.size();
-    const float first = thresholds[plane], second = two ? thresholds[plane + 1] : first;
-    std::uint32_t above_first = 0, above_second = 0;
-    for (const float v : kept_) {
-      above_first += static_cast<std::uint32_t>(v > first);
-      above_second += static_cast<std::uint32_t>(v > second);
-    }
-    put_probability(to, plane, cell, above_first);
-    if (two) put_probability(to, plane + 1, cell, above_second);
-  }
 }
 
 void CellStatistics::intensity(const CellRows& rows, std::size_t i, std::size_t cell) {

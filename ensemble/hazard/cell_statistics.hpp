@@ -30,7 +30,6 @@ class CellStatistics {
   void over_comers(PeakLayer source, std::size_t layer, const CellRows& rows, std::size_t i,
                    std::size_t cell);
   void quantity(const QuantityLayers& to, const CellRows& rows, std::size_t i, std::size_t cell);
-  void exceedance(const ProbabilityLayers& to, std::size_t cell);  // of kept_
   void intensity(const CellRows& rows, std::size_t i, std::size_t cell);
 
   double share(std::int64_t hits) const;

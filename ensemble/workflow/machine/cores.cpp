@@ -129,7 +129,7 @@ double available_memory_bytes() {
 
 std::size_t records_memory_bytes(double max_process_bytes) {
   constexpr double share = 0.125;
-  constexpr std::size_t least = std::size_t{128} << 20, most = std::size_t{2} << 30;
+  constexpr std::size_t least = std::size_t{128} << 20, most = std::size_t{1} << 30;
   double wanted = share * available_memory_bytes();
   if (max_process_bytes > 0)  // a half: maps take memory as well
     wanted = std::min(wanted, (max_process_bytes - resident_memory_bytes()) / 2);

@@ -15,7 +15,7 @@ int available_cores();
 double available_memory_bytes();
 
 /// Memory for members' values while maps are made [bytes]: an eighth of what is available, 128 MiB
-/// to 2 GiB. More means fewer passes over the members, and the same bits.
+/// to 1 GiB. More means fewer passes over the members, and the same bits.
 /// \param max_process_bytes that this process may hold; 0: no limit
 std::size_t records_memory_bytes(double max_process_bytes = 0);
 
