@@ -276,4 +276,9 @@ MultilevelJob prepare_multilevel(const EnsembleRequest& request, Observer& obser
   return job;
 }
 
+MultilevelMembers run_multilevel(MultilevelJob& job, Observer& observer, PlanListener& listener,
+                                 const std::atomic<bool>& cancel) {
+  return Levels(job, observer, listener, cancel).run();
+}
+
 }  // namespace sturz::workflow
