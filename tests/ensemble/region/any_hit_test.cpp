@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 
 namespace sturz {
 namespace {
@@ -89,9 +90,15 @@ TEST(AnyHit, BoundsHoldTheTruthForSharedRowsAndForOthers) {
       for (const bool shared : {false, true}) {
         const Coverage c = coverage(p, n_rows, shared);
         const bool rare_together = p.size() == 6 && n_rows == 16 && shared;
-        EXPECT_GE(c.any, rare_together ? 0.45 : 0.85)  // a limit that any_hit.hpp names
-            << p.size() << " sources, " << n_rows << " rows, " << shared;
-        EXPECT_GE(c.any_rows, 0.85) << p.size() << " sources, " << n_rows << " rows, " << shared;
+        const std::string which = std::to_string(p.size()) + " sources, " + std::to_string(n_rows) +
+                                  " rows, " + (shared ? "shared" : "of their own");
+        // Missed: half of the cases. Known (any_hit.hpp, decision 0050); when it is mended, this
+        // says so.
+        if (rare_together)
+          EXPECT_LT(c.any, 0.85) << which;
+        else
+          EXPECT_GE(c.any, 0.85) << which;
+        EXPECT_GE(c.any_rows, 0.85) << which;
       }
 }
 
