@@ -18,11 +18,6 @@ std::string with_comment(std::string line, const std::string& comment) {
   return line + "# " + comment + "\n";
 }
 
-/// A file's name or a title as YAML; JSON strings are YAML, too.
-std::string quoted(const std::string& text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 /// The values of a process that belong to one block, "  key: value  # source".
 std::string values_of(const Material& process, std::string_view block) {
   std::string text;
@@ -36,6 +31,11 @@ std::string values_of(const Material& process, std::string_view block) {
 }
 
 }  // namespace
+
+// JSON strings are YAML, too.
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
 
 std::string scene_text(const SceneDraft& d) {
   std::string text =

@@ -23,6 +23,9 @@ struct SceneDraft {
   int members = 64;
 };
 
+/// A file's name or a title as YAML.
+std::string quoted(const std::string& text);
+
 /// YAML with comments.
 std::string scene_text(const SceneDraft&);
 
