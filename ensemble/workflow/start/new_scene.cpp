@@ -21,6 +21,7 @@
 #include <initializer_list>
 #include <numeric>
 #include <string_view>
+#include <system_error>
 
 namespace sturz::workflow {
 namespace {
@@ -50,12 +51,18 @@ const Material& process_of(const std::string& name) {
   return *m;
 }
 
-/// The same file, seen from the scenario's folder. What only GDAL understands stays as it is.
+/// A file's full name; what only GDAL understands stays as it is.
+std::string full_name(const std::string& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored) ? fs::weakly_canonical(file).string() : file;
+}
+
+/// The same file, seen from the scenario's folder, which need not be there yet.
 std::string from_folder(const std::string& file, const fs::path& folder) {
-  if (!fs::exists(file)) return file;
-  const fs::path there = fs::absolute(folder).lexically_normal();
-  const fs::path name = fs::absolute(file).lexically_normal().lexically_relative(there);
-  return name.empty() ? fs::absolute(file).string() : name.string();
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return file;
+  const fs::path name = fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder));
+  return name.empty() ? full_name(file) : name.string();
 }
 
 std::string lower(std::string text) {
@@ -101,7 +108,7 @@ class Writer {
       : request_(request), process_(process_of(request.process)) {
     draft_.process = &process_;
     draft_.members = request.members;
-    draft_.terrain = from_folder(request.terrain, request.folder);
+    draft_.terrain = full_name(request.terrain);
     draft_.crs = request.crs;
     draft_.spacing = {"spacing_m: 10", ""};
     draft_.title = request.title;
@@ -124,14 +131,20 @@ class Writer {
     NewScene made;
     made.scene = scene_of(file(), {});
     explain_spacing(made.scene.description);
+    // Read by full names, because the folder that the others start from may not be there yet.
+    draft_.terrain = from_folder(request_.terrain, request_.folder);
+    draft_.release.front().text = release_line(from_folder(request_.release, request_.folder));
     made.text = scene_text(draft_);
     made.choices = std::move(choices_);
     return made;
   }
 
  private:
+  std::string release_line(const std::string& name) const {
+    return fmt::format("{}: {}", release_key_, quoted(name));
+  }
   void choose_release();
-  void choose_polygon(const ReleaseFile& file, const std::string& name);
+  void choose_polygon(const ReleaseFile&);
   void guess_thickness(double area_m2);
   void choose_spacing(const Measures&);
   void explain_spacing(const SceneDescription&);
@@ -143,27 +156,29 @@ class Writer {
   const NewSceneRequest& request_;
   const Material& process_;
   SceneDraft draft_;
+  const char* release_key_ = "polygon";
   bool guesses_thickness_ = false;
   double cell_m_ = 0;
   std::vector<std::string> choices_;
 };
 
 void Writer::choose_release() {
-  const std::string name = from_folder(request_.release, request_.folder);
   const ReleaseFile file = look_at_release(request_.release, fs::current_path().string());
-  const std::string in_quotes = quoted(name);
   if (file.is_raster) {
     require(!request_.thickness_m,
             "--thickness (the release is a raster, which says it). Leave it "
             "out, or give the outline as a polygon.");
-    draft_.release = {{"thickness_raster: " + in_quotes, "in metres, 0 or nodata outside"}};
+    release_key_ = "thickness_raster";
+    draft_.release = {
+        {release_line(full_name(request_.release)), "in metres, 0 or nodata outside"}};
     if (request_.volume_m3)
       draft_.release.push_back({fmt::format("volume_m3: {}", number_text(*request_.volume_m3)),
                                 "the raster's thicknesses are scaled to it"});
   } else {
-    draft_.release = {{"polygon: " + in_quotes, fmt::format("{} feature{}", file.n_features,
-                                                            file.n_features == 1 ? "" : "s")}};
-    choose_polygon(file, name);
+    draft_.release = {
+        {release_line(full_name(request_.release)),
+         fmt::format("{} feature{}", file.n_features, file.n_features == 1 ? "" : "s")}};
+    choose_polygon(file);
   }
   const bool snow = request_.process.starts_with("snow");
   draft_.release.push_back({snow ? "thickness: normal" : "thickness: vertical",
@@ -175,7 +190,8 @@ void Writer::choose_release() {
                             "pre_failure: with it"});
 }
 
-void Writer::choose_polygon(const ReleaseFile& file, const std::string& name) {
+void Writer::choose_polygon(const ReleaseFile& file) {
+  const std::string name = fs::path(request_.release).filename().string();
   if (request_.thickness_m) {
     const double h = *request_.thickness_m;
     draft_.release.push_back(
