@@ -152,12 +152,27 @@ class Stack {
       cancel.check();
       const Window part{window_.row0 + row, window_.col0, std::min(band_rows, grid_.n_rows - row),
                         grid_.n_cols};
-      values_.resize(part.n_cells());
-      store_.read_part(valid_[k], of_.layer, part, values_);
-      for (float& v : values_) v *= of_.per_si;
+      read(valid_[k], part);
       file_.put(intensity, {k, static_cast<std::size_t>(row), 0},
                 {1, static_cast<std::size_t>(part.n_rows), static_cast<std::size_t>(part.n_cols)},
                 std::span<const float>(values_));
+    }
+  }
+
+  /// values_ of a part of the common grid: those of the member where it was.
+  void read(std::size_t member, const Window& part) {
+    values_.assign(part.n_cells(), info(of_.layer).untouched);
+    const MemberSummary& about = store_.members()[member];
+    const Window there = overlap(part, about.window);
+    if (there.n_cells() == 0 || !is_kept(of_.layer, about.censoring, about.scalars)) return;
+    own_.resize(there.n_cells());
+    store_.read_part(member, of_.layer, there, own_);
+    const float* from = own_.data();
+    for (int row = 0; row < there.n_rows; ++row, from += there.n_cols) {
+      const std::size_t to = static_cast<std::size_t>(there.row0 + row - part.row0) * part.n_cols +
+                             (there.col0 - part.col0);
+      std::transform(from, from + there.n_cols, values_.begin() + static_cast<std::ptrdiff_t>(to),
+                     [&](float v) { return v * of_.per_si; });
     }
   }
 
@@ -169,7 +184,7 @@ class Stack {
   Grid grid_;
   int member_ = -1;
   GridDimensions place_;
-  std::vector<float> values_;
+  std::vector<float> values_, own_;
 };
 
 }  // namespace

@@ -21,17 +21,23 @@ using Properties = std::vector<std::pair<std::string_view, std::string>>;
 std::string rgba(Rgb c, int alpha) { return fmt::format("{},{},{},{}", c.r, c.g, c.b, alpha); }
 
 /// One symbol of a renderer, called by its number.
-std::string symbol(std::size_t number, Shape shape, const Properties& properties) {
+/// \param below what is drawn under it, in the same way; empty: nothing
+std::string symbol(std::size_t number, Shape shape, const Properties& properties,
+                   const Properties& below = {}) {
   const auto [type, kind] = shape == Shape::point  ? std::pair("marker", "SimpleMarker")
                             : shape == Shape::line ? std::pair("line", "SimpleLine")
                                                    : std::pair("fill", "SimpleFill");
   std::string text = fmt::format(
-      "   <symbol type=\"{}\" name=\"{}\" alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">\n"
-      "    <layer class=\"{}\" enabled=\"1\" locked=\"0\" pass=\"0\">\n",
-      type, number, kind);
-  for (const auto& [key, value] : properties)
-    text += fmt::format("     <prop k=\"{}\" v=\"{}\"/>\n", key, value);
-  return text + "    </layer>\n   </symbol>\n";
+      "   <symbol type=\"{}\" name=\"{}\" alpha=\"1\" clip_to_extent=\"1\" force_rhr=\"0\">\n",
+      type, number);
+  for (const Properties* layer : {&below, &properties}) {
+    if (layer->empty()) continue;
+    text += fmt::format("    <layer class=\"{}\" enabled=\"1\" locked=\"0\" pass=\"0\">\n", kind);
+    for (const auto& [key, value] : *layer)
+      text += fmt::format("     <prop k=\"{}\" v=\"{}\"/>\n", key, value);
+    text += "    </layer>\n";
+  }
+  return text + "   </symbol>\n";
 }
 
 /// \param fill alpha of the area's inside
@@ -71,6 +77,20 @@ std::string drawn(std::size_t number, Shape shape, Rgb inside, int fill, Rgb edg
 Rgb darker(Rgb c) {
   const auto part = [](std::uint8_t v) { return static_cast<std::uint8_t>(v * 7 / 10); };
   return {part(c.r), part(c.g), part(c.b)};
+}
+
+/// An outline that stands out from pale and dark ground: a white line below it.
+std::string outline(Rgb colour, const std::string& pen) {
+  const auto line = [](Rgb c, const char* width_mm, const std::string& style) {
+    return Properties{{"color", rgba(c, clear)},
+                      {"style", "no"},
+                      {"outline_color", rgba(c, solid)},
+                      {"outline_style", style},
+                      {"outline_width", width_mm},
+                      {"outline_width_unit", "MM"},
+                      {"joinstyle", "bevel"}};
+  };
+  return symbol(0, Shape::polygon, line(colour, "0.7", pen), line({255, 255, 255}, "1.3", "solid"));
 }
 
 std::string single(const std::string& one) {
@@ -139,9 +159,9 @@ std::string site_symbology(SiteLayer layer, Shape shape) {
       brown{122, 76, 40};
   switch (layer) {
     case SiteLayer::release:
-      return single(drawn(0, shape, blue, clear, blue, "0.7", "solid"));
+      return single(outline(blue, "solid"));
     case SiteLayer::observed:
-      return single(drawn(0, shape, magenta, clear, magenta, "0.7", "dash"));
+      return single(outline(magenta, "dash"));
     case SiteLayer::thalweg:
       return single(drawn(0, shape, water, clear, water, "0.5", "dash dot"));
     case SiteLayer::gauge:

@@ -42,7 +42,8 @@ def drawn(layers, extent, size, crs=None):
     image = job.renderedImage().convertToFormat(QImage.Format_RGBA8888)
     bits = image.constBits()
     bits.setsize(image.sizeInBytes())
-    return numpy.frombuffer(bits, numpy.uint8).reshape(image.height(), image.bytesPerLine() // 4, 4)[:, :image.width(), :3]
+    whole = numpy.frombuffer(bits, numpy.uint8).reshape(image.height(), image.bytesPerLine() // 4, 4)
+    return whole[:, :image.width(), :3].copy()  # the memory is the image's
 
 
 class OpenedProject(unittest.TestCase):

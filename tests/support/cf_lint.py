@@ -139,6 +139,8 @@ def lint_map(name, variable, data, has_crs):
         yield f"{name}: has neither long_name nor standard_name"
     if variable.dimensions[-2:] != ("y", "x"):
         yield f"{name}: dimensions {variable.dimensions} do not end in y, x"
+    if attribute(variable, "standard_name") in ("latitude", "longitude"):
+        return  # coordinates of cells (CF-1.10, 5.2) are not data on a grid, and miss nothing
     mapping = attribute(variable, "grid_mapping")
     if has_crs and mapping != "crs":
         yield f"{name}: grid_mapping is {mapping}, not crs"
