@@ -17,9 +17,11 @@ using Table = std::map<std::string, std::string, std::less<>>;
 const std::map<std::string, Table, std::less<>>& tables() {
   static const auto all = [] {
     std::map<std::string, Table, std::less<>> read;
-    for (const BundledTexts& language : bundled_texts())
-      for (const auto& [key, text] : nlohmann::json::parse(language.json).items())
+    for (const BundledTexts& language : bundled_texts()) {
+      const auto texts = nlohmann::json::parse(language.json);
+      for (const auto& [key, text] : texts.items())
         read[std::string(language.name)].emplace(key, text.get<std::string>());
+    }
     return read;
   }();
   return all;

@@ -60,11 +60,11 @@ void write_region(const std::filesystem::path& path, const sturz::testing::MadeU
 void write_layers_json(const std::filesystem::path& path, const sturz::testing::MadeUpResults& r) {
   const auto& g = r.hazard.grid;
   const auto list = [](const float* values, std::size_t n) {
-    std::string text = "[";
+    std::string text;
     for (std::size_t i = 0; i < n; ++i)
-      text += (i == 0 ? "" : ",") +
-              (std::isnan(values[i]) ? std::string("null") : fmt::format("{:.9g}", values[i]));
-    return text + "]";
+      text += std::isnan(values[i]) ? std::string("null,") : fmt::format("{:.9g},", values[i]);
+    if (!text.empty()) text.pop_back();
+    return fmt::format("[{}]", text);
   };
   const sturz::Layer& thickness = *r.hazard.find("thickness_quantile");
   const std::string json = fmt::format(
