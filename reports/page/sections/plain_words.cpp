@@ -91,7 +91,7 @@ std::string assets_text(const ReportInput& input) {
                                      [](const AssetRisk& r) { return std::isnan(r.probability); });
   const auto known = std::ssize(rows) - unknown;
   std::string beyond;
-  if (unknown > 0) beyond = " " + tr_count("plain.assets_unknown", unknown);
+  if (unknown > 0) beyond.append(1, ' ').append(tr_count("plain.assets_unknown", unknown));
   if (known == 0) return beyond.substr(1);
   if (hit == 0) return tr("plain.no_asset", known) + beyond;
   const auto worst = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
