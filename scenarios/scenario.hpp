@@ -354,6 +354,12 @@ struct HazardSpec {
   bool operator==(const HazardSpec&) const = default;
 };
 
+/// What the page is to be like; no member depends on it.
+struct ReportSpec {
+  std::string language = "en";  ///< of the page's own words
+  bool operator==(const ReportSpec&) const = default;
+};
+
 struct Scenario {
   std::string title;
   std::string material;  ///< name of ready-made priors, see scenarios/materials; empty: none
@@ -371,6 +377,7 @@ struct Scenario {
   DomainSpec domain;
   EnsembleSpec ensemble;
   HazardSpec hazard;
+  ReportSpec report;
   std::optional<GaugesSpec> gauges;
   std::optional<ObservationSpec> observation;  ///< absent: members are not scored
   std::optional<AssetsSpec> assets;            ///< absent: no table of assets is made

@@ -6,17 +6,19 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
+#include "reports/texts/text_table.hpp"
 
 namespace sturz::app {
 namespace {
 
 struct Options {
-  std::string folder;
+  std::string folder, language;
 };
 
 int report(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  console.say(workflow::rewrite_page(options.folder, observer, interrupt_flag()).string());
+  console.say(workflow::rewrite_page(options.folder, observer, interrupt_flag(), options.language)
+                  .string());
   return ok;
 }
 
@@ -28,6 +30,10 @@ void add_report(Grammar& grammar) {
   parser.add_option("folder", options.folder, "Folder of an ensemble or a run")
       ->type_name("DIR")
       ->required();
+  parser
+      .add_option("--language", options.language,
+                  "Language of the page (default: report.language of the scenario)")
+      ->check(CLI::IsMember(page_languages()));
   add_remote(parser);
   add_json(grammar, parser);
 }

@@ -125,6 +125,7 @@ void write_region_page(const RegionJob& job, const StoredMembers& members, Sourc
   const Raster<std::uint8_t> release =
       members.release_cells(coarse.grid, extent, coarse.joined, cancel);
   ReportInput input;
+  input.language = job.scenario.report.language;
   input.title = job.scenario.title.empty() ? as_utf8(job.folder.root.filename().string())
                                            : job.scenario.title;
   input.scenario_yaml = read_text(job.folder.scenario());

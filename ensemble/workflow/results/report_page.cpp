@@ -154,6 +154,7 @@ NearestMember nearest_member(const MemberParts& source, const std::optional<Scor
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
                 const PageContent& content) {
   ReportInput input;
+  input.language = scenario.report.language;
   input.title = scenario.title.empty() ? as_utf8(folder.root.filename().string()) : scenario.title;
   input.scenario_yaml =
       read_text(content.scenario_file.empty() ? folder.scenario() : content.scenario_file);
@@ -203,8 +204,9 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 }
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
-                                   CancelFlag cancel) {
+                                   CancelFlag cancel, const std::string& language) {
   FinishedFolder finished = open_with_page(folder, observer);
+  if (!language.empty()) finished.scenario.report.language = language;
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   leave_out_relief(finished, observer);

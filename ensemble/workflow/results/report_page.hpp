@@ -65,9 +65,11 @@ struct PageContent {
 void write_page(const OutputFolder&, const Manifest&, const Scenario&, const PageContent&);
 
 /// Writes the page of a results folder again, from its maps and members.
+/// \param language of the page; empty: the scene's own
 /// \return the page's file. \throws SetupError when the folder has no maps, or not those of its
 ///   members; Cancelled
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer&,
-                                   CancelFlag cancel = {});
+                                   CancelFlag cancel = {},
+                                   const std::string& language = {});
 
 }  // namespace sturz::workflow

@@ -169,7 +169,7 @@ void add_structure_keys(std::vector<KeyInfo>&);    ///< terrain.dams, .buildings
 void add_bed_field_keys(std::vector<KeyInfo>&);    ///< basal.samosat, basal.rasters: within basal
 void add_erosion_keys(std::vector<KeyInfo>&);      ///< erosion
 void add_inflow_keys(std::vector<KeyInfo>&);       ///< inflow
-void add_run_keys(std::vector<KeyInfo>&);          ///< numerics, domain, ensemble, hazard
+void add_run_keys(std::vector<KeyInfo>&);          ///< numerics, domain, ensemble, hazard, report
 void add_gauge_keys(std::vector<KeyInfo>&);        ///< gauges
 void add_observation_keys(std::vector<KeyInfo>&);  ///< observation
 void add_asset_keys(std::vector<KeyInfo>&);        ///< assets
