@@ -9,12 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz {
 namespace {
 
-constexpr int widest_smoothing = 3;  // cells
-constexpr double surely_not = 0.05;  // 1 - that: surely
+constexpr std::size_t most_waiting = 32;  // draws that are added up together
+constexpr int widest_smoothing = 3;       // cells
+constexpr double surely_not = 0.05;       // 1 - that: surely
 
 bool is_doubtful(double p) { return p > surely_not && p < 1 - surely_not; }
 
@@ -33,16 +35,17 @@ class CellSums {
     expect(dear.size() >= least_draws, "enough draws at the dearest level");
     models_ = map_models(distances, dear, levels.spacings_m, cancel);
     std::size_t place = 0;
-    std::vector<Margins> margins;
     for (const LevelDraw& draw : levels.draws) {
       if (draw.from == 0) {
         add_dear(dear[place], fold_of(place));
         ++place;
       } else {
-        distances.read(draw, margins);
-        add_cheap(margins, draw.from);
+        waiting_.emplace_back(draw.from, std::vector<Margins>());
+        distances.read(draw, waiting_.back().second);
+        if (waiting_.size() == most_waiting) add_waiting();
       }
     }
+    add_waiting();
     for (double& n : noise_) n /= static_cast<double>(place);
   }
 
@@ -66,13 +69,18 @@ class CellSums {
     });
   }
 
-  void add_cheap(const std::vector<Margins>& margins, std::size_t from) {
-    const std::size_t n = levels_.levels.size() - from;
+  /// Many draws in each cell's turn: threads meet seldom.
+  void add_waiting() {
+    const std::size_t n_levels = levels_.levels.size();
     tbb::parallel_for(std::size_t{0}, n_cells_, [&](std::size_t i) {
       std::array<double, most_levels> told{};
-      models_[i].probabilities(margins[i], from, std::nullopt, std::span(told).first(n));
-      sums_[i].add(from, std::span(told).first(n));
+      for (const auto& [from, margins] : waiting_) {
+        const std::span<double> of_draw = std::span(told).first(n_levels - from);
+        models_[i].probabilities(margins[i], from, std::nullopt, of_draw);
+        sums_[i].add(from, of_draw);
+      }
     });
+    waiting_.clear();
   }
 
   const MapLevels& levels_;
@@ -82,6 +90,7 @@ class CellSums {
   std::vector<IncrementMoments> sums_;
   std::vector<std::vector<float>> residuals_;
   std::vector<double> noise_;
+  std::vector<std::pair<std::size_t, std::vector<Margins>>> waiting_;  // draws of cheaper levels
 };
 
 /// Where all draws agree: bounds by their number, as of n of n by Clopper and Pearson (1934).
