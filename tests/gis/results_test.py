@@ -245,7 +245,7 @@ class Stack(Results):
         lint = pathlib.Path(__file__).parent.parent / "support/cf_lint.py"
         found = subprocess.run([sys.executable, lint, self.stack("--quantity", "arrival")], capture_output=True, text=True,
                                check=False)
-        self.assertEqual(found.stdout + found.stderr, "")
+        self.assertEqual(found.returncode, 0, found.stdout + found.stderr)
 
     def test_climada_finds_its_coordinates_unaided(self):
         """As Hazard.from_xarray_raster reads: default names, stacked to events by places."""
