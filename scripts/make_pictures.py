@@ -140,7 +140,7 @@ def map_picture(file, name, plane, classes, outlines, title):
     rows, columns = heights.shape
     whole = (affine[0], affine[0] + columns * affine[1], affine[3] + rows * affine[5], affine[3])
     extent = part_shown(plane, classes[0][0], whole)
-    figure, axes = plt.subplots(figsize=(7.5, min(7.5, 0.4 + 7.3 * (extent[3] - extent[2]) / (extent[1] - extent[0]))), layout="constrained")
+    figure, axes = plt.subplots(figsize=(7.5, min(7.5, 0.9 + 7.3 * (extent[3] - extent[2]) / (extent[1] - extent[0]))), layout="constrained")
     draw_ground(axes, heights, affine)
     handles, words = draw_classes(axes, plane, classes)
     for path, colour, text in outlines:
@@ -149,7 +149,9 @@ def map_picture(file, name, plane, classes, outlines, title):
     draw_scale(axes, extent)
     axes.set(xlim=extent[:2], ylim=extent[2:], xticks=[], yticks=[])
     axes.set_title(title, fontsize=10, loc="left")
-    axes.legend(handles=handles, title=words, fontsize=7.5, title_fontsize=7.5, loc="lower right", framealpha=0.9)
+    wide = extent[1] - extent[0] > 2 * (extent[3] - extent[2])
+    place = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.02), "ncol": 4} if wide else {"loc": "lower right"}
+    axes.legend(handles=handles, title=words, fontsize=7.5, title_fontsize=7.5, framealpha=0.9, **place)
     figure.savefig(IMAGES / file, dpi=130)
     plt.close(figure)
 
@@ -181,12 +183,14 @@ def mapped_event():
 
 def posterior(out):
     """Histograms of what the outline told, over the priors."""
-    rows = np.genfromtxt(out / "posterior.csv", delimiter=",", names=True, deletechars="")
+    with open(out / "posterior.csv") as file:
+        heads = [head.strip().strip('"') for head in next(line for line in file if not line.startswith("#")).split(",")]
+        rows = np.loadtxt(file, delimiter=",", ndmin=2)
     priors = {"basal.friction_coefficient": (0.25, 0.5, 0.31, "friction"), "release.thickness_m": (4, 10, 6.5, "thickness [m]")}
     figure, axes = plt.subplots(1, 2, figsize=(7.5, 2.6), layout="constrained")
     for ax, (key, (low, high, truth, words)) in zip(axes, priors.items()):
-        name = next(n for n in rows.dtype.names if n.startswith(key))
-        ax.hist(rows[name], bins=np.linspace(low, high, 26), density=True, color="#56b4e9", label="after the outline")
+        column = next(k for k, head in enumerate(heads) if head.startswith(key))
+        ax.hist(rows[:, column], bins=np.linspace(low, high, 26), density=True, color="#56b4e9", label="after the outline")
         ax.plot([low, low, high, high], [0, 1 / (high - low), 1 / (high - low), 0], color="k", lw=1.2, label="before")
         ax.axvline(truth, color="#d55e00", lw=1.5, ls="--", label="truth")
         ax.set(xlabel=words, yticks=[])
