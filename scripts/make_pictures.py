@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes the pictures of README, tutorial and guide again from the shipped cases, into docs/images.
 
-usage: scripts/make_pictures.py [--list] [NAME ...]    (all when no name is given: some three minutes of one core)
+usage: scripts/make_pictures.py [--list] [NAME ...]    (all when no name is given: a minute of one core)
 Needs build/release/ensemble/app/sturz, python3-numpy, python3-netcdf4, python3-gdal, python3-matplotlib. Runs lie in build/pictures and go on
 where they were. Pictures of docs/studies are made by their studies (scripts/make_studies.sh).
 """
@@ -165,13 +165,6 @@ def jacksboro():
     map_picture("jacksboro_pressure.png", "jacksboro", plane, PRESSURE, source, "The same: pressure")
 
 
-def zhangjiawan():
-    out = results_of("zhangjiawan", 128)
-    seen = [(CASES / "zhangjiawan/observed_sketch.geojson", "#009e73", "seen (sketched)")]
-    map_picture("zhangjiawan_hazard.png", "zhangjiawan", layer(out, "probability_of_reach"), REACHED, seen,
-                "Zhangjiawan-like rock avalanche, 128 members")
-
-
 def mapped_event():
     out = RUNS / "mapped_event"
     sturz("calibrate", CASES / "mapped_event/scenario.yaml", "-o", out)
@@ -199,7 +192,7 @@ def posterior(out):
     plt.close(figure)
 
 
-PICTURES = {"jacksboro": jacksboro, "zhangjiawan": zhangjiawan, "mapped_event": mapped_event}
+PICTURES = {"jacksboro": jacksboro, "mapped_event": mapped_event}
 
 
 def main(words):

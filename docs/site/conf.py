@@ -48,6 +48,13 @@ def folders_as_pages(app, docname, source):
     source[0] = source[0].replace("](docs/decisions)", "](docs/site/decisions.md)")
 
 
+def need_no_list(app, docname, source):
+    """A README somewhere in the code need not be in a list of pages; what lies in docs/ has to."""
+    if not docname.startswith("docs/") and not source[0].startswith("---"):
+        source[0] = "---\norphan: true\n---\n" + source[0]
+
+
 def setup(app):
     app.connect("source-read", without_absent_pages)
     app.connect("source-read", folders_as_pages)
+    app.connect("source-read", need_no_list)
