@@ -137,7 +137,7 @@ TEST_F(GeoPackages, AnArchiveHoldsItsTextAndNoTime) {
   write_zip(path("a.qgz"), "hazard.qgs", "<qgis/>");
   write_zip(path("b.qgz"), "hazard.qgs", "<qgis/>");
   EXPECT_EQ(read_text(path("a.qgz")), read_text(path("b.qgz")));
-  const std::string inside = "/vsizip/" + path("a.qgz") + "/hazard.qgs";
+  const std::string inside = "/vsizip/{" + path("a.qgz") + "}/hazard.qgs";
   VSILFILE* file = VSIFOpenL(inside.c_str(), "rb");
   ASSERT_NE(file, nullptr);
   std::string text(100, ' ');
