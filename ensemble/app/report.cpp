@@ -11,12 +11,13 @@ namespace sturz::app {
 namespace {
 
 struct Options {
-  std::string folder;
+  std::string folder, language;
 };
 
 int report(const Options& options, Console& console) {
   ConsoleObserver observer(console);
-  console.say(workflow::rewrite_page(options.folder, observer, interrupt_flag()).string());
+  console.say(workflow::rewrite_page(options.folder, observer, interrupt_flag(), options.language)
+                  .string());
   return ok;
 }
 
@@ -28,6 +29,9 @@ void add_report(Grammar& grammar) {
   parser.add_option("folder", options.folder, "Folder of an ensemble or a run")
       ->type_name("DIR")
       ->required();
+  parser
+      .add_option("--language", options.language, "Language of the page: en (also when absent), de")
+      ->type_name("LANGUAGE");
   add_remote(parser);
   add_json(grammar, parser);
 }

@@ -311,8 +311,8 @@ Json frames_json(const ReportInput& input) {
     planes.push_back(plane_json(frames.thickness[k], frames.grid.n_cols, 0));
     layer.values.insert(layer.values.end(), frames.thickness[k].begin(), frames.thickness[k].end());
   }
-  return {{"label", input.hazard == nullptr ? tr("frames.this_run")
-                                            : tr("frames.member", frames.member)},
+  return {{"label",
+           input.hazard == nullptr ? tr("frames.this_run") : tr("frames.member", frames.member)},
           {"grid", grid_json(frames.grid)},
           {"legend", legend_json(legend_for(layer))},
           {"times", std::move(times)},

@@ -20,8 +20,10 @@
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
 #include "reports/page/report.hpp"
+#include "reports/texts/text_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
@@ -140,6 +142,14 @@ FinishedFolder open_with_page(const std::filesystem::path& folder, Observer& obs
   return open_finished(folder, observer);
 }
 
+void require_language(const std::string& language) {
+  const std::vector<std::string> known = page_languages();
+  const bool there = std::find(known.begin(), known.end(), language) != known.end();
+  require(language.empty() || there,
+          fmt::format("--language: {} (the page has no texts in that language). Use one of {}.",
+                      language, comma_separated(known)));
+}
+
 }  // namespace
 
 NearestMember nearest_member(const MemberParts& source, const std::optional<ScoreTable>& scores,
@@ -153,6 +163,7 @@ NearestMember nearest_member(const MemberParts& source, const std::optional<Scor
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
                 const PageContent& content) {
   ReportInput input;
+  if (!content.language.empty()) input.language = content.language;
   input.title = scenario.title.empty() ? as_utf8(folder.root.filename().string()) : scenario.title;
   input.scenario_yaml =
       read_text(content.scenario_file.empty() ? folder.scenario() : content.scenario_file);
@@ -201,7 +212,8 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 }
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
-                                   CancelFlag cancel) {
+                                   CancelFlag cancel, const std::string& language) {
+  require_language(language);
   FinishedFolder finished = open_with_page(folder, observer);
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
@@ -227,6 +239,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   std::vector<ConvergencePoint> convergence;
   MemberResult run;
   PageContent page;
+  page.language = language;
   page.cancel = cancel;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {

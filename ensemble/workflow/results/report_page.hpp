@@ -40,6 +40,7 @@ NearestMember nearest_member(const MemberParts&, const std::optional<ScoreTable>
 
 /// What there is to show; absent parts are null or empty.
 struct PageContent {
+  std::string language;                 ///< one of page_languages(); empty: English
   std::filesystem::path scenario_file;  ///< empty: that of the page's folder
   const LayerStack* hazard = nullptr;
   const LayerStack* peaks = nullptr;
@@ -64,9 +65,10 @@ struct PageContent {
 void write_page(const OutputFolder&, const Manifest&, const Scenario&, const PageContent&);
 
 /// Writes the page of a results folder again, from its maps and members.
+/// \param language one of page_languages(); empty: English
 /// \return the page's file. \throws SetupError when the folder has no maps, or not those of its
 ///   members; Cancelled
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer&,
-                                   CancelFlag cancel = {});
+                                   CancelFlag cancel = {}, const std::string& language = {});
 
 }  // namespace sturz::workflow

@@ -64,7 +64,7 @@ std::string conditions_text(const ReportInput& input) {
   for (std::size_t k = 0; k < samples.columns.size() && !samples.rows.empty(); ++k) {
     if (k == most_conditions) {
       text += tr_count("plain.more_values",
-                              static_cast<long long>(samples.columns.size() - most_conditions));
+                       static_cast<long long>(samples.columns.size() - most_conditions));
       break;
     }
     double least = nan_d, most = nan_d;
