@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A page that is written again speaks the language that it is asked for.
+#include "engine/core/error.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
@@ -8,6 +9,17 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+
+/// Text of the SetupError that `call` throws.
+template <class Call>
+std::string refusal(const Call& call) {
+  try {
+    call();
+  } catch (const SetupError& problem) {
+    return problem.what();
+  }
+  return "not refused";
+}
 
 class PageLanguage : public Workflow {};
 
