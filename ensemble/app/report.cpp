@@ -6,7 +6,6 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
-#include "reports/texts/text_table.hpp"
 
 namespace sturz::app {
 namespace {
@@ -32,8 +31,8 @@ void add_report(Grammar& grammar) {
       ->required();
   parser
       .add_option("--language", options.language,
-                  "Language of the page (default: report.language of the scenario)")
-      ->check(CLI::IsMember(page_languages()));
+                  "Language of the page: en, de (default: report.language of the scenario)")
+      ->type_name("LANGUAGE");
   add_remote(parser);
   add_json(grammar, parser);
 }

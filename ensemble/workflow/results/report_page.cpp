@@ -21,8 +21,10 @@
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
 #include "reports/page/report.hpp"
+#include "reports/texts/text_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
 #include "scenarios/layers/coarse_layers.hpp"
+#include "scenarios/schema/suggest.hpp"
 
 #include <fmt/core.h>
 
@@ -141,6 +143,14 @@ FinishedFolder open_with_page(const std::filesystem::path& folder, Observer& obs
   return open_finished(folder, observer);
 }
 
+void require_language(const std::string& language) {
+  const std::vector<std::string> known = page_languages();
+  const bool there = std::find(known.begin(), known.end(), language) != known.end();
+  require(language.empty() || there,
+          fmt::format("--language: {} (the page has no texts in that language). Use one of {}.",
+                      language, comma_separated(known)));
+}
+
 }  // namespace
 
 NearestMember nearest_member(const MemberParts& source, const std::optional<ScoreTable>& scores,
@@ -205,6 +215,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
                                    CancelFlag cancel, const std::string& language) {
+  require_language(language);
   FinishedFolder finished = open_with_page(folder, observer);
   if (!language.empty()) finished.scenario.report.language = language;
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());

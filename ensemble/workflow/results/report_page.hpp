@@ -69,7 +69,6 @@ void write_page(const OutputFolder&, const Manifest&, const Scenario&, const Pag
 /// \return the page's file. \throws SetupError when the folder has no maps, or not those of its
 ///   members; Cancelled
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer&,
-                                   CancelFlag cancel = {},
-                                   const std::string& language = {});
+                                   CancelFlag cancel = {}, const std::string& language = {});
 
 }  // namespace sturz::workflow
