@@ -2,8 +2,16 @@
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace sturz {
+namespace {
+
+/// What probability maps are of.
+constexpr std::array together{PeakLayer::arrival, PeakLayer::thickness, PeakLayer::speed,
+                              PeakLayer::energy, PeakLayer::pressure};
+
+}  // namespace
 
 void RememberedMembers::read_part(std::size_t index, PeakLayer layer, const Window& part,
                                   std::span<float> out) const {
@@ -11,14 +19,22 @@ void RememberedMembers::read_part(std::size_t index, PeakLayer layer, const Wind
   const auto key = std::pair(index, layer);
   auto kept = kept_.find(key);
   if (kept == kept_.end()) {
-    const std::size_t bytes = whole.n_cells() * sizeof(float);
+    // All at once: opening a member's file takes longer than reading a layer of it.
+    std::vector<PeakLayer> layers{layer};
+    if (std::find(together.begin(), together.end(), layer) != together.end())
+      layers.assign(together.begin(), together.end());
+    const std::size_t bytes = layers.size() * whole.n_cells() * sizeof(float);
     if (bytes > left_) {
       source_.read_part(index, layer, part, out);
       return;
     }
     left_ -= bytes;
-    kept = kept_.emplace(key, std::vector<float>(whole.n_cells())).first;
-    source_.read_part(index, layer, whole, kept->second);
+    for (const PeakLayer one : layers) {
+      std::vector<float>& values = kept_[std::pair(index, one)];
+      values.resize(whole.n_cells());
+      source_.read_part(index, one, whole, values);
+    }
+    kept = kept_.find(key);
   }
   for (int row = 0; row < part.n_rows; ++row)
     std::copy_n(kept->second.begin() +

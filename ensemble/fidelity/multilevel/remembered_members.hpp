@@ -12,7 +12,7 @@
 namespace sturz {
 
 /// Keeps what was read of another source, as long as memory allows; what does not fit is read each
-/// time. For one thread.
+/// time. Layers that maps are made of are read together. For one thread.
 class RememberedMembers final : public MemberParts {
  public:
   /// \param source outlives it
