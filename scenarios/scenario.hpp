@@ -349,6 +349,15 @@ struct HazardSpec {
   bool operator==(const HazardSpec&) const = default;
 };
 
+/// What the page shows besides the results, and how; no member depends on it.
+struct ReportSpec {
+  std::string language;  ///< one of the page's tables of texts; empty: English
+  std::map<std::string, std::string> overlays;  ///< name -> any OGR layer, drawn over the maps
+  std::string orthophoto;                       ///< raster of three colours, drawn below them
+  bool animation = false;                       ///< keep one member's thickness over time
+  bool operator==(const ReportSpec&) const = default;
+};
+
 struct Scenario {
   std::string title;
   std::string material;  ///< name of ready-made priors, see scenarios/materials; empty: none
@@ -369,6 +378,7 @@ struct Scenario {
   std::optional<GaugesSpec> gauges;
   std::optional<ObservationSpec> observation;  ///< absent: members are not scored
   std::optional<AssetsSpec> assets;            ///< absent: no table of assets is made
+  ReportSpec report;
   std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;
 };

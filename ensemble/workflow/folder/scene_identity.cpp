@@ -45,12 +45,12 @@ std::vector<std::string> differences_in(const Scenario& before, const Scenario& 
 }  // namespace
 
 bool changes_members(const KeyInfo& key) {
-  const bool only_asked = key.path == "title" || key.path == "ensemble.members" ||
-                          key.path.starts_with("ensemble.max_") ||
-                          key.path == "numerics.max_wall_time_s" ||
-                          key.path.starts_with("terrain.window.") ||
-                          key.path.starts_with("observation.") || key.path.starts_with("assets.") ||
-                          (key.path.starts_with("hazard.") && key.path != "hazard.cell_size_m");
+  const bool only_asked =
+      key.path == "title" || key.path == "ensemble.members" ||
+      key.path.starts_with("ensemble.max_") || key.path == "numerics.max_wall_time_s" ||
+      key.path.starts_with("terrain.window.") || key.path.starts_with("observation.") ||
+      key.path.starts_with("assets.") || key.path.starts_with("report.") ||
+      (key.path.starts_with("hazard.") && key.path != "hazard.cell_size_m");
   return !only_asked && key.kind != ValueKind::path;
 }
 
