@@ -25,7 +25,10 @@ cmake --preset release -DSTURZ_TESTS=OFF >build/configure.log 2>&1 ||
   { tail -n 20 build/configure.log >&2
     echo "cmake could not configure; the whole text is in build/configure.log." >&2; exit 1; }
 echo "Building for about $(build_forecast) on $(nproc) cores, less if it was built before."
-build_quietly build/build.log cmake --build build/release --target sturz
+targets=(sturz)
+# Members in Python's process, where its headers are installed.
+grep -q '^build sturz_interpreter:' build/release/build.ninja && targets+=(sturz_interpreter)
+build_quietly build/build.log cmake --build build/release --target "${targets[@]}"
 build_time=$(seconds_since "$begin")
 
 stage="running the shipped ensemble"
@@ -46,13 +49,14 @@ Done. Packages $install_time, build $build_time, ensemble $run_time.
 Results are in $PWD/$out
   report.html   look here first: maps over hillshade, members, where the time went (any browser)
   hazard.nc     every map with its CRS (QGIS, xarray, ncview)
-  hazard/*.tif  the same maps as cloud-optimised GeoTIFF
+  hazard.qgz    the same maps in QGIS, styled; hazard/*.tif for other GIS
   members.csv   one row per member: what was drawn, how it ended, how far it went
 
-Next: a slope of your own. This puts a scenario with its README into my_slope; add your terrain and
-the outline of the mass as the README says, and ask what will be computed:
-  $program cases template -o my_slope
+Next: a slope of your own. This writes a commented scenario around your elevation raster and the outline
+of the mass; then ask what will be computed:
+  $program init dtm.tif source.gpkg --thickness 6 -o my_slope
   $program describe my_slope/scenario.yaml
+Ten minutes with real ground that is shipped: docs/tutorial.md
 
 To have the command \`sturz\` with manual page and completion (another --prefix needs no sudo):
   sudo cmake --install build/release

@@ -4,10 +4,12 @@
 
 #include "scenarios/assets/assets_spec.hpp"
 #include "scenarios/choices.hpp"
+#include "scenarios/estimator/estimator.hpp"
 #include "scenarios/fluid/fluid_spec.hpp"
 #include "scenarios/grains/discrete_spec.hpp"
 #include "scenarios/map_box.hpp"
 #include "scenarios/observation/observation_spec.hpp"
+#include "scenarios/overlays/report_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
 #include <array>
@@ -333,6 +335,10 @@ struct EnsembleSpec {
   std::map<std::string, double> correlation;  ///< "path/path" -> Gaussian copula correlation
   double max_failed_fraction = 0.05;
   double max_censored_fraction = 0.05;
+  std::optional<Estimator> estimator;  ///< absent: plain
+  std::optional<TargetSpec> target;
+  std::string levels;        ///< "full_stress 12, depth_averaged 9": cheaper ones; empty: chosen
+  std::optional<int> pilot;  ///< members of each level before their numbers are chosen
   bool operator==(const EnsembleSpec&) const = default;
 };
 
@@ -347,15 +353,6 @@ struct HazardSpec {
   std::string observed_polygon;  ///< any OGR polygon layer, drawn over the maps
   std::string observed_note;     ///< what it is, in words
   bool operator==(const HazardSpec&) const = default;
-};
-
-/// What the page shows besides the results, and how; no member depends on it.
-struct ReportSpec {
-  std::string language;  ///< one of the page's tables of texts; empty: English
-  std::map<std::string, std::string> overlays;  ///< name -> any OGR layer, drawn over the maps
-  std::string orthophoto;                       ///< raster of three colours, drawn below them
-  bool animation = false;                       ///< keep one member's thickness over time
-  bool operator==(const ReportSpec&) const = default;
 };
 
 struct Scenario {

@@ -1,18 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian 12 packages, kept in one place; sourced by quickstart.sh, test.sh and test_package.sh.
+# Debian 12 packages, kept in one place; sourced by quickstart.sh, test.sh and the scripts of this folder.
 # libopenblas0-pthread stands beside libopenturns-dev on purpose: alone, OpenTURNS pulls ATLAS in
 # and makes it the BLAS of the whole machine.
 
 build_packages=(
   g++ cmake ninja-build ccache mold pkg-config git ca-certificates python3
   libgdal-dev libnetcdf-dev libhdf5-dev libtbb-dev libeigen3-dev libyaml-cpp-dev libspdlog-dev libfmt-dev
-  zlib1g-dev libcli11-dev nlohmann-json3-dev libssl-dev libutfcpp-dev librandom123-dev libopenturns-dev libopenblas0-pthread
+  zlib1g-dev libcli11-dev libcpp-httplib-dev nlohmann-json3-dev pybind11-dev python3-dev libssl-dev libutfcpp-dev librandom123-dev libopenturns-dev libopenblas0-pthread
 )
 test_packages=(
   clang-format clang-tidy clang libclang-rt-14-dev libomp-14-dev llvm
-  libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 gdal-bin netcdf-bin
+  libgtest-dev libgmock-dev python3-numpy python3-xarray python3-netcdf4 python3-geopandas python3-yaml gdal-bin netcdf-bin
+  python3-sphinx python3-myst-parser furo python3-matplotlib
+  qgis python3-qgis
   chromium man-db slurmctld slurmd slurm-client munge parallel snakemake
 )
+# For scripts/make_studies.sh and scripts/make_pictures.sh, and for scripts/make_site.sh.
+study_packages=(python3-numpy python3-netcdf4 python3-gdal python3-matplotlib)
+site_packages=(python3-sphinx python3-myst-parser furo)
 # For scripts/test_package.sh only.
 packaging_packages=(dpkg-dev mmdebstrap)
 

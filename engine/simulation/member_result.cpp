@@ -218,4 +218,20 @@ const PeakLayerInfo& info(PeakLayer layer) { return layer_infos[static_cast<int>
 
 std::span<const ScalarInfo> scalar_table() { return scalar_infos; }
 
+MemberResult result_of(const MemberSummary& summary) {
+  MemberResult m;
+  m.member = summary.member;
+  m.outcome = summary.outcome;
+  m.censoring = summary.censoring;
+  m.reason = summary.reason;
+  m.formulation = summary.formulation;
+  m.binding_limit = summary.binding_limit;
+  m.warnings = summary.warnings;
+  m.state_hash = summary.state_hash;
+  m.scalars = summary.scalars;
+  m.window = summary.window;
+  m.effect_seconds = summary.effect_seconds.named();
+  return m;
+}
+
 }  // namespace sturz

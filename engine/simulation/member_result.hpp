@@ -218,6 +218,9 @@ struct MemberSummary {
   SharedSeconds effect_seconds;  ///< may be empty
 };
 
+/// A member that has what its summary tells, and neither grid nor maps yet.
+MemberResult result_of(const MemberSummary& summary);
+
 /// Finished members, wherever they are kept; implemented by io, handed out by the app.
 class MemberSource {
  public:

@@ -5,6 +5,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/app/cluster/task_shard.hpp"
 #include "ensemble/app/commands.hpp"
+#include "ensemble/app/console/fitted.hpp"
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/grammar.hpp"
@@ -14,12 +15,15 @@
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <optional>
+#include <sstream>
 #include <string_view>
 
 namespace sturz::app {
@@ -76,9 +80,9 @@ int guarded(const std::function<int(Console&)>& action, Console& console) {
 }
 
 /// A signal that came too late to stop anything is still no plain success: who sent it waits for
-/// that code.
+/// that code. One that the action spoke of is what it waited for.
 int after_signals(int code, Console& console) {
-  if (!interrupt_flag().load() || code != ok) return code;
+  if (!interrupt_flag().load() || code != ok || interruption_was_told()) return code;
   console.warn("a signal to stop came when all was done: the results are whole.");
   interruption_told();
   return interrupted;
@@ -96,12 +100,33 @@ int after_output(int code) {
   return code == ok ? usage_or_scenario_error : code;
 }
 
+/// Help of the program, or of one of its commands, as wide as the terminal.
+void print_help(const Grammar& grammar, const CLI::App* one) {
+  const std::string text = one ? one->help(grammar.program.get_name()) : grammar.program.help();
+  const int columns = help_columns(STDOUT_FILENO);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) std::cout << folded(line, columns) << "\n";
+}
+
 /// `sturz help` and `sturz help run`, as many other programs have it.
-bool wants_help(const Grammar& grammar, int argc, char** argv) {
-  if (argc < 2 || std::string_view(argv[1]) != "help") return false;
+/// \return the exit code, or nothing where no help was asked for
+std::optional<int> help_command(const Grammar& grammar, int argc, char** argv) {
+  if (argc < 2 || std::string_view(argv[1]) != "help") return std::nullopt;
   const CLI::App* one = argc > 2 ? command_named(grammar.program, argv[2]) : nullptr;
-  std::cout << (one ? one->help(grammar.program.get_name()) : grammar.program.help());
-  return true;
+  const std::string hint =
+      argc > 2 && one == nullptr ? hint_on_words(grammar.program, {argv[2]}) : "";
+  if (!hint.empty()) {
+    std::cerr << "error: " << hint << "\n";
+    return usage_or_scenario_error;
+  }
+  print_help(grammar, one);
+  return ok;
+}
+
+/// The command whose --help was asked for, or nullptr for the program's own.
+const CLI::App* parsed_command(const Grammar& grammar) {
+  const auto parsed = grammar.program.get_subcommands();
+  return parsed.empty() ? nullptr : parsed.front();
 }
 
 }  // namespace
@@ -109,9 +134,12 @@ bool wants_help(const Grammar& grammar, int argc, char** argv) {
 int command_line(int argc, char** argv) {
   Grammar grammar;
   build(grammar);
-  if (wants_help(grammar, argc, argv)) return after_output(ok);
+  if (const auto code = help_command(grammar, argc, argv)) return after_output(*code);
   try {
     grammar.program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    print_help(grammar, parsed_command(grammar));
+    return after_output(ok);
   } catch (const CLI::ParseError& problem) {
     const std::string hint = hint_on_words(grammar.program, {argv + 1, argv + argc});
     // One was given: that "a subcommand is required" says less than the hint.

@@ -9,6 +9,7 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/app/forecast_json.hpp"
 #include "ensemble/app/grammar.hpp"
+#include "ensemble/app/multilevel/multilevel.hpp"
 #include "ensemble/app/region/region.hpp"
 #include "ensemble/app/speed_cache.hpp"
 #include "ensemble/app/verdict.hpp"
@@ -19,6 +20,7 @@
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/members/until_converged.hpp"
 #include "ensemble/workflow/members/utilisation.hpp"
+#include "ensemble/workflow/multilevel/multilevel_run.hpp"
 #include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 
@@ -168,6 +170,8 @@ int ensemble(const Options& given, Console& console) {
   const workflow::EnsembleRequest request = request_of(options);
   if (workflow::is_region(workflow::scene_of(request)))
     return region_ensemble(request, options.shard, console);
+  if (workflow::is_multilevel(workflow::scene_of(request)))
+    return multilevel_ensemble(request, console);
   ConsoleObserver observer(console);
   EnsembleJob job = workflow::prepare_ensemble(request, observer);
   // A shard may be begun many times and told to stop within a minute: `plan` has looked before.

@@ -38,6 +38,7 @@ int weighted(const Options& options, Console& console) {
                           weighting_text(made.effective_members), folder));
   console.say("  report.html   look here first");
   console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
+  console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
   for (const std::string& warning : made.warnings) console.warn(warning);
   console.event(json_text(nlohmann::json{{"event", "done"},
                                          {"weighted", true},

@@ -30,7 +30,8 @@ void add_report(Grammar& grammar) {
       ->type_name("DIR")
       ->required();
   parser
-      .add_option("--language", options.language, "Language of the page: en (also when absent), de")
+      .add_option("--language", options.language,
+                  "Language of the page: en, de (default: report.language of the scenario)")
       ->type_name("LANGUAGE");
   add_remote(parser);
   add_json(grammar, parser);

@@ -34,6 +34,7 @@ struct Options {
 
 using workflow::duration_text;
 using workflow::grouped;
+using workflow::measure;
 
 std::string command_text(const Options& o) {
   std::string text = "run " + o.scenario;
@@ -123,7 +124,7 @@ std::string as_known(const MemberResult& r, double MemberScalars::*field, const 
 void print_phases(const MemberResult& r, Console& console) {
   if (std::isnan(r.scalars.solid_runout_m)) return;
   const auto far = [&r](double MemberScalars::*field) {
-    return as_known(r, field, fmt::format("{:.1f} m", r.scalars.*field));
+    return as_known(r, field, measure(r.scalars.*field) + " m");
   };
   print_line(
       "runout of each",
@@ -169,13 +170,13 @@ void print_mixture(const MemberResult& r, Console& console) {
 void print_erosion(const MemberResult& r, Console& console) {
   const MemberScalars& s = r.scalars;
   if (std::isnan(s.eroded_volume_m3)) return;
-  print_line("erosion",
-             fmt::format(
-                 "{} of the bed, up to {} deep; by mass the flow grew {}",
-                 as_known(r, &M::eroded_volume_m3, grouped(s.eroded_volume_m3) + " m3"),
-                 as_known(r, &M::max_eroded_depth_m, fmt::format("{:.2f} m", s.max_eroded_depth_m)),
-                 as_known(r, &M::volume_growth, fmt::format("{:.2f} times", s.volume_growth))),
-             console);
+  print_line(
+      "erosion",
+      fmt::format("{} of the bed, up to {} deep; by mass the flow grew {}",
+                  as_known(r, &M::eroded_volume_m3, grouped(s.eroded_volume_m3) + " m3"),
+                  as_known(r, &M::max_eroded_depth_m, measure(s.max_eroded_depth_m, 2) + " m"),
+                  as_known(r, &M::volume_growth, fmt::format("{:.2f} times", s.volume_growth))),
+      console);
 }
 
 /// What is cut off of the run, and what it warns of itself.
@@ -196,15 +197,16 @@ void print_inflow(const MemberResult& r, Console& console) {
 void print_gauges(const MemberResult& r, Console& console) {
   const bool cut = is_moving(r.censoring);
   const auto arrival = [&](double s) {
-    if (!std::isnan(s)) return fmt::format("after {:.1f} s", s);
+    if (!std::isnan(s)) return "after " + measure(s) + " s";
     return cut ? std::string("not reached so far") : std::string("never reached");
   };
   for (const PointSeries& p : r.gauges.points)
     print_line("gauge",
                p.name + ": " + arrival(p.arrival_s) +
-                   (std::isnan(p.arrival_s) ? ""
-                                            : fmt::format(", at most {:.2f} m and {:.1f} m/s",
-                                                          p.thickness.value, p.speed.value)),
+                   (std::isnan(p.arrival_s)
+                        ? ""
+                        : fmt::format(", at most {} m and {} m/s", measure(p.thickness.value, 2),
+                                      measure(p.speed.value))),
                console);
   for (const LineSeries& l : r.gauges.lines)
     print_line("gauge",
@@ -243,7 +245,7 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
   console.say(fmt::format("{}{}{} after {:.1f} s of flow", to_string(r.outcome),
                           r.reason.empty() ? "" : ": ", r.reason, s.end_time_s));
   const auto far = [&r](double MemberScalars::*field) {
-    return as_known(r, field, fmt::format("{:.1f} m", r.scalars.*field));
+    return as_known(r, field, measure(r.scalars.*field) + " m");
   };
   const auto area = [&r](double MemberScalars::*field) {
     return as_known(r, field, grouped(r.scalars.*field) + " m2");
@@ -258,17 +260,21 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                                 std::atan(s.crown_to_toe_ratio) * 180 / std::numbers::pi))));
   line("area",
        fmt::format("{} reached, {} deposit", area(&M::reached_area_m2), area(&M::deposit_area_m2)));
-  const auto largest = [&r](double MemberScalars::*field, const char* format, double unit = 1) {
-    return as_known(r, field, fmt::format(fmt::runtime(format), r.scalars.*field / unit));
+  const auto speed = [&r](double MemberScalars::*field) {
+    return as_known(r, field, measure(r.scalars.*field) + " m/s");
   };
-  line("largest speed",
-       fmt::format("{} (mean of the mass {})", largest(&M::max_speed_m_s, "{:.1f} m/s"),
-                   largest(&M::max_mean_speed_m_s, "{:.1f} m/s")));
-  line("largest thickness", fmt::format("{} (deposit {})", largest(&M::max_thickness_m, "{:.2f} m"),
-                                        largest(&M::max_deposit_m, "{:.2f} m")));
-  line("largest energy",
-       fmt::format("{}, pressure {}", largest(&M::max_energy_j_m2, "{:.1f} kJ/m2", 1e3),
-                   largest(&M::max_pressure_pa, "{:.1f} kPa", 1e3)));
+  const auto thick = [&r](double MemberScalars::*field) {
+    return as_known(r, field, measure(r.scalars.*field, 2) + " m");
+  };
+  const auto thousands = [&r](double MemberScalars::*field, const char* unit) {
+    return as_known(r, field, measure(r.scalars.*field / 1e3) + unit);
+  };
+  line("largest speed", fmt::format("{} (mean of the mass {})", speed(&M::max_speed_m_s),
+                                    speed(&M::max_mean_speed_m_s)));
+  line("largest thickness",
+       fmt::format("{} (deposit {})", thick(&M::max_thickness_m), thick(&M::max_deposit_m)));
+  line("largest energy", fmt::format("{}, pressure {}", thousands(&M::max_energy_j_m2, " kJ/m2"),
+                                     thousands(&M::max_pressure_pa, " kPa")));
   print_states(r, console);
   print_mixture(r, console);
   print_phases(r, console);

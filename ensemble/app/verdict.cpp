@@ -94,6 +94,7 @@ void warn_of_members(const CensoringReport& censoring, const std::vector<MemberW
 void list_files(const workflow::OutputFolder& folder, Console& console) {
   console.say("  report.html   look here first");
   console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
+  console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
   console.say("  members.csv   one row per member");
   std::error_code ignored;
   if (std::filesystem::exists(folder.assets_csv(), ignored))

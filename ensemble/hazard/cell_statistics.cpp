@@ -8,6 +8,17 @@
 #include <utility>
 
 namespace sturz {
+namespace {
+
+/// In 32 bits, so that eight are compared at a time.
+template <class Chosen>
+std::int64_t count_where(std::span<const float> values, Chosen chosen) {
+  std::uint32_t n = 0;
+  for (const float v : values) n += static_cast<std::uint32_t>(chosen(v));
+  return n;
+}
+
+}  // namespace
 
 CellStatistics::CellStatistics(const HazardLayers& layers, std::size_t n_members,
                                const Window& extent, KnownGround ground, LayerSink& to)
@@ -27,7 +38,7 @@ void CellStatistics::add(const CellRows& rows) {
     if (layers_.mass_left) {
       const std::span<const float> left = rows.of(PeakLayer::left, i);
       block_.put(*layers_.mass_left, 0, cell,
-                 share(std::count_if(left.begin(), left.end(), [](float v) { return v > 0; })));
+                 share(count_where(left, [](float v) { return v > 0; })));
     }
   });
 }
@@ -54,14 +65,12 @@ void CellStatistics::quantity(const QuantityLayers& to, const CellRows& rows, st
     for (std::size_t plane = 0; plane < to.exceedance->thresholds.size(); ++plane) {
       const float threshold = to.exceedance->thresholds[plane];
       put_probability(*to.exceedance, plane, cell,
-                      std::count_if(kept_.begin(), kept_.end(),
-                                    [threshold](float v) { return v > threshold; }));
+                      count_where(kept_, [threshold](float v) { return v > threshold; }));
     }
-  if (to.mean) {
-    double sum = 0;
-    for (const float v : members) sum += v;  // in member order
-    block_.put(*to.mean, 0, cell, sum / static_cast<double>(n_) * to.units_per_si);
-  }
+  if (to.mean)
+    block_.put(*to.mean, 0, cell,
+               rows.sums[static_cast<std::size_t>(to.source)][i] / static_cast<double>(n_) *
+                   to.units_per_si);
   if (to.quantile)
     put_quantiles(*to.quantile, cell, static_cast<std::size_t>(n_) - kept_.size(), to.units_per_si);
 }
@@ -70,12 +79,12 @@ void CellStatistics::intensity(const CellRows& rows, std::size_t i, std::size_t 
   const std::span<const float> h = rows.of(PeakLayer::thickness, i),
                                v = rows.of(PeakLayer::speed, i),
                                arrived = rows.of(PeakLayer::arrival, i);
-  std::int64_t high = 0, medium = 0;
+  std::uint32_t high = 0, medium = 0;
   for (std::size_t m = 0; m < h.size(); ++m) {
-    if (std::isnan(arrived[m])) continue;  // the smoothing's tail beyond the last column
+    const bool came = !std::isnan(arrived[m]);  // not: the smoothing's tail beyond the last column
     const bool is_high = is_high_debris_flow_intensity(h[m], v[m]);
-    high += is_high;
-    medium += !is_high;
+    high += static_cast<std::uint32_t>(came & is_high);
+    medium += static_cast<std::uint32_t>(came & !is_high);
   }
   block_.put(layers_.high_intensity, 0, cell, share(high));
   block_.put(layers_.medium_intensity, 0, cell, share(medium));
@@ -115,15 +124,21 @@ void CellStatistics::put_quantiles(std::size_t layer, std::size_t cell, std::siz
                places_[q].between(x(places_[q].below), x(places_[q].above)) * units_per_si);
 }
 
+/// Mostly all of them: then they stay where they are.
 template <class Keep>
 void CellStatistics::keep_where(std::span<const float> values, Keep keep) {
-  kept_.resize(values.size());
+  const auto n_kept = static_cast<std::size_t>(count_where(values, keep));
+  if (n_kept == values.size()) {
+    kept_ = values;
+    return;
+  }
+  chosen_.resize(values.size());
   std::size_t n = 0;
   for (const float v : values) {
-    kept_[n] = v;
+    chosen_[n] = v;
     n += static_cast<std::size_t>(keep(v));
   }
-  kept_.resize(n);
+  kept_ = std::span(chosen_).first(n);
 }
 
 }  // namespace sturz

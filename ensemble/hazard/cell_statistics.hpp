@@ -46,7 +46,8 @@ class CellStatistics {
   LayerBlock block_;
   std::vector<ProbabilityBounds> bounds_;  // of each possible number of hits
   // Scratch.
-  std::vector<float> kept_, found_;
+  std::span<const float> kept_;  // of the cell's values
+  std::vector<float> chosen_, found_;
   std::vector<QuantilePlace> places_;
   std::vector<std::size_t> ranks_;
   RankFinder finder_;

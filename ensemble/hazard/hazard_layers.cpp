@@ -89,17 +89,6 @@ std::string joined(const std::string& rule, const std::string& note) {
   return note.empty() ? rule : rule + "; " + note;
 }
 
-Layer made(std::string name, LayerMeaning meaning, std::string long_name, std::string units,
-           std::string comment) {
-  Layer layer;
-  layer.name = std::move(name);
-  layer.meaning = meaning;
-  layer.long_name = std::move(long_name);
-  layer.units = std::move(units);
-  layer.comment = std::move(comment);
-  return layer;
-}
-
 /// What a layer says of members of which mass left or still moved: what passed by can only become
 /// more, what lies or comes first at the end may go either way.
 const char* meaning_of_cut(const LayerMeaning& meaning) {
@@ -128,9 +117,9 @@ class Builder {
   }
 
   HazardLayers build(const HazardExtras& extras) {
-    Layer count =
-        made("number_of_members", {Quantity::members, Statistic::count},
-             "valid members of the ensemble", "1", "settled, out of time or left the terrain");
+    Layer count = plain_layer("number_of_members", {Quantity::members, Statistic::count},
+                              "valid members of the ensemble", "1",
+                              "settled, out of time or left the terrain");
     add(std::move(count), static_cast<float>(n_members_));
     out_.reaches.push_back(
         {PeakLayer::arrival,
@@ -140,9 +129,9 @@ class Builder {
          std::nullopt});
     if (extras.left)
       out_.mass_left =
-          add(made("probability_of_mass_left", {Quantity::left, Statistic::probability},
-                   "share of members whose mass crossed the edge of the known ground here", "1",
-                   rules_.share + "; what lies beyond is not known"),
+          add(plain_layer("probability_of_mass_left", {Quantity::left, Statistic::probability},
+                          "share of members whose mass crossed the edge of the known ground here",
+                          "1", rules_.share + "; what lies beyond is not known"),
               0);
     for (const PeakMaps& q : peaks) out_.quantities.push_back(add_peak(q));
     out_.reaches.front().quantile =
@@ -175,7 +164,8 @@ class Builder {
                                     LayerAxis axis, std::vector<float> thresholds) {
     const auto layer = [&](const std::string& suffix, Statistic statistic,
                            const std::string& long_name, const std::string& rule, double fill) {
-      Layer one = made(name + suffix, {quantity, statistic}, long_name, "1", joined(rule, comment));
+      Layer one =
+          plain_layer(name + suffix, {quantity, statistic}, long_name, "1", joined(rule, comment));
       one.axis = axis;
       return add(std::move(one), static_cast<float>(fill));
     };
@@ -194,8 +184,8 @@ class Builder {
                                            const std::string& methods, const std::string& comment,
                                            float fill) {
     if (spec_.quantiles.empty()) return std::nullopt;
-    Layer layer = made(name + "_quantile", {quantity, Statistic::quantile},
-                       "quantile of " + meaning, units, comment);
+    Layer layer = plain_layer(name + "_quantile", {quantity, Statistic::quantile},
+                              "quantile of " + meaning, units, comment);
     layer.cell_methods = methods;
     layer.axis = LayerAxis{"quantile", "", "1", spec_.quantiles};
     return add(std::move(layer), fill);
@@ -203,8 +193,8 @@ class Builder {
 
   std::size_t add_mean(const std::string& name, Quantity quantity, const std::string& meaning,
                        const std::string& units, const std::string& methods) {
-    Layer layer = made(name + "_mean", {quantity, Statistic::mean}, "mean of " + meaning, units,
-                       "over all valid members, 0 where a member did not come");
+    Layer layer = plain_layer(name + "_mean", {quantity, Statistic::mean}, "mean of " + meaning,
+                              units, "over all valid members, 0 where a member did not come");
     layer.cell_methods = methods + "realization: mean";
     return add(std::move(layer), 0);
   }
@@ -288,10 +278,11 @@ class Builder {
     const auto layer = [&](IntensityClass intensity, const std::string& rule) {
       const std::string_view word = to_string(intensity);
       return add(
-          made(fmt::format("probability_of_{}_intensity", word),
-               {Quantity::intensity, Statistic::probability, intensity},
-               fmt::format("share of members with {} intensity, Swiss debris-flow classes", word),
-               "1", joined(rule, note)),
+          plain_layer(
+              fmt::format("probability_of_{}_intensity", word),
+              {Quantity::intensity, Statistic::probability, intensity},
+              fmt::format("share of members with {} intensity, Swiss debris-flow classes", word),
+              "1", joined(rule, note)),
           0);
     };
     out_.high_intensity =

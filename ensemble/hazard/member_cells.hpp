@@ -27,6 +27,8 @@ struct CellRows {
   std::vector<std::uint32_t> begin;
   std::vector<std::uint32_t> members;  ///< place of the member among the valid ones
   std::array<std::vector<float>, n_peak_layers> values;  ///< empty for layers not asked for
+  /// Of each cell's values, added up in the order of the members.
+  std::array<std::vector<double>, n_peak_layers> sums;
 
   bool completes_block() const { return end_row(window) == end_row(block); }
   std::span<const std::uint32_t> members_of(std::size_t i) const {

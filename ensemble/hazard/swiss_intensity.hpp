@@ -9,8 +9,10 @@ inline constexpr double swiss_speed_m_s = 1;
 
 /// High: thicker than 1 m and faster than 1 m/s. There is no low class: what is reached and not
 /// high is medium.
-inline constexpr bool is_high_debris_flow_intensity(double thickness_m, double speed_m_s) {
-  return thickness_m > swiss_thickness_m && speed_m_s > swiss_speed_m_s;
+template <class Number>
+constexpr bool is_high_debris_flow_intensity(Number thickness_m, Number speed_m_s) {
+  // Both limits are exact in any kind of number.
+  return (thickness_m > Number{swiss_thickness_m}) & (speed_m_s > Number{swiss_speed_m_s});
 }
 
 }  // namespace sturz

@@ -24,6 +24,19 @@ double bytes_per_touch(std::size_t n_layers) {
   return static_cast<double>(sizeof(float) * n_layers) + 1;
 }
 
+/// Large enough that few pieces begin a new chunk, small enough that unfilled ones do not count.
+std::size_t chunk_floats(std::size_t memory_bytes) {
+  return std::clamp<std::size_t>(memory_bytes / 4096 / sizeof(float), 64, 16384);
+}
+
+/// Each value to where its cell's column goes on. Sums of neighbours do not wait for each other, as
+/// those of one cell's members would.
+void put_in_columns(std::span<const float> values, std::uint32_t* next, float* columns,
+                    double* sums) {
+  for (std::size_t k = 0; k < values.size(); ++k) columns[next[k]++] = values[k];
+  for (std::size_t k = 0; k < values.size(); ++k) sums[k] += double{values[k]};
+}
+
 }  // namespace
 
 TouchedRecords::TouchedRecords(const Window& extent, std::vector<PeakLayer> layers,
@@ -31,6 +44,7 @@ TouchedRecords::TouchedRecords(const Window& extent, std::vector<PeakLayer> laye
     : extent_(extent),
       layers_(std::move(layers)),
       memory_bytes_(memory_bytes),
+      chunk_(std::max<std::size_t>(edge * layers_.size(), chunk_floats(memory_bytes))),
       n_block_cols_(blocks_along(extent.n_cols)),
       n_blocks_(n_block_cols_ * blocks_along(extent.n_rows)),
       bounds_(n_blocks_, 0) {
@@ -106,22 +120,41 @@ Window TouchedRecords::block_window(std::size_t block) const {
           std::min(edge, extent_.n_cols - col)};
 }
 
-std::size_t TouchedRecords::bytes_of(const Block& block) {
-  return block.pieces.capacity() * sizeof(Piece) + block.values.capacity() * sizeof(float);
+std::size_t TouchedRecords::bytes_of(const Block& block) const {
+  return block.pieces.capacity() * sizeof(Piece) + block.chunks.size() * chunk_ * sizeof(float);
+}
+
+float* TouchedRecords::room_for(Block& block, std::size_t n) {
+  if (block.left < n) {
+    block.chunks.push_back(std::make_unique_for_overwrite<float[]>(chunk_));
+    block.left = chunk_;
+  }
+  float* const room = block.chunks.back().get() + (chunk_ - block.left);
+  block.left -= n;
+  return room;
+}
+
+template <class Use>
+void TouchedRecords::each_piece(const Block& block, const Use& use) const {
+  std::size_t chunk = 0, at = 0;
+  for (const Piece& piece : block.pieces) {
+    const std::size_t n = piece.n * layers_.size();
+    if (chunk_ - at < n) ++chunk, at = 0;
+    use(piece, block.chunks[chunk].get() + at);
+    at += n;
+  }
 }
 
 /// \param first of the piece's cells among all of `from`
 void TouchedRecords::put(Block& to, const Piece& piece, const TouchedCells& from,
                          std::size_t first) {
-  bytes_ -= bytes_of(to);
+  const std::size_t before = bytes_of(to), n = piece.n;
   to.pieces.push_back(piece);
-  const std::size_t at = to.values.size(), n = piece.n;
-  if (at + n * layers_.size() > to.values.capacity())  // doubling would hold twice the bound
-    to.values.reserve(at + at / 4 + std::max<std::size_t>(n * layers_.size(), 64));
-  to.values.resize(at + n * layers_.size());
+  float* const room = room_for(to, n * layers_.size());
   for (std::size_t l = 0; l < layers_.size(); ++l)
-    std::memcpy(&to.values[at + l * n], &from.values[l][first], n * sizeof(float));
-  bytes_ += bytes_of(to);
+    std::memcpy(room + l * n, &from.values[l][first], n * sizeof(float));
+  to.touches += n;
+  bytes_ += bytes_of(to) - before;
 }
 
 void TouchedRecords::add(std::uint32_t member, const TouchedCells& cells) {
@@ -163,21 +196,16 @@ void TouchedRecords::make_room() {
   }
 }
 
-void TouchedRecords::keep_rows_below(Block& block, int row) const {
-  std::size_t kept = 0, from = 0, to = 0;
-  for (const Piece& piece : block.pieces) {
+void TouchedRecords::keep_rows_below(Block& block, int row) {
+  Block kept;
+  each_piece(block, [&](const Piece& piece, const float* values) {
+    if (piece.cell >= row * edge) return;
     const std::size_t n = piece.n * layers_.size();
-    if (piece.cell < row * edge) {
-      block.pieces[kept++] = piece;
-      std::copy_n(&block.values[from], n, &block.values[to]);  // never forward
-      to += n;
-    }
-    from += n;
-  }
-  block.pieces.resize(kept);
-  block.values.resize(to);
-  block.pieces.shrink_to_fit();
-  block.values.shrink_to_fit();
+    kept.pieces.push_back(piece);
+    std::memcpy(room_for(kept, n), values, n * sizeof(float));
+    kept.touches += piece.n;
+  });
+  block = std::move(kept);
 }
 
 /// Pieces by row, into by_row_; the order of members within a row stays.
@@ -187,11 +215,9 @@ void TouchedRecords::order_by_row(const Block& from) {
   for (std::size_t row = 1; row < row_begin_.size(); ++row) row_begin_[row] += row_begin_[row - 1];
   by_row_.resize(from.pieces.size());
   auto next = row_begin_;
-  const float* values = from.values.data();
-  for (const Piece& piece : from.pieces) {
+  each_piece(from, [&](const Piece& piece, const float* values) {
     by_row_[next[piece.cell / edge]++] = {piece, values};
-    values += piece.n * layers_.size();
-  }
+  });
 }
 
 /// By cell, into rows_; the order of members within a cell stays.
@@ -213,16 +239,30 @@ void TouchedRecords::sort(const Window& block, int first_row, int end_row) {
     rows.begin[cell] += rows.begin[cell - 1];
   next_.assign(rows.begin.begin(), rows.begin.end() - 1);
   rows.members.resize(rows.begin.back());
-  for (const PeakLayer layer : layers_)
-    rows.values[static_cast<std::size_t>(layer)].resize(rows.begin.back());
+  // Values of one row lie far from each other, where their members were put: asked for in time.
+  constexpr std::size_t ahead = 6;
+  const auto fetch_values = [](const Placed& of, std::size_t layer) {
+    constexpr std::size_t line = 16;  // floats
+    const float* const from = of.values + layer * of.piece.n;
+    for (std::size_t k = 0; k < of.piece.n + line; k += line) __builtin_prefetch(from + k);
+  };
+  // Layer by layer: the ends of one layer's cells stay in the processor's nearest cache.
   for (const auto& [piece, values] : pieces) {
     std::uint32_t* const next = &next_[cell_of(piece)];
-    for (std::size_t l = 0; l < layers_.size(); ++l) {
-      float* const to = rows.values[static_cast<std::size_t>(layers_[l])].data();
-      const float* const from = values + l * piece.n;
-      for (std::size_t k = 0; k < piece.n; ++k) to[next[k]] = from[k];
-    }
     for (std::size_t k = 0; k < piece.n; ++k) rows.members[next[k]++] = piece.member;
+  }
+  for (std::size_t l = 0; l < layers_.size(); ++l) {
+    next_.assign(rows.begin.begin(), rows.begin.end() - 1);
+    std::vector<float>& column = rows.values[static_cast<std::size_t>(layers_[l])];
+    column.resize(rows.begin.back());
+    std::vector<double>& sums = rows.sums[static_cast<std::size_t>(layers_[l])];
+    sums.assign(rows.window.n_cells(), 0);
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const auto& [piece, values] = pieces[i];
+      if (i + ahead < pieces.size()) fetch_values(pieces[i + ahead], l);
+      const std::size_t cell = cell_of(piece);
+      put_in_columns({values + l * piece.n, piece.n}, &next_[cell], column.data(), &sums[cell]);
+    }
   }
 }
 
@@ -262,7 +302,7 @@ void TouchedRecords::hand_out(const std::function<void(const CellRows&)>& visito
     const auto end = static_cast<int>(std::min<RowCount>(end_ - block_first, n_rows));
     if (first < end) hand_out(number, first, end, visitor);
     bound += bounds_[number] * std::max(end - first, 0) / edge;
-    held += static_cast<double>(blocks_[b].values.size()) / static_cast<double>(layers_.size());
+    held += static_cast<double>(blocks_[b].touches);
     blocks_[b] = Block{};
   }
   if (bound > 0 && held > 0) filled_ = std::min(1.0, held / bound);

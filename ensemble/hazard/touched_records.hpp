@@ -8,6 +8,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -39,21 +40,29 @@ class TouchedRecords {
     std::uint16_t cell = 0;  // the first, of the whole block, row by row
     std::uint16_t n = 0;
   };
-  /// Touches within one block of cells.
+  /// Touches within one block of cells. Values stay where they were put: a vector that grew would
+  /// copy each of them several times.
   struct Block {
     std::vector<Piece> pieces;
-    std::vector<float> values;  // of piece after piece, [layer][cell]
+    std::vector<std::unique_ptr<float[]>> chunks;  // of piece after piece, [layer][cell]
+    std::size_t left = 0;                          // in the last chunk
+    std::size_t touches = 0;
   };
   // Rows of blocks, counted through: row r of block b is b * block_edge + r. The window of a block
   // at the southern edge has fewer; those rows are empty.
   using RowCount = std::int64_t;
 
   Window block_window(std::size_t block) const;
-  static std::size_t bytes_of(const Block& block);
+  std::size_t bytes_of(const Block& block) const;
+  /// Room for values of one piece, in one stretch.
+  float* room_for(Block& block, std::size_t n);
+  /// Calls `use(piece, its values)` in the order in which they were put.
+  template <class Use>
+  void each_piece(const Block& block, const Use& use) const;
   void put(Block& to, const Piece& piece, const TouchedCells& from, std::size_t first);
   RowCount planned_end() const;
   void make_room();
-  void keep_rows_below(Block& block, int row) const;
+  void keep_rows_below(Block& block, int row);
   void hand_out(std::size_t block, int first_row, int end_row,
                 const std::function<void(const CellRows&)>& visitor);
   void order_by_row(const Block& from);
@@ -62,6 +71,7 @@ class TouchedRecords {
   Window extent_;
   std::vector<PeakLayer> layers_;
   std::size_t memory_bytes_;
+  std::size_t chunk_ = 0;  // floats
   std::size_t n_block_cols_ = 0, n_blocks_ = 0;
   std::vector<double> bounds_;    // of each block: cells of members' windows
   double filled_ = 1;             // share of them that the last pass held

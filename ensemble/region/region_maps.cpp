@@ -6,6 +6,7 @@
 #include "ensemble/hazard/layer_block.hpp"
 #include "ensemble/hazard/map_units.hpp"
 #include "ensemble/hazard/sample_quantile.hpp"
+#include "ensemble/region/any_hit.hpp"
 
 #include <fmt/format.h>
 
@@ -100,36 +101,10 @@ class ListsInTheMaking {
   SourceLists lists_;
 };
 
-/// Rows of the design in which some source reaches a cell; each counts once.
-class RowCount {
- public:
-  explicit RowCount(const RegionMembers& region)
-      : rows_(region.row_of_valid), seen_(static_cast<std::size_t>(region.n_rows), 0) {
-    for (const std::int64_t row : rows_) {
-      std::uint64_t& seen = seen_[static_cast<std::size_t>(row)];
-      n_valid_ += seen == 0;
-      seen = 1;
-    }
-  }
-  void next_cell() {
-    ++cell_;
-    n_hit_ = 0;
-  }
-  void hit(std::uint32_t member) {
-    std::uint64_t& seen = seen_[static_cast<std::size_t>(rows_[member])];
-    n_hit_ += seen != cell_;
-    seen = cell_;
-  }
-  double share() const {
-    return n_valid_ > 0 ? static_cast<double>(n_hit_) / static_cast<double>(n_valid_) : nan_d;
-  }
-
- private:
-  std::span<const std::int64_t> rows_;
-  std::vector<std::uint64_t> seen_;  // number of the last cell that the row hit
-  std::uint64_t cell_ = 1;
-  std::int64_t n_hit_ = 0, n_valid_ = 0;
-};
+std::size_t sources_with_members(std::span<const RegionSource> sources) {
+  return static_cast<std::size_t>(std::count_if(sources.begin(), sources.end(),
+                                                [](const RegionSource& s) { return s.valid > 0; }));
+}
 
 /// From what members left in a cell to the values of all layers there.
 class RegionStatistics {
@@ -142,7 +117,8 @@ class RegionStatistics {
         context_(context),
         to_(to),
         seen_(extent, region.sources),
-        rows_(region),
+        rows_(region.row_of_valid, region.n_rows),
+        any_(sources_with_members(region.sources), rows_.n_valid()),
         lists_(layers.layers.stack.grid),
         n_quantiles_(layers.layers.stack.layers.size() > RegionLayers::first_peak
                          ? layers.layers.stack.layers[RegionLayers::first_peak].n_planes()
@@ -164,21 +140,23 @@ class RegionStatistics {
 
   void cell(const CellRows& rows, std::size_t i, std::size_t to) {
     const auto members = rows.members_of(i);
-    double none = 1, expected = 0, highest = 0, thickest = -1;
+    double expected = 0, highest = 0, thickest = -1;
     std::uint32_t best = 0;
     hits_.clear();
     largest_.assign(peaks.size() * n_quantiles_, 0);
     rows_.next_cell();
+    any_.next_cell();
     for (std::size_t m = 0; m < members.size();) {
       const std::uint32_t source = region_.source_of_valid[members[m]];
       std::size_t end = m;
       while (end < members.size() && region_.source_of_valid[members[end]] == source) ++end;
+      const std::int64_t hits = count_hits(rows, i, m, end);
       const auto n = static_cast<double>(region_.sources[source].valid);
-      const double p = static_cast<double>(count_hits(rows, i, m, end)) / n;
+      const double p = static_cast<double>(hits) / n;
       take_quantiles(rows, i, m, end, region_.sources[source].valid);
       if (p > 0) {
         hits_.push_back({source, static_cast<float>(p)});
-        none *= 1 - p;
+        any_.add(hits, region_.sources[source].valid);
         expected += p;
         const double mean = mean_thickness(rows, i, m, end) / n;
         if (p > highest || (p == highest && mean > thickest))
@@ -186,17 +164,17 @@ class RegionStatistics {
       }
       m = end;
     }
-    put(to, highest, none, expected, best);
+    put(to, highest, expected, best);
     const auto n_cols = static_cast<std::size_t>(rows.window.n_cols);
     const int row = rows.window.row0 + static_cast<int>(i / n_cols) - extent_.row0;
     const int col = rows.window.col0 + static_cast<int>(i % n_cols) - extent_.col0;
     lists_.add(std::int64_t{row} * extent_.n_cols + col, hits_);
   }
 
-  std::size_t count_hits(const CellRows& rows, std::size_t i, std::size_t m, std::size_t end) {
+  std::int64_t count_hits(const CellRows& rows, std::size_t i, std::size_t m, std::size_t end) {
     const auto arrival = rows.of(PeakLayer::arrival, i);
     const auto members = rows.members_of(i);
-    std::size_t n = 0;
+    std::int64_t n = 0;
     for (; m < end; ++m) {
       if (std::isnan(arrival[m])) continue;  // the smoothing's tail beyond the last column
       ++n;
@@ -233,10 +211,17 @@ class RegionStatistics {
     }
   }
 
-  void put(std::size_t to, double highest, double none, double expected, std::uint32_t best) {
+  void put_probability(RegionLayers::Place first, std::size_t to, double probability,
+                       const ProbabilityBounds& bounds) {
+    block_->put(first, 0, to, probability);
+    block_->put(first + 1, 0, to, bounds.lower);
+    block_->put(first + 2, 0, to, bounds.upper);
+  }
+
+  void put(std::size_t to, double highest, double expected, std::uint32_t best) {
     block_->put(RegionLayers::highest, 0, to, highest);
-    block_->put(RegionLayers::any, 0, to, 1 - none);
-    block_->put(RegionLayers::any_rows, 0, to, rows_.share());
+    put_probability(RegionLayers::any, to, any_.probability(), any_.bounds());
+    put_probability(RegionLayers::any_rows, to, rows_.share(), rows_.bounds());
     block_->put(RegionLayers::expected, 0, to, expected);
     block_->put(RegionLayers::number, 0, to, static_cast<double>(hits_.size()));
     block_->put(RegionLayers::likeliest_source, 0, to, best);
@@ -253,6 +238,7 @@ class RegionStatistics {
   LayerSink& to_;
   SeenBlocks seen_;
   RowCount rows_;
+  AnyHit any_;
   ListsInTheMaking lists_;
   std::size_t n_quantiles_;
   std::shared_ptr<const Raster<double>> ground_;  // of the block
@@ -266,8 +252,7 @@ class RegionStatistics {
 void add_attributes(LayerStack& stack, const RegionMembers& region, const Window& extent,
                     const RegionContext& context) {
   const Grid& grid = region.members.grid();
-  const auto n_valid = std::count_if(region.sources.begin(), region.sources.end(),
-                                     [](const RegionSource& s) { return s.valid > 0; });
+  const auto n_valid = static_cast<std::ptrdiff_t>(sources_with_members(region.sources));
   stack.attributes = {
       {"number_of_sources", std::to_string(region.sources.size())},
       {"number_of_sources_without_valid_members",
@@ -302,7 +287,8 @@ SourceLists make_region_maps(const RegionMembers& region, std::span<const double
     return is_valid(m.outcome) && is_censored(m.censoring);
   });
   RegionLayers layers = region_layers(grid_of(extent, region.members.grid()), region.sources,
-                                      quantiles, static_cast<int>(n_censored));
+                                      quantiles, static_cast<int>(n_censored),
+                                      RowCount(region.row_of_valid, region.n_rows).n_valid());
   add_attributes(layers.layers.stack, region, extent, context);
   to.begin(layers.layers.stack);
   RegionStatistics statistics(region, layers, extent, context, to);

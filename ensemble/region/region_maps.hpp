@@ -6,6 +6,7 @@
 ///   p_i            members of source i that reach the cell / its valid members
 ///   highest        max p_i: the cell's probability if the source that is worst for it releases
 ///   any hit        1 - prod(1 - p_i): if all release, each with values of its own (independent)
+///   bounds         90 % of both, as any_hit.hpp says
 ///   any hit, rows  share of the rows of the design in which some source reaches the cell: if all
 ///                  release with the same uncertain values, as the members were drawn. A row counts
 ///                  when some source has a valid member of it
@@ -67,17 +68,18 @@ struct RegionLayers {
   HazardLayers layers;  ///< `stack` and `untouched` of it are used
   enum Place : std::size_t {
     highest,
-    any,
-    any_rows,
-    expected,
+    any,  // then its lower and its upper bound
+    any_rows = any + 3,
+    expected = any_rows + 3,
     number,
     likeliest_source,
     first_peak
   };
 };
 /// What the maps hold besides their values; names of sources become words of classes.
+/// \param n_rows of the design of which some source has a valid member
 RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> sources,
-                           std::span<const double> quantiles, int n_censored);
+                           std::span<const double> quantiles, int n_censored, std::int64_t n_rows);
 
 /// The hull of what was touched, as map_extent(). Blocks of 128 x 128 cells in which no source
 /// touched anything, margin included, are missing on the map.

@@ -30,17 +30,6 @@ struct Places {
   std::size_t rate = 0, error = 1, high = 2, levels = 3, intensity = 7, field = 8, highest = 9;
 };
 
-Layer made(const std::string& name, LayerMeaning meaning, const std::string& long_name,
-           const std::string& units, const std::string& comment) {
-  Layer layer;
-  layer.name = name;
-  layer.meaning = meaning;
-  layer.long_name = long_name;
-  layer.units = units;
-  layer.comment = comment;
-  return layer;
-}
-
 /// Every field that classes() may give.
 std::vector<LayerClass> matrix_fields() {
   std::vector<LayerClass> fields;
@@ -66,40 +55,44 @@ HazardLayers layers_of(const RiskSpec& spec, const Grid& grid, int n_censored) {
     layers.untouched.push_back(0);
   };
   using enum Quantity;
-  add(made("annual_rate", {reached, Statistic::value}, "how often the cell is reached", "year-1",
-           "sum of frequency x members that reach it / valid members" + cut),
+  add(plain_layer("annual_rate", {reached, Statistic::value}, "how often the cell is reached",
+                  "year-1", "sum of frequency x members that reach it / valid members" + cut),
       false);
-  add(made("annual_rate_standard_error", {other, Statistic::value},
-           "Monte Carlo standard error of annual_rate", "year-1",
-           "of independent members; frequencies are taken as exact"),
+  add(plain_layer("annual_rate_standard_error", {other, Statistic::value},
+                  "Monte Carlo standard error of annual_rate", "year-1",
+                  "of independent members; frequencies are taken as exact"),
       false);
-  add(made("annual_rate_of_high_intensity", {intensity, Statistic::value, IntensityClass::high},
-           "how often the cell has high intensity", "year-1",
-           fmt::format("peak thickness > {:g} m and peak speed > {:g} m/s of one member that "
-                       "reaches it{}",
-                       spec.strong_thickness_m, spec.strong_speed_m_s, cut)),
+  add(plain_layer(
+          "annual_rate_of_high_intensity", {intensity, Statistic::value, IntensityClass::high},
+          "how often the cell has high intensity", "year-1",
+          fmt::format("peak thickness > {:g} m and peak speed > {:g} m/s of one member that "
+                      "reaches it{}",
+                      spec.strong_thickness_m, spec.strong_speed_m_s, cut)),
       false);
   for (const LevelMap& map : level_maps)
-    add(made(std::string(map.word) + "_return_level", {quantity_of(map.source), Statistic::value},
-             std::string(map.what) + " that is reached or exceeded once in the return period",
-             map_unit(map.source).name,
-             "the largest peak v of a member with rate(X >= v) >= 1/T, of members that reach the "
-             "cell; 0 where it is reached less often" +
-                 cut),
+    add(plain_layer(
+            std::string(map.word) + "_return_level", {quantity_of(map.source), Statistic::value},
+            std::string(map.what) + " that is reached or exceeded once in the return period",
+            map_unit(map.source).name,
+            "the largest peak v of a member with rate(X >= v) >= 1/T, of members that reach the "
+            "cell; 0 where it is reached less often" +
+                cut),
         true);
-  add(made("intensity_class", {other, Statistic::value},
-           "intensity of a debris flow at least once in the return period: 3 strong, 2 medium, 0 "
-           "none",
-           "1", "Loat and Petrascheck (1997), BWW, BRP and BUWAL"),
+  add(plain_layer(
+          "intensity_class", {other, Statistic::value},
+          "intensity of a debris flow at least once in the return period: 3 strong, 2 medium, 0 "
+          "none",
+          "1", "Loat and Petrascheck (1997), BWW, BRP and BUWAL"),
       true);
   stack.layers.back().classes = {{2, "medium intensity"}, {3, "strong intensity"}};
-  add(made("matrix_field", {other, Statistic::value},
-           "field of the matrix of intensity and probability, 4 to 9; 0 none", "1",
-           "3 x (intensity - 1) + probability of the return period, 3 high, 2 medium, 1 low"),
+  add(plain_layer(
+          "matrix_field", {other, Statistic::value},
+          "field of the matrix of intensity and probability, 4 to 9; 0 none", "1",
+          "3 x (intensity - 1) + probability of the return period, 3 high, 2 medium, 1 low"),
       true);
   stack.layers.back().classes = matrix_fields();
-  add(made("highest_matrix_field", {other, Statistic::value},
-           "largest matrix_field over the return periods", "1", ""),
+  add(plain_layer("highest_matrix_field", {other, Statistic::value},
+                  "largest matrix_field over the return periods", "1", ""),
       false);
   stack.layers.back().classes = matrix_fields();
   return layers;

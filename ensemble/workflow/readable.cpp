@@ -20,12 +20,20 @@ std::string duration_text(double seconds) {
 }
 
 std::string grouped(double value) {
+  if (value == 0) return "0";
+  // A flume's release is no 0 m3.
+  if (std::abs(value) < 100) return fmt::format("{:.3g}", value);
   std::string digits = fmt::format("{:.0f}", std::abs(value)), out;
   for (std::size_t i = 0; i < digits.size(); ++i) {
     if (i > 0 && (digits.size() - i) % 3 == 0) out += ' ';
     out += digits[i];
   }
-  return (value <= -0.5 ? "-" : "") + out;
+  return (value < 0 ? "-" : "") + out;
+}
+
+std::string measure(double value, int decimals) {
+  const bool small = value != 0 && std::abs(value) < std::pow(10.0, 2 - decimals);
+  return small ? fmt::format("{:.3g}", value) : fmt::format("{:.{}f}", value, decimals);
 }
 
 }  // namespace sturz::workflow

@@ -61,8 +61,12 @@ void load_files(Scene& scene, const std::map<std::string, Position>& at) {
 }  // namespace
 
 Scene load_scene(const SceneRequest& request) {
+  return scene_of(read_scenario_file(request.file, request.overrides),
+                  request.predicts ? std::optional(request.speed_cache) : std::nullopt);
+}
+
+Scene scene_of(ScenarioFile file, const std::optional<SpeedCache>& cache) {
   Scene scene;
-  ScenarioFile file = read_scenario_file(request.file, request.overrides);
   scene.scenario = std::move(file.scenario);
   require(
       !scene.scenario.release.each_feature,
@@ -80,9 +84,9 @@ Scene load_scene(const SceneRequest& request) {
   d = scene.ground->computed(
       [&](const SceneInputs& inputs) { return describe(scene.medians, inputs); });
   d.warnings.insert(d.warnings.begin(), scene.inputs.warnings.begin(), scene.inputs.warnings.end());
-  if (!request.predicts) return scene;
-  d.predicted_seconds = d.n_steps * static_cast<double>(d.n_particles) /
-                        updates_per_second(d.formulation, request.speed_cache);
+  if (!cache) return scene;
+  d.predicted_seconds =
+      d.n_steps * static_cast<double>(d.n_particles) / updates_per_second(d.formulation, *cache);
   return scene;
 }
 

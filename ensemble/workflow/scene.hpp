@@ -12,6 +12,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,9 @@ std::string at_their_places(const std::string& lines, const std::map<std::string
 /// data is found here, before a folder is made or a step computed.
 /// \throws SetupError; also for a region, which is as many scenes as its layer has features
 Scene load_scene(const SceneRequest&);
+/// The same for a scenario that was read already. \param cache  for the prediction of seconds;
+/// empty: none
+Scene scene_of(ScenarioFile, const std::optional<SpeedCache>& cache);
 
 /// The description in sentences, as `describe` prints it and reports keep it.
 std::vector<std::string> description_lines(const Scene&);

@@ -19,39 +19,57 @@ namespace {
   throw IoError(fmt::format("the outline of a map cannot be made ({}).", gdal_reason()));
 }
 
-/// Polygons of equal cells, those of cells that are not set left out by the mask.
-DatasetPtr polygons_of(Raster<std::uint8_t> cells) {
+constexpr const char* value_field = "value";
+
+/// Polygons of equal cells, those of 0 left out by the mask.
+DatasetPtr polygons_of(const Raster<std::uint8_t>& cells) {
   const auto affine = affine_of(cells.grid);
-  const DatasetPtr raster = wrap_in_memory(cells.values.data(), GDT_Byte, cells.grid.n_cols,
-                                           cells.grid.n_rows, affine.data());
+  // The library takes memory that it could write to, and only reads it here.
+  auto* memory = const_cast<std::uint8_t*>(cells.values.data());
+  const DatasetPtr raster =
+      wrap_in_memory(memory, GDT_Byte, cells.grid.n_cols, cells.grid.n_rows, affine.data());
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("Memory");
   if (raster == nullptr || driver == nullptr) fail();
   DatasetPtr out(driver->Create("", 0, 0, 0, GDT_Unknown, nullptr));
   OGRLayer* layer =
       out == nullptr ? nullptr : out->CreateLayer("cells", nullptr, wkbPolygon, nullptr);
-  if (layer == nullptr) fail();
+  OGRFieldDefn field(value_field, OFTInteger);
+  if (layer == nullptr || layer->CreateField(&field) != OGRERR_NONE) fail();
   GDALRasterBand* band = raster->GetRasterBand(1);
   if (GDALPolygonize(GDALRasterBand::ToHandle(band), GDALRasterBand::ToHandle(band),
-                     OGRLayer::ToHandle(layer), -1, nullptr, nullptr, nullptr) != CE_None)
+                     OGRLayer::ToHandle(layer), 0, nullptr, nullptr, nullptr) != CE_None)
     fail();
   return out;
+}
+
+std::string wkb_of(const OGRGeometry& geometry) {
+  std::vector<unsigned char> wkb(geometry.WkbSize());
+  if (geometry.exportToWkb(wkbNDR, wkb.data(), wkbVariantIso) != OGRERR_NONE) fail();
+  return {wkb.begin(), wkb.end()};
 }
 
 }  // namespace
 
 std::string cells_as_polygons(const Raster<std::uint8_t>& cells) {
-  if (std::all_of(cells.values.begin(), cells.values.end(), [](auto c) { return c == 0; }))
-    return {};
-  const GdalScope scope;
   Raster<std::uint8_t> set = cells;  // any value but 0 is the same area
   for (std::uint8_t& cell : set.values) cell = cell == 0 ? 0 : 1;
-  const DatasetPtr found = polygons_of(std::move(set));
-  OGRMultiPolygon all;
-  for (const auto& feature : found->GetLayer(0))
-    if (all.addGeometry(feature->GetGeometryRef()) != OGRERR_NONE) fail();
-  std::vector<unsigned char> wkb(all.WkbSize());
-  if (all.exportToWkb(wkbNDR, wkb.data(), wkbVariantIso) != OGRERR_NONE) fail();
-  return {wkb.begin(), wkb.end()};
+  const auto found = classes_as_polygons(set);
+  return found.empty() ? std::string() : found.begin()->second;
+}
+
+std::map<std::uint8_t, std::string> classes_as_polygons(const Raster<std::uint8_t>& cells) {
+  std::map<std::uint8_t, std::string> found;
+  if (std::all_of(cells.values.begin(), cells.values.end(), [](auto c) { return c == 0; }))
+    return found;
+  const GdalScope scope;
+  std::map<std::uint8_t, OGRMultiPolygon> all;
+  const DatasetPtr polygons = polygons_of(cells);
+  for (const auto& feature : polygons->GetLayer(0)) {
+    const auto value = static_cast<std::uint8_t>(feature->GetFieldAsInteger(0));
+    if (all[value].addGeometryDirectly(feature->StealGeometry()) != OGRERR_NONE) fail();
+  }
+  for (const auto& [value, area] : all) found[value] = wkb_of(area);
+  return found;
 }
 
 }  // namespace sturz

@@ -5,6 +5,7 @@
 #include "engine/terrain/raster.hpp"
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 namespace sturz {
@@ -13,5 +14,8 @@ namespace sturz {
 /// WKB; cells that touch at a corner only are polygons of their own. Empty where none is set.
 /// \throws IoError when the library fails
 std::string cells_as_polygons(const Raster<std::uint8_t>& cells);
+
+/// The same for each value but 0 that some cell has. \throws IoError when the library fails
+std::map<std::uint8_t, std::string> classes_as_polygons(const Raster<std::uint8_t>& cells);
 
 }  // namespace sturz

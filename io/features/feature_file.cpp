@@ -7,6 +7,7 @@
 #include "io/gdal/gdal_handles.hpp"
 
 #include <cpl_conv.h>
+#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/core.h>
 #include <ogrsf_frmts.h>
@@ -14,8 +15,11 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -42,6 +46,11 @@ class InMemory {
 
  private:
   std::string name_;
+};
+
+/// How a layer looks in QGIS, by the layer's name.
+struct NamedStyle {
+  std::string layer, qml;
 };
 
 [[noreturn]] void fail(const std::filesystem::path& file) {
@@ -72,17 +81,36 @@ void set(OGRFeature& feature, int field, double value) {
     feature.SetField(field, value);
 }
 
+using GeometryPtr = std::unique_ptr<OGRGeometry>;
+
+/// nullptr for bytes that are none.
+GeometryPtr geometry_of(const std::string& wkb) {
+  OGRGeometry* geometry = nullptr;
+  const OGRErr code =
+      OGRGeometryFactory::createFromWkb(wkb.data(), nullptr, &geometry, wkb.size(), wkbVariantIso);
+  return GeometryPtr(code == OGRERR_NONE ? geometry : nullptr);
+}
+
+/// One type, or polygons and multi-polygons: readers draw layers of one type only.
+OGRwkbGeometryType type_of(const FeatureTable& table) {
+  std::set<OGRwkbGeometryType> types;
+  for (const std::string& wkb : table.wkb)
+    if (const GeometryPtr geometry = geometry_of(wkb)) types.insert(geometry->getGeometryType());
+  if (types.size() == 1) return *types.begin();
+  return types == std::set{wkbPolygon, wkbMultiPolygon} ? wkbMultiPolygon : wkbUnknown;
+}
+
 bool add_row(OGRLayer& layer, const FeatureTable& table, std::size_t row) {
   const OGRFeatureUniquePtr feature(OGRFeature::CreateFeature(layer.GetLayerDefn()));
   for (std::size_t k = 0; k < table.columns.size(); ++k)
     std::visit([&](const auto& values) { set(*feature, static_cast<int>(k), values[row]); },
                table.columns[k].values);
-  OGRGeometry* geometry = nullptr;
-  const std::string& wkb = table.wkb[row];
-  if (OGRGeometryFactory::createFromWkb(wkb.data(), nullptr, &geometry, wkb.size(),
-                                        wkbVariantIso) != OGRERR_NONE)
-    return false;
-  feature->SetGeometryDirectly(geometry);
+  GeometryPtr geometry = geometry_of(table.wkb[row]);
+  if (geometry == nullptr) return false;
+  OGRGeometry* shape = geometry.release();
+  if (layer.GetGeomType() == wkbMultiPolygon)
+    shape = OGRGeometryFactory::forceToMultiPolygon(shape);
+  feature->SetGeometryDirectly(shape);
   return layer.CreateFeature(feature.get()) == OGRERR_NONE;
 }
 
@@ -97,7 +125,12 @@ OGRSpatialReference system_of(const FeatureTable& table) {
 
 bool write_table(GDALDataset& dataset, const FeatureTable& table) {
   OGRSpatialReference system = system_of(table);
-  OGRLayer* layer = dataset.CreateLayer(table.name.c_str(), &system, wkbUnknown, nullptr);
+  // The index of a few features is longer than they are.
+  constexpr std::size_t worth_an_index = 1000;
+  CPLStringList options;
+  options.SetNameValue("SPATIAL_INDEX", table.size() < worth_an_index ? "NO" : "YES");
+  OGRLayer* layer =
+      dataset.CreateLayer(table.name.c_str(), &system, type_of(table), options.List());
   if (layer == nullptr || dataset.StartTransaction() != OGRERR_NONE) return false;
   for (const FeatureColumn& column : table.columns) {
     OGRFieldDefn field(column.name.c_str(), type_of(column));
@@ -108,29 +141,92 @@ bool write_table(GDALDataset& dataset, const FeatureTable& table) {
   return dataset.CommitTransaction() == OGRERR_NONE;
 }
 
+/// The table in which QGIS looks for styles, with its columns as QGIS makes them.
+bool write_styles(GDALDataset& dataset, const std::vector<NamedStyle>& styles) {
+  if (styles.empty()) return true;
+  CPLStringList options;
+  options.SetNameValue("FID", "id");
+  OGRLayer* layer = dataset.CreateLayer("layer_styles", nullptr, wkbNone, options.List());
+  if (layer == nullptr || dataset.StartTransaction() != OGRERR_NONE) return false;
+  for (const char* name : {"f_table_catalog", "f_table_schema", "f_table_name", "f_geometry_column",
+                           "styleName", "styleQML", "styleSLD", "description", "owner", "ui"}) {
+    OGRFieldDefn field(name, OFTString);
+    if (layer->CreateField(&field) != OGRERR_NONE) return false;
+  }
+  OGRFieldDefn by_default("useAsDefault", OFTInteger), time("update_time", OFTDateTime);
+  by_default.SetSubType(OFSTBoolean);
+  if (layer->CreateField(&by_default) != OGRERR_NONE || layer->CreateField(&time) != OGRERR_NONE)
+    return false;
+  for (const NamedStyle& style : styles) {
+    const OGRFeatureUniquePtr row(OGRFeature::CreateFeature(layer->GetLayerDefn()));
+    for (const char* empty : {"f_table_catalog", "f_table_schema", "styleSLD", "owner", "ui"})
+      row->SetField(empty, "");
+    OGRLayer* styled = dataset.GetLayerByName(style.layer.c_str());
+    if (styled == nullptr) return false;
+    row->SetField("f_table_name", style.layer.c_str());
+    row->SetField("f_geometry_column", styled->GetGeometryColumn());
+    row->SetField("styleName", style.layer.c_str());
+    row->SetField("styleQML", style.qml.c_str());
+    row->SetField("description", "classes and colours of the report");
+    row->SetField("useAsDefault", 1);
+    row->SetField(row->GetFieldIndex("update_time"), 2000, 1, 1, 0, 0, 0.0F, 100);
+    if (layer->CreateFeature(row.get()) != OGRERR_NONE) return false;
+  }
+  return dataset.CommitTransaction() == OGRERR_NONE;
+}
+
 }  // namespace
+
+class GeoPackage::Parts {
+ public:
+  explicit Parts(std::filesystem::path file) : file_(std::move(file)), memory_(this) {
+    GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
+    if (driver == nullptr)
+      throw IoError(fmt::format("{}: this build of GDAL cannot write GeoPackage.", file_.string()));
+    dataset_.reset(driver->Create(memory_.name(), 0, 0, 0, GDT_Unknown, nullptr));
+    if (dataset_ == nullptr) fail(file_);
+  }
+
+  void add(const FeatureTable& table, const std::string& style) {
+    if (!write_table(*dataset_, table)) fail(file_);
+    if (!style.empty()) styles_.push_back({table.name, style});
+  }
+
+  void commit() {
+    if (!write_styles(*dataset_, styles_)) fail(file_);
+    dataset_.reset();
+    vsi_l_offset size = 0;
+    const MemoryBytes bytes(VSIGetMemFileBuffer(memory_.name(), &size, true), &VSIFree);
+    if (bytes == nullptr || size == 0) fail(file_);
+    write_bytes_atomic(file_,
+                       std::as_bytes(std::span(bytes.get(), static_cast<std::size_t>(size))));
+  }
+
+ private:
+  const GdalScope scope_;
+  const FixedDate date_;
+  std::filesystem::path file_;
+  InMemory memory_;
+  DatasetPtr dataset_;
+  std::vector<NamedStyle> styles_;
+};
+
+GeoPackage::GeoPackage(std::filesystem::path file)
+    : parts_(std::make_unique<Parts>(std::move(file))) {}
+GeoPackage::~GeoPackage() = default;
+void GeoPackage::add(const FeatureTable& table, const std::string& style) {
+  parts_->add(table, style);
+}
+void GeoPackage::commit() { parts_->commit(); }
 
 void write_geopackage(const std::filesystem::path& file, const FeatureTable& table) {
   write_geopackage(file, std::span(&table, 1));
 }
 
 void write_geopackage(const std::filesystem::path& file, std::span<const FeatureTable> tables) {
-  const GdalScope scope;
-  const FixedDate date;
-  const InMemory memory(tables.data());
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GPKG");
-  if (driver == nullptr)
-    throw IoError(fmt::format("{}: this build of GDAL cannot write GeoPackage.", file.string()));
-  {
-    const DatasetPtr dataset(driver->Create(memory.name(), 0, 0, 0, GDT_Unknown, nullptr));
-    if (dataset == nullptr) fail(file);
-    for (const FeatureTable& table : tables)
-      if (!write_table(*dataset, table)) fail(file);
-  }
-  vsi_l_offset size = 0;
-  const MemoryBytes bytes(VSIGetMemFileBuffer(memory.name(), &size, true), &VSIFree);
-  if (bytes == nullptr || size == 0) fail(file);
-  write_bytes_atomic(file, std::as_bytes(std::span(bytes.get(), static_cast<std::size_t>(size))));
+  GeoPackage package(file);
+  for (const FeatureTable& table : tables) package.add(table);
+  package.commit();
 }
 
 }  // namespace sturz

@@ -100,22 +100,27 @@ std::vector<PlaneFile> cog_files(const fs::path& folder, const LayerStack& about
     if (layer.is_count()) continue;
     const fs::path place = layer.meaning.is_bound() ? folder / "bounds" : folder;
     for (std::size_t plane = 0; plane < layer.n_planes(); ++plane)
-      files.push_back({l, plane, place / (plane_name(layer, plane) + ".tif")});
+      files.push_back({l, plane, place / (plane_file_name(layer, plane) + ".tif")});
   }
   return files;
 }
 
-std::vector<PlaneFile> write_cogs(const fs::path& folder, const LayerSource& maps,
-                                  CancelFlag cancel) {
+void write_cog(const fs::path& file, const LayerSource& maps, std::size_t layer, std::size_t plane,
+               CancelFlag cancel) {
   const GdalScope scope;
   const LayerStack& about = maps.about();
-  std::vector<PlaneFile> files = cog_files(folder, about);
+  PlaneDataset dataset(maps, layer, plane);
+  describe(dataset, about.layers[layer], plane, about);
+  write_encoded(file, dataset, "COG", cog_options(about.layers[layer]), cancel);
+}
+
+std::vector<PlaneFile> write_cogs(const fs::path& folder, const LayerSource& maps,
+                                  CancelFlag cancel) {
+  std::vector<PlaneFile> files = cog_files(folder, maps.about());
   for (const PlaneFile& file : files) {
     cancel.check();
     make_folder(file.path.parent_path());
-    PlaneDataset dataset(maps, file.layer, file.plane);
-    describe(dataset, about.layers[file.layer], file.plane, about);
-    write_encoded(file.path, dataset, "COG", cog_options(about.layers[file.layer]), cancel);
+    write_cog(file.path, maps, file.layer, file.plane, cancel);
   }
   return files;
 }

@@ -238,24 +238,12 @@ void read_member_part(const NetcdfReader& file, const Window& window, PeakLayer 
 MemberResult read_member(const std::filesystem::path& path) {
   require_sealed(path);
   const NetcdfReader file(path);
-  MemberSummary s = read_member_summary(file);
-  MemberResult m;
-  m.member = s.member;
-  m.outcome = s.outcome;
-  m.censoring = s.censoring;
-  m.reason = std::move(s.reason);
-  m.formulation = std::move(s.formulation);
-  m.binding_limit = std::move(s.binding_limit);
-  m.warnings = std::move(s.warnings);
-  m.state_hash = s.state_hash;
-  m.scalars = s.scalars;
-  m.window = s.window;
+  MemberResult m = result_of(read_member_summary(file));
   m.grid = read_grid_attributes(file);
   require_inside(file, m.window, m.grid);
   m.history = read_history(file);
   m.gauges = read_gauges(file);
   m.pass_seconds = read_seconds(file, passes_attribute, seconds_attribute);
-  m.effect_seconds = s.effect_seconds.named();
   if (m.window.n_cells() == 0) return m;
   for (int i = 0; i < n_peak_layers; ++i) {
     const auto layer = static_cast<PeakLayer>(i);

@@ -7,13 +7,13 @@
 #include "io/members/gauge_netcdf.hpp"
 #include "io/members/member_file.hpp"
 #include "io/members/member_netcdf.hpp"
+#include "io/members/member_numbers.hpp"
 #include "io/netcdf/grid_netcdf.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <charconv>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -25,25 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* again = "The command that wrote it computes it again.";
-
-/// The member's number if the name is one that member_file_name makes.
-std::optional<std::int64_t> number_of(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  if (error != std::errc{} || end != stem.data() + stem.size()) return std::nullopt;
-  if (file.filename() != member_file_name(number)) return std::nullopt;
-  return number;
-}
-
-std::vector<std::int64_t> numbers_in(const fs::path& folder) {
-  std::vector<std::int64_t> numbers;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (const auto number = number_of(entry.path())) numbers.push_back(*number);
-  std::sort(numbers.begin(), numbers.end());
-  return numbers;
-}
 
 /// Whether some member belongs to both shards: m = k - 1 modulo n has a solution in common.
 bool may_share(const PackName& a, const PackName& b) {
@@ -89,7 +70,7 @@ class MemberStore::Listing {
       : to_(to), filter_(filter), cancel_(cancel) {}
 
   void add_files() {
-    for (const std::int64_t number : numbers_in(to_.folder_)) {
+    for (const std::int64_t number : member_files_in(to_.folder_)) {
       cancel_.check();
       if (filter_.wanted && !filter_.wanted(number)) continue;
       try {

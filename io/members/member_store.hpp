@@ -62,6 +62,8 @@ class MemberStore final : public MemberParts {
   MemberResult result(std::size_t index, MemberOrigin& origin) const;
   /// The file that holds it.
   std::filesystem::path file_of(std::size_t index) const;
+  /// Where it begins there: what was written later stands behind. 0 in a file of its own.
+  std::uint64_t offset_of(std::size_t index) const { return places_.at(index).offset; }
 
   /// One sentence per file or record that was left out.
   const std::vector<std::string>& problems() const { return problems_; }

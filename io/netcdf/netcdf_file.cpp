@@ -163,6 +163,12 @@ void NetcdfWriter::put(int variable, const std::vector<std::size_t>& start,
         "writing values");
 }
 
+void NetcdfWriter::put(int variable, const std::vector<std::size_t>& start,
+                       const std::vector<std::size_t>& count, std::span<const double> values) {
+  check(nc_put_vara_double(id_, variable, start.data(), count.data(), values.data()),
+        "writing values");
+}
+
 void NetcdfWriter::commit() {
   expect(id_ >= 0, "a file is committed once");
   if (on_disk_) {

@@ -64,6 +64,8 @@ class NetcdfWriter {
            const std::vector<std::size_t>& count, std::span<const float> values);
   void put(int variable, const std::vector<std::size_t>& start,
            const std::vector<std::size_t>& count, std::span<const std::int32_t> values);
+  void put(int variable, const std::vector<std::size_t>& start,
+           const std::vector<std::size_t>& count, std::span<const double> values);
 
   /// Closes the file, seals what was built in memory (io/files/seal.hpp), and gives it its name in
   /// one stroke. \throws IoError

@@ -2,6 +2,7 @@
 #include "reports/fidelity/cost_page.hpp"
 
 #include "reports/fidelity/error_chart.hpp"
+#include "reports/fidelity/result_words.hpp"
 #include "reports/page/page_head.hpp"
 #include "reports/page/text.hpp"
 
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <utility>
 
 namespace sturz {
@@ -22,19 +22,6 @@ constexpr std::array paints{"centre", "front", "rear", "transition"};
 std::string share(double value) {
   if (!std::isfinite(value)) return "\u2013";
   return shown_number(100 * value, 2) + "\u00A0%";
-}
-
-/// As people call a result; others by the words of their column.
-std::string result_words(const std::string& name) {
-  static const std::map<std::string, std::string> known{
-      {"runout_m", "run-out"},
-      {"reached_area_m2", "area reached"},
-      {"com_travel_m", "way of the centre of mass"},
-      {"max_speed_m_s", "largest speed"},
-      {"max_thickness_m", "largest thickness"},
-      {"max_energy_j_m2", "largest kinetic energy per area"}};
-  const auto found = known.find(name);
-  return found == known.end() ? words_without_unit(name) : found->second;
 }
 
 std::string spacing_text(double spacing_m) { return shown_number(spacing_m, 3) + "\u00A0m"; }

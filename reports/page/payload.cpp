@@ -362,6 +362,8 @@ std::string report_payload(const ReportInput& input, const MapScene* scene,
   const Headline h = headline(input);
   Json page{{"z", 1.959964},  // of ensemble/hazard/wilson.hpp
             {"valid", h.n_valid},
+            {"weighted", input.effective_members > 0},
+            {"trials", input.effective_members > 0 ? input.effective_members : h.n_valid},
             {"single", input.hazard == nullptr},
             {"runout", median_json(h.runout_m)}};
   page["texts"] = Json::parse(script_texts());

@@ -103,7 +103,8 @@ struct ReportInput {
   const FramesShown* frames = nullptr;        ///< may be null: nothing is played
   const GaugeFindings* gauges = nullptr;      ///< may be null or empty
   std::vector<MemberSummary> members;
-  ReportTable samples;  ///< sampled keys; one row per entry of `members`, or no rows
+  double effective_members = 0;  ///< that weighted maps are worth; 0: members count alike
+  ReportTable samples;           ///< sampled keys; one row per entry of `members`, or no rows
   std::vector<ConvergencePoint> convergence;  ///< may be empty
   std::string stop_rule;                      ///< what decided the number of members; may be empty
   std::vector<std::string> warnings;          ///< to be read before the maps

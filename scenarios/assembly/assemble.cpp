@@ -74,10 +74,11 @@ void require_numbers(const Scenario& s) {
                                        "is one set of numbers). Sample it first.");
 }
 
-/// Thickness that counts as reached [m]: what a tenth of a particle spread over its place gives;
-/// columns thin out continuously, so for them a fixed one.
+/// Thickness that counts as reached [m]: 5 cm, in a laboratory (spacings under 10 cm) half a
+/// spacing; of particles at least what a tenth of one spread over its place gives.
 double runout_limit(const ScenePlan& plan, double dx) {
-  return plan.formulation.depth_averaged ? 0.05 : std::max(0.05, dx / 10);
+  const double thin = std::min(0.05, dx / 2);
+  return plan.formulation.depth_averaged ? thin : std::max(thin, dx / 10);
 }
 
 /// For estimates: v_ref, or the energy of the release spread over its mass.

@@ -117,6 +117,33 @@ void check_rising(const std::vector<double>& levels, const char* path, Problems&
                                   " (every number must be above the one before)."});
 }
 
+/// A multilevel ensemble needs to know when it has enough.
+void check_target(const Scenario& s, Problems& problems) {
+  const EnsembleSpec& e = s.ensemble;
+  if (!e.estimator && (e.target || !e.levels.empty() || e.pilot))
+    problems.push_back(
+        {"ensemble.estimator",
+         "ensemble.estimator (missing: target, levels and pilot are for multilevel). "
+         "Set it to multilevel, or to plain, which takes no notice of them."});
+  if (e.estimator.value_or(Estimator::plain) != Estimator::multilevel) return;
+  const TargetSpec t = e.target.value_or(TargetSpec{});
+  const bool errors = t.relative_error > 0 || t.map_error > 0;
+  if (!errors && !(t.core_hours > 0))
+    problems.push_back({"ensemble.target",
+                        "ensemble.target (missing: estimator is multilevel, whose numbers of "
+                        "members follow from what is to be reached). Give relative_error, "
+                        "map_error or core_hours."});
+  if (errors && t.core_hours > 0)
+    problems.push_back({"ensemble.target.core_hours",
+                        "ensemble.target.core_hours (with errors to reach: the computing time "
+                        "follows from them). Keep the one or the other."});
+  if (s.release.each_feature)
+    problems.push_back(
+        {"ensemble.estimator",
+         "ensemble.estimator: multilevel (release.each_feature makes many sources, and "
+         "each is an ensemble of its own). Use plain."});
+}
+
 }  // namespace
 
 void check_ensemble(const Scenario& s, Problems& problems) {
@@ -137,6 +164,7 @@ void check_ensemble(const Scenario& s, Problems& problems) {
   else
     check_correlation(s, problems);
   check_sets(s, problems);
+  check_target(s, problems);
 }
 
 void check_hazard(const Scenario& s, Problems& problems) {

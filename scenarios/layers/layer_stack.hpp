@@ -50,6 +50,18 @@ struct Layer {
   bool is_count() const { return meaning.statistic == Statistic::count; }
 };
 
+/// A map without axis, standard name and cell methods.
+inline Layer plain_layer(std::string name, LayerMeaning meaning, std::string long_name,
+                         std::string units, std::string comment) {
+  Layer layer;
+  layer.name = std::move(name);
+  layer.meaning = meaning;
+  layer.long_name = std::move(long_name);
+  layer.units = std::move(units);
+  layer.comment = std::move(comment);
+  return layer;
+}
+
 /// Everything that one results file holds, in the order in which it is written.
 struct LayerStack {
   Grid grid;

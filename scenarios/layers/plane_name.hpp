@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// How one plane of a map is called where it is a file of its own.
+/// How one plane of a map is called: as a key, and where it is a file or a layer of its own.
 #pragma once
 
 #include "scenarios/layers/layer_stack.hpp"
@@ -12,5 +12,10 @@ namespace sturz {
 /// "thickness_exceedance_0.5_m_lower", "speed_p95_m_s", "energy_mean_kj_m2",
 /// "probability_of_reach".
 std::string plane_name(const Layer& layer, std::size_t plane);
+
+/// The same for people who look through a folder, with P for a probability and units as they are
+/// written: "P_thickness_gt_0.5m", "P_thickness_gt_0.5m_lower", "P_reached", "speed_p95_m_s",
+/// "energy_mean_kJ_m2".
+std::string plane_file_name(const Layer& layer, std::size_t plane);
 
 }  // namespace sturz

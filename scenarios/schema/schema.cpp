@@ -38,6 +38,7 @@ std::vector<BlockInfo> all_optional_blocks() {
   schema_rows::add_structure_blocks(blocks);
   schema_rows::add_bed_field_blocks(blocks);
   schema_rows::add_erosion_blocks(blocks);
+  schema_rows::add_run_blocks(blocks);
   schema_rows::add_gauge_blocks(blocks);
   schema_rows::add_observation_blocks(blocks);
   schema_rows::add_asset_blocks(blocks);

@@ -272,9 +272,10 @@ TEST_F(Calibrate, MapsTheEnsembleUnderItsPosterior) {
   // The same calibration leaves them; by one of other weights they are no maps.
   ASSERT_EQ(calibrate({}).exit_code, 0);
   EXPECT_TRUE(exists("out/weighted/hazard.nc"));
+  EXPECT_TRUE(exists("out/weighted/hazard.qgz"));
   ASSERT_EQ(calibrate({"--discrepancy", "0.4"}).exit_code, 0);
-  for (const char* file : {"hazard.nc", "report.html", "hazard/index.csv",
-                           "hazard/probability_of_reach.tif", "hazard/probability_of_reach.qml"})
+  for (const char* file : {"hazard.nc", "report.html", "hazard.qgz", "hazard.gpkg",
+                           "hazard/index.csv", "hazard/P_reached.tif", "hazard/P_reached.qml"})
     EXPECT_FALSE(exists(std::string("out/weighted/") + file)) << file;
 }
 

@@ -79,7 +79,7 @@ TEST_F(Fluid, MapsOfAnEnsembleShowBoth) {
   const Ended ended = sturz({"ensemble", path("flow.yaml"), "-o", path("out")});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_TRUE(exists("out/hazard/solid_thickness_mean_m.tif"));
-  EXPECT_TRUE(exists("out/hazard/liquid_thickness_exceedance_0.5_m.tif"));
+  EXPECT_TRUE(exists("out/hazard/P_liquid_thickness_gt_0.5m.tif"));
   EXPECT_THAT(read("out/report.html"), HasSubstr("Thickness of liquid alone"));
 }
 

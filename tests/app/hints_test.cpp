@@ -2,6 +2,9 @@
 // What the program says to words that it does not know, and before it computes.
 #include "tests/app/app_fixture.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 namespace sturz::test {
 namespace {
 
@@ -17,6 +20,29 @@ TEST_F(Hints, HelpIsACommandToo) {
   EXPECT_EQ(all.out, sturz({"--help"}).out);
   EXPECT_EQ(one.exit_code, 0) << one.err;
   EXPECT_EQ(one.out, sturz({"run", "--help"}).out);
+}
+
+TEST_F(Hints, HelpOnAWordThatIsNoCommandNamesTheNearest) {
+  const Ended ended = sturz({"help", "ensembl"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, HasSubstr("There is no command 'ensembl'. Did you mean ensemble?"));
+  EXPECT_EQ(ended.out, "");
+}
+
+TEST_F(Hints, HelpFitsTheTerminal) {
+  std::vector<std::string> words = environment();
+  words.emplace_back("COLUMNS=64");
+  const Ended ended = run_process(command({"ensemble", "--help"}), path("."), words);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  std::istringstream lines(ended.out);
+  std::size_t longest = 0, n = 0;
+  for (std::string line; std::getline(lines, line); ++n) longest = std::max(longest, line.size());
+  EXPECT_LE(longest, 64);
+  EXPECT_GT(n, 30);
+  std::string in_one = ended.out, plain = sturz({"ensemble", "--help"}).out;
+  const auto is_blank = [](char c) { return c == ' ' || c == '\n'; };
+  std::erase_if(in_one, is_blank), std::erase_if(plain, is_blank);
+  EXPECT_EQ(in_one, plain) << "no word is lost or torn";
 }
 
 TEST_F(Hints, ANearCommandIsSuggested) {

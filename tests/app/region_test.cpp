@@ -64,13 +64,15 @@ TEST_F(Region, HasAnEnsembleForEachFeatureAndMapsOfAll) {
   EXPECT_EQ(done["valid"], 12);
   EXPECT_EQ(n_members("out/features/upper"), 4u);
   EXPECT_EQ(n_members("out/features/aside%2F2"), 4u);
-  for (const char* file : {"hazard.nc", "sources.csv", "report.html",
-                           "hazard/most_likely_source.tif", "hazard/energy_largest_p50_kj_m2.tif"})
+  for (const char* file :
+       {"hazard.nc", "sources.csv", "report.html", "hazard.qgz", "hazard.gpkg", "ground.tif",
+        "hazard/most_likely_source.tif", "hazard/energy_largest_p50_kJ_m2.tif"})
     EXPECT_TRUE(exists(std::string("out/") + file)) << file;
   EXPECT_THAT(read("out/sources.csv"),
               AllOf(HasSubstr("\n1,upper,features/upper,4,4,4,"), HasSubstr("\n3,aside/2,")));
   EXPECT_EQ(read("out/features/upper/design.csv"), read("out/features/lower/design.csv"))
       << "all sources share their rows";
+  EXPECT_THAT(read("out/stac_item.json"), HasSubstr("Maps of 12 simulations"));
   EXPECT_EQ(hazard_hash("out"), undisturbed()) << "one worker";
 }
 
@@ -134,6 +136,46 @@ TEST_F(Region, AfterKillNineAndDamageTheSameMapsCome) {
   const Ended third = ensemble("out");
   ASSERT_EQ(third.exit_code, 0) << third.err;
   for (const auto& e : events(third)) EXPECT_NE(e["event"], "member") << "all were there";
+}
+
+/// Of an old file it is known that it was not written again.
+void age(const std::string& file) {
+  namespace fs = std::filesystem;
+  fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(1));
+}
+
+TEST_F(Region, WhatIsFinishedIsNotLoadedAgain) {
+  for (const char* file : {"scene.yaml", "sources.geojson"}) age(path(file));
+  std::this_thread::sleep_for(std::chrono::milliseconds(2100));  // ctime cannot be set
+  ASSERT_EQ(ensemble("out").exit_code, 0);
+  const std::string manifest = read("out/features/upper/manifest.json"), hash = hazard_hash("out");
+  const Ended again = ensemble("out");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read("out/features/upper/manifest.json"), manifest) << "who loads a source writes it";
+  EXPECT_EQ(hazard_hash("out"), hash);
+
+  write("out/features/upper/members/000002.nc", "cut short");
+  const Ended mended = ensemble("out");
+  ASSERT_EQ(mended.exit_code, 0) << mended.err;
+  EXPECT_THAT(mended.err + mended.out, HasSubstr("000002.nc"));
+  EXPECT_EQ(hazard_hash("out"), hash);
+
+  std::filesystem::remove(path("out/features/lower/members/000001.nc"));
+  ASSERT_EQ(ensemble("out").exit_code, 0);
+  EXPECT_EQ(n_members("out/features/lower"), 4u);
+  EXPECT_EQ(hazard_hash("out"), hash);
+
+  const std::string before = read("out/features/upper/manifest.json");
+  write("sources.geojson", read("sources.geojson"));  // touched: every source is looked at
+  ASSERT_EQ(ensemble("out").exit_code, 0);
+  EXPECT_NE(read("out/features/upper/manifest.json"), before);
+}
+
+TEST_F(Region, MembersInPacksMakeTheSameMaps) {
+  const Ended packed = ensemble("packed", {"--packs"});
+  ASSERT_EQ(packed.exit_code, 0) << packed.err;
+  EXPECT_TRUE(exists("packed/features/upper/members/1_of_1.001.pack"));
+  EXPECT_EQ(hazard_hash("packed"), undisturbed());
 }
 
 TEST_F(Region, AFeatureOffTheGroundIsRecordedAndTheOthersGoOn) {

@@ -149,14 +149,14 @@ TEST_F(Resume, ThresholdsMayChangeWithoutComputingAgain) {
 
 TEST_F(Resume, MapsOfOldThresholdsDoNotStay) {
   ASSERT_EQ(sturz({"ensemble", path("scene.yaml"), "-o", path("out")}).exit_code, 0);
-  const std::string map = "out/hazard/thickness_exceedance_";
-  ASSERT_TRUE(exists(map + "0.5_m.tif"));
+  const std::string map = "out/hazard/P_thickness_gt_";
+  ASSERT_TRUE(exists(map + "0.5m.tif"));
   ASSERT_EQ(sturz({"ensemble", path("scene.yaml"), "-o", path("out"), "--set",
                    "hazard.thickness_m=[0.75]"})
                 .exit_code,
             0);
-  EXPECT_FALSE(exists(map + "0.5_m.tif"));
-  EXPECT_TRUE(exists(map + "0.75_m.tif"));
+  EXPECT_FALSE(exists(map + "0.5m.tif"));
+  EXPECT_TRUE(exists(map + "0.75m.tif"));
 }
 
 TEST_F(Resume, MembersWithoutTheirSceneAreNotAdopted) {

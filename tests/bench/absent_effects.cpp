@@ -10,6 +10,8 @@
 #include "tests/bench/scenes.hpp"
 #include "tests/bench/slices.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <memory>
 
@@ -87,6 +89,11 @@ class Comparison {
     const auto passes = [](const Moving& m) { return m.step->pass_names(); };
     const bool holds = ratio.low < most_time_ratio && a.set == b.set && a.state == b.state &&
                        a.passes == b.passes && passes(with) == passes(without);
+    if (must)
+      figures_.push_back({what, ratio.median, ratio.low, ratio.high, false,
+                          fmt::format("{}: effects that the scene does not call for cost {:+.1f} % "
+                                      "of a step.",
+                                      what, 100 * (ratio.median - 1))});
     table_.add({cell(what), cell(with.state->grains().size()), interval_cell(ratio, 4),
                 cell(a.total(), 1), cell(b.total(), 1),
                 cell(static_cast<int>(passes(with).size() - passes(without).size())),
@@ -94,9 +101,11 @@ class Comparison {
                 must ? yes_no(holds) : cell("-")});
   }
   Table take() { return std::move(table_); }
+  std::vector<Figure> figures() const { return figures_; }
 
  private:
   int pairs_;
+  std::vector<Figure> figures_;
   Table table_{"absent_effects",
                "A member with an effect that moves nothing over the same without, thread time",
                {{"comparison", "with / without"},
@@ -128,6 +137,7 @@ Report absent_effects(const Options& options) {
   all.add(columns.name + ": earth pressure active_passive / isotropic", false,
           assembled(with_active_passive(columns)), assembled(columns));
   Report report;
+  report.figures = all.figures();
   report.tables.push_back(all.take());
   report.notes = {
       "By hand: the engine's effects alone (grain stress, gravity, terrain contact, motion; or "

@@ -60,8 +60,15 @@ Report coupled(const Options& options) {
         us.push_back(1e6 * one / slice_steps);
       }
       const std::size_t n = both.state.n_particles();
+      const Summary cost = summarize(over);
+      const char* const weights = slip > 0 ? "new weights" : "kept weights";
+      report.tell(fmt::format("{} particles, {}: both / each alone", n, weights), cost,
+                  fmt::format("Grains in a liquid, {} particles, {}: a step of both costs {:.2f} "
+                              "times the steps of each alone.",
+                              n, weights, cost.median),
+                  false);
       ratio.add({cell(n), cell(std::string(slip > 0 ? "new in every step" : "kept")),
-                 range_cell(summarize(over), 2), range_cell(summarize(us), 0),
+                 range_cell(cost, 2), range_cell(summarize(us), 0),
                  cell(static_cast<int>(over.size()))});
       if (slip > 0)
         passes.push_back(

@@ -83,7 +83,8 @@ EnsembleTime run_ensemble(const Scene& scene, int members, int workers) {
   return out;
 }
 
-void add_rows(const Scene& scene, const Options& options, int members, Table& table) {
+void add_rows(const Scene& scene, const Options& options, int members, Table& table,
+              Report& report) {
   const int all = options.threads > 0 ? options.threads : available_cores();
   const EnsembleTime one = run_ensemble(scene, members, 1);
   auto add = [&](int workers, const EnsembleTime& t) {
@@ -96,7 +97,13 @@ void add_rows(const Scene& scene, const Options& options, int members, Table& ta
                cell(1e-6 * t.particles * t.steps * members / t.members_cpu_s, 2)});
   };
   add(1, one);
-  if (all > 1) add(all, run_ensemble(scene, members, all));
+  if (all < 2) return;
+  const EnsembleTime many = run_ensemble(scene, members, all);
+  add(all, many);
+  const double efficiency = one.wall_s / many.wall_s / all;
+  report.tell(fmt::format("{}: efficiency of {} workers", scene.name, all), summarize({efficiency}),
+              fmt::format("{}: {} workers do {:.2f} times the members of one, {:.0f} an hour.",
+                          scene.name, all, all * efficiency, 3600 * members / many.wall_s));
 }
 
 }  // namespace
@@ -118,8 +125,8 @@ Report ensemble(const Options& options) {
                {"idle_end_percent", "idle end %"},
                {"m_updates_s", "M updates/s/core"}});
   const double end_time = options.quick ? 4 : options.end_time_s;
-  add_rows(column_slide(2'500, end_time), options, 4 * options.members, table);
-  add_rows(small_member(end_time), options, options.members, table);
+  add_rows(column_slide(2'500, end_time), options, 4 * options.members, table, report);
+  add_rows(small_member(end_time), options, options.members, table, report);
   report.tables.push_back(std::move(table));
   report.notes = {
       fmt::format("{:.0f} s of flow a member at most, friction of the bed varied by +-10 % with "

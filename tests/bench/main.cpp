@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a step costs, what an absent effect costs, how members scale.
 #include "tests/bench/commands.hpp"
+#include "tests/bench/measure/history.hpp"
 #include "tests/bench/measure/machine.hpp"
 #include "tests/bench/measure/markdown.hpp"
 
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <sstream>
 #include <string>
 
 namespace {
@@ -39,7 +41,7 @@ constexpr Command commands[] = {
 
 /// Where the figures go besides the screen; empty: nowhere.
 struct Files {
-  std::string json, markdown;
+  std::string json, markdown, history;
 };
 
 void add_options(CLI::App& app, Options& o, Files& files) {
@@ -47,6 +49,8 @@ void add_options(CLI::App& app, Options& o, Files& files) {
   app.add_option("--json", files.json,
                  "Write the figures as JSON to a file, or - for standard output");
   app.add_option("--markdown", files.markdown, "Write the tables as a Markdown page to a file");
+  app.add_option("--history", files.history,
+                 "Append the run's ratios to a file of JSON lines, one file a machine or more");
   app.add_flag("--quick", o.quick, "7 pairs and smaller scenes");
   app.add_option("--most", o.most, "Largest scene of scaling")->check(CLI::Range(2e3, 2e6));
   app.add_option("--threads", o.threads, "Threads or workers; 0: all")->check(CLI::Range(0, 256));
@@ -66,6 +70,8 @@ void add_options(CLI::App& app, Options& o, Files& files) {
 void print(const Report& report, std::ostream& out) {
   for (const auto& table : report.tables) out << "\n" << table.text();
   out << "\n";
+  for (const auto& figure : report.figures)
+    if (!figure.sentence.empty()) out << figure.sentence << "\n";
   for (const auto& note : report.notes) out << note << "\n";
 }
 
@@ -108,21 +114,42 @@ int run(const Command& command, const Options& options, const Files& files) {
   all["command"] = command.name, all["pairs"] = options.pairs, all["quick"] = options.quick;
   for (const auto& table : report.tables) all[table.key()] = table.json();
   all["notes"] = report.notes;
+  for (const auto& figure : report.figures) all["sentences"].push_back(figure.sentence);
   const std::string how =
       fmt::format("sturz_bench {}{}", command.name, options.full ? " --full" : "");
   if (!write(all.dump(2) + "\n", files.json) ||
       !write(sturz::bench::markdown_page(report, all["machine"], how), files.markdown))
     return 2;
+  if (!files.history.empty() && !report.figures.empty() &&
+      !sturz::bench::append_history(files.history, sturz::bench::history_line(report, all))) {
+    std::cerr << files.history << ": cannot be written. Choose another file.\n";
+    return 2;
+  }
   if (report.failed) std::cerr << "a limit does not hold\n";
   return report.failed ? 1 : 0;
+}
+
+/// sturz_bench history FILE
+int show_history(const std::string& file) {
+  std::ifstream in(file);
+  if (!in) {
+    std::cerr << file << ": cannot be read. Make one: sturz_bench throughput --history FILE\n";
+    return 2;
+  }
+  std::ostringstream text;
+  text << in.rdbuf();
+  print(sturz::bench::history_report(text.str()), std::cout);
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   // As the program itself does: threads that wait sleep. OpenMP reads this before main starts.
-  if (!std::getenv("OMP_WAIT_POLICY") && setenv("OMP_WAIT_POLICY", "passive", 1) == 0)
+  if (!std::getenv("OMP_WAIT_POLICY") && setenv("OMP_WAIT_POLICY", "passive", 1) == 0) {
+    setenv("GOMP_SPINCOUNT", "1000", 0);
     execv("/proc/self/exe", argv);  // comes back only when it fails; then spinning it is
+  }
   CLI::App app{"Times the scenes that the tests check."};
   app.require_subcommand(1);
   Options options;
@@ -130,9 +157,14 @@ int main(int argc, char** argv) {
   add_options(app, options, files);
   app.fallthrough();
   for (const Command& c : commands) app.add_subcommand(c.name, c.help);
+  std::string kept;
+  app.add_subcommand("history", "How the ratios of a history file moved")
+      ->add_option("file", kept, "Written with --history")
+      ->required();
   CLI11_PARSE(app, argc, argv);
   if (options.quick && app.count("--pairs") == 0) options.pairs = 7;
   try {
+    if (app.got_subcommand("history")) return show_history(kept);
     for (const Command& c : commands)
       if (app.got_subcommand(c.name)) return run(c, options, files);
   } catch (const std::exception& error) {

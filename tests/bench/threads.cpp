@@ -8,6 +8,8 @@
 #include "tests/bench/scenes.hpp"
 #include "tests/bench/slices.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace sturz::bench {
@@ -49,9 +51,12 @@ Report threads(const Options& options) {
           [&] { return wall_slice(b.state, b.step); });
       const double ms = 1e3 / slice_steps;
       const Summary slow = summarize(pairs.a), fast = summarize(pairs.b);
+      const Summary gain = pairs.ratio();
+      report.tell(fmt::format("{}: speed-up on {} threads", scene.name, n), gain,
+                  fmt::format("{}: one member on {} threads is {:.2f} times as fast as on one.",
+                              scene.name, n, gain.median));
       table.add({cell(scene.name), cell(a.state.grains().size()), cell(n),
-                 cell(ms * slow.median, 2), cell(ms * fast.median, 2),
-                 interval_cell(pairs.ratio(), 2),
+                 cell(ms * slow.median, 2), cell(ms * fast.median, 2), interval_cell(gain, 2),
                  cell(1e-6 * slice_steps * particles / fast.median, 2),
                  yes_no(same_bits(a.state.grains(), b.state.grains()))});
     }

@@ -7,6 +7,7 @@
 #include "tests/bench/measure/machine.hpp"
 #include "tests/bench/measure/memory.hpp"
 #include "tests/bench/measure/pairs.hpp"
+#include "tests/bench/measure/peers.hpp"
 #include "tests/bench/reference/reference_slide.hpp"
 #include "tests/bench/reference/sweep_alone.hpp"
 #include "tests/bench/scenes.hpp"
@@ -53,7 +54,8 @@ class Throughput {
     dense(thin_slide(), false);
     columns(column_slide(2'500));
     if (!options_.quick) columns(column_slide(10'000));
-    report_.tables = {speed_, reference_, sweep_, memory_};
+    report_.tables = {speed_, reference_, peers_table(dense_name_, dense_updates_s_), sweep_,
+                      memory_};
     for (Table& t : passes_) report_.tables.push_back(std::move(t));
     add_notes();
     return std::move(report_);
@@ -82,6 +84,13 @@ class Throughput {
                     interval_cell(ratio, 2), cell(reference.neighbors_per_particle(), 1),
                     cell(reference.bytes_per_particle(), 0), cell(mean_vx(member), 2),
                     cell(reference.mean_vx(), 2)});
+    report_.tell(scene.name + ": engine / reference", ratio, told(scene.name, ratio.median));
+    if (guarded) {
+      const Summary speed = summarize(timed_run.updates_per_s());
+      dense_name_ = scene.name, dense_updates_s_ = speed.median;
+      report_.tell(scene.name + ": updates/s/core", speed,
+                   peers_sentence(scene.name, speed.median));
+    }
     finish(scene, member, timed_run);
     sweep(scene, member.parts(), plan);
   }
@@ -91,6 +100,15 @@ class Throughput {
     const int slices = std::min(options_.pairs, most_column_slices);
     const TimedRun timed_run = time_run(member, slices, {});
     finish(scene, member, timed_run);
+  }
+
+  static std::string told(const std::string& scene, double ratio) {
+    return fmt::format(
+        "{}: the whole step does {:.2f} times the updates of the least code for the same forces "
+        "{}.",
+        scene, ratio,
+        ratio < 1 ? "(the rest is what that code leaves out: walls, ledger, limits, maps)"
+                  : "although it does more");
   }
 
   static double mean_vx(const Simulation& member) {
@@ -106,6 +124,8 @@ class Throughput {
   void add_notes();
 
   const Options& options_;
+  std::string dense_name_;
+  double dense_updates_s_ = 0;
   Report report_;
   Table speed_{"end_to_end",
                "End to end through assemble and Simulation::run, one core, thread time; median "

@@ -177,10 +177,9 @@ TEST_F(GeoTiff, OneCloudOptimisedFilePerPlane) {
           std::vector<float>(312000, 32)};
   s.layers = {p, bound, n};
   const auto written = write_cogs(folder() / "hazard", StackSource(s));
-  EXPECT_THAT(names(), ElementsAre("hazard/bounds/thickness_exceedance_0.1_m_lower.tif",
-                                   "hazard/bounds/thickness_exceedance_2_m_lower.tif",
-                                   "hazard/thickness_exceedance_0.1_m.tif",
-                                   "hazard/thickness_exceedance_2_m.tif"));
+  EXPECT_THAT(names(), ElementsAre("hazard/P_thickness_gt_0.1m.tif", "hazard/P_thickness_gt_2m.tif",
+                                   "hazard/bounds/P_thickness_gt_0.1m_lower.tif",
+                                   "hazard/bounds/P_thickness_gt_2m_lower.tif"));
   ASSERT_EQ(written.size(), 4U);
   EXPECT_EQ(written[3].layer, 1U);
   EXPECT_EQ(written[3].plane, 1U);

@@ -14,7 +14,8 @@ CMAKE, BUILD, SOURCE = sys.argv[1:4]
 del sys.argv[1:]
 
 LAYOUT = ("bin/sturz", "share/sturz/cases/zhangjiawan/scenario.yaml", "share/sturz/cases/zhangjiawan/README.md",
-          "share/sturz/cases/template/scenario.yaml", "share/man/man1/sturz.1.gz",
+          "share/sturz/cases/template/scenario.yaml", "share/sturz/qgis/sturz_provider/__init__.py",
+          "share/sturz/qgis/sturz_provider/algorithms/ensemble.py", "share/man/man1/sturz.1.gz",
           "share/bash-completion/completions/sturz", "share/doc/sturz/README.md",
           "share/doc/sturz/LICENSE", "share/doc/sturz/copyright", "share/doc/sturz/CITATION.cff",
           "share/doc/sturz/docs/user_guide.md", "share/doc/sturz/examples/slopes.yaml",
@@ -54,6 +55,11 @@ class Install(unittest.TestCase):
         version = re.search(r"project\(sturz VERSION ([\d.]+)", lists).group(1)
         self.assertTrue(self.sturz("--version").stdout.startswith(f"sturz {version} ("))
 
+    def test_the_plugin_has_the_version_of_the_project(self):
+        metadata = (self.prefix / "share/sturz/qgis/sturz_provider/metadata.txt").read_text()
+        version = re.search(r"^version=(.*)$", metadata, re.M).group(1)
+        self.assertTrue(self.sturz("--version").stdout.startswith(f"sturz {version} ("))
+
     def test_a_shipped_case_is_listed_copied_and_computed(self):
         listed = self.sturz("cases").stdout
         for name in ("zhangjiawan", "shuicheng_dry", "usgs_flume", "template"):
@@ -63,6 +69,27 @@ class Install(unittest.TestCase):
                    "--set", "numerics.spacing_m=16")
         for name in ("hazard.nc", "report.html", "members.csv"):
             self.assertGreater((self.work / "out" / name).stat().st_size, 0)
+
+    def test_python_finds_package_module_and_program_where_they_were_moved(self):
+        folder = self.prefix / "lib/python3/dist-packages"
+        environment = {k: v for k, v in os.environ.items() if k != "STURZ"}
+        environment |= {"PYTHONPATH": str(folder), "PATH": "/usr/bin:/bin"}
+        code = ("import sturz; print(sturz.program()); print(sturz.__file__); print('template' in sturz.cases())\n"
+                "import sturz.simulation as s; print(s._module().__file__)")
+        done = subprocess.run(["/usr/bin/python3", "-c", code], cwd=self.work, text=True, capture_output=True,
+                              env=environment)
+        lines = done.stdout.splitlines()
+        self.assertEqual(lines[:3], [str(self.prefix / "bin/sturz"), str(folder / "sturz/__init__.py"), "True"])
+        if list((pathlib.Path(BUILD) / "python").glob("_sturz*.so")):
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(pathlib.Path(lines[3]).parent, folder)
+
+    def test_the_interpreter_has_the_module_built_in(self):
+        if not (pathlib.Path(BUILD) / "python/sturz-python").exists():
+            self.skipTest("built without Python")
+        done = subprocess.run([self.prefix / "bin/sturz-python", "-c", "import _sturz, sturz; print(_sturz.version)"],
+                              cwd=self.work, text=True, capture_output=True)
+        self.assertEqual(done.stdout, self.sturz("--version").stdout.split()[1] + "\n", done.stderr)
 
     def test_a_copy_never_overwrites(self):
         self.sturz("cases", "template", "-o", "changed")

@@ -57,6 +57,7 @@ test('cell values in the CSV equal the maps', {skip}, async () => {
   const thickness = await csvOf(page, '#save-csv');
   for (const [x, y, v] of thickness.rows) sameValue('median_thickness', v, x, y);
   assert.ok(thickness.rows.length > 100);
+  assert.equal(thickness.head[2], 'thickness_quantile_0.5_m', 'it says which of the quantiles');
   assert.deepEqual(trouble, []);
   await close();
 });
@@ -78,6 +79,16 @@ test('the profile along a drawn line equals the raster', {skip}, async () => {
   }
   assert.ok(hits > 10, `${hits} points of the line are reached`);
   assert.ok(drawn.rows.every(([s], i) => i === 0 || s > drawn.rows[i - 1][0]), 'distances rise');
+  await page.click('[data-key="upper"]');
+  assert.match(await page.textContent('.profile-head b'), /upper end/);
+  const upper = await csvOf(page, '#profile-csv');
+  assert.equal(upper.head[4], 'probability_of_reach_upper', 'an end of the interval is called one');
+  assert.ok(upper.rows.some(([, , , , v], i) => v > drawn.rows[i][4]));
+  await page.click('[data-key="arrival"]');
+  await page.waitForTimeout(300);
+  assert.equal((await csvOf(page, '#profile-csv')).head[4], 'arrival_quantile_0.5_s', 'times have none');
+  await page.click('[data-key="reached"]');
+  await page.click('[data-key="value"]');
   await page.click('#tool-profile');
   assert.ok(!await page.locator('#profile').isVisible());
   assert.deepEqual(trouble, []);

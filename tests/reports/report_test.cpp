@@ -264,6 +264,19 @@ TEST(Report, RefusesSamplesOfOtherMembers) {
   EXPECT_THROW(make_report(input), std::logic_error);
 }
 
+TEST(Report, IntervalsOfWeightedMapsAreOfWhatTheirMembersAreWorth) {
+  if (!report_has_script()) GTEST_SKIP() << "built without the script bundle";
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  const auto alike = data_of(make_report(input));
+  EXPECT_EQ(alike["trials"], 31);
+  EXPECT_FALSE(alike["weighted"]);
+  input.effective_members = 7.5;
+  const auto weighted = data_of(make_report(input));
+  EXPECT_EQ(weighted["trials"], 7.5);
+  EXPECT_TRUE(weighted["weighted"]);
+}
+
 TEST(Report, GivesTheScriptEveryLayerAndMarksUnresolvedThresholds) {
   if (!report_has_script()) GTEST_SKIP() << "built without the script bundle";
   const auto results = testing::make_up_results();

@@ -33,7 +33,7 @@ def without_comment(line):
 
 
 def is_app(name):
-    return name.startswith("ensemble/app/")
+    return name.startswith("ensemble/app/") or name == "ensemble/python/interpreter.cpp"
 
 
 def length(root):
@@ -311,14 +311,14 @@ def blocks_of(page):
 
 
 def studies(root):
-    """What a page says was made by an entry of scripts/studies.py is one, and goes there; and every entry has its page."""
-    script = root / "scripts/studies.py"
+    """What a page says was made by an entry of scripts/studies_list.py is one, and goes there; and every entry has its page."""
+    script = root / "scripts/studies_list.py"
     if not script.is_file():
         return
     spec = importlib.util.spec_from_file_location("studies_of_the_root", script)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    pages = {name: page for name, (page, _) in module.MADE.items()}
+    pages = {name: study[0] for name, study in module.MADE.items()}
     seen = set()
     for page in sorted((root / "docs/studies").glob("*.md")):
         where = page.relative_to(root).as_posix()
@@ -327,15 +327,15 @@ def studies(root):
                 yield f"{where}:{n}: a second block of {name}."
             seen.add(name)
             if pages.get(name) != page.name:
-                yield f"{where}:{n}: scripts/studies.py makes no {name} for this page."
+                yield f"{where}:{n}: scripts/studies_list.py has no {name} for this page."
             if not ends:
                 yield f"{where}:{n}: the block of {name} has no line <!-- end -->."
     for name, page in pages.items():
         whole = page.startswith(module.WHOLE)
         if whole and not (root / "docs/studies" / page.removeprefix(module.WHOLE)).is_file():
-            yield f"scripts/studies.py:1: {name} makes {page.removeprefix(module.WHOLE)}, which docs/studies has not."
-        if page and not whole and name not in seen:
-            yield f"scripts/studies.py:1: docs/studies/{page} has no line <!-- made by {name} -->."
+            yield f"scripts/studies_list.py:1: {name} makes {page.removeprefix(module.WHOLE)}, which docs/studies has not."
+        if page and not whole and not page.startswith(module.BESIDE) and name not in seen:
+            yield f"scripts/studies_list.py:1: docs/studies/{page} has no line <!-- made by {name} -->."
 
 
 CHECKS = {f.__name__: f for f in (length, folders, functions, silence, words, headers, machine_paths, equations,

@@ -165,13 +165,13 @@ class CheckStyle(unittest.TestCase):
     def test_pages_and_what_makes_them_agree(self):
         for folder in ("scripts", "docs/studies"):
             (self.root / folder).mkdir(parents=True, exist_ok=True)
-        (self.root / "scripts/studies.py").write_text(
-            'WHOLE = "whole "\nMADE = {"a": ("a.md", []), "b": (WHOLE + "b.md", []), "c": ("", [])}\n')
+        (self.root / "scripts/studies_list.py").write_text(
+            'WHOLE, BESIDE = "whole ", "beside "\nMADE = {"a": ("a.md", []), "b": (WHOLE + "b.md", []), "c": ("", []), "d": (BESIDE + "d.md", [])}\n')
         (self.root / "docs/studies/b.md").write_text("no block")
         block = "words\n<!-- made by a -->\n1\n<!-- end -->\n"
         self.assertFalse(self.findings("studies", "docs/studies/a.md", block))
         (self.root / "docs/studies/a.md").write_text(block)
-        for text in ("", block.replace("by a", "by d"), block.replace("end", "and"), block + block, block.replace("by a", "by b")):
+        for text in ("", block.replace("by a", "by e"), block.replace("end", "and"), block + block, block.replace("by a", "by b")):
             self.assertTrue(self.findings("studies", "docs/studies/a.md", text), text)
         self.assertTrue(self.findings("studies", "docs/studies/other.md", block), "on another page")
         (self.root / "docs/studies/a.md").write_text(block)

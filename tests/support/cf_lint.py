@@ -35,7 +35,7 @@ GRID_MAPPINGS = {
 }
 SYMBOLS = {"m", "s", "kg", "g", "A", "K", "mol", "cd", "rad", "sr", "Hz", "N", "Pa", "J", "W", "C",
            "V", "degree", "degrees", "degC", "min", "h", "d", "day", "percent", "%", "l", "t",
-           "bar", "metre", "meter", "second", "minute", "hour", "radian"}
+           "bar", "year", "metre", "meter", "second", "minute", "hour", "radian"}
 PREFIXES = ("", "da", "Y", "Z", "E", "P", "T", "G", "M", "k", "h", "d", "c", "m", "u", "n", "p")
 
 
@@ -48,6 +48,8 @@ def valid_units(text):
     if shutil.which("udunits2"):
         return subprocess.run(["udunits2", "-H", text, "-W", ""], capture_output=True,
                               check=False, stdin=subprocess.DEVNULL).returncode == 0
+    if text in ("degrees_north", "degrees_east"):  # CF-1.10, 4.1 and 4.2
+        return True
     for part in re.split(r"[ ./*]+", text.strip()):
         if re.fullmatch(r"[0-9.]+(e-?[0-9]+)?", part):
             continue
@@ -137,6 +139,8 @@ def lint_map(name, variable, data, has_crs):
         yield f"{name}: has neither long_name nor standard_name"
     if variable.dimensions[-2:] != ("y", "x"):
         yield f"{name}: dimensions {variable.dimensions} do not end in y, x"
+    if attribute(variable, "standard_name") in ("latitude", "longitude"):
+        return  # coordinates of cells (CF-1.10, 5.2) are not data on a grid, and miss nothing
     mapping = attribute(variable, "grid_mapping")
     if has_crs and mapping != "crs":
         yield f"{name}: grid_mapping is {mapping}, not crs"

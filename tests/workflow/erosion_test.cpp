@@ -29,7 +29,7 @@ TEST_F(ErosionWorkflow, MapsTableAndMembersHoldWhatWasEroded) {
   Recorder heard;
   const workflow::MapsMade made = whole(eroding("out"), heard);
   EXPECT_TRUE(exists("out/hazard/eroded_depth_mean_m.tif"));
-  EXPECT_TRUE(exists("out/hazard/eroded_depth_exceedance_0.1_m.tif"));
+  EXPECT_TRUE(exists("out/hazard/P_eroded_depth_gt_0.1m.tif"));
   EXPECT_TRUE(exists("out/hazard/eroded_depth_p50_m.tif"));
   const std::string table = read("out/members.csv");
   EXPECT_THAT(table, HasSubstr("eroded_volume_m3"));

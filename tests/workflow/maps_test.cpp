@@ -45,14 +45,14 @@ TEST_F(MapsWorkflow, AreMadeAgainFromTheFolderAlone) {
 TEST_F(MapsWorkflow, FollowNewThresholdsWithoutNewMembers) {
   Recorder first, second;
   whole(request("out"), first);
-  const std::string map = "out/hazard/thickness_exceedance_";
-  ASSERT_TRUE(exists(map + "0.5_m.tif"));
+  const std::string map = "out/hazard/P_thickness_gt_";
+  ASSERT_TRUE(exists(map + "0.5m.tif"));
   workflow::EnsembleRequest other = request("out");
   other.scene = scene({"hazard.thickness_m=[0.75]"});
   whole(other, second);
   EXPECT_TRUE(second.members.empty());
-  EXPECT_FALSE(exists(map + "0.5_m.tif"));
-  EXPECT_TRUE(exists(map + "0.75_m.tif"));
+  EXPECT_FALSE(exists(map + "0.5m.tif"));
+  EXPECT_TRUE(exists(map + "0.75m.tif"));
 }
 
 TEST_F(MapsWorkflow, LeaveFilesOfOthersAlone) {
@@ -91,8 +91,8 @@ TEST_F(MapsWorkflow, EveryMapHasItsStyleAndItsLine) {
     EXPECT_THAT(index, HasSubstr(entry.path().filename().string() + ","));
   }
   EXPECT_GT(n_maps, 20U);
-  EXPECT_TRUE(exists("out/hazard/probability_of_reach.tif"));
-  EXPECT_TRUE(exists("out/hazard/bounds/probability_of_reach_upper.tif"));
+  EXPECT_TRUE(exists("out/hazard/P_reached.tif"));
+  EXPECT_TRUE(exists("out/hazard/bounds/P_reached_upper.tif"));
 }
 
 /// Names of everything below the folder that is not finished.

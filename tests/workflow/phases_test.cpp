@@ -26,10 +26,10 @@ TEST_F(PhasesWorkflow, MapsTableAndMembersTellThePhasesApart) {
   Recorder heard;
   whole(parting("out"), heard);
   EXPECT_TRUE(exists("out/hazard/solid_thickness_mean_m.tif"));
-  EXPECT_TRUE(exists("out/hazard/liquid_thickness_exceedance_0.05_m.tif"));
-  for (const char* map : {"probability_of_solid_reach.tif", "probability_of_liquid_reach.tif",
-                          "bounds/probability_of_solid_reach_lower.tif",
-                          "solid_pressure_mean_kpa.tif", "liquid_fraction_p50.tif"})
+  EXPECT_TRUE(exists("out/hazard/P_liquid_thickness_gt_0.05m.tif"));
+  for (const char* map :
+       {"P_solid_reached.tif", "P_liquid_reached.tif", "bounds/P_solid_reached_lower.tif",
+        "solid_pressure_mean_kPa.tif", "liquid_fraction_p50.tif"})
     EXPECT_TRUE(exists(std::string("out/hazard/") + map)) << map;
   const std::string table = read("out/members.csv");
   for (const char* column :
@@ -63,7 +63,7 @@ TEST_F(PhasesWorkflow, OtherScenesHaveNoneOfIt) {
   Recorder heard;
   whole(request("out"), heard);
   EXPECT_FALSE(exists("out/hazard/solid_thickness_mean_m.tif"));
-  EXPECT_FALSE(exists("out/hazard/probability_of_solid_reach.tif"));
+  EXPECT_FALSE(exists("out/hazard/P_solid_reached.tif"));
   EXPECT_THAT(read("out/members.csv"), Not(HasSubstr("liquid_lost_fraction")));
   EXPECT_THAT(read("out/report.html"), Not(HasSubstr("Grains and liquid")));
   EXPECT_THAT(read("out/report.html"), Not(HasSubstr("Thickness of liquid alone")));

@@ -73,7 +73,7 @@ workflow::CalibrateRequest request_of(const Options& o) {
 
 void tell(const workflow::Calibrated& c, const std::string& folder, bool has_page,
           Console& console) {
-  for (const std::string& line : calibration_lines(c)) console.say(line);
+  for (const std::string& line : calibration_lines(c, console.said_columns())) console.say(line);
   console.say("In " + folder + ":");
   if (has_page) console.say("  report.html     with what the observations tell");
   console.say("  posterior.csv   equal rows, for `sturz ensemble --posterior`");
@@ -94,6 +94,13 @@ struct Computed {
 Computed compute(const Options& options, const workflow::CalibrateRequest& request,
                  ConsoleObserver& observer, Console& console) {
   workflow::EnsembleJob job = workflow::prepare_calibration(request, observer);
+  console.event(json_text(nlohmann::ordered_json{{"event", "start"},
+                                                 {"folder", job.folder.root.string()},
+                                                 {"members", job.design.n_members()},
+                                                 {"finished_before", job.finished_before},
+                                                 {"to_do", job.to_do.size()},
+                                                 {"workers", job.workers},
+                                                 {"threads_per_member", job.threads}}));
   for (const std::string& warning : job.scene.description.warnings) console.warn(warning);
   console.note(command_text(options));
   console.say(

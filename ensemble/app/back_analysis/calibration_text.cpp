@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/app/back_analysis/calibration_text.hpp"
 
+#include "ensemble/app/console/fitted.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sturz::app {
 namespace {
 
 using Lines = std::vector<std::string>;
+using Rows = std::vector<std::vector<std::string>>;
 using workflow::Calibrated;
 using workflow::KeySummary;
 
@@ -42,16 +46,19 @@ std::string method_line(const Calibrated& c) {
   return text;
 }
 
-void add_keys(const Calibrated& c, Lines& lines) {
-  std::size_t width = 16;
-  for (const KeySummary& k : c.keys)
-    width = std::max(width, k.key.size() + unit_text(k.unit).size());
-  lines.push_back(fmt::format("{:<{}}  {:<30}{:<30}{:>7}{}", "value", width, "prior [5 % .. 95 %]",
-                              "posterior", "told", c.found.best ? "   best fit" : ""));
-  for (const KeySummary& k : c.keys)
-    lines.push_back(fmt::format("{:<{}}  {:<30}{:<30}{:>7}{}", k.key + unit_text(k.unit), width,
-                                range(k.prior), range(k.posterior), told_text(k.variance_removed),
-                                k.best ? "   " + number(*k.best) : ""));
+void add(const Rows& rows, int columns, Lines& lines) {
+  for (std::string& line : fitted_table(rows, columns)) lines.push_back(std::move(line));
+}
+
+void add_keys(const Calibrated& c, int columns, Lines& lines) {
+  Rows rows{{"value", "prior [5 % .. 95 %]", "posterior", "told"}};
+  if (c.found.best) rows[0].emplace_back("best fit");
+  for (const KeySummary& k : c.keys) {
+    rows.push_back({k.key + unit_text(k.unit), range(k.prior), range(k.posterior),
+                    told_text(k.variance_removed)});
+    if (k.best) rows.back().push_back(number(*k.best));
+  }
+  add(rows, columns, lines);
   for (const Ridge& r : c.found.identifiability.ridges)
     lines.push_back(
         fmt::format("ridge: {} and {} (correlation {:+.2f}): a combination of them is "
@@ -68,27 +75,27 @@ void add_emulators(const Calibrated& c, Lines& lines) {
   lines.push_back("emulators, Q2 by leaving one out: " + text);
 }
 
-void add_quantities(const Calibrated& c, Lines& lines) {
+std::string interval(const PredictedQuantity& p) {
+  return fmt::format("{} [{} .. {}]", number(p.median), number(p.lower), number(p.upper));
+}
+
+std::string best_text(const Observation& o) {
+  if (o.known == Known::not_at_all) return "not known";
+  return (o.known == Known::at_least ? ">= " : "") + number(o.value);
+}
+
+void add_quantities(const Calibrated& c, int columns, Lines& lines) {
   const auto& held = c.found.held_out.quantities;
-  lines.push_back(fmt::format("{:<26}{:>12}{:>32}{:>32}{}", "quantity", "observed",
-                              "posterior gives (90 %)", held.empty() ? "" : "without it (90 %)",
-                              c.best_member ? "    best member" : ""));
+  Rows rows{{"quantity", "observed", "posterior gives (90 %)"}};
+  if (!held.empty()) rows[0].emplace_back("without it (90 %)");
+  if (c.best_member) rows[0].emplace_back("best member");
   for (std::size_t q = 0; q < c.found.check.size(); ++q) {
     const PredictedQuantity& p = c.found.check[q];
-    const auto interval = [](const PredictedQuantity& x) {
-      return fmt::format("{} [{} .. {}]", number(x.median), number(x.lower), number(x.upper));
-    };
-    std::string line = fmt::format("{:<26}{:>12}{:>32}{:>32}", p.name, number(p.observed),
-                                   interval(p), held.empty() ? "" : interval(held[q].predicted));
-    if (c.best_member) {
-      const Observation& o = (*c.best_member)[q];
-      line +=
-          o.known == Known::not_at_all
-              ? "      not known"
-              : fmt::format("{:>15}", (o.known == Known::at_least ? ">= " : "") + number(o.value));
-    }
-    lines.push_back(std::move(line));
+    rows.push_back({p.name, number(p.observed), interval(p)});
+    if (!held.empty()) rows.back().push_back(interval(held[q].predicted));
+    if (c.best_member) rows.back().push_back(best_text((*c.best_member)[q]));
   }
+  add(rows, columns, lines);
   const auto ends = [](const PredictedQuantity& p) { return p.ends_at_least; };
   if (std::any_of(c.found.check.begin(), c.found.check.end(), ends) ||
       std::any_of(held.begin(), held.end(),
@@ -103,14 +110,15 @@ void add_quantities(const Calibrated& c, Lines& lines) {
         c.found.held_out.mean_log_score, c.found.held_out.prior_mean_log_score));
 }
 
-void add_events(const Calibrated& c, Lines& lines) {
+void add_events(const Calibrated& c, int columns, Lines& lines) {
   if (c.found.held_out.events.empty()) return;
-  lines.push_back(fmt::format("{:<26}{:>12}{:>14}{:>12}{:>16}", "event, by the others", "log score",
-                              "of the prior", "worth", "inside 90 %"));
+  Rows rows{{"event, by the others", "log score", "of the prior", "worth", "inside 90 %"}};
   for (const HeldOutEvent& e : c.found.held_out.events)
-    lines.push_back(fmt::format("{:<26}{:>12.2f}{:>14.2f}{:>12.0f}{:>16}", e.event, e.log_score,
-                                e.prior_log_score, e.effective_size,
-                                fmt::format("{} of {}", e.n_inside90, e.quantities.size())));
+    rows.push_back({e.event, fmt::format("{:.2f}", e.log_score),
+                    fmt::format("{:.2f}", e.prior_log_score),
+                    fmt::format("{:.0f}", e.effective_size),
+                    fmt::format("{} of {}", e.n_inside90, e.quantities.size())});
+  add(rows, columns, lines);
 }
 
 void add_discrepancy(const Calibrated& c, Lines& lines) {
@@ -127,12 +135,12 @@ void add_discrepancy(const Calibrated& c, Lines& lines) {
 
 }  // namespace
 
-std::vector<std::string> calibration_lines(const Calibrated& c) {
+std::vector<std::string> calibration_lines(const Calibrated& c, int columns) {
   Lines lines{method_line(c)};
-  add_keys(c, lines);
+  add_keys(c, columns, lines);
   add_emulators(c, lines);
-  add_quantities(c, lines);
-  add_events(c, lines);
+  add_quantities(c, columns, lines);
+  add_events(c, columns, lines);
   add_discrepancy(c, lines);
   return lines;
 }

@@ -10,6 +10,7 @@
 namespace sturz::app {
 
 /// Method, values before and after, ridges, discrepancy, held-out score and predictive check.
-std::vector<std::string> calibration_lines(const workflow::Calibrated&);
+/// \param columns  of the terminal, for the tables; 0: no limit
+std::vector<std::string> calibration_lines(const workflow::Calibrated&, int columns = 0);
 
 }  // namespace sturz::app

@@ -54,6 +54,7 @@ std::string as_json(const FolderState& s, const std::optional<Submission>& jobs)
                              {"missing_shards", workflow::missing_shards(s.shards)},
                              {"workers", nlohmann::ordered_json::array()},
                              {"member_s", s.member_s()},
+                             {"recent_members", s.recent_members},
                              {"at_a_time", s.at_a_time()},
                              {"remaining_s", nullptr},
                              {"maps", to_string(s.maps)},
@@ -127,8 +128,9 @@ void tell(const FolderState& s, const std::optional<Submission>& jobs, Console& 
   tell_workers(s, console);
   const double left = s.remaining_s();
   if (s.missing() > 0 && std::isfinite(left))
-    console.say(fmt::format("pace: {} at a time, {} each; about {} to go", s.at_a_time(),
-                            workflow::duration_text(s.member_s()), workflow::duration_text(left)));
+    console.say(fmt::format("pace: {} at a time, {} each (the last {}); about {} to go",
+                            s.at_a_time(), workflow::duration_text(s.member_s()), s.recent_members,
+                            workflow::duration_text(left)));
   tell_maps(s, console);
   if (jobs && !jobs->complete)
     console.warn(

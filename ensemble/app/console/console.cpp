@@ -2,6 +2,7 @@
 #include "ensemble/app/console/console.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/app/console/fitted.hpp"
 #include "ensemble/app/console/json_text.hpp"
 
 #include <fmt/core.h>
@@ -11,6 +12,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace sturz::app {
@@ -43,13 +45,30 @@ std::string harmless(std::string_view line) {
   return text;
 }
 
+/// Each line of the text folded to the terminal.
+std::string fitting(const std::string& text, int columns) {
+  if (columns == 0) return text;
+  std::string all;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    if (at > 0) all += '\n';
+    all += folded(text.substr(at, end - at), columns);
+    at = end + 1;
+  }
+  return all;
+}
+
 }  // namespace
 
 struct Console::LogFile {
   std::shared_ptr<spdlog::logger> logger;
 };
 
-Console::Console(bool json) : json_(json), tty_(isatty(STDERR_FILENO) != 0) {}
+Console::Console(bool json)
+    : json_(json),
+      tty_(isatty(STDERR_FILENO) != 0),
+      out_columns_(columns_of(STDOUT_FILENO)),
+      err_columns_(columns_of(STDERR_FILENO)) {}
 Console::~Console() { clear_progress(); }
 
 void Console::log_to(const std::string& path) {
@@ -71,7 +90,7 @@ void Console::say(std::string_view line) {
   note(line);
   if (json_) return;
   clear_progress();
-  put(stdout, fmt::format("{}\n", harmless(line)));
+  put(stdout, fmt::format("{}\n", fitting(harmless(line), out_columns_)));
 }
 
 void Console::note(std::string_view line) {
@@ -82,14 +101,15 @@ void Console::warn(std::string_view line) {
   if (log_) log_->logger->warn("{}", harmless(line));
   clear_progress();
   if (json_) return event(json_text(nlohmann::json{{"event", "warning"}, {"text", line}}));
-  put(stderr, fmt::format("warning: {}\n", harmless(line)));
+  put(stderr,
+      fmt::format("{}\n", fitting(fmt::format("warning: {}", harmless(line)), err_columns_)));
 }
 
 void Console::error(std::string_view line) {
   if (log_) log_->logger->error("{}", harmless(line));
   clear_progress();
   if (json_) event(json_text(nlohmann::json{{"event", "error"}, {"text", line}}));
-  put(stderr, fmt::format("error: {}\n", harmless(line)));
+  put(stderr, fmt::format("{}\n", fitting(fmt::format("error: {}", harmless(line)), err_columns_)));
 }
 
 void Console::event(std::string_view json_object) {

@@ -36,11 +36,14 @@ class Console {
   void clear_progress();
   bool shows_progress() const { return tty_ && !json_; }
   int columns() const;
+  /// Columns that what is said may take; 0 where standard output is no terminal.
+  int said_columns() const { return json_ ? 0 : out_columns_; }
 
  private:
   struct LogFile;
   std::unique_ptr<LogFile> log_;
   bool json_, tty_;
+  int out_columns_, err_columns_;  ///< 0: lines are not folded
   bool bar_on_screen_ = false;
 };
 

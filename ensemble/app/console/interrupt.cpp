@@ -102,4 +102,6 @@ void hold_signals_back(bool held) {
 
 void interruption_told() { told.store(true); }
 
+bool interruption_was_told() { return told.load(); }
+
 }  // namespace sturz::app

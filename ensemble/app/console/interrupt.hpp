@@ -22,5 +22,6 @@ void watch_for_interrupts(bool json);
 const std::atomic<bool>& interrupt_flag();
 /// The words were said: the watchdog needs none.
 void interruption_told();
+bool interruption_was_told();
 
 }  // namespace sturz::app

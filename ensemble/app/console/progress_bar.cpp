@@ -48,7 +48,7 @@ std::string member_bar(const Progress& p, int columns) {
   if (p.wall_s > 0)
     text += fmt::format(" | {:.0f} steps/s", static_cast<double>(p.n_steps) / p.wall_s);
   if (fraction > 0)
-    text += fmt::format(" | at most {} left", duration_text(p.wall_s * (1 - fraction) / fraction));
+    text += fmt::format(" | about {} left", duration_text(p.wall_s * (1 - fraction) / fraction));
   return with_bar(fraction, text, columns);
 }
 

@@ -7,6 +7,7 @@
 #include "ensemble/app/exit_codes.hpp"
 #include "ensemble/workflow/readable.hpp"
 #include "ensemble/workflow/region/region_run.hpp"
+#include "ensemble/workflow/results/maps.hpp"
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -75,6 +76,7 @@ int verdict(const RegionMade& made, Console& console) {
                           made.planned, folder));
   console.say("  report.html   look here first: click a cell to see which sources reach it");
   console.say("  hazard.nc     maps of all sources with their CRS; hazard/*.tif the same for GIS");
+  console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
   console.say("  sources.csv   one row per source");
   console.say(
       fmt::format("  features/     an ensemble folder for each source; sturz merge {}/features/"
@@ -123,12 +125,21 @@ int region_ensemble(const workflow::EnsembleRequest& request, const std::string&
   ConsoleObserver observer(console);
   RegionJob job = workflow::prepare_region(request, observer);
   announce(job, shard, console);
-  const RegionRun run = workflow::run_region(job, observer, interrupt_flag());
-  console.clear_progress();
-  tell_failures(run, console);
-  if (const int code = how_it_ended(run, console); code != ok) return code;
-  if (shard.empty())
-    return verdict(workflow::make_region_results(job, observer, interrupt_flag()), console);
+  RegionRun run;
+  for (bool again = false;; again = true) {
+    run = workflow::run_region(job, observer, interrupt_flag());
+    console.clear_progress();
+    tell_failures(run, console);
+    if (const int code = how_it_ended(run, console); code != ok) return code;
+    if (!shard.empty()) break;
+    try {
+      return verdict(workflow::make_region_results(job, observer, interrupt_flag()), console);
+    } catch (const workflow::MembersMissing& problem) {
+      // Members of a source that was known to be finished were damaged since.
+      if (again) throw;
+      console.warn(fmt::format("{} They are computed now.", problem.what()));
+    }
+  }
   console.say(
       fmt::format("Shard {} is finished ({} members computed). When all are: sturz merge {}", shard,
                   run.computed, job.folder.root.string()));

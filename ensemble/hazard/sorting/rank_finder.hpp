@@ -25,6 +25,9 @@ class RankFinder {
             std::span<float> out);
 
  private:
+  static void compare_all(std::span<const float> values, std::span<const std::size_t> ranks,
+                          std::span<float> out);
+
   std::vector<std::uint32_t> keys_;
 };
 

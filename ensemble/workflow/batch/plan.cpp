@@ -11,6 +11,8 @@
 #include "io/batch/scene_files.hpp"
 #include "io/files/checksum.hpp"
 #include "io/files/file_stamp.hpp"
+#include "io/files/io_error.hpp"
+#include "io/members/member_numbers.hpp"
 #include "io/scenario/scenario_file.hpp"
 
 #include <fmt/core.h>
@@ -234,22 +236,27 @@ void plan_loaded(PlannedJob& plan, const JobRecord& before, const PlanOptions& o
   if (options.forecast && plan.to_do) add_forecast(plan, today, options, cancel);
 }
 
+/// "0123abcd" or, where that name was taken, "0123abcd-2". No more than three digits: a job may be
+/// called "NAME-20261130", and its results "NAME-20261130-" with a hash that is all digits.
 bool is_hash(std::string_view text) {
-  return text.size() >= 8 &&
-         text.substr(0, 8).find_first_not_of("0123456789abcdef") == std::string_view::npos &&
-         (text.size() == 8 ||
-          (text[8] == '-' && text.size() > 9 &&
-           text.substr(9).find_first_not_of("0123456789") == std::string_view::npos));
+  constexpr std::size_t digits = 8, most = 3;
+  if (text.size() < digits ||
+      text.substr(0, digits).find_first_not_of("0123456789abcdef") != std::string_view::npos)
+    return false;
+  if (text.size() == digits) return true;
+  const std::string_view number = text.substr(digits + 1);
+  return text[digits] == '-' && !number.empty() && number.size() <= most &&
+         number.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 }  // namespace
 
 std::int64_t count_members(const fs::path& root) {
-  std::int64_t n = 0;
-  std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(OutputFolder{root}.members(), failed))
-    n += entry.path().extension() == ".nc" ? 1 : 0;
-  return n;
+  try {
+    return static_cast<std::int64_t>(member_numbers_in(OutputFolder{root}.members()).size());
+  } catch (const IoError&) {
+    return 0;  // a pack that cannot be read: who opens the folder says so
+  }
 }
 
 std::vector<fs::path> results_of(const fs::path& base) {

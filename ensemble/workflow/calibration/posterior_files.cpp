@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "io/files/text_files.hpp"
 
@@ -270,6 +271,7 @@ void forget_weighted_maps(const OutputFolder& folder) {
   fs::remove(weighted.report());
   fs::remove(weighted.hazard_nc());
   remove_map_files(weighted.tif_folder());
+  remove_gis_files(weighted);
 }
 
 /// weights.csv; none where no member explains anything.

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "engine/terrain/raster.hpp"
+#include "ensemble/workflow/cluster/recent_members.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -83,6 +84,16 @@ MapsState maps_state(const FolderState& state) {
   return state.missing() > 0 ? MapsState::partial : MapsState::complete;
 }
 
+void add_pace(FolderState& state) {
+  constexpr std::size_t least = 20, rounds = 3;
+  const auto n = std::max(least, rounds * static_cast<std::size_t>(state.at_a_time()));
+  const std::vector<std::size_t> recent = written_last(*state.store, n);
+  double sum = 0;
+  for (const std::size_t i : recent) sum += state.members()[i].scalars.wall_s;
+  state.recent_members = static_cast<std::int64_t>(recent.size());
+  state.recent_member_s = recent.empty() ? 0 : sum / static_cast<double>(recent.size());
+}
+
 }  // namespace
 
 const char* to_string(MapsState state) {
@@ -97,12 +108,6 @@ const char* to_string(MapsState state) {
       return "complete";
   }
   return "";
-}
-
-double FolderState::member_s() const {
-  double sum = 0;
-  for (const MemberSummary& m : members()) sum += m.scalars.wall_s;
-  return finished() > 0 ? sum / static_cast<double>(finished()) : 0;
 }
 
 int FolderState::at_a_time() const {
@@ -146,6 +151,7 @@ FolderState folder_state(const OutputFolder& folder, int shards, CancelFlag canc
   state.shards = shard_states(state.members(), state.planned,
                               shards > 0 ? shards : std::max(1, state.manifest.shards));
   state.maps = maps_state(state);
+  add_pace(state);
   return state;
 }
 

@@ -42,12 +42,16 @@ struct FolderState {
   std::vector<Worker> workers;
   MapsState maps = MapsState::none;
   std::shared_ptr<const MemberStore> store;
+  std::int64_t recent_members = 0;  ///< of which the pace is told
+  double recent_member_s = 0;       ///< their mean computing time; 0: none is
 
   std::span<const MemberSummary> members() const { return store->members(); }
   std::int64_t finished() const { return static_cast<std::int64_t>(members().size()); }
   std::int64_t missing() const { return planned - finished(); }
-  /// Mean computing time of the members that are there [s]; 0: none is.
-  double member_s() const;
+  /// Mean computing time of the members that were finished last, some rounds of them [s]; 0: none
+  /// is. Longest ones come first, and machines are busier at one time than at another: the mean of
+  /// all would tell of what is over.
+  double member_s() const { return recent_member_s; }
   /// Members that the living workers compute at a time.
   int at_a_time() const;
   /// Until all members are there, at this pace; NaN when nothing is known of it [s].

@@ -6,6 +6,7 @@
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/workflow/folder/opened_ensemble.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -62,6 +63,7 @@ void write_maps(const CompareRequest& request, const Both& both, const MemberPai
   context.thickness_m = made.thickness_m;
   context.ground = ground.get();
   context.whole_ground = first.inputs->terrain_grid();
+  context.memory_bytes = records_memory_bytes();
   context.cancel = cancel;
   context.attributes = {{"title", "Two ensembles compared"},
                         {"source", fmt::format("sturz {} ({})", version, git_commit)},

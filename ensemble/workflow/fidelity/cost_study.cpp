@@ -7,6 +7,7 @@
 #include "ensemble/workflow/calibration/posterior_files.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
+#include "ensemble/workflow/multilevel/multilevel_run.hpp"
 #include "ensemble/workflow/without_folder.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
@@ -121,6 +122,7 @@ EnsembleRequest request_of(const CostRequest& request, const CostPart& part, dou
   set.push_back("formulation=" + part.formulation);
   set.push_back(fmt::format("numerics.spacing_m={}", part.spacing_m));
   set.push_back(fmt::format("hazard.cell_size_m={}", cell_m));  // maps of one grid
+  if (is_multilevel(request.scene)) set.emplace_back("ensemble.estimator=plain");
   if (!part.variant.empty()) set.push_back(part.variant);
   r.folder = request.folder / part.name;
   r.members = request.members > 0 ? request.members : usual_members;

@@ -26,6 +26,10 @@ struct OutputFolder {
   std::filesystem::path peaks_nc() const { return root / "peaks.nc"; }
   std::filesystem::path frames_nc() const { return root / "frames.nc"; }
   std::filesystem::path tif_folder() const { return root / "hazard"; }
+  std::filesystem::path hazard_gpkg() const { return root / "hazard.gpkg"; }
+  std::filesystem::path project() const { return root / "hazard.qgz"; }
+  std::filesystem::path ground_tif() const { return root / "ground.tif"; }
+  std::filesystem::path stac_item() const { return root / "stac_item.json"; }
   std::filesystem::path particles() const { return root / "particles"; }
   std::filesystem::path report() const { return root / "report.html"; }
 };

@@ -10,6 +10,7 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 
 namespace sturz::workflow {
@@ -42,10 +43,12 @@ double quota_v1(const std::string& folder) {
   return quota / period;
 }
 
-/// The smallest quota on the way from this process's control group to the root.
-double cores_by_quota() {
+/// The smallest value on the way from this process's control group to the root. \param of_folder
+/// what a group's folder says, `unlimited` where it says nothing
+template <class OfFolder>
+double smallest_of_groups(const OfFolder& of_folder) {
   const std::string root = "/sys/fs/cgroup";
-  double cores = std::min(quota_v2(root), quota_v1(root + "/cpu"));
+  double smallest = of_folder(root);
   std::ifstream groups("/proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with("0::")) continue;
@@ -54,10 +57,58 @@ double cores_by_quota() {
     for (std::string part; std::getline(parts, part, '/');) {
       if (part.empty()) continue;
       folder += "/" + part;
-      cores = std::min(cores, quota_v2(folder));
+      smallest = std::min(smallest, of_folder(folder));
     }
   }
-  return cores;
+  return smallest;
+}
+
+double cores_by_quota() {
+  return std::min(smallest_of_groups(quota_v2), quota_v1("/sys/fs/cgroup/cpu"));
+}
+
+double number_in(const std::string& file) {
+  std::ifstream from(file);
+  double value = 0;
+  return from >> value ? value : unlimited;  // "max" is no number
+}
+
+/// Of what a control group holds, what it gives back when memory is wanted: files that were read or
+/// written. A container that has read many members mostly holds as much as it may. [bytes]
+double reclaimable_in(const std::string& folder, std::string_view prefix) {
+  std::ifstream from(folder + "/memory.stat");
+  std::string name;
+  double value = 0, files = 0;
+  while (from >> name >> value)
+    if (name.starts_with(prefix) && (name.substr(prefix.size()) == "inactive_file" ||
+                                     name.substr(prefix.size()) == "active_file"))
+      files += value;
+  return files;
+}
+
+/// What a control group of either version leaves of its memory [bytes].
+double memory_left(double most, double held, double reclaimable) {
+  return most < unlimited && held < unlimited
+             ? std::max(0.0, most - std::max(0.0, held - reclaimable))
+             : unlimited;
+}
+double memory_left_v2(const std::string& folder) {
+  return memory_left(number_in(folder + "/memory.max"), number_in(folder + "/memory.current"),
+                     reclaimable_in(folder, ""));
+}
+double memory_left_v1(const std::string& folder) {
+  return memory_left(number_in(folder + "/memory.limit_in_bytes"),
+                     number_in(folder + "/memory.usage_in_bytes"),
+                     reclaimable_in(folder, "total_"));
+}
+
+double free_memory_of_machine() {
+  std::ifstream info("/proc/meminfo");
+  std::string name, unit;
+  double kib = 0;
+  while (info >> name >> kib && std::getline(info, unit))
+    if (name == "MemAvailable:") return kib * 1024;
+  return 0;
 }
 
 }  // namespace
@@ -70,12 +121,21 @@ int available_cores() {
 }
 
 double available_memory_bytes() {
-  std::ifstream info("/proc/meminfo");
-  std::string name, unit;
-  double kib = 0;
-  while (info >> name >> kib && std::getline(info, unit))
-    if (name == "MemAvailable:") return kib * 1024;
-  return 0;
+  const double left =
+      std::min(smallest_of_groups(memory_left_v2), memory_left_v1("/sys/fs/cgroup/memory"));
+  const double free = free_memory_of_machine();
+  return free > 0 ? std::min(free, left) : (left < unlimited ? left : 0);
+}
+
+std::size_t records_memory_bytes(double max_process_bytes) {
+  constexpr double share = 0.125;
+  constexpr std::size_t least = std::size_t{128} << 20, most = std::size_t{1} << 30;
+  double wanted = share * available_memory_bytes();
+  if (max_process_bytes > 0)  // a half: maps take memory as well
+    wanted = std::min(wanted, (max_process_bytes - resident_memory_bytes()) / 2);
+  return wanted < static_cast<double>(most)
+             ? std::max(least, static_cast<std::size_t>(std::max(wanted, 0.0)))
+             : most;
 }
 
 double resident_memory_bytes() {

@@ -261,6 +261,9 @@ EnsembleJob prepare_ensemble(const EnsembleRequest& request, Observer& observer)
 
 EnsembleJob prepare_ensemble(const EnsembleRequest& request, Scene scene, Observer& observer) {
   const Shard shard = request.shard;
+  require(scene.scenario.ensemble.estimator != Estimator::multilevel,
+          "ensemble.estimator: multilevel (that is for `sturz ensemble` alone). Use --set "
+          "ensemble.estimator=plain.");
   EnsembleJob job;
   job.scene = std::move(scene);
   job.design = new_design(job.scene.scenario);

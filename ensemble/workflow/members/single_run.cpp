@@ -148,7 +148,7 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   peaks.attributes = {
       {"title", scene.scenario.title.empty() ? "Landslide run" : scene.scenario.title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
-      {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+      {"history", fmt::format("sturz {}", manifest.command)},
       {"outcome", std::string(to_string(result.outcome))},
       {"censored", std::string(to_string(result.censoring))},
       {"formulation", result.formulation},

@@ -5,7 +5,6 @@
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "io/members/member_file.hpp"
-#include "io/members/member_store.hpp"
 
 #include <fmt/core.h>
 
@@ -31,8 +30,12 @@ MemberStore open_store(const fs::path& folder, const MemberFilter& filter, Obser
 
 }  // namespace
 
+MemberStore open_members(const fs::path& folder, Observer& observer, CancelFlag cancel) {
+  return open_store(folder, {}, observer, cancel);
+}
+
 StoredMembers stored_members(const fs::path& folder, Observer& observer, CancelFlag cancel) {
-  const MemberStore store = open_store(folder, {}, observer, cancel);
+  const MemberStore store = open_members(folder, observer, cancel);
   StoredMembers found;
   std::map<fs::path, std::int64_t> packs;
   for (std::size_t i = 0; i < store.members().size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include "engine/core/cancel.hpp"
 #include "ensemble/workflow/observer.hpp"
+#include "io/members/member_store.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -20,6 +21,10 @@ struct StoredMembers {
   /// Members that are taken from each pack.
   std::vector<std::pair<std::filesystem::path, std::int64_t>> packs;
 };
+
+/// All members of a folder. Warns of what is damaged.
+/// \throws SetupError when the folder holds no members; Cancelled
+MemberStore open_members(const std::filesystem::path& folder, Observer&, CancelFlag cancel = {});
 
 /// Warns of what is damaged. \throws SetupError when the folder holds no members; Cancelled
 StoredMembers stored_members(const std::filesystem::path& folder, Observer&,

@@ -7,6 +7,7 @@
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/region/region_record.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
 #include "io/scenario/scenario_file.hpp"
@@ -149,8 +150,10 @@ RegionJob reopen_region(const std::filesystem::path& folder, Observer& observer,
   Scenario of_source = job.scenario;
   of_source.release.each_feature = false;
   job.design = saved_design(job.folder, job.manifest, of_source);
+  const RegionRecord record(job.folder, job.manifest.design_hash, {});
   for (const std::string& source : job.sources) {
     cancel.check();
+    if (record.is_finished(source, job.members_per_source())) continue;
     const OutputFolder own = source_folder(job.folder, source);
     if (failure_of(job.folder, source) || !std::filesystem::exists(own.scenario())) continue;
     const FinishedFolder finished = open_finished(own.root, observer);

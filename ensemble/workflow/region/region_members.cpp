@@ -10,7 +10,7 @@
 #include "ensemble/workflow/region/region_folder.hpp"
 #include "io/members/member_file.hpp"
 #include "io/members/member_netcdf.hpp"
-#include "io/members/member_store.hpp"
+#include "io/members/packs/pack_file.hpp"
 #include "io/scenario/scenario_file.hpp"
 
 #include <fmt/core.h>
@@ -71,6 +71,7 @@ void StoredMembers::add(const OutputFolder& region, const std::string& source, s
   state.counts.name = source;
   state.counts.planned = planned;
   folders_.push_back(folder.members());
+  packed_.emplace_back();
   const auto number = static_cast<std::uint32_t>(sources_.size());
   if (auto failure = failure_of(region, source)) {
     state.failure = std::move(*failure);
@@ -91,7 +92,9 @@ void StoredMembers::add(const OutputFolder& region, const std::string& source, s
       fmt::format("{}: its design.csv is not that of the region (the sources' members would not "
                   "share their rows). Run the same `sturz ensemble` again.",
                   folder.root.string()));
-  const MemberStore store = members_of(folder, manifest, design, {}, cancel);
+  auto read = std::make_shared<const MemberStore>(members_of(folder, manifest, design, {}, cancel));
+  const MemberStore& store = *read;
+  if (!packs_in(folder.members()).empty()) packed_.back() = {read, members_.size()};
   warn_of_problems(store, "It counts as missing.", observer);
   if (const auto what = what_is_missing(store, planned); !what.empty())
     missing_.push_back(fmt::format("source {}: {}", source, what));
@@ -126,6 +129,8 @@ void StoredMembers::read_part(std::size_t index, PeakLayer layer, const Window& 
   expect(index < members_.size() && out.size() == part.n_cells(), "a part of a member");
   const MemberSummary& member = members_[index];
   if (part.n_cells() == 0) return;
+  if (const Packed& of = packed_[source_of_[index]]; of.store)
+    return of.store->read_part(index - of.first, layer, part, out);
   if (!is_kept(layer, member.censoring, member.scalars)) {
     std::fill(out.begin(), out.end(), info(layer).untouched);
     return;
@@ -138,6 +143,13 @@ void StoredMembers::read_part(std::size_t index, PeakLayer layer, const Window& 
     last_index_ = index;
   }
   read_member_part(*last_reader_, member.window, layer, part, out);
+}
+
+void StoredMembers::read_touched(std::size_t index, const Window& part,
+                                 std::span<const PeakLayer> layers, TouchedCells& out) const {
+  if (const Packed& of = packed_[source_of_.at(index)]; of.store)
+    return of.store->read_touched(index - of.first, part, layers, out);
+  MemberParts::read_touched(index, part, layers, out);
 }
 
 Raster<std::uint8_t> StoredMembers::release_cells(const Grid& map, const Window& part, int joined,

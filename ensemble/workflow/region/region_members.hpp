@@ -6,6 +6,7 @@
 #include "ensemble/region/region_maps.hpp"
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/observer.hpp"
+#include "io/members/member_store.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 #include "scenarios/scenario.hpp"
 
@@ -29,7 +30,8 @@ struct SourceState {
 };
 
 /// Reads every member file once against its seal, and keeps of each what maps need: outcome,
-/// window, scalars. One file is open at a time, whatever the number of sources.
+/// window, scalars. One file is open at a time, whatever the number of sources; of sources whose
+/// members lie in packs, all numbers are kept.
 class StoredMembers final : public MemberParts {
  public:
   /// \param members_per_source of the design that all share; folders with another one are refused
@@ -42,6 +44,8 @@ class StoredMembers final : public MemberParts {
   const Grid& grid() const override { return grid_; }
   void read_part(std::size_t index, PeakLayer layer, const Window& part,
                  std::span<float> out) const override;
+  void read_touched(std::size_t index, const Window& part, std::span<const PeakLayer> layers,
+                    TouchedCells& out) const override;
 
   const std::vector<SourceState>& sources() const { return sources_; }
   struct Warned {
@@ -71,6 +75,11 @@ class StoredMembers final : public MemberParts {
   std::vector<std::uint32_t> source_of_;  // of each member
   std::vector<std::int64_t> row_of_;
   std::vector<std::filesystem::path> folders_;  // of each source's members
+  struct Packed {
+    std::shared_ptr<const MemberStore> store;  // of the source; null: members in own files alone
+    std::size_t first = 0;                     // its members' first place among all
+  };
+  std::vector<Packed> packed_;  // of each source
   std::vector<SourceState> sources_;
   std::vector<std::uint32_t> source_of_valid_;
   std::vector<std::int64_t> row_of_valid_;

@@ -126,6 +126,7 @@ void write_region_page(const RegionJob& job, const StoredMembers& members, Sourc
   const Raster<std::uint8_t> release =
       members.release_cells(coarse.grid, extent, coarse.joined, cancel);
   ReportInput input;
+  if (!job.scenario.report.language.empty()) input.language = job.scenario.report.language;
   input.title = job.scenario.title.empty() ? as_utf8(job.folder.root.filename().string())
                                            : job.scenario.title;
   input.scenario_yaml = read_text(job.folder.scenario());
@@ -139,7 +140,6 @@ void write_region_page(const RegionJob& job, const StoredMembers& members, Sourc
   input.elapsed_s = job.manifest.compute_s;
   input.release = &release;
   input.observed = job.typical.inputs.observed;
-  if (!job.scenario.report.language.empty()) input.language = job.scenario.report.language;
   input.overlays = job.typical.inputs.overlays;
   if (!job.scenario.report.orthophoto.empty())
     input.orthophoto = [&job](const Grid& view) { return orthophoto_jpeg(job.scenario, view); };

@@ -5,8 +5,12 @@
 #include "engine/core/hash.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/region/region_page.hpp"
+#include "ensemble/workflow/region/region_record.hpp"
 #include "ensemble/workflow/region/source_table.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/ground_source.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -77,12 +81,13 @@ std::pair<SourceLists, std::string> write_region_file(const RegionJob& job,
   RegionContext context;
   context.ground = GroundBands(job.typical, members.grid(), extent_of(members));
   context.whole_ground = job.typical.inputs.terrain_grid();
+  context.memory_bytes = records_memory_bytes();
   context.cancel = cancel;
   const std::string& title = job.scenario.title;
   context.attributes = {
       {"title", title.empty() ? "Landslide hazard of a region" : title},
       {"source", fmt::format("sturz {} ({})", version, git_commit)},
-      {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+      {"history", fmt::format("sturz {}", manifest.command)},
       {"design", fmt::format("{}, {} members of each source, seed {}", to_string(job.design.design),
                              job.members_per_source(), job.design.seed)}};
   LayersFileWriter writer(job.folder.hazard_nc());
@@ -141,6 +146,7 @@ void require_complete(const RegionJob& job, const StoredMembers& members, Missin
                   missing.size() > 1
                       ? fmt::format(", and {} other sources are not complete", missing.size() - 1)
                       : "");
+  forget_finished_sources(job.folder);  // each is to be looked at
   if (rule == Missing::compute_again)
     throw MembersMissing(what + " though all were computed. The same command computes them again.");
   require(rule == Missing::leave_out,
@@ -148,6 +154,22 @@ void require_complete(const RegionJob& job, const StoredMembers& members, Missin
               ". Resume with the command that computed them, or make maps from the others with "
               "--partial.");
   observer.warning(what + "; the maps are made from the others.");
+}
+
+void write_gis(const RegionJob& job, const LayerSource& maps, const LayerStack& coarse,
+               const RegionMade& made, CancelFlag cancel) {
+  GisContent content;
+  content.title = job.scenario.title.empty() ? "Landslide hazard of a region" : job.scenario.title;
+  content.maps = &maps;
+  content.coarse = &coarse;
+  content.elevation = ground_source(maps.about().grid, [&scene = job.typical](const Grid& cells) {
+    return ground_of_map(scene.scenario, scene.inputs, cells);
+  });
+  content.n_members = static_cast<std::size_t>(made.valid);
+  content.started = job.manifest.started;
+  content.hazard_hash = made.hazard_hash;
+  content.cancel = cancel;
+  write_gis_files(job.folder, content);
 }
 
 RegionMade make_results(RegionJob& job, Missing rule, Observer& observer, CancelFlag cancel) {
@@ -181,6 +203,7 @@ RegionMade make_results(RegionJob& job, Missing rule, Observer& observer, Cancel
     made.most_sources = std::max(made.most_sources, lists.begin[i + 1] - lists.begin[i]);
   manifest.hazard_hash = made.hazard_hash = hash;
   manifest.maps_of = members.hash();
+  write_gis(job, maps, coarse, made, cancel);
   write_region_page(job, members, std::move(lists), std::move(coarse), extent_of(members), cancel);
   manifest.write(job.folder.manifest());
   made.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/members/runner.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
+#include "ensemble/workflow/region/region_record.hpp"
 
 #include <fmt/core.h>
 
@@ -49,10 +50,13 @@ class Source {
     }
     return open_;
   }
-  /// One of its members is behind us.
-  void member_is_over() {
+  /// One of its members is behind us. \return whether all are, and are there
+  bool member_is_over() {
     const std::lock_guard guard(lock_);
-    if (--left_ == 0) open_.reset();
+    if (--left_ > 0) return false;
+    const bool could_be_computed = open_ != nullptr;
+    open_.reset();
+    return could_be_computed;
   }
   /// Empty: it could be opened, or was not tried.
   std::string failure() const {
@@ -104,11 +108,21 @@ class Source {
 /// Members of all sources, numbered through: source * members per source + member.
 class RegionMembersRun {
  public:
-  RegionMembersRun(RegionJob& job, Observer& observer) : job_(job), observer_(observer) {
+  RegionMembersRun(RegionJob& job, Observer& observer)
+      : job_(job),
+        observer_(observer),
+        record_(job.folder, job.manifest.design_hash, job.request.shard) {
     const Shard& shard = job.request.shard;
     for (std::size_t i = static_cast<std::size_t>(shard.k) - 1; i < job.sources.size();
-         i += static_cast<std::size_t>(shard.n))
-      sources_.push_back(std::make_unique<Source>(job, job.sources[i]));
+         i += static_cast<std::size_t>(shard.n)) {
+      // Of members that failed and are tried again, the source must say which they are.
+      if (!job.request.retry_failed &&
+          record_.is_finished(job.sources[i], job.members_per_source()))
+        finished_before_ += job.members_per_source();
+      else
+        sources_.push_back(std::make_unique<Source>(job, job.sources[i]));
+    }
+    run_.finished = run_.total = finished_before_;
   }
 
   RegionRun run(const std::atomic<bool>& cancel) {
@@ -121,9 +135,11 @@ class RegionMembersRun {
     };
     callbacks.store = [this](const MemberResult& result) { store(result); };
     callbacks.on_progress = [this](const RunnerProgress& p) { tell(p); };
+    if (plan.members.empty()) return std::move(run_);
     const RunReport report = run_members(plan, callbacks, cancel);
-    run_.finished = report.progress.n_done;
-    run_.total = report.progress.n_total;
+    record_.write();
+    run_.finished += report.progress.n_done;
+    run_.total += report.progress.n_total;
     run_.interrupted = report.interrupted;
     run_.stop_error = report.stop_error;
     for (const auto& source : sources_)
@@ -180,7 +196,17 @@ class RegionMembersRun {
       run_.failed += !is_valid(own.outcome);
       observer_.source_member_stored(source.name(), own);
     }
-    source.member_is_over();
+    if (source.member_is_over()) remember(source.name());
+  }
+
+  /// Now and then on the way: it may be killed.
+  void remember(const std::string& source) {
+    constexpr std::chrono::seconds every{10};
+    record_.add_finished(source);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - written_ < every) return;
+    record_.write();
+    written_ = now;
   }
 
   bool take_nothing_to_do(std::int64_t number) {
@@ -202,6 +228,8 @@ class RegionMembersRun {
 
   RegionJob& job_;
   Observer& observer_;
+  RegionRecord record_;
+  std::chrono::steady_clock::time_point written_ = std::chrono::steady_clock::now();
   std::vector<std::unique_ptr<Source>> sources_;
   std::mutex lock_;
   std::set<std::int64_t> nothing_to_do_;  // numbers on their way to store()

@@ -14,9 +14,10 @@ HazardContext hazard_context(const Manifest& manifest, const Scenario& scenario,
   HazardContext context;
   context.spacing_m = manifest.spacing_m;
   context.n_planned = design.n_members();
+  // Without a date: the same members make the same bytes. manifest.json has the date.
   context.attributes = {{"title", scenario.title.empty() ? "Landslide hazard" : scenario.title},
                         {"source", fmt::format("sturz {} ({})", version, git_commit)},
-                        {"history", fmt::format("{} sturz {}", manifest.started, manifest.command)},
+                        {"history", fmt::format("sturz {}", manifest.command)},
                         {"censored_members", manifest.censored},
                         {"design", fmt::format("{}, {} members, seed {}", to_string(design.design),
                                                design.n_members(), design.seed)}};

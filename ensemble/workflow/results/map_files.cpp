@@ -4,7 +4,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/text_files.hpp"
 #include "io/gdal/cog.hpp"
-#include "reports/figures/qgis_style.hpp"
+#include "reports/gis/qgis_style.hpp"
 
 #include <fmt/format.h>
 

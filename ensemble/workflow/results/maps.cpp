@@ -7,8 +7,10 @@
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/frames/member_frames.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -92,7 +94,7 @@ bool MapsMade::too_many_failed() const {
 MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observer& observer,
                    CancelFlag cancel) {
   const auto begin = Clock::now();
-  const auto& [folder, manifest, scenario, design, inputs] = request;
+  const auto& [folder, manifest, scenario, design, inputs, max_memory_bytes] = request;
   observer.maps_begin();
   MapsMade made;
   made.folder = folder;
@@ -115,6 +117,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   write_gauge_files(folder, gauges);
   ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
   HazardContext context = hazard_context(manifest, scenario, design);
+  context.memory_bytes = records_memory_bytes(max_memory_bytes);
   context.ground = ground.get();
   context.whole_ground = inputs.terrain_grid();
   context.convergence = &convergence;
@@ -156,6 +159,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   manifest.maps_of = members_hash(store, design.n_members());
   const auto posterior = shown_posterior(folder, manifest, scenario, observer);
   if (posterior) page.posterior = &*posterior;
+  write_gis_files(folder, gis_content(maps, page, manifest, scenario, inputs));
   write_page(folder, manifest, scenario, page);
   manifest.write(folder.manifest());
   made.hazard_hash = hash;
@@ -170,7 +174,8 @@ MapsMade make_maps(EnsembleJob& job, Observer& observer, CancelFlag cancel) {
   job.manifest.inputs = with_known_parts(job.manifest.inputs, job.scene.ground->identities());
   const MemberStore store = members_of(job.folder, job.manifest, job.design, {}, cancel);
   require_complete(job.folder, store, job.design, observer);
-  return make_maps({job.folder, job.manifest, job.scene.scenario, job.design, job.scene.inputs},
+  return make_maps({job.folder, job.manifest, job.scene.scenario, job.design, job.scene.inputs,
+                    job.max_memory_bytes},
                    store, observer, cancel);
 }
 

@@ -52,7 +52,8 @@ struct MapsRequest {
   Manifest& manifest;  ///< gets the maps' hash and is saved
   const Scenario& scenario;
   const DesignTable& design;
-  const SceneInputs& inputs;  ///< for where the ground is known, and the page's relief
+  const SceneInputs& inputs;    ///< for where the ground is known, and the page's relief
+  double max_memory_bytes = 0;  ///< of the whole process; 0: what is free
 };
 
 /// Scores the members where something was observed, reads their maps, writes members.csv, the

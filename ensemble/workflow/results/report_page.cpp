@@ -12,6 +12,7 @@
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/frames/member_frames.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
 #include "io/files/plain_text.hpp"
@@ -166,7 +167,6 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
                 const PageContent& content) {
   ReportInput input;
   if (!scenario.report.language.empty()) input.language = scenario.report.language;
-  if (!content.language.empty()) input.language = content.language;
   input.overlays = content.overlays;
   if (!scenario.report.orthophoto.empty())
     input.orthophoto = [&scenario](const Grid& view) { return orthophoto_jpeg(scenario, view); };
@@ -179,6 +179,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.peaks = content.peaks;
   input.gauges = content.gauges;
   input.frames = content.frames;
+  input.effective_members = content.effective_members;
   input.members.assign(content.members.begin(), content.members.end());
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);
@@ -222,6 +223,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
                                    CancelFlag cancel, const std::string& language) {
   require_language(language, "--language");
   FinishedFolder finished = open_with_page(folder, observer);
+  if (!language.empty()) finished.scenario.report.language = language;
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
   finished.manifest = Manifest::read(finished.folder.manifest());  // no other process writes it now
   leave_out_relief(finished, observer);
@@ -246,14 +248,13 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   std::vector<ConvergencePoint> convergence;
   MemberResult run;
   PageContent page;
-  page.language = language;
   page.cancel = cancel;
   if (finished.inputs) page.overlays = finished.inputs->overlays;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
     page.design = &design;
     page.stop = finished.manifest.stop ? &*finished.manifest.stop : nullptr;
-    convergence = probability_convergence(store, MemberCells::default_memory_bytes, 40, cancel);
+    convergence = probability_convergence(store, records_memory_bytes(), 40, cancel);
     page.convergence = convergence;
   }
   page.elevation = ground.get();

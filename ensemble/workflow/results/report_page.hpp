@@ -40,8 +40,7 @@ NearestMember nearest_member(const MemberParts&, const std::optional<ScoreTable>
 
 /// What there is to show; absent parts are null or empty.
 struct PageContent {
-  std::string language;                 ///< empty: the scenario's
-  std::span<const Overlay> overlays{};  ///< drawn over the maps
+  std::span<const Overlay> overlays;  ///< drawn over the maps
   std::filesystem::path scenario_file;  ///< empty: that of the page's folder
   const LayerStack* hazard = nullptr;
   const LayerStack* peaks = nullptr;
@@ -50,6 +49,7 @@ struct PageContent {
   std::span<const MemberSummary> members;
   std::span<const ConvergencePoint> convergence;
   const StopRecord* stop = nullptr;  ///< null: no stop rule
+  double effective_members = 0;      ///< that weighted maps are worth; 0: members count alike
   CancelFlag cancel;
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()

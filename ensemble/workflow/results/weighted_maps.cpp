@@ -7,6 +7,8 @@
 #include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/workflow/calibration/posterior_weights.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
@@ -63,6 +65,7 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   const auto ground = ground_of_map(
       scenario, inputs, grid_of(map_extent(MemberCells(of.store).touched(), grid), grid));
   HazardContext context = hazard_context(of.finished.manifest, scenario, of.design);
+  context.memory_bytes = records_memory_bytes();
   context.ground = ground.get();
   context.whole_ground = inputs.terrain_grid();
   context.weights = weights;
@@ -77,13 +80,16 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   page.scenario_file = of.finished.folder.scenario();
   page.hazard = &coarse;
   page.design = &of.design;
+  page.effective_members = made.effective_members;
   page.elevation = ground.get();
   page.members = of.store.members();
   page.cancel = cancel;
   const Raster<std::uint8_t> release = release_footprint(of.store);
   page.release = &release;
   page.observed = inputs.observed;
-  write_page(made.folder, page_manifest(of, made), scenario, page);
+  const Manifest manifest = page_manifest(of, made);
+  write_gis_files(made.folder, gis_content(maps, page, manifest, scenario, inputs));
+  write_page(made.folder, manifest, scenario, page);
   return made;
 }
 

@@ -6,6 +6,7 @@
 #include "ensemble/risk/asset_rates.hpp"
 #include "ensemble/risk/rate_maps.hpp"
 #include "ensemble/workflow/folder/opened_ensemble.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -66,6 +67,7 @@ void write_maps(const RiskSpec& spec, const std::vector<OpenedEnsemble>& all, co
       ground_of_map(first.finished.scenario, inputs,
                     grid_of(map_extent(MemberCells(members).touched(), grid), grid));
   RateContext context = context_of(spec, all);
+  context.memory_bytes = records_memory_bytes();
   context.ground = ground.get();
   context.whole_ground = inputs.terrain_grid();
   context.cancel = cancel;

@@ -131,26 +131,15 @@ RecordFacts Record::checked_facts() const {
 
 MemberResult Record::result() const {
   RecordFacts facts = checked_facts();
-  MemberSummary& s = facts.summary;
-  MemberResult m;
-  m.member = s.member;
-  m.outcome = s.outcome;
-  m.censoring = s.censoring;
-  m.reason = std::move(s.reason);
-  m.formulation = std::move(s.formulation);
-  m.binding_limit = std::move(s.binding_limit);
-  m.warnings = std::move(s.warnings);
-  m.state_hash = s.state_hash;
-  m.scalars = s.scalars;
-  m.window = s.window;
-  m.effect_seconds = s.effect_seconds.named();
+  MemberResult m = result_of(facts.summary);
   m.grid = std::move(facts.grid);
   read_series(part(head_.series_at(), head_.series), m);
   if (m.window.n_cells() == 0) return m;
   // A window of so many cells is not made of so few bytes: memory is not taken on a header's word.
   if (static_cast<double>(m.window.n_cells()) > 1032.0 * static_cast<double>(head_.total))
     throw BadRecord("its window is larger than its maps can fill");
-  const RecordMaps maps = maps_of(head_, part(head_.directory_at(), head_.directory), s);
+  const RecordMaps maps =
+      maps_of(head_, part(head_.directory_at(), head_.directory), facts.summary);
   const auto bytes = part(head_.maps_at(), head_.maps);
   const auto copy = [&](std::uint64_t at, std::span<std::byte> out) {
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), out.size(), out.begin());

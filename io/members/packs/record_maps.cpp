@@ -199,7 +199,8 @@ void RecordMaps::take(std::size_t number, std::span<const std::byte> all, const 
   struct Piece {
     std::size_t first, n;
   };
-  std::vector<Piece> pieces;
+  thread_local std::vector<Piece> pieces;
+  pieces.clear();
   for (std::uint32_t r = 0; r < band.n_runs; ++r) {
     StoredRun run;
     copy_out(runs, r, 1, &run);

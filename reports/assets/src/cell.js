@@ -20,7 +20,7 @@ function curveData(entries, quantiles, at, page) {
     points.push({x: values[at] * layer.legend.unitFactor, p: 1 - plane.axis, ring: true});
   const usable = points.filter(({x, p}) => x > 0 && p >= 0).sort((a, b) => a.x - b.x || b.p - a.p);
   const curve = usable.filter(({x}, i) => i === 0 || x !== usable[i - 1].x);
-  const bounds = curve.map(({p}) => wilson(p, page.valid, page.z));
+  const bounds = curve.map(({p}) => wilson(p, page.trials, page.z));
   return [
     curve.map(({x}) => x),
     curve.map(({p}) => 100 * p),
@@ -68,7 +68,7 @@ function thresholdTable(entries, at, page) {
   const body = table.createTBody();
   for (const {layer, plane, values} of entries) {
     const p = values[at];
-    const [low, high] = wilson(p, page.valid, page.z);
+    const [low, high] = wilson(p, page.trials, page.z);
     const row = body.insertRow();
     row.append(named('th', '', plane.label,
                      plane.resolved === false ? named('small', 'flag', t('not_resolved')) : ''));
@@ -185,16 +185,17 @@ export function createCellPanel(box, page, planes, sources, closed) {
     }
     if (reached) {
       const p = reached.values[at];
-      const [low, high] = wilson(p, page.valid, page.z);
+      const [low, high] = wilson(p, page.trials, page.z);
       box.append(named('p', 'cell-line',
-                       t('cell.reached_by', Math.round(p * page.valid), page.valid),
+                       page.weighted ? t('cell.reached_weighted')
+                                     : t('cell.reached_by', Math.round(p * page.valid), page.valid),
                        named('b', '', percentText(p)),
                        ` (${percentText(low)} – ${percentText(high)})`));
       for (const [quantity, name] of [['solid_reached', t('cell.grains_in')], ['liquid_reached', t('cell.liquid_in')]]) {
         const own = planes.find((p) => p.layer.quantity === quantity)?.values[at];
         if (own === undefined) continue;
-        const [least, most] = wilson(own, page.valid, page.z);
-        box.append(named('p', 'cell-line', `${name} ${Math.round(own * page.valid)}: `,
+        const [least, most] = wilson(own, page.trials, page.z);
+        box.append(named('p', 'cell-line', page.weighted ? `${name} ` : `${name} ${Math.round(own * page.valid)}: `,
                          named('b', '', percentText(own)),
                          ` (${percentText(least)} – ${percentText(most)})`));
       }

@@ -6,7 +6,7 @@ import {chips, element, northArrow} from './dom.js';
 import {drawLegend, marksOf} from './legend.js';
 import {createMap} from './map.js';
 import {profileTool} from './profile.js';
-import {printWhatIsSeen, saveTools} from './save.js';
+import {nameOf, printWhatIsSeen, saveTools} from './save.js';
 import {loadSources} from './sources.js';
 import {swipeTool} from './swipe.js';
 import {t} from './texts.js';
@@ -116,8 +116,8 @@ export async function startMaps(page) {
     const value = at < 0 ? NaN : current.values[at];
     const legend = current.layer.legend;
     let text = at < 0 ? '–' : valueText(legend, seenValues[at]);
-    if (bound === 'value' && legend.probability && value >= 0 && page.valid > 0) {
-      const [low, high] = wilson(value, page.valid, page.z);
+    if (bound === 'value' && legend.probability && value >= 0 && page.trials > 0) {
+      const [low, high] = wilson(value, page.trials, page.z);
       text += ` (${percentText(low)} – ${percentText(high)})`;
     }
     if (at < 0 || (reached && !(reached.values[at] > 0))) text = t('not_reached');
@@ -152,12 +152,14 @@ export async function startMaps(page) {
   });
   parts.panel.append(switchesOf(view, maps, heights));
 
-  /** A plane's probabilities, or one end of their interval where the flow came at all. */
+  /** A plane's probabilities, or one end of their interval where the flow came at all. Where it did
+   *  not, the upper end is no 0: it is that of the files, and left out here. */
   const boundOf = ({layer, values}, which) => {
-    if (which === 'value' || !layer.legend.probability || !(page.valid > 0)) return values;
+    if (which === 'value' || !layer.legend.probability || !(page.trials > 0)) return values;
     const end = which === 'lower' ? 0 : 1;
     return values.map(
-        (p, i) => reached && !(reached.values[i] > 0) ? p : wilson(p, page.valid, page.z)[end]);
+        (p, i) => p > 0 || !reached || reached.values[i] > 0 ? wilson(p, page.trials, page.z)[end]
+            : which === 'upper' ? NaN : p);
   };
 
   /** Goes to a quantity and statistic; keeps what was chosen where it exists there. */
@@ -212,7 +214,7 @@ export async function startMaps(page) {
                         flag: p.plane.resolved === false ? t('not_resolved') : '',
                       })),
           `level-${choices.indexOf(current)}`, (key) => show(choices[Number(key.slice(6))])));
-    if (current.layer.legend.probability && page.valid > 0)
+    if (current.layer.legend.probability && page.trials > 0)
       rows.push(pickRow(t('end_of_interval'), ['value', 'lower', 'upper'], (key) => t(`end.${key}`),
                         bound, (key) => {
                           bound = key;
@@ -224,11 +226,15 @@ export async function startMaps(page) {
 
   /** What a saved or printed picture holds. */
   const seen = () => ({
-    view, marks, name: current.layer.name + (bound === 'value' ? '' : `_${bound}`),
+    view, marks, name: nameOf(current, bound),
     title: title.textContent, legend: current.layer.legend, values: seenValues,
     scene: document.querySelector('h1').textContent, system: maps.system, beside: swipe.beside(),
   });
-  const profile = profileTool(view, maps.cells, () => ({...current, values: seenValues}), groundHeight);
+  const profile = profileTool(
+      view, maps.cells,
+      () => ({layer: current.layer, values: seenValues, title: title.textContent,
+              name: nameOf(current, bound)}),
+      groundHeight);
   const swipe = swipeTool(parts.stage, view, planes, load);
   parts.panel.append(swipe.panel);
   parts.tools.append(profile.button);
@@ -239,10 +245,12 @@ export async function startMaps(page) {
   comment.after(profile.box);
   parts.stage.append(element('span', {class: 'map-system'}, maps.system));
 
+  let chosen = first;
   const show = async (next) => {
-    current = next;
+    chosen = next;
     await load(next);
-    if (current !== next) return;  // another one was chosen meanwhile
+    if (chosen !== next) return;  // another one was chosen meanwhile
+    current = next;
     const {layer, plane} = current;
     seenValues = boundOf(current, bound);
     title.textContent = bound === 'value' || !layer.legend.probability

@@ -5,6 +5,7 @@ import uPlot from 'uplot';
 import {colours, onColourChange} from './colours.js';
 import {cellIndex, numberText, valueText} from './data.js';
 import {element, saveAs, toggle} from './dom.js';
+import {columnOf} from './save.js';
 import {t} from './texts.js';
 
 const font = '11px system-ui, sans-serif';
@@ -77,7 +78,7 @@ const digits = (v, n) => Number.isNaN(v) ? '' : String(Number(v.toFixed(n)));
 
 /**
  * @param {object} view of createMap
- * @param {Function} current gives {layer, plane, values} that is seen
+ * @param {Function} current gives {layer, values, title, name} that is seen
  * @param {Function} groundHeight of [x, y]
  */
 export function profileTool(view, grid, current, groundHeight) {
@@ -101,7 +102,7 @@ export function profileTool(view, grid, current, groundHeight) {
     plot?.destroy();
     plot = null;
     csv.hidden = line === null;
-    title.textContent = line === null ? t('profile_draw') : current().plane.title;
+    title.textContent = line === null ? t('profile_draw') : current().title;
     if (box.hidden || line === null) return;
     const {layer, values} = current();
     rows = pointsAlong(line, grid.cell).map(({s, x, y}) => {
@@ -111,11 +112,12 @@ export function profileTool(view, grid, current, groundHeight) {
     plot = plotOf(chart, rows, layer.legend, view);
   };
   csv.addEventListener('click', () => {
-    const {layer} = current();
+    const {layer: {legend}, name} = current();
+    const shown = (v) => Number.isNaN(v) ? '' : Number((v * legend.unitFactor).toPrecision(6));
     const text = rows.map((r) => [digits(r.s, 2), digits(r.x, 2), digits(r.y, 2), digits(r.z, 2),
-                                  Number.isNaN(r.v) ? '' : Number(r.v.toPrecision(6))].join(','));
-    saveAs(`profile_${layer.name}.csv`, new Blob(
-        [`distance_m,x_m,y_m,ground_m,${layer.name}\n${text.join('\n')}\n`], {type: 'text/csv'}));
+                                  shown(r.v)].join(','));
+    const head = `distance_m,x_m,y_m,ground_m,${columnOf(name, legend)}`;
+    saveAs(`profile_${name}.csv`, new Blob([`${head}\n${text.join('\n')}\n`], {type: 'text/csv'}));
   });
   const follow = (coordinates) => {
     line = coordinates;

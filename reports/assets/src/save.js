@@ -6,6 +6,7 @@ import {t} from './texts.js';
 const font = 'system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
 const side = 250;  // CSS pixels beside the map for the legend
 const margin = 14;
+const mostClasses = 12;
 
 /** The map's canvases on one, with their opacities. */
 function drawMap(context, map, scale) {
@@ -90,11 +91,15 @@ function drawClasses(context, legend, x, y) {
   context.font = `600 12px ${font}`;
   y = wrapped(context, legend.title, x, y, side, 16) + 2;
   context.font = `12px ${font}`;
-  for (const c of legend.classes.slice(0, 12)) {
+  for (const c of legend.classes.slice(0, mostClasses)) {
     context.fillStyle = c.colour;
     context.fillRect(x, y - 11, 24, 14);
     context.fillStyle = '#111';
     context.fillText(c.label, x + 32, y);
+    y += 18;
+  }
+  if (legend.classes.length > mostClasses) {
+    context.fillText(t('in_all', legend.classes.length), x + 32, y);
     y += 18;
   }
   return y;
@@ -152,16 +157,30 @@ export function composePicture(seen) {
 
 const round = (v) => Number(v.toPrecision(6));
 
-/** Cells of the seen part of the map that hold a value: x, y of their middles, value as stored. */
+const asWord = (text) => text.replaceAll('²', '2').replaceAll('³', '3').replaceAll(/[^\w.]+/g, '_');
+
+/** What a plane is called in names of files and heads of columns: its layer, its threshold or
+ *  quantile where the layer has several, and which end of the interval it is ('value': none). */
+export function nameOf({layer, plane}, bound) {
+  const level = layer.planes.length > 1 && plane.axis !== undefined
+      ? `_${round(plane.axis)}${layer.axisUnit}` : '';
+  const end = bound === 'value' || !layer.legend.probability ? '' : `_${bound}`;
+  return asWord(layer.name + level + end);
+}
+
+/** The same with the unit of its shown numbers behind it. */
+export const columnOf = (name, legend) => asWord(legend.unit ? `${name}_${legend.unit}` : name);
+
+/** Cells of the seen part of the map that hold a value: x, y of their middles, value as shown. */
 export function cellsAsCsv(grid, extent, legend, values, name) {
-  const rows = [`x_m,y_m,${name}`];
+  const rows = [`x_m,y_m,${columnOf(name, legend)}`];
   for (let i = 0; i < values.length; i++) {
     const v = values[i];
     if (Number.isNaN(v) || (legend.clearZero && v <= 0)) continue;
     const x = grid.west + (i % grid.cols + 0.5) * grid.cell;
     const y = grid.north - (Math.floor(i / grid.cols) + 0.5) * grid.cell;
     if (x < extent[0] || x > extent[2] || y < extent[1] || y > extent[3]) continue;
-    rows.push(`${x},${y},${round(v)}`);
+    rows.push(`${x},${y},${round(v * legend.unitFactor)}`);
   }
   return `${rows.join('\n')}\n`;
 }

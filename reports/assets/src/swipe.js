@@ -33,6 +33,7 @@ export function swipeTool(stage, view, planes, load) {
   const show = async () => {
     const chosen = planes[Number(pick.value)];
     await load(chosen);
+    if (chosen !== planes[Number(pick.value)]) return;  // another one was chosen meanwhile
     const {layer} = chosen;
     view.showBeside(layer.legend, chosen.values);
     legend.replaceChildren(element('p', {class: 'legend-title'}, layer.legend.title),

@@ -80,23 +80,31 @@ std::string conditions_text(const ReportInput& input) {
   return text;
 }
 
-/// Of the assets the one that most members hit, and how many are hit at all; empty: none.
+/// Of the assets the one that most members hit, how many are hit at all, and of how many nothing is
+/// known; empty: none.
 std::string assets_text(const ReportInput& input) {
   if (input.assets == nullptr || input.risk == nullptr || input.risk->rows.empty()) return {};
   const auto& rows = input.risk->rows;
   const auto hit =
       std::count_if(rows.begin(), rows.end(), [](const AssetRisk& r) { return r.probability > 0; });
-  const std::size_t all = rows.size();
-  if (hit == 0) return tr("plain.no_asset", all);
+  const auto unknown = std::count_if(rows.begin(), rows.end(),
+                                     [](const AssetRisk& r) { return std::isnan(r.probability); });
+  const auto known = std::ssize(rows) - unknown;
+  std::string beyond;
+  if (unknown > 0) beyond.append(1, ' ').append(tr_count("plain.assets_unknown", unknown));
+  if (known == 0) return beyond.substr(1);
+  if (hit == 0) return tr("plain.no_asset", known) + beyond;
   const auto worst = std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
     return (a.probability >= 0 ? a.probability : -1) < (b.probability >= 0 ? b.probability : -1);
   });
   const Asset& asset = input.assets->list[static_cast<std::size_t>(worst - rows.begin())];
-  std::string text = tr("plain.assets", hit, all, asset.name, percent_text(worst->probability),
+  const std::string share = percent_text(worst->probability);
+  std::string text = tr("plain.assets", hit, known, asset.name,
+                        worst->not_known > 0 ? tr("plain.at_least", share) : share,
                         percent_text(worst->bounds_95.lower), percent_text(worst->bounds_95.upper));
   if (!std::isnan(worst->arrival_s[0]))
     text += tr("plain.asset_soon", duration_text(worst->arrival_s[0]));
-  return text + ".";
+  return text + "." + beyond;
 }
 
 /// "what the flow reaches", with its interval, its area and how soon.
@@ -112,7 +120,7 @@ std::string ensemble_sentence(const ReportInput& input, const Headline& h) {
     text += (runout.empty() ? " " : tr("plain.and")) +
             tr("plain.area", h.censoring.censored() > 0 ? tr("plain.at_least", area) : area);
   }
-  const double last = last_arrival(*input.hazard);
+  const double last = std::isnan(h.likely_area_m2.value) ? nan_d : last_arrival(*input.hazard);
   if (last > 0) text += tr("plain.soon", duration_text(std::round(last)));
   return text + ".";
 }

@@ -120,6 +120,12 @@ std::vector<std::string> liquid_warnings(const Scenario& s, const ScenePlan& pla
                   " m of the outline of fluid.pool the ground beside it lies below its surface, "
                   "where it runs out from the start. Draw the outline beyond the shore, or put "
                   "domain.walls there");
+  if (s.fluid && s.fluid->pool)
+    out.push_back(
+        std::string("standing water counts from the start: its cells are reached, its depth is "
+                    "thickness, and run-out and areas go to its shores. ") +
+        (plan.coupling ? "What the grains reach is told apart (solid_..., runout of each)"
+                       : "Speed and energy tell what moves"));
   if (!plan.coupling) return out;
   const CouplingSettings& c = *plan.coupling;
   if (c.drag_multiplier != 1)

@@ -183,6 +183,7 @@ void add_fluid_blocks(std::vector<BlockInfo>&);
 void add_structure_blocks(std::vector<BlockInfo>&);
 void add_bed_field_blocks(std::vector<BlockInfo>&);
 void add_erosion_blocks(std::vector<BlockInfo>&);
+void add_run_blocks(std::vector<BlockInfo>&);
 void add_gauge_blocks(std::vector<BlockInfo>&);
 void add_observation_blocks(std::vector<BlockInfo>&);
 void add_asset_blocks(std::vector<BlockInfo>&);

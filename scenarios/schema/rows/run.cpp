@@ -8,6 +8,7 @@ namespace {
 constexpr auto numerics = blocks::at<&Scenario::numerics>;
 constexpr auto domain = blocks::at<&Scenario::domain>;
 constexpr auto ensemble = blocks::at<&Scenario::ensemble>;
+constexpr auto target = blocks::at<&Scenario::ensemble, &EnsembleSpec::target>;
 constexpr auto hazard = blocks::at<&Scenario::hazard>;
 
 void add_numerics(std::vector<KeyInfo>& keys) {
@@ -98,6 +99,36 @@ void add_ensemble(std::vector<KeyInfo>& keys) {
            "which every result says so first."}));
 }
 
+void add_estimator(std::vector<KeyInfo>& keys) {
+  using enum ValueKind;
+  KeyInfo estimator =
+      key(ensemble, &EnsembleSpec::estimator,
+          {"ensemble.estimator", choice, "", -no_limit, no_limit,
+           "plain: means and maps of the members; multilevel: the same of few members "
+           "and many cheaper ones, for what `target` asks."});
+  keys.push_back(with_choices(std::move(estimator), {"plain", "multilevel"}));
+  keys.push_back(absent_when_zero(above_min(key(
+      target, &TargetSpec::relative_error,
+      {"ensemble.target.relative_error", number, "1", 0, 1,
+       "Half width of the 90 % bounds of mean run-out, reached area and travel of the centre of "
+       "mass, over the mean."}))));
+  keys.push_back(absent_when_zero(above_min(
+      key(target, &TargetSpec::map_error,
+          {"ensemble.target.map_error", number, "1", 0, 0.5,
+           "Standard error of P(reached), root mean square over cells with 0.05 < P < 0.95."}))));
+  keys.push_back(absent_when_zero(
+      above_min(key(target, &TargetSpec::core_hours,
+                    {"ensemble.target.core_hours", number, "h", 0, 1e6,
+                     "Computing time of all members together, instead of an error."}))));
+  keys.push_back(text_key(ensemble, &EnsembleSpec::levels, "ensemble.levels", text,
+                          "Cheaper levels for multilevel, a formulation and a spacing in metres "
+                          "each, such as full_stress 12, depth_averaged 9; chosen when absent."));
+  keys.push_back(key(ensemble, &EnsembleSpec::pilot,
+                     {"ensemble.pilot", integer, "1", 8, 1000,
+                      "Members of each level before multilevel chooses their numbers; 16 when "
+                      "absent."}));
+}
+
 void add_hazard(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
   const auto thresholds = [&](std::vector<double> HazardSpec::*member, const char* path,
@@ -131,10 +162,16 @@ void add_hazard(std::vector<KeyInfo>& keys) {
 
 }  // namespace
 
+void add_run_blocks(std::vector<BlockInfo>& list) {
+  list.push_back(
+      optional_block("ensemble.target", "What a multilevel ensemble is to reach.", target));
+}
+
 void add_run_keys(std::vector<KeyInfo>& keys) {
   add_numerics(keys);
   add_domain(keys);
   add_ensemble(keys);
+  add_estimator(keys);
   add_hazard(keys);
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sturz::bench {
@@ -50,12 +51,26 @@ class Table {
   std::vector<std::vector<Cell>> rows_;
 };
 
+/// A figure that is kept in a history and told in a sentence.
+struct Figure {
+  std::string name;
+  double value = 0, low = 0, high = 0;  ///< median and its interval
+  bool more_is_better = true;
+  std::string sentence;  ///< what it means, for who reads no table
+};
+
 /// What one sub-command found, in the order in which it was found.
 struct Report {
   std::string title, summary;  ///< of a page made from it
   std::vector<Table> tables;
+  std::vector<Figure> figures;
   std::vector<std::string> notes;  ///< how the figures are to be read
   bool failed = false;             ///< a limit that was asked for does not hold
+
+  void tell(std::string name, const Summary& s, std::string sentence, bool more_is_better = true) {
+    figures.push_back(
+        {std::move(name), s.median, s.low, s.high, more_is_better, std::move(sentence)});
+  }
 };
 
 }  // namespace sturz::bench

@@ -3,6 +3,7 @@
 #include "ensemble/region/region_maps.hpp"
 
 #include "ensemble/hazard/stack_hash.hpp"
+#include "ensemble/hazard/wilson.hpp"
 #include "tests/support/memory_members.hpp"
 
 #include <gmock/gmock.h>
@@ -78,12 +79,15 @@ MadeUp random_region(const Grid& grid, int n_sources) {
 /// What the rules say of one cell, member by member.
 struct Naive {
   double highest = 0, none = 1, expected = 0, rows = 0;
+  double not_lower = 1, not_upper = 1;  // of any hit
+  ProbabilityBounds any, any_rows;
   int number = 0;
   std::vector<SourceHit> hits;
   double peak[3] = {};  // quantiles 0.1, 0.5, 1 of energy [kJ m-2]
 
   Naive(const MadeUp& made, int row, int col) {
     std::set<std::int64_t> hit_rows, valid_rows;
+    bool all_come = true;
     for (std::size_t s = 0; s < made.sources.size(); ++s) {
       int n = 0, hits_here = 0;
       std::vector<double> energy;
@@ -103,6 +107,9 @@ struct Naive {
       none *= 1 - p;
       expected += p;
       number += hits_here > 0;
+      const ProbabilityBounds bounds = wilson_interval(hits_here, n, z_90);
+      if (p > 0) not_lower *= 1 - bounds.lower, not_upper *= 1 - bounds.upper;
+      all_come &= p > 0;
       if (p > 0) hits.push_back({static_cast<std::uint32_t>(s), static_cast<float>(p)});
       std::sort(energy.begin(), energy.end());
       const double levels[] = {0.1, 0.5, 1};
@@ -115,6 +122,10 @@ struct Naive {
       }
     }
     rows = static_cast<double>(hit_rows.size()) / static_cast<double>(valid_rows.size());
+    const auto n_rows = static_cast<std::int64_t>(valid_rows.size());
+    if (!all_come) not_upper *= 1 - wilson_interval(0, n_rows, z_90).upper;
+    any = {1 - not_lower, 1 - not_upper};
+    any_rows = wilson_interval(static_cast<std::int64_t>(hit_rows.size()), n_rows, z_90);
   }
 };
 
@@ -138,6 +149,11 @@ TEST(RegionMaps, AreSumsOverSources) {
       EXPECT_EQ(value(maps, "highest_probability_of_a_hit", row, col), float(naive.highest));
       EXPECT_EQ(value(maps, "probability_of_any_hit", row, col), float(1 - naive.none));
       EXPECT_EQ(value(maps, "probability_of_any_hit_shared_values", row, col), float(naive.rows));
+      const std::string any = "probability_of_any_hit", rows = any + "_shared_values";
+      EXPECT_NEAR(value(maps, (any + "_lower").c_str(), row, col), naive.any.lower, 1e-6);
+      EXPECT_NEAR(value(maps, (any + "_upper").c_str(), row, col), naive.any.upper, 1e-6);
+      EXPECT_NEAR(value(maps, (rows + "_lower").c_str(), row, col), naive.any_rows.lower, 1e-6);
+      EXPECT_NEAR(value(maps, (rows + "_upper").c_str(), row, col), naive.any_rows.upper, 1e-6);
       EXPECT_EQ(value(maps, "expected_number_of_sources", row, col), float(naive.expected));
       EXPECT_EQ(value(maps, "number_of_sources", row, col), float(naive.number));
       for (std::size_t q = 0; q < 3; ++q)

@@ -120,6 +120,17 @@ TEST(Pool, AnOutlineKeepsItThereAndOpenWaterIsWarnedOf) {
   EXPECT_THAT(plan_warnings(s, plan_scene(s, level(s), 0)), Each(Not(HasSubstr("open water"))));
 }
 
+TEST(Pool, EveryResultSaysThatItsWaterCountsAsReached) {
+  Scenario s = tank();
+  const auto warned = [&s] { return plan_warnings(s, plan_scene(s, level(s), 0)); };
+  EXPECT_THAT(warned(), Contains(AllOf(HasSubstr("standing water counts"), HasSubstr("solid_"))));
+  s.grains.reset();
+  EXPECT_THAT(warned(),
+              Contains(AllOf(HasSubstr("standing water counts"), Not(HasSubstr("solid_")))));
+  s.fluid->pool.reset();
+  EXPECT_THAT(warned(), Each(Not(HasSubstr("standing water counts"))));
+}
+
 TEST(Pool, WetsADryReleaseUpToItsSurfaceOnly) {
   Scenario s = tank(0.8);
   s.fluid->pool->surface_m = Uncertain(0.45);

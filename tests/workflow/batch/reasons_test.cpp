@@ -3,12 +3,21 @@
 
 #include "ensemble/workflow/batch/batch_features.hpp"
 #include "ensemble/workflow/batch/batch_figures.hpp"
+#include "ensemble/workflow/batch/plan.hpp"
 #include "ensemble/workflow/members/utilisation.hpp"
+#include "io/members/member_file.hpp"
+#include "io/members/packs/pack_writer.hpp"
+#include "tests/support/made_up_flows.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
 
 namespace sturz::workflow {
+namespace fs = std::filesystem;
 namespace {
 
 using ::testing::ElementsAre;
@@ -43,6 +52,41 @@ TEST(Reasons, AnotherProgramIsNamedByVersionOrCommit) {
 TEST(Reasons, ManyAreCounted) {
   EXPECT_EQ(joined({"a", "b"}), "a; b");
   EXPECT_EQ(joined({"a", "b", "c", "d", "e", "f"}), "a; b; c; d and 2 more");
+}
+
+class Folders : public ::testing::Test {
+ protected:
+  Folders() : root_(fs::temp_directory_path() / ("sturz_results_" + std::to_string(::getpid()))) {}
+  ~Folders() override { fs::remove_all(root_); }
+  void add(const std::string& name) const {
+    fs::create_directories(root_ / name);
+    std::ofstream(root_ / name / "manifest.json") << "{}";
+  }
+  fs::path root_;
+};
+
+TEST_F(Folders, OfAnotherJobAreNotOlderResults) {
+  add("slope-0a1b2c3d");
+  add("slope-0a1b2c3d-2");
+  add("slope-20261130-12345678");  // of the job slope-20261130
+  add("slope-20261130-1234567a");
+  EXPECT_THAT(
+      results_of(root_ / "slope"),
+      ::testing::UnorderedElementsAre(root_ / "slope-0a1b2c3d", root_ / "slope-0a1b2c3d-2"));
+  EXPECT_EQ(results_of(root_ / "slope-20261130").size(), 2U);
+}
+
+TEST_F(Folders, MembersInPacksAndFilesAreCountedOnce) {
+  const fs::path members = root_ / "members";
+  const MemberOrigin origin{"sha256:0", "0", "0"};
+  write_member(members, test::made_up_flow(0, 40), origin);
+  {
+    PackWriter pack(members, {1, 1});
+    for (const int m : {0, 3, 4}) pack.append(test::made_up_flow(m, 40), origin);
+  }
+  std::ofstream(members / "000009.nc.123.part") << "unfinished";
+  EXPECT_EQ(count_members(root_), 3);
+  EXPECT_EQ(count_members(root_ / "nothing"), 0);
 }
 
 TEST(Features, EachIsAJobWithItsOverride) {

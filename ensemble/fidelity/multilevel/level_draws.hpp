@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Numbers of the same draws at several levels, and what they tell of the dearest one: mean,
+/// distribution, quantiles.
+#pragma once
+
+#include "ensemble/fidelity/multilevel/margin_model.hpp"
+#include "ensemble/fidelity/valid_members.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sturz {
+
+/// One draw: its number, and the dearest level from which on all have it.
+struct LevelDraw {
+  std::int64_t number = 0;
+  std::size_t from = 0;
+  Margins values{};  ///< [level], from `from` on
+};
+
+/// Draws that the cheapest level has, ascending. \param levels valid members, the dearest first
+std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels);
+/// The same of one result, where each level's member lets one know it.
+std::vector<LevelDraw> level_draws(std::span<const ByNumber> levels, double MemberScalars::*field);
+/// Draws of each level. \return [n_levels]
+std::vector<std::size_t> draws_of_levels(std::span<const LevelDraw>, std::size_t n_levels);
+/// So few draws at the dearest level tell nothing of the others.
+inline constexpr std::size_t least_draws = 6;
+
+struct QuantileEstimate {
+  double level = nan_d, value = nan_d;
+  Interval bounds_90;
+};
+
+/// One result of all members.
+struct MultilevelScalar {
+  MultilevelMean mean;
+  std::vector<double> draws;                 ///< [n_levels]
+  std::vector<double> variances;             ///< [n_levels] of the increments
+  double variance = nan_d;                   ///< of the result itself: what plain sampling has
+  std::vector<double> squared_correlations;  ///< [n_levels] with the dearest, [0] = 1
+};
+/// Linear predictions. Everything is NaN with fewer than least_draws at the dearest level.
+MultilevelScalar multilevel_scalar(std::span<const LevelDraw>, std::size_t n_levels);
+
+/// Through the estimated distribution function, as the nearest rising one in the mean square; its
+/// bounds are those of the distribution function, read the other way. A bound is infinite where the
+/// draws do not tell one: few of them have no upper bound of what 5 % exceed.
+/// \param levels rising, within 0 and 1
+std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw>, std::size_t n_levels,
+                                                   std::span<const double> levels);
+
+}  // namespace sturz

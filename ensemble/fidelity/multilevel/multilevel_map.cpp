@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/fidelity/multilevel/multilevel_map.hpp"
+
+#include "engine/core/error.hpp"
+#include "ensemble/fidelity/multilevel/map_models.hpp"
+#include "ensemble/fidelity/multilevel/residual_smoothing.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sturz {
+namespace {
+
+constexpr std::size_t most_waiting = 32;  // draws that are added up together
+constexpr int widest_smoothing = 3;       // cells
+constexpr double surely_not = 0.05;       // 1 - that: surely
+
+bool is_doubtful(double p) { return p > surely_not && p < 1 - surely_not; }
+
+/// The draws of a map, once through: what each cell's levels tell.
+class CellSums {
+ public:
+  CellSums(const MapLevels& levels, const DrawDistances& distances, CancelFlag cancel)
+      : levels_(levels),
+        distances_(distances),
+        n_cells_(distances.cells().size()),
+        sums_(n_cells_, IncrementMoments(levels.levels.size())),
+        noise_(n_cells_, 0) {
+    std::vector<std::vector<Margins>> dear;
+    for (const LevelDraw& draw : levels.draws)
+      if (draw.from == 0) distances.read(draw, dear.emplace_back());
+    expect(dear.size() >= least_draws, "enough draws at the dearest level");
+    models_ = map_models(distances, dear, levels.spacings_m, cancel);
+    std::size_t place = 0;
+    for (const LevelDraw& draw : levels.draws) {
+      if (draw.from == 0) {
+        add_dear(dear[place], fold_of(place));
+        ++place;
+      } else {
+        waiting_.emplace_back(draw.from, std::vector<Margins>());
+        distances.read(draw, waiting_.back().second);
+        if (waiting_.size() == most_waiting) add_waiting();
+      }
+    }
+    add_waiting();
+    for (double& n : noise_) n /= static_cast<double>(place);
+  }
+
+  const IncrementMoments& at(std::size_t cell) const { return sums_[cell]; }
+  /// [n_draws of the dearest level][n_cells] indicator less prediction
+  const std::vector<std::vector<float>>& residuals() const { return residuals_; }
+  /// Mean of g (1 - g): the variance of the residual as the model itself has it.
+  double noise(std::size_t cell) const { return noise_[cell]; }
+
+ private:
+  void add_dear(const std::vector<Margins>& margins, std::size_t fold) {
+    std::vector<float>& residual = residuals_.emplace_back(n_cells_, 0.0F);
+    const std::size_t n_levels = levels_.levels.size();
+    tbb::parallel_for(std::size_t{0}, n_cells_, [&](std::size_t i) {
+      std::array<double, most_levels> told{};
+      told[0] = margins[i][0] > 0 ? 1 : 0;
+      models_[i].probabilities(margins[i], 0, fold, std::span(told).subspan(1, n_levels - 1));
+      sums_[i].add(0, std::span(told).first(n_levels));
+      residual[i] = static_cast<float>(told[0] - told[1]);
+      noise_[i] += told[1] * (1 - told[1]);
+    });
+  }
+
+  /// Many draws in each cell's turn: threads meet seldom.
+  void add_waiting() {
+    const std::size_t n_levels = levels_.levels.size();
+    tbb::parallel_for(std::size_t{0}, n_cells_, [&](std::size_t i) {
+      std::array<double, most_levels> told{};
+      for (const auto& [from, margins] : waiting_) {
+        const std::span<double> of_draw = std::span(told).first(n_levels - from);
+        models_[i].probabilities(margins[i], from, std::nullopt, of_draw);
+        sums_[i].add(from, of_draw);
+      }
+    });
+    waiting_.clear();
+  }
+
+  const MapLevels& levels_;
+  const DrawDistances& distances_;
+  std::size_t n_cells_;
+  std::vector<FoldedModels> models_;
+  std::vector<IncrementMoments> sums_;
+  std::vector<std::vector<float>> residuals_;
+  std::vector<double> noise_;
+  std::vector<std::pair<std::size_t, std::vector<Margins>>> waiting_;  // draws of cheaper levels
+};
+
+/// Where all draws agree: bounds by their number, as of n of n by Clopper and Pearson (1934).
+MultilevelMap blank(const DrawDistances& distances, std::size_t n_draws) {
+  MultilevelMap map;
+  map.extent = distances.extent();
+  const double possible = 1 - std::pow(0.05, 1 / static_cast<double>(n_draws));
+  for (Raster<double>* r : {&map.probability, &map.low, &map.high})
+    *r = Raster<double>(distances.grid(), 0);
+  for (std::size_t i = 0; i < map.probability.values.size(); ++i) {
+    const bool always = distances.always(i);
+    map.probability.values[i] = always ? 1 : 0;
+    map.low.values[i] = always ? 1 - possible : 0;
+    map.high.values[i] = always ? 1 : possible;
+  }
+  return map;
+}
+
+/// The nearest falling row in the mean square.
+void make_falling(std::span<double> row) {
+  struct Block {
+    double sum;
+    std::size_t n;
+    double mean() const { return sum / static_cast<double>(n); }
+  };
+  std::vector<Block> blocks;
+  for (const double v : row) {
+    blocks.push_back({v, 1});
+    while (blocks.size() > 1 && blocks.back().mean() > blocks[blocks.size() - 2].mean()) {
+      const Block last = blocks.back();
+      blocks.pop_back();
+      blocks.back().sum += last.sum;
+      blocks.back().n += last.n;
+    }
+  }
+  std::size_t at = 0;
+  for (const Block& b : blocks)
+    for (std::size_t k = 0; k < b.n; ++k) row[at++] = b.mean();
+}
+
+}  // namespace
+
+MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, CancelFlag cancel) {
+  const std::size_t n_levels = levels.levels.size();
+  expect(n_levels >= 2 && n_levels <= most_levels, "a dear level and some cheaper ones");
+  const DrawDistances distances(levels, what, cancel);
+  MultilevelMap map = blank(distances, levels.draws.size());
+  map.variances.assign(n_levels, 0);
+  const std::vector<std::size_t>& cells = distances.cells();
+  if (cells.empty()) return map;
+  const CellSums sums(levels, distances, cancel);
+  std::vector<std::uint8_t> doubtful;
+  for (std::size_t i = 0; i < cells.size(); ++i) doubtful.push_back(is_doubtful(sums.at(i).mean()));
+  const SmoothedCorrection correction =
+      smoothed_correction(sums.residuals(), cells, distances.grid(), doubtful, widest_smoothing);
+  map.smoothed_cells = correction.radius;
+  map.smoothing_error = std::sqrt(correction.bias_squared);
+  const double n = sums.at(0).draws(0), width = student_width(0.9, n - 1);
+  double squares = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const IncrementMoments& at = sums.at(i);
+    double p = correction.mean[i];
+    for (std::size_t l = 1; l < n_levels; ++l) p += at.increment(l);
+    p = std::clamp(p, 0.0, 1.0);
+    // Members that all come as foretold do not show how far they scatter.
+    const double own = std::max(correction.variance[i], sums.noise(i) * correction.variance_ratio);
+    const double variance = own / n + at.variance_of_mean(1) + correction.bias_squared;
+    map.probability.values[cells[i]] = p;
+    const double half = width * std::sqrt(variance);
+    map.low.values[cells[i]] = std::max(0.0, p - half);
+    map.high.values[cells[i]] = std::min(1.0, p + half);
+    if (!is_doubtful(p)) continue;
+    ++map.doubtful;
+    squares += variance;
+    map.plain_variance += p * (1 - p);
+    map.variances[0] += own;
+    for (std::size_t l = 1; l < n_levels; ++l) map.variances[l] += at.variance(l);
+  }
+  if (map.doubtful > 0) map.rms_error = std::sqrt(squares / static_cast<double>(map.doubtful));
+  return map;
+}
+
+void make_monotone(std::span<MultilevelMap> rising) {
+  if (rising.empty()) return;
+  std::vector<double> row(rising.size());
+  for (Raster<double> MultilevelMap::*layer :
+       {&MultilevelMap::probability, &MultilevelMap::low, &MultilevelMap::high})
+    for (std::size_t i = 0; i < rising.front().probability.values.size(); ++i) {
+      for (std::size_t t = 0; t < rising.size(); ++t) row[t] = (rising[t].*layer).values[i];
+      make_falling(row);
+      for (std::size_t t = 0; t < rising.size(); ++t) (rising[t].*layer).values[i] = row[t];
+    }
+}
+
+}  // namespace sturz

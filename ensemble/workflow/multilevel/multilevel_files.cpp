@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/core/error.hpp"
+#include "ensemble/hazard/map_units.hpp"
+#include "ensemble/workflow/multilevel/multilevel_results.hpp"
+#include "ensemble/workflow/multilevel/multilevel_words.hpp"
+#include "ensemble/workflow/results/hazard_file.hpp"
+#include "ensemble/workflow/results/map_files.hpp"
+#include "ensemble/workflow/results/report_page.hpp"
+#include "io/files/text_files.hpp"
+#include "io/netcdf/netcdf_layers.hpp"
+#include "io/site/map_ground.hpp"
+#include "reports/fidelity/multilevel_page.hpp"
+#include "scenarios/layers/coarse_layers.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace sturz::workflow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json interval(const Interval& i) { return {number(i.low), number(i.high)}; }
+Json numbers(const std::vector<double>& values) {
+  Json all = Json::array();
+  for (const double v : values) all.push_back(number(v));
+  return all;
+}
+
+Json headline_json(const MultilevelHeadline& h) {
+  Json quantiles = Json::array();
+  for (const QuantileEstimate& q : h.quantiles)
+    quantiles.push_back(
+        {{"level", q.level}, {"value", number(q.value)}, {"bounds_90", interval(q.bounds_90)}});
+  return {{"name", h.name},
+          {"units", h.units},
+          {"mean", number(h.scalar.mean.mean)},
+          {"bounds_90", interval(h.scalar.mean.bounds_90())},
+          {"standard_error", number(h.scalar.mean.standard_error)},
+          {"sampling_90", number(h.sampling)},
+          {"resolution", number(h.resolution)},
+          {"model", number(h.model)},
+          {"standard_deviation", number(std::sqrt(h.scalar.variance))},
+          {"quantiles", quantiles},
+          {"draws", numbers(h.scalar.draws)},
+          {"variances", numbers(h.scalar.variances)},
+          {"squared_correlations", numbers(h.scalar.squared_correlations)},
+          {"plain_cpu_s", number(h.plain_seconds)}};
+}
+
+Json level_json(const LevelShare& l) {
+  return {{"name", l.name},
+          {"used", l.used},
+          {"members", l.members},
+          {"valid", l.valid},
+          {"member_cpu_s", number(l.member_cpu_s)},
+          {"cpu_s", number(l.seconds)},
+          {"variance_shares", numbers(l.variance_shares)}};
+}
+
+Json maps_json(const MultilevelMade& made) {
+  Json all = Json::array();
+  for (const NamedMap& map : made.maps)
+    for (std::size_t t = 0; t < map.maps.size(); ++t) {
+      const MultilevelMap& m = map.maps[t];
+      all.push_back(
+          {{"name", map.name},
+           {"threshold", map.thresholds.empty() ? Json(nullptr) : Json(map.thresholds[t])},
+           {"doubtful_cells", m.doubtful},
+           {"rms_standard_error", number(m.rms_error)},
+           {"variances", numbers(m.variances)},
+           {"plain_variance", number(m.plain_variance)},
+           {"correction_over_cells", 2 * m.smoothed_cells + 1},
+           {"smoothing_error", number(m.smoothing_error)}});
+    }
+  return all;
+}
+
+std::string rule_of(const MultilevelMade& made) {
+  std::string levels;
+  for (const std::size_t p : made.used)
+    levels += fmt::format("{}{} of {}", levels.empty() ? "" : ", ", made.levels[p].members,
+                          made.levels[p].name);
+  return fmt::format("multilevel estimate for {} from members: {}", made.levels.front().name,
+                     levels);
+}
+
+/// What a map says of members of which mass left or still moved, as plain maps say it.
+std::string cut_note(Statistic statistic, std::int64_t n_censored) {
+  if (n_censored == 0) return {};
+  return statistic == Statistic::upper_bound
+             ? "; not an upper bound of what was not seen"
+             : fmt::format("; a lower bound: the end of {} members was not seen", n_censored);
+}
+
+/// One map and its bounds, all planes.
+void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
+                std::int64_t n_censored) {
+  const Quantity quantity = map.thresholds.empty() ? Quantity::reached : quantity_of(map.layer);
+  const std::string what =
+      map.thresholds.empty()
+          ? "probability that the flow reaches the cell"
+          : fmt::format("probability that {} exceeds the threshold", info(map.layer).long_name);
+  const std::string monotone =
+      map.thresholds.empty() ? "" : "; made monotone in the threshold (pool adjacent violators)";
+  struct Kind {
+    const char *suffix, *words;
+    Statistic statistic;
+    Raster<double> MultilevelMap::*values;
+  };
+  for (const Kind& kind :
+       {Kind{"", "", Statistic::probability, &MultilevelMap::probability},
+        Kind{"_lower", ", lower bound", Statistic::lower_bound, &MultilevelMap::low},
+        Kind{"_upper", ", upper bound", Statistic::upper_bound, &MultilevelMap::high}}) {
+    const std::string bounds = kind.statistic == Statistic::probability ? "" : "90 % bounds; ";
+    Layer layer = plain_layer(
+        map.name + kind.suffix, {quantity, kind.statistic}, what + kind.words, "1",
+        bounds + rule + ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored));
+    layer.n_censored = static_cast<int>(n_censored);
+    if (!map.thresholds.empty()) {
+      const std::string word = map.name.substr(0, map.name.find("_exceedance"));
+      layer.axis = {word + "_threshold", "", map_unit(map.layer).name, map.thresholds};
+    }
+    for (const MultilevelMap& one : map.maps)
+      for (const double v : (one.*kind.values).values)
+        layer.values.push_back(static_cast<float>(v));
+    stack.layers.push_back(std::move(layer));
+  }
+}
+
+LayerStack stack_of(const MultilevelJob& job, const MultilevelMembers& found,
+                    const MultilevelMade& made) {
+  LayerStack stack;
+  stack.grid = made.maps.front().maps.front().probability.grid;
+  const EnsembleJob& own = found.jobs.front();
+  const HazardContext context = hazard_context(own.manifest, job.scene.scenario, own.design);
+  stack.attributes = context.attributes;
+  stack.attributes.emplace_back("estimator", rule_of(made));
+  for (const NamedMap& map : made.maps) add_layers(stack, map, rule_of(made), made.censored);
+  return stack;
+}
+
+MultilevelPageResult page_result(const MultilevelHeadline& h) {
+  MultilevelPageResult r;
+  r.name = h.name;
+  r.units = h.units;
+  r.mean = h.scalar.mean.mean;
+  r.sampling = h.sampling;
+  r.resolution = h.resolution;
+  r.model = h.model;
+  for (const QuantileEstimate& q : h.quantiles)
+    r.quantiles.push_back({q.level, q.value, q.bounds_90.low, q.bounds_90.high});
+  return r;
+}
+
+void write_page(const MultilevelJob& job, const MultilevelMade& made, const LayerStack& coarse) {
+  MultilevelPage page;
+  page.title = made.title.empty() ? made.folder.filename().string() : made.title;
+  page.when = utc_now();
+  page.program = build_text(this_build());
+  page.sentences = page_sentences(made);
+  page.warnings = made.warnings;
+  for (const MultilevelHeadline& h : made.headlines) page.results.push_back(page_result(h));
+  for (const LevelShare& l : made.levels)
+    page.levels.push_back({l.name, l.used, static_cast<double>(l.members), l.member_cpu_s,
+                           l.seconds / made.seconds, l.variance_shares});
+  page.maps = &coarse;
+  const auto ground = ground_of_map(job.scene.scenario, job.scene.inputs, coarse.grid);
+  page.elevation = ground.get();
+  write_text_atomic(OutputFolder{made.folder}.report(), make_multilevel_page(page));
+}
+
+}  // namespace
+
+std::string multilevel_json_text(const MultilevelMade& made) {
+  Json json{{"title", made.title},
+            {"estimator", made.used.size() > 1 ? "multilevel" : "plain"},
+            {"levels", Json::array()},
+            {"headlines", Json::array()},
+            {"maps", maps_json(made)},
+            {"map_error", number(made.map_error)},
+            {"map_plain_cpu_s", number(made.map_plain_seconds)},
+            {"cpu_s", number(made.seconds)},
+            {"failed_members", made.failed},
+            {"censored_members", made.censored},
+            {"missed", made.missed},
+            {"warnings", made.warnings}};
+  for (const LevelShare& l : made.levels) json["levels"].push_back(level_json(l));
+  for (const MultilevelHeadline& h : made.headlines) json["headlines"].push_back(headline_json(h));
+  return json.dump(2) + "\n";
+}
+
+void write_multilevel_files(const MultilevelJob& job, const MultilevelMembers& found,
+                            const MultilevelMade& made, CancelFlag cancel) {
+  const OutputFolder folder{made.folder};
+  write_text_atomic(folder.root / "multilevel.json", multilevel_json_text(made));
+  if (made.maps.empty()) {
+    const EnsembleJob& own = found.jobs.front();
+    HazardContext context = hazard_context(own.manifest, job.scene.scenario, own.design);
+    context.cancel = cancel;
+    write_hazard(folder.hazard_nc(), found.stores.front(), job.scene.scenario.hazard, context);
+  } else {
+    write_layers(folder.hazard_nc(), stack_of(job, found, made));
+  }
+  const LayersFileReader maps(folder.hazard_nc());
+  const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
+  write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  // Pictures have their bounds, which coarse layers leave out: the maps as they are, where they
+  // fit.
+  const LayerStack shown =
+      maps.about().grid.n_cells() <= page_cells ? read_layers(folder.hazard_nc()) : coarse;
+  write_page(job, made, shown);
+}
+
+}  // namespace sturz::workflow

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ensemble/workflow/multilevel/multilevel_words.hpp"
+
+#include "ensemble/workflow/readable.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sturz::workflow {
+namespace {
+
+std::string row_of(const std::string& name, const std::vector<std::string>& cells) {
+  std::string text = fmt::format("  {:<20}", name);
+  for (const std::string& cell : cells) text += fmt::format("{:>16}", cell);
+  return text;
+}
+
+std::string number_or(double v, const char* otherwise) {
+  return std::isfinite(v) ? fmt::format("{:.3g}", v) : otherwise;
+}
+
+std::string share_or_dash(double v) {
+  return std::isfinite(v) ? fmt::format("{:.0f} %", 100 * v) : "-";
+}
+
+}  // namespace
+
+std::vector<std::string> pilot_lines(const MultilevelJob& job, const MultilevelLook& look) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("Pilot of {} shared draws (of the variance of {}, each level alone "
+                  "tells):",
+                  job.plan.pilot, job.parts.front().name));
+  std::vector<std::string> names, seconds;
+  for (std::size_t p = 0; p < job.parts.size(); ++p) {
+    names.push_back(job.parts[p].name);
+    seconds.push_back(fmt::format("{:.3g}", look.cost_s[p]));
+  }
+  for (std::string& name : names)
+    if (name.starts_with("depth_averaged")) name.replace(0, 14, "columns");
+  lines.push_back(row_of("", names));
+  lines.push_back(row_of("CPU s a member", seconds));
+  for (std::size_t r = 0; r < look.results.size(); ++r) {
+    std::vector<std::string> cells;
+    for (const double v : look.squared_correlations[r]) cells.push_back(number_or(v, "-"));
+    lines.push_back(row_of(look.results[r], cells));
+  }
+  return lines;
+}
+
+std::string round_text(const MultilevelJob& job, const PlanRound& round) {
+  std::string what;
+  for (std::size_t l = 0; l < round.plan.levels.size(); ++l) {
+    const std::size_t p = round.plan.levels[l];
+    what +=
+        fmt::format("{}{} members of {}", l == 0 ? "" : ", ", round.members[p], job.parts[p].name);
+  }
+  if (round.plan.levels.size() == 1)
+    return fmt::format(
+        "Plain sampling: {}, {} of one core. Cheaper levels know too little of what "
+        "the scene's own members do for what they cost.",
+        what, duration_text(round.plan.seconds));
+  return fmt::format("{}: {} of one core, 1/{:.3g} of plain sampling.", what,
+                     duration_text(round.plan.seconds), round.plan.gain);
+}
+
+std::string gain_text(const MultilevelMade& made) {
+  if (made.used.size() == 1)
+    return "Plain sampling: no cheaper level was worth its members (see the pilot's table).";
+  std::string text = fmt::format("{} of one core in all.", duration_text(made.seconds));
+  const auto add = [&](const std::string& name, double plain) {
+    if (std::isfinite(plain))
+      text += fmt::format(" The same error of {} by plain sampling: {} (1/{:.3g}).", name,
+                          duration_text(plain), plain / made.seconds);
+  };
+  for (const MultilevelHeadline& h : made.headlines)
+    if (std::find(headline_results().begin(), headline_results().end(), h.name) !=
+        headline_results().end())
+      add(h.name, h.plain_seconds);
+  add("the map", made.map_plain_seconds);
+  return text;
+}
+
+std::vector<std::string> page_sentences(const MultilevelMade& made) {
+  std::vector<std::string> lines = made.missed;
+  if (std::isfinite(made.map_error))
+    lines.push_back(
+        fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
+                    "{:.3g} (root mean square of {} cells).",
+                    made.map_error, made.maps.front().maps.front().doubtful));
+  lines.push_back(gain_text(made));
+  if (made.failed > 0)
+    lines.push_back(
+        fmt::format("{} members failed; their draws count where a level and all cheaper ones "
+                    "have them.",
+                    made.failed));
+  if (made.censored > 0)
+    lines.push_back(
+        fmt::format("The end of {} members was not seen: results are of the others, and "
+                    "probabilities are lower bounds.",
+                    made.censored));
+  return lines;
+}
+
+std::vector<std::string> result_lines(const MultilevelMade& made) {
+  std::vector<std::string> lines{"Means, and by how much they may be off:"};
+  lines.push_back(row_of("", {"mean", "sampling (90 %)", "resolution", "model"}));
+  for (const MultilevelHeadline& h : made.headlines)
+    lines.push_back(row_of(
+        h.name, {fmt::format("{:.4g}", h.scalar.mean.mean), "+- " + number_or(h.sampling, "?"),
+                 "+- " + number_or(h.resolution, "?"), "+- " + number_or(h.model, "?")}));
+  std::vector<std::string> names;
+  for (const MultilevelHeadline& h : made.headlines)
+    if (names.size() < 3) names.push_back(h.name);
+  names.emplace_back("map");
+  lines.emplace_back("Share of the variance that each level leaves, and of the seconds:");
+  std::vector<std::string> heads{"members", "seconds"};
+  heads.insert(heads.end(), names.begin(), names.end());
+  lines.push_back(row_of("", heads));
+  for (const LevelShare& l : made.levels) {
+    std::vector<std::string> cells{std::to_string(l.members),
+                                   share_or_dash(l.seconds / made.seconds)};
+    const std::size_t n = l.variance_shares.size(), n_headlines = made.headlines.size();
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, n_headlines); ++i)
+      cells.push_back(share_or_dash(i < n ? l.variance_shares[i] : nan_d));
+    cells.push_back(share_or_dash(n > n_headlines ? l.variance_shares[n_headlines] : nan_d));
+    lines.push_back(row_of(l.name, cells));
+  }
+  for (std::string& sentence : page_sentences(made)) lines.push_back(std::move(sentence));
+  return lines;
+}
+
+}  // namespace sturz::workflow

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What a multilevel ensemble says, in lines.
+#pragma once
+
+#include "ensemble/workflow/multilevel/multilevel_results.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz::workflow {
+
+/// A table of the pilot: seconds and squared correlations of each level.
+std::vector<std::string> pilot_lines(const MultilevelJob&, const MultilevelLook&);
+/// What a round will compute, and why.
+std::string round_text(const MultilevelJob&, const PlanRound&);
+/// Headlines with three numbers each, the map, what each level brought and took.
+std::vector<std::string> result_lines(const MultilevelMade&);
+/// The same without its tables.
+std::vector<std::string> page_sentences(const MultilevelMade&);
+/// Where plain sampling was kept: why. Else what was saved.
+std::string gain_text(const MultilevelMade&);
+
+}  // namespace sturz::workflow

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The page of a multilevel ensemble.
+#pragma once
+
+#include "engine/terrain/raster.hpp"
+#include "scenarios/layers/layer_stack.hpp"
+
+#include <string>
+#include <vector>
+
+namespace sturz {
+
+/// One mean, and by how much it may be off: half widths in its unit, NaN where not known.
+struct MultilevelPageResult {
+  std::string name, units;
+  double mean = nan_d, sampling = nan_d, resolution = nan_d, model = nan_d;
+  struct Quantile {
+    double level = 0, value = nan_d, low = nan_d, high = nan_d;
+  };
+  std::vector<Quantile> quantiles;
+};
+
+struct MultilevelPageLevel {
+  std::string name;
+  bool used = false;
+  double members = 0, member_cpu_s = nan_d, share_of_seconds = nan_d;
+  std::vector<double> shares_of_variance;  ///< [results, map]; empty: not used
+};
+
+struct MultilevelPage {
+  std::string title, when, program;
+  std::vector<std::string> sentences;  ///< what was reached, and at which price
+  std::vector<MultilevelPageResult> results;
+  std::vector<MultilevelPageLevel> levels;
+  const LayerStack* maps = nullptr;           ///< P(reached) with its bounds among them
+  const Raster<double>* elevation = nullptr;  ///< may be null
+  std::vector<std::string> warnings;
+};
+
+/// The whole page as UTF-8 text: no script, no other file, no network.
+std::string make_multilevel_page(const MultilevelPage&);
+
+}  // namespace sturz

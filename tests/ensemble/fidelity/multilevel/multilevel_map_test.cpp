@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Probability maps of a front whose place is known at two levels, and distances to outlines.
+#include "ensemble/fidelity/multilevel/multilevel_map.hpp"
+
+#include "ensemble/fidelity/multilevel/residual_smoothing.hpp"
+#include "ensemble/fidelity/multilevel/signed_distance.hpp"
+#include "tests/ensemble/fidelity/multilevel/normal_draws.hpp"
+#include "tests/support/memory_members.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sturz::test {
+namespace {
+
+constexpr int n_rows = 5, n_cols = 60;
+
+TEST(ASignedDistance, IsThatOfTheNearestCellOfTheOtherKind) {
+  Grid grid = small_grid(13, 17);
+  Raster<std::uint8_t> set(grid, 0);
+  for (std::size_t i = 0; i < set.values.size(); ++i) set.values[i] = unit_random(4, i) < 0.2;
+  const Raster<float> d = signed_distance(set);
+  for (int r = 0; r < 13; ++r)
+    for (int c = 0; c < 17; ++c) {
+      double nearest = 1e9;
+      for (int i = 0; i < 13; ++i)
+        for (int j = 0; j < 17; ++j)
+          if (set.at(i, j) != set.at(r, c)) nearest = std::min(nearest, std::hypot(i - r, j - c));
+      const double expected = grid.cell_m * (nearest - 0.5) * (set.at(r, c) != 0 ? 1 : -1);
+      EXPECT_NEAR(d.at(r, c), expected, 1e-3) << r << ", " << c;
+    }
+  EXPECT_FLOAT_EQ(signed_distance(Raster<std::uint8_t>(grid, 0)).at(3, 3),
+                  static_cast<float>(-grid.cell_m * 30));
+}
+
+/// A front across the strip; the flow is as thick as it is far behind it, over 100.
+MemberResult member(std::int64_t number, double front_m) {
+  MemberResult m;
+  m.member = number;
+  m.outcome = Outcome::settled;
+  m.grid = small_grid(n_rows, n_cols);
+  m.window = whole_of(m.grid);
+  for (int layer = 0; layer < n_peak_layers; ++layer)
+    m.layers[layer].assign(m.window.n_cells(), info(static_cast<PeakLayer>(layer)).untouched);
+  for (int row = 0; row < n_rows; ++row)
+    for (int col = 0; col < n_cols; ++col) {
+      const double behind = front_m - m.grid.cell_m * (col + 0.5);
+      if (behind > 0)
+        m.layer(PeakLayer::thickness)[m.grid.index(row, col)] = static_cast<float>(behind / 100);
+    }
+  return m;
+}
+
+/// Fronts at 250 + 60 z + 8 e at the dear level, 350 + 80 z + 8 e at the cheap one, which is wrong
+/// by far more than a cell.
+struct Strip {
+  MemoryMembers dear{small_grid(n_rows, n_cols)}, cheap{small_grid(n_rows, n_cols)};
+  MapLevels levels;
+
+  Strip(std::size_t n_dear, std::size_t n_cheap, std::uint64_t stream) {
+    for (std::size_t k = 0; k < n_cheap; ++k) {
+      const double z = normal(stream, k);
+      const auto number = static_cast<std::int64_t>(k);
+      if (k < n_dear) dear.add(member(number, 250 + 60 * z + 8 * normal(stream + 1, k)));
+      cheap.add(member(number, 350 + 80 * z + 8 * normal(stream + 2, k)));
+      levels.draws.push_back({number, k < n_dear ? 0U : 1U, {}});
+    }
+    levels.levels = {&dear, &cheap};
+    levels.spacings_m = {6, 12};
+  }
+  static double truth(int col, double thickness = 0) {
+    return normal_share((250 - 100 * thickness - (10 * col + 5)) / std::hypot(60, 8));
+  }
+};
+
+TEST(AMultilevelMap, HasTheDearestLevelsProbabilities) {
+  constexpr int repeats = 60;
+  constexpr std::size_t n_dear = 16;
+  double bias = 0, squares = 0, plain = 0, predicted = 0, covered = 0, cells = 0, forecast = 0;
+  for (int r = 0; r < repeats; ++r) {
+    const Strip strip(n_dear, 400, 1000 + 10 * static_cast<std::uint64_t>(r));
+    const MultilevelMap map = multilevel_map(strip.levels, {PeakLayer::thickness, 0}, CancelFlag());
+    predicted += map.rms_error * map.rms_error / repeats;
+    forecast += map.variances[0] / map.plain_variance / repeats;
+    for (int col = 0; col < n_cols; ++col) {
+      const double truth = Strip::truth(col);
+      if (truth < 0.05 || truth > 0.95) continue;
+      const std::size_t i = map.probability.grid.index(2, col - map.extent.col0);
+      const double error = map.probability.values[i] - truth;
+      bias += error;
+      squares += error * error;
+      plain += truth * (1 - truth) / n_dear;
+      covered += map.low.values[i] <= truth && truth <= map.high.values[i] ? 1 : 0;
+      cells += 1;
+    }
+  }
+  EXPECT_NEAR(bias / cells, 0, 0.01);
+  EXPECT_LT(squares, plain / 5);
+  EXPECT_NEAR(std::sqrt(predicted / (squares / cells)), 1, 0.35);
+  EXPECT_GE(covered / cells, 0.85);
+  EXPECT_LT(forecast, 0.25);
+}
+
+TEST(AMultilevelMap, IsTheShareOfMembersFarFromAnyFront) {
+  const Strip strip(12, 100, 5);
+  const MultilevelMap map = multilevel_map(strip.levels, {PeakLayer::thickness, 0});
+  EXPECT_EQ(map.probability.at(2, 0), 1);
+  EXPECT_NEAR(map.probability.at(2, map.extent.n_cols - 1), 0, 1e-3);
+  for (std::size_t i = 0; i < map.probability.values.size(); ++i) {
+    EXPECT_GE(map.low.values[i], 0);
+    EXPECT_LE(map.high.values[i], 1);
+    EXPECT_LE(map.low.values[i], map.probability.values[i]);
+    EXPECT_GE(map.high.values[i], map.probability.values[i]);
+  }
+}
+
+TEST(MultilevelMaps, FallWithTheThreshold) {
+  const Strip strip(12, 100, 9);
+  std::vector<MultilevelMap> maps;
+  for (const float above : {0.0F, 0.02F, 0.04F, 1.0F})
+    maps.push_back(multilevel_map(strip.levels, {PeakLayer::thickness, above}));
+  const std::vector<MultilevelMap> before = maps;
+  make_monotone(maps);
+  for (std::size_t i = 0; i < maps[0].probability.values.size(); ++i) {
+    double sum = 0, sum_before = 0;
+    for (std::size_t t = 0; t < maps.size(); ++t) {
+      sum += maps[t].probability.values[i];
+      sum_before += before[t].probability.values[i];
+      if (t == 0) continue;
+      EXPECT_LE(maps[t].probability.values[i], maps[t - 1].probability.values[i] + 1e-12);
+      EXPECT_LE(maps[t].high.values[i], maps[t - 1].high.values[i] + 1e-12);
+    }
+    EXPECT_NEAR(sum, sum_before, 1e-9);  // the nearest falling row has the same mean
+  }
+}
+
+/// A correction that is the same everywhere, under noise of each cell's own: the widest mean.
+TEST(ACorrection, IsSmoothedWhereThatLowersItsRisk) {
+  const Grid grid = small_grid(20, 20);
+  std::vector<std::size_t> places(grid.n_cells());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = i;
+  const std::vector<std::uint8_t> all(places.size(), 1);
+  std::vector<std::vector<float>> even(16, std::vector<float>(places.size())), steep = even;
+  for (std::size_t k = 0; k < even.size(); ++k)
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      even[k][i] = static_cast<float>(0.1 + normal(k, i));
+      steep[k][i] = static_cast<float>((i % 2 == 0 ? 3 : -3) + normal(k, i));
+    }
+  const SmoothedCorrection wide = smoothed_correction(even, places, grid, all, 3);
+  // Means over 25 and over 49 cells have risks of 0.0025 and 0.0013: no estimate tells them apart.
+  EXPECT_GE(wide.radius, 2);
+  EXPECT_LT(wide.variance_ratio, 0.1);
+  EXPECT_NEAR(wide.mean[210], 0.1, 0.15);
+  EXPECT_EQ(smoothed_correction(steep, places, grid, all, 3).radius, 0);
+}
+
+}  // namespace
+}  // namespace sturz::test

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of a multilevel ensemble: three numbers under each mean, maps with bounds, levels.
+#include "reports/fidelity/multilevel_page.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace sturz {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+LayerStack maps() {
+  LayerStack stack;
+  stack.grid = {6, 4, 0, 40, 10, ""};
+  for (const Statistic s :
+       {Statistic::probability, Statistic::lower_bound, Statistic::upper_bound}) {
+    Layer layer;
+    layer.name = "probability_of_reach";
+    if (s != Statistic::probability)
+      layer.name += s == Statistic::lower_bound ? "_lower" : "_upper";
+    layer.meaning = {Quantity::reached, s};
+    layer.long_name = "probability that the flow reaches the cell";
+    layer.units = "1";
+    layer.values.assign(stack.grid.n_cells(), 0.4F);
+    stack.layers.push_back(layer);
+  }
+  return stack;
+}
+
+TEST(MultilevelPage, ShowsThreeNumbersUnderEachMean) {
+  const LayerStack stack = maps();
+  MultilevelPage page;
+  page.title = "Slope <A>";
+  page.sentences = {"3 minutes of one core in all."};
+  page.results = {{"runout_m", "m", 812, 9.4, 31, nan_d, {{0.5, 800, 790, 815}}}};
+  page.levels = {{"full_stress_6m", true, 24, 4.5, 0.8, {0.7, 0.6}},
+                 {"depth_averaged_18m", false, 16, 0.01, 0.001, {}}};
+  page.maps = &stack;
+  page.warnings = {"thin & flow"};
+  const std::string html = make_multilevel_page(page);
+  for (const char* words :
+       {"Slope &lt;A&gt;", "3 minutes of one core", "run-out", "812\u00A0m", "\u00B1 9.4\u00A0m",
+        "\u00B1 31\u00A0m", "unknown", "790\u00A0m", "full stress 6m", "tried, not used",
+        "70\u00A0%", "thin &amp; flow", "script-src 'none'"})
+    EXPECT_THAT(html, HasSubstr(words));
+  // Probability, lower and upper bound.
+  std::size_t figures = 0;
+  for (auto at = html.find("<figure>"); at != std::string::npos; at = html.find("<figure>", at + 1))
+    ++figures;
+  EXPECT_EQ(figures, 3U);
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr(" style=")));
+}
+
+TEST(MultilevelPage, LeavesOutWhatIsNotThere) {
+  MultilevelPage page;
+  page.title = "A";
+  const std::string html = make_multilevel_page(page);
+  EXPECT_THAT(html, Not(HasSubstr("id=\"maps\"")));
+  EXPECT_THAT(html, Not(HasSubstr("Quantiles")));
+}
+
+}  // namespace
+}  // namespace sturz

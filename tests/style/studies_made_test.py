@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""scripts/studies_made.py on a root of one study: what it must find, and what it must leave alone."""
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import studies_made  # noqa: E402
+
+LIST = """
+import typing
+class Study(typing.NamedTuple):
+    page: str
+    commands: tuple
+    sources: tuple
+    minutes: float = 0
+    by_hand: str = ""
+MADE = {"slide": Study("slide.md", (["python3", "docs/studies/slide.py"],), ("engine/laws", "engine/effects/*"), 2)}
+def pages_of(study):
+    return (study.page,)
+"""
+
+
+class StudiesMade(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+        self.write("scripts/studies_list.py", LIST)
+        self.write("engine/laws/friction.hpp", "// why\nint f();\n")
+        self.write("engine/effects/step.cpp", "int g;\n")
+        self.write("engine/effects/other/far.cpp", "int h;\n")
+        self.write("docs/studies/slide.py", "import helper\n")
+        self.write("docs/studies/helper.py", "x = 1\n")
+        self.write("docs/studies/slide.md", "words\n")
+        self.write("docs/studies/README.md", f"words\n{studies_made.BEGIN}\n{studies_made.END}\n")
+        self.remake()
+        self.assertEqual(studies_made.problems(self.root), [])
+        self.assertEqual(studies_made.stale(self.root), [])
+
+    def write(self, path, text):
+        (self.root / path).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / path).write_text(text)
+
+    def remake(self):
+        made, _ = studies_made.declared(self.root)
+        studies_made.keep(self.root, "slide", {"command": "python3 slide.py", "date": "2026-01-02", "machine": "x", "commit": "abc",
+                                               "sources": studies_made.hash_now(self.root, made["slide"])})
+        studies_made.write_table(self.root)
+
+    def found(self, word):
+        problems = studies_made.problems(self.root)
+        self.assertTrue(any(word in line for line in problems), problems)
+
+    def test_code_that_changed_makes_a_study_older_and_the_table_must_say_so(self):
+        for path, text in (("engine/laws/friction.hpp", "int f(int);\n"), ("engine/effects/step.cpp", "int g = 1;\n"),
+                           ("docs/studies/helper.py", "x = 2\n"), ("engine/laws/new.cpp", "int n;\n")):
+            self.write(path, text)
+            self.assertEqual(studies_made.stale(self.root), ["slide"], path)
+            self.found("older than the code")
+            studies_made.write_table(self.root)
+            self.assertEqual(studies_made.problems(self.root), [], "an older study is told, and fails nothing")
+            self.write(path, text + "int more;\n" if path.endswith("pp") else text + "y = 1\n")
+            self.assertEqual(studies_made.problems(self.root), [], "nor does the next change")
+            self.remake()
+
+    def test_comments_blanks_and_code_that_is_not_measured_change_nothing(self):
+        self.write("engine/laws/friction.hpp", "// another reason\n\n  int f();\n")
+        self.write("engine/effects/other/far.cpp", "int h = 2;\n")
+        self.assertEqual(studies_made.stale(self.root), [])
+
+    def test_what_nobody_declares_is_found(self):
+        self.write("docs/studies/lost.md", "words\n")
+        self.found("docs/studies/lost.md")
+        (self.root / "docs/studies/lost.md").unlink()
+        self.write("docs/studies/lost.py", "x = 1\n")
+        self.found("docs/studies/lost.py")
+
+    def test_what_is_declared_and_missing_is_found(self):
+        for path, word in (("docs/studies/slide.md", "its page"), ("docs/studies/slide.py", "its script"), ("engine/laws/friction.hpp", "its source")):
+            text = (self.root / path).read_text()
+            (self.root / path).unlink()
+            self.found(word)
+            self.write(path, text)
+
+    def test_records_are_whole_and_belong_to_a_study(self):
+        whole = studies_made.records(self.root)
+        for field in studies_made.FIELDS:
+            lacking = {"slide": {key: value for key, value in whole["slide"].items() if key != field}}
+            self.write("docs/studies/made.json", json.dumps(lacking))
+            self.found(f"lacks {field}")
+        self.write("docs/studies/made.json", json.dumps(whole | {"gone": whole["slide"]}))
+        self.found("gone is no study")
+
+    def test_a_study_needs_a_command_or_a_reason(self):
+        self.write("scripts/studies_list.py", LIST.replace('(["python3", "docs/studies/slide.py"],)', "()"))
+        self.found("does not say why")
+
+    def test_a_table_that_was_edited_is_found(self):
+        page = self.root / "docs/studies/README.md"
+        page.write_text(page.read_text().replace("2026-01-02", "2026-12-31"))
+        self.found("2026-12-31")
+
+
+if __name__ == "__main__":
+    unittest.main()
