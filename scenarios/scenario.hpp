@@ -9,6 +9,7 @@
 #include "scenarios/grains/discrete_spec.hpp"
 #include "scenarios/map_box.hpp"
 #include "scenarios/observation/observation_spec.hpp"
+#include "scenarios/overlays/report_spec.hpp"
 #include "scenarios/uncertain.hpp"
 
 #include <array>
@@ -354,12 +355,6 @@ struct HazardSpec {
   bool operator==(const HazardSpec&) const = default;
 };
 
-/// What the page is to be like; no member depends on it.
-struct ReportSpec {
-  std::string language = "en";  ///< of the page's own words
-  bool operator==(const ReportSpec&) const = default;
-};
-
 struct Scenario {
   std::string title;
   std::string material;  ///< name of ready-made priors, see scenarios/materials; empty: none
@@ -377,10 +372,10 @@ struct Scenario {
   DomainSpec domain;
   EnsembleSpec ensemble;
   HazardSpec hazard;
-  ReportSpec report;
   std::optional<GaugesSpec> gauges;
   std::optional<ObservationSpec> observation;  ///< absent: members are not scored
   std::optional<AssetsSpec> assets;            ///< absent: no table of assets is made
+  ReportSpec report;
   std::string directory;  ///< where relative paths of the file start; not a key
   bool operator==(const Scenario&) const = default;
 };

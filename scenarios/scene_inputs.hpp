@@ -10,6 +10,7 @@
 #include "scenarios/inflow/hydrograph.hpp"
 #include "scenarios/input_identity.hpp"
 #include "scenarios/observation/observed_event.hpp"
+#include "scenarios/overlays/overlay.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -82,8 +83,9 @@ struct SceneInputs {
   std::shared_ptr<const ObservedEvent> event;
   /// What may be hit, on cells of `hazard_grid`; null: the scene has no `assets`.
   std::shared_ptr<const Assets> assets;
-  Grid hazard_grid;           ///< the maps' common grid
-  double source_area_m2 = 0;  ///< exact area of the polygons (or of cells > 0)
+  std::vector<Overlay> overlays;  ///< what the page draws over its maps
+  Grid hazard_grid;               ///< the maps' common grid
+  double source_area_m2 = 0;      ///< exact area of the polygons (or of cells > 0)
   double source_volume_m3 =
       0;  ///< exact volume of the source before resampling; 0: follows from thickness_m
   /// Volume of the source with its thickness normal to the slope, over that with the same numbers

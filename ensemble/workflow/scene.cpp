@@ -5,6 +5,7 @@
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/readable.hpp"
+#include "ensemble/workflow/results/report_page.hpp"
 #include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
 #include "io/site/scene_inputs.hpp"
@@ -52,6 +53,7 @@ void load_files(Scene& scene, const std::map<std::string, Position>& at) {
   // A single run keeps the table's name and has nothing left that it could say.
   if (scene.scenario.ensemble.design == Design::table && !uncertain_keys(scene.scenario).empty())
     collect([&] { new_design(scene.scenario); });
+  collect([&] { require_language(scene.scenario.report.language, "report.language"); });
   collect([&] { scene.inputs = load_scene_inputs(scene.scenario); });
   require(wrong.empty(), at_their_places(wrong, at));
 }

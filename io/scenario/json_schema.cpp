@@ -192,6 +192,8 @@ Json value_of(const KeyInfo& key) {
       return {{"type", "array"}, {"items", {{"enum", key.choices}}}, {"uniqueItems", true}};
     case ValueKind::number_map:
       return {{"type", "object"}, {"additionalProperties", plain}};
+    case ValueKind::path_map:
+      return {{"type", "object"}, {"additionalProperties", words()}};
     case ValueKind::synthetic:
       return synthetic();
     case ValueKind::wall_list:

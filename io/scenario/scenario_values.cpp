@@ -79,6 +79,20 @@ KeyValue read_number_map(const KeyInfo& key, const YamlNode& node, FileProblems&
   return good ? KeyValue{numbers} : KeyValue{};
 }
 
+KeyValue read_path_map(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
+  if (node.kind != Kind::map) {
+    add_mismatch(key.path, node, "{name: file, ...}", "", problems);
+    return {};
+  }
+  std::map<std::string, std::string> files;
+  for (const auto& entry : node.entries)
+    if (entry.value.kind == Kind::scalar)
+      files[entry.key] = entry.value.text;
+    else
+      add_mismatch(key.path + ": " + entry.key, entry.value, "a file name", "", problems);
+  return files.size() == node.entries.size() ? KeyValue{files} : KeyValue{};
+}
+
 KeyValue read_synthetic(const KeyInfo& key, const YamlNode& node, FileProblems& problems) {
   if (node.kind != Kind::map || node.entries.size() != 1 ||
       node.entries.front().value.kind != Kind::map) {
@@ -291,6 +305,8 @@ KeyValue read_value(const KeyInfo& key, const YamlNode& node, FileProblems& prob
       return read_texts(key, node, problems);
     case ValueKind::number_map:
       return read_number_map(key, node, problems);
+    case ValueKind::path_map:
+      return read_path_map(key, node, problems);
     case ValueKind::synthetic:
       return read_synthetic(key, node, problems);
     case ValueKind::wall_list:

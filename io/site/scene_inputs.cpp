@@ -299,6 +299,7 @@ void check_without_terrain(Loading& loading) {
   load_observed(loading);
   load_event(loading);
   load_assets(loading, {});
+  load_overlays(loading);
 }
 
 }  // namespace
@@ -335,6 +336,7 @@ SceneInputs load_scene_inputs(const Scenario& scenario) {
   load_observed(loading);
   load_event(loading);
   load_assets(loading, [&](const Window& w) { return ground_of(loading, w); });
+  load_overlays(loading);
   loading.refuse_problems();
   expect(inputs.release && inputs.elevation, "a scene without problems has its release and ground");
   std::string doubt = edge_doubt(*inputs.release, loading.grid(), loading.release_label);

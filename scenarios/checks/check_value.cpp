@@ -78,6 +78,11 @@ struct Checker {
       if (!in_range(key, number))
         add(key.path + ": " + name + " = " + number_text(number) + " (" + must_be(key) + ").");
   }
+  void operator()(const std::map<std::string, std::string>& v) const {
+    for (const auto& [name, file] : v)
+      if (name.empty() || file.empty())
+        add(key.path + " (every entry needs a name and a file: {Roads: roads.gpkg}).");
+  }
   void operator()(const SyntheticTerrain& v) const;
   void operator()(const std::vector<WallSpec>& v) const;
   void operator()(const std::vector<DamSpec>& v) const;

@@ -25,6 +25,7 @@ std::vector<KeyInfo> all_keys() {
   schema_rows::add_gauge_keys(keys);
   schema_rows::add_observation_keys(keys);
   schema_rows::add_asset_keys(keys);
+  schema_rows::add_report_keys(keys);
   return keys;
 }
 
@@ -105,6 +106,8 @@ void for_each_path(const KeyInfo& key, KeyValue& value,
                    const std::function<void(std::string&)>& visit) {
   if (auto* text = std::get_if<std::string>(&value); text && key.kind == ValueKind::path)
     visit(*text);
+  if (auto* files = std::get_if<std::map<std::string, std::string>>(&value))
+    for (auto& [name, file] : *files) visit(file);
   if (auto* dams = std::get_if<std::vector<DamSpec>>(&value))
     for (auto& dam : *dams)
       if (!dam.line.empty()) visit(dam.line);

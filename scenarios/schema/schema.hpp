@@ -27,6 +27,7 @@ enum class ValueKind {
   number_list,  ///< [a, b, ...]
   text_list,
   number_map,    ///< {text: number, ...}
+  path_map,      ///< {text: file, ...}, relative to the scenario file
   synthetic,     ///< {shape: {cell_size_m: .., own numbers ..}}
   wall_list,     ///< [{point_m: .., normal: .., ...}, ...]
   dam_list,      ///< [{line: .., height_m: .., ...}, ...]
@@ -41,9 +42,9 @@ enum class ValueKind {
 using KeyValue =
     std::variant<std::monostate, double, std::int64_t, std::string, bool, Uncertain,
                  std::vector<double>, std::vector<std::string>, std::map<std::string, double>,
-                 SyntheticTerrain, std::vector<WallSpec>, std::vector<DamSpec>,
-                 std::vector<BasalZone>, std::vector<InflowSpec>, std::vector<GaugeSpec>,
-                 std::vector<NumberRecord>>;
+                 std::map<std::string, std::string>, SyntheticTerrain, std::vector<WallSpec>,
+                 std::vector<DamSpec>, std::vector<BasalZone>, std::vector<InflowSpec>,
+                 std::vector<GaugeSpec>, std::vector<NumberRecord>>;
 
 /// One name that an entry of a record_list may hold.
 struct RecordField {

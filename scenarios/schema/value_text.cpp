@@ -148,6 +148,12 @@ struct ToText {
     for (const auto& [name, value] : v) map.add(quoted_text(name), value);
     return map.text();
   }
+  std::string operator()(const std::map<std::string, std::string>& v) const {
+    std::string text;
+    for (const auto& [name, file] : v)
+      text += (text.empty() ? "{" : ", ") + quoted_text(name) + ": " + quoted_text(file);
+    return text.empty() ? text : text + "}";
+  }
   std::string operator()(const SyntheticTerrain& v) const { return synthetic_text(v); }
   std::string operator()(const std::vector<WallSpec>& v) const { return list_text(v, wall_text); }
   std::string operator()(const std::vector<DamSpec>& v) const { return list_text(v, dam_text); }

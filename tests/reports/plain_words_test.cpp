@@ -5,7 +5,6 @@
 #include "reports/page/sections/sections.hpp"
 #include "reports/page/text.hpp"
 #include "reports/texts/text_table.hpp"
-#include "scenarios/schema/schema.hpp"
 #include "tests/reports/made_up_results.hpp"
 
 #include <gmock/gmock.h>
@@ -108,12 +107,6 @@ TEST(Texts, SpeakTheLanguageOfTheInnermostScope) {
   EXPECT_EQ(tr("nav.maps"), "Maps");
   EXPECT_THROW(tr("no.such.key"), std::logic_error);
   EXPECT_THROW(LanguageScope("xx"), std::logic_error);
-}
-
-TEST(Texts, TheScenarioKnowsTheLanguagesThatThereAre) {
-  const KeyInfo* key = find_key("report.language");
-  ASSERT_NE(key, nullptr);
-  EXPECT_THAT(key->choices, ::testing::UnorderedElementsAreArray(page_languages()));
 }
 
 TEST(Texts, AGermanPageSaysSo) {

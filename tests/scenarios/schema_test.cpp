@@ -50,6 +50,8 @@ KeyValue unusual_value(const KeyInfo& key) {
       return std::vector<std::string>{key.choices.back()};
     case ValueKind::number_map:
       return std::map<std::string, double>{{"a/b", 0.5}};
+    case ValueKind::path_map:
+      return std::map<std::string, std::string>{{"Roads", "roads.gpkg"}};
     case ValueKind::synthetic:
       return SyntheticTerrain{"ramp", 2, {{"slope_deg", 20}}};
     case ValueKind::wall_list:

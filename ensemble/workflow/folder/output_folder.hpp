@@ -24,6 +24,7 @@ struct OutputFolder {
   std::filesystem::path gauge_series_csv() const { return root / "gauge_series.csv"; }
   std::filesystem::path hazard_nc() const { return root / "hazard.nc"; }
   std::filesystem::path peaks_nc() const { return root / "peaks.nc"; }
+  std::filesystem::path frames_nc() const { return root / "frames.nc"; }
   std::filesystem::path tif_folder() const { return root / "hazard"; }
   std::filesystem::path hazard_gpkg() const { return root / "hazard.gpkg"; }
   std::filesystem::path project() const { return root / "hazard.qgz"; }

@@ -7,6 +7,7 @@
 #include "ensemble/workflow/cost_warnings.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/forecast/forecast.hpp"
+#include "ensemble/workflow/frames/member_frames.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/member_summary.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
@@ -92,6 +93,7 @@ SingleRun prepare_run(const RunRequest& request, Observer& observer) {
 
 MemberResult compute_run(const SingleRun& run, Observer& observer,
                          const std::atomic<bool>& cancel) {
+  const bool animation = run.scene.medians.report.animation;
   RunControl control;
   control.max_wall_s = run.scene.medians.numerics.max_wall_time_s;
   control.on_progress = [&](const Progress& progress) {
@@ -100,14 +102,27 @@ MemberResult compute_run(const SingleRun& run, Observer& observer,
   };
   return run.scene.ground->computed([&](const SceneInputs& inputs) {
     Simulation simulation = assemble(run.scene.medians, inputs, 0, run.threads);
+    FrameTaker taker;  // anew on more ground
+    std::filesystem::remove(run.folder.frames_nc());
     remove_particle_frames(run.folder.particles());  // of an earlier run, or on less ground
     std::optional<ParticleFrameWriter> frames;
     if (run.particles_every_s) {
       frames.emplace(run.folder.particles());
       control.frame_every_s = *run.particles_every_s;
-      control.on_frame = [&frames](const ParticleFrame& frame) { frames->write(frame); };
+    } else {
+      control.frame_every_s = FrameTaker::first_interval_s;
     }
-    return simulation.run(control);
+    if (run.particles_every_s || animation)
+      control.on_frame = [&](const ParticleFrame& frame) {
+        if (frames) frames->write(frame);
+        if (animation && frame.set_index == 0) taker.take(simulation.parts());
+      };
+    MemberResult result = simulation.run(control);
+    if (animation) {
+      taker.take(simulation.parts(), true);
+      if (const auto shown = taker.frames(0, inputs.hazard_grid)) write_frames(run.folder, *shown);
+    }
+    return result;
   });
 }
 
@@ -153,7 +168,10 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   const GaugeFindings gauges = find_gauges(result);
   write_gauge_files(folder, gauges);
   page.gauges = &gauges;
+  const std::optional<FramesShown> frames = read_frames(folder);
+  if (frames) page.frames = &*frames;
   page.observed = scene.inputs.observed;
+  page.overlays = scene.inputs.overlays;
   const NearestMember nearest = nearest_member(store, stored.scores, scene.inputs.event);
   page.scores = stored.scores ? &*stored.scores : nullptr;
   page.nearest = &nearest;

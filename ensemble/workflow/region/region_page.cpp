@@ -6,6 +6,7 @@
 #include "io/files/plain_text.hpp"
 #include "io/files/text_files.hpp"
 #include "io/site/map_ground.hpp"
+#include "io/site/overlays/orthophoto.hpp"
 #include "reports/page/report.hpp"
 
 #include <algorithm>
@@ -125,7 +126,7 @@ void write_region_page(const RegionJob& job, const StoredMembers& members, Sourc
   const Raster<std::uint8_t> release =
       members.release_cells(coarse.grid, extent, coarse.joined, cancel);
   ReportInput input;
-  input.language = job.scenario.report.language;
+  if (!job.scenario.report.language.empty()) input.language = job.scenario.report.language;
   input.title = job.scenario.title.empty() ? as_utf8(job.folder.root.filename().string())
                                            : job.scenario.title;
   input.scenario_yaml = read_text(job.folder.scenario());
@@ -139,6 +140,9 @@ void write_region_page(const RegionJob& job, const StoredMembers& members, Sourc
   input.elapsed_s = job.manifest.compute_s;
   input.release = &release;
   input.observed = job.typical.inputs.observed;
+  input.overlays = job.typical.inputs.overlays;
+  if (!job.scenario.report.orthophoto.empty())
+    input.orthophoto = [&job](const Grid& view) { return orthophoto_jpeg(job.scenario, view); };
   input.observed_note = job.scenario.hazard.observed_note;
   input.cancel = cancel;
   write_text_atomic(job.folder.report(), make_report(input));

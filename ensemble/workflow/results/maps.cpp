@@ -6,6 +6,7 @@
 #include "ensemble/members/members_table.hpp"
 #include "ensemble/workflow/calibration/shown_posterior.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
+#include "ensemble/workflow/frames/member_frames.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
@@ -141,7 +142,15 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const Raster<std::uint8_t> release = release_footprint(store);
   page.release = &release;
   page.gauges = &gauges;
+  std::optional<FramesShown> frames;
+  if (scenario.report.animation)
+    frames = frames_of_middle(scenario, design, inputs, store.members(), cancel);
+  if (frames) {
+    write_frames(folder, *frames);
+    page.frames = &*frames;
+  }
   page.observed = inputs.observed;
+  page.overlays = inputs.overlays;
   const NearestMember nearest = nearest_member(store, made.scores, inputs.event);
   page.scores = made.scores ? &*made.scores : nullptr;
   page.nearest = &nearest;

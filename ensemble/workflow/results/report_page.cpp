@@ -11,6 +11,7 @@
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/folder/input_check.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
+#include "ensemble/workflow/frames/member_frames.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/region/region_folder.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
@@ -20,6 +21,7 @@
 #include "io/members/member_file.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "io/site/map_ground.hpp"
+#include "io/site/overlays/orthophoto.hpp"
 #include "reports/page/report.hpp"
 #include "reports/texts/text_table.hpp"
 #include "scenarios/assembly/ground_words.hpp"
@@ -143,15 +145,15 @@ FinishedFolder open_with_page(const std::filesystem::path& folder, Observer& obs
   return open_finished(folder, observer);
 }
 
-void require_language(const std::string& language) {
+}  // namespace
+
+void require_language(const std::string& language, const std::string& asked) {
   const std::vector<std::string> known = page_languages();
   const bool there = std::find(known.begin(), known.end(), language) != known.end();
   require(language.empty() || there,
-          fmt::format("--language: {} (the page has no texts in that language). Use one of {}.",
+          fmt::format("{}: {} (the page has no texts in that language). Use one of {}.", asked,
                       language, comma_separated(known)));
 }
-
-}  // namespace
 
 NearestMember nearest_member(const MemberParts& source, const std::optional<ScoreTable>& scores,
                              const std::shared_ptr<const ObservedEvent>& event) {
@@ -164,7 +166,10 @@ NearestMember nearest_member(const MemberParts& source, const std::optional<Scor
 void write_page(const OutputFolder& folder, const Manifest& manifest, const Scenario& scenario,
                 const PageContent& content) {
   ReportInput input;
-  input.language = scenario.report.language;
+  if (!scenario.report.language.empty()) input.language = scenario.report.language;
+  input.overlays = content.overlays;
+  if (!scenario.report.orthophoto.empty())
+    input.orthophoto = [&scenario](const Grid& view) { return orthophoto_jpeg(scenario, view); };
   input.title = scenario.title.empty() ? as_utf8(folder.root.filename().string()) : scenario.title;
   input.scenario_yaml =
       read_text(content.scenario_file.empty() ? folder.scenario() : content.scenario_file);
@@ -173,6 +178,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.hazard = content.hazard;
   input.peaks = content.peaks;
   input.gauges = content.gauges;
+  input.frames = content.frames;
   input.effective_members = content.effective_members;
   input.members.assign(content.members.begin(), content.members.end());
   if (content.design && !content.design->keys.empty())
@@ -215,7 +221,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
 
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer& observer,
                                    CancelFlag cancel, const std::string& language) {
-  require_language(language);
+  require_language(language, "--language");
   FinishedFolder finished = open_with_page(folder, observer);
   if (!language.empty()) finished.scenario.report.language = language;
   const auto lock = FolderLock::alone(finished.folder, "report " + folder.string());
@@ -243,6 +249,7 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   MemberResult run;
   PageContent page;
   page.cancel = cancel;
+  if (finished.inputs) page.overlays = finished.inputs->overlays;
   (one_run ? page.peaks : page.hazard) = &stack;
   if (!one_run) {
     page.design = &design;
@@ -278,6 +285,8 @@ std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer
   const GaugeFindings gauges =
       one_run ? find_gauges(run) : find_gauges(store, finished.scenario, cancel);
   page.gauges = &gauges;
+  const std::optional<FramesShown> frames = read_frames(finished.folder);
+  if (frames) page.frames = &*frames;
   write_page(finished.folder, finished.manifest, finished.scenario, page);
   return finished.folder.report();
 }

@@ -40,6 +40,7 @@ NearestMember nearest_member(const MemberParts&, const std::optional<ScoreTable>
 
 /// What there is to show; absent parts are null or empty.
 struct PageContent {
+  std::span<const Overlay> overlays;  ///< drawn over the maps
   std::filesystem::path scenario_file;  ///< empty: that of the page's folder
   const LayerStack* hazard = nullptr;
   const LayerStack* peaks = nullptr;
@@ -57,6 +58,7 @@ struct PageContent {
   const PosteriorShown* posterior = nullptr;      ///< of a calibration; null: none
   const NearestMember* nearest = nullptr;
   const AssetFindings* risk = nullptr;    ///< null: the scene has no assets
+  const FramesShown* frames = nullptr;    ///< null: nothing is played
   const GaugeFindings* gauges = nullptr;  ///< see gauge_files.hpp
   const MemberResult* run = nullptr;      ///< of a single run: its history and where its time went
 };
@@ -65,10 +67,14 @@ struct PageContent {
 void write_page(const OutputFolder&, const Manifest&, const Scenario&, const PageContent&);
 
 /// Writes the page of a results folder again, from its maps and members.
-/// \param language of the page; empty: the scene's own
+/// \param language one of page_languages(); empty: the scenario's
 /// \return the page's file. \throws SetupError when the folder has no maps, or not those of its
 ///   members; Cancelled
 std::filesystem::path rewrite_page(const std::filesystem::path& folder, Observer&,
                                    CancelFlag cancel = {}, const std::string& language = {});
+
+/// \throws SetupError when the page has no table of texts for `language`, naming `asked` (key or
+///   option); empty is English
+void require_language(const std::string& language, const std::string& asked);
 
 }  // namespace sturz::workflow

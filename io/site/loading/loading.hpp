@@ -70,6 +70,7 @@ struct Loading {
 
 /// Only checks their files, while no terrain is known.
 void load_assets(Loading&, const ReadGround& read);
+void load_overlays(Loading&);
 
 // Standing water: its outline; and whether the ground that was read holds it.
 void load_pool(Loading&);   ///< checks its file only, while no terrain is known

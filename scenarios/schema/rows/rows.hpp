@@ -32,7 +32,8 @@ template <class T>
 KeyValue to_value(const std::vector<T>& v) {
   return v.empty() ? KeyValue{} : KeyValue{v};
 }
-inline KeyValue to_value(const std::map<std::string, double>& v) {
+template <class T>
+KeyValue to_value(const std::map<std::string, T>& v) {
   return v.empty() ? KeyValue{} : KeyValue{v};
 }
 template <std::size_t n>
@@ -169,10 +170,11 @@ void add_structure_keys(std::vector<KeyInfo>&);    ///< terrain.dams, .buildings
 void add_bed_field_keys(std::vector<KeyInfo>&);    ///< basal.samosat, basal.rasters: within basal
 void add_erosion_keys(std::vector<KeyInfo>&);      ///< erosion
 void add_inflow_keys(std::vector<KeyInfo>&);       ///< inflow
-void add_run_keys(std::vector<KeyInfo>&);          ///< numerics, domain, ensemble, hazard, report
+void add_run_keys(std::vector<KeyInfo>&);          ///< numerics, domain, ensemble, hazard
 void add_gauge_keys(std::vector<KeyInfo>&);        ///< gauges
 void add_observation_keys(std::vector<KeyInfo>&);  ///< observation
 void add_asset_keys(std::vector<KeyInfo>&);        ///< assets
+void add_report_keys(std::vector<KeyInfo>&);       ///< report
 // Their optional blocks.
 void add_site_blocks(std::vector<BlockInfo>&);
 void add_material_blocks(std::vector<BlockInfo>&);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys that say how it is computed and what is asked: numerics, domain, ensemble, hazard,
-// report.
+// Keys that say how it is computed and what is asked: numerics, domain, ensemble, hazard.
 #include "scenarios/schema/rows/rows.hpp"
 
 namespace sturz::schema_rows {
@@ -11,7 +10,6 @@ constexpr auto domain = blocks::at<&Scenario::domain>;
 constexpr auto ensemble = blocks::at<&Scenario::ensemble>;
 constexpr auto target = blocks::at<&Scenario::ensemble, &EnsembleSpec::target>;
 constexpr auto hazard = blocks::at<&Scenario::hazard>;
-constexpr auto page = blocks::at<&Scenario::report>;
 
 void add_numerics(std::vector<KeyInfo>& keys) {
   using enum ValueKind;
@@ -160,10 +158,6 @@ void add_hazard(std::vector<KeyInfo>& keys) {
   keys.push_back(text_key(hazard, &HazardSpec::observed_note, "hazard.observed_note", text,
                           "What the observed outline is, for the legend: event, source, how it "
                           "was made."));
-  keys.push_back(with_choices(text_key(page, &ReportSpec::language, "report.language", choice,
-                                       "Language of the page; `sturz report --language` writes it "
-                                       "again in another."),
-                              {"en", "de"}));
 }
 
 }  // namespace
