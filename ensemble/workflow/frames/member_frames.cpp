@@ -127,11 +127,8 @@ void write_frames(const OutputFolder& folder, const FramesShown& frames) {
   LayerStack stack{.grid = frames.grid, .layers = {}, .attributes = {}};
   stack.attributes = {{"title", "Flow thickness over time of one member"},
                       {member_attribute, std::to_string(frames.member)}};
-  Layer layer;
-  layer.name = layer_name;
-  layer.meaning = {Quantity::thickness, Statistic::value};
-  layer.long_name = "vertical flow thickness";
-  layer.units = "m";
+  Layer layer = plain_layer(layer_name, {Quantity::thickness, Statistic::value},
+                            "vertical flow thickness", "m", "");
   layer.axis = {"frame_time", "", "s", frames.times_s};
   for (const auto& plane : frames.thickness)
     layer.values.insert(layer.values.end(), plane.begin(), plane.end());
