@@ -18,13 +18,12 @@ LayerStack maps() {
   stack.grid = {6, 4, 0, 40, 10, ""};
   for (const Statistic s :
        {Statistic::probability, Statistic::lower_bound, Statistic::upper_bound}) {
-    Layer layer;
-    layer.name = "probability_of_reach";
-    if (s != Statistic::probability)
-      layer.name += s == Statistic::lower_bound ? "_lower" : "_upper";
-    layer.meaning = {Quantity::reached, s};
-    layer.long_name = "probability that the flow reaches the cell";
-    layer.units = "1";
+    const char* end = s == Statistic::probability   ? ""
+                      : s == Statistic::lower_bound ? "_lower"
+                                                    : "_upper";
+    Layer layer =
+        plain_layer(std::string("probability_of_reach").append(end), {Quantity::reached, s},
+                    "probability that the flow reaches the cell", "1", "");
     layer.values.assign(stack.grid.n_cells(), 0.4F);
     stack.layers.push_back(layer);
   }
