@@ -17,7 +17,7 @@
 
 namespace sturz::workflow {
 
-/// Keeps some tens of instants of a run whose length nobody knows: where there are too many, every
+/// Keeps some tens of instants of a run of unknown length: where there are too many, every
 /// second one goes and the next are taken half as often. The first and the last always stay.
 class FrameTaker {
  public:

@@ -83,6 +83,19 @@ void require_complete(const OutputFolder& folder, const MemberStore& store,
                   folder.root.string(), what));
 }
 
+/// \return the hash of what it wrote
+std::string write_hazard_nc(const MapsRequest& request, const MemberStore& store,
+                            const Raster<double>* ground, ConvergenceCount& convergence,
+                            CancelFlag cancel) {
+  HazardContext context = hazard_context(request.manifest, request.scenario, request.design);
+  context.memory_bytes = records_memory_bytes(request.max_memory_bytes);
+  context.ground = ground;
+  context.whole_ground = request.inputs.terrain_grid();
+  context.convergence = &convergence;
+  context.cancel = cancel;
+  return write_hazard(request.folder.hazard_nc(), store, request.scenario.hazard, context);
+}
+
 }  // namespace
 
 bool MapsMade::too_many_failed() const {
@@ -116,13 +129,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const GaugeFindings gauges = find_gauges(store, scenario, cancel);
   write_gauge_files(folder, gauges);
   ConvergenceCount convergence(static_cast<std::size_t>(made.valid));
-  HazardContext context = hazard_context(manifest, scenario, design);
-  context.memory_bytes = records_memory_bytes(max_memory_bytes);
-  context.ground = ground.get();
-  context.whole_ground = inputs.terrain_grid();
-  context.convergence = &convergence;
-  context.cancel = cancel;
-  const std::string hash = write_hazard(folder.hazard_nc(), store, scenario.hazard, context);
+  const std::string hash = write_hazard_nc(request, store, ground.get(), convergence, cancel);
   const LayersFileReader maps(folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
   write_map_files(folder.tif_folder(), maps, coarse, cancel);
