@@ -43,6 +43,12 @@ double last_arrival(const LayerStack& hazard) {
   return last;
 }
 
+/// With three digits: a sentence is no table.
+double rounded(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  return std::round(value / unit) * unit;
+}
+
 /// " of about 1.2 million m³", or a range where members release differently; empty: not known.
 std::string volume_text(const std::vector<MemberSummary>& members) {
   double least = nan_d, most = nan_d;
@@ -53,8 +59,8 @@ std::string volume_text(const std::vector<MemberSummary>& members) {
     if (!(most >= v)) most = v;
   }
   if (std::isnan(least)) return {};
-  if (most <= 1.02 * least) return tr("plain.volume", with_unit(most, "m3"));
-  return tr("plain.volume_range", shown_number(least), with_unit(most, "m3"));
+  if (most <= 1.02 * least) return tr("plain.volume", with_unit(rounded(most), "m3"));
+  return tr("plain.volume_range", shown_number(rounded(least)), with_unit(rounded(most), "m3"));
 }
 
 /// What the sampled values are, each with the range that was drawn.
