@@ -40,7 +40,7 @@ NearestMember nearest_member(const MemberParts&, const std::optional<ScoreTable>
 
 /// What there is to show; absent parts are null or empty.
 struct PageContent {
-  std::span<const Overlay> overlays;  ///< drawn over the maps
+  std::span<const Overlay> overlays;    ///< drawn over the maps
   std::filesystem::path scenario_file;  ///< empty: that of the page's folder
   const LayerStack* hazard = nullptr;
   const LayerStack* peaks = nullptr;
