@@ -48,6 +48,17 @@ def folders_as_pages(app, docname, source):
     source[0] = source[0].replace("](docs/decisions)", "](docs/site/decisions.md)")
 
 
+def keys_of_the_guide(app, docname, source):
+    """The guide's section on keys as a page of its own, its links as they hold one folder deeper."""
+    if docname != "docs/site/keys":
+        return
+    guide = (ROOT / "docs/user_guide.md").read_text()
+    section = guide.partition("## All keys")[2].partition("### Dams and buildings")[0]
+    section = re.sub(r"\]\(#", "](../user_guide.md#", section)
+    section = re.sub(r"\]\((?!http|\.\./user_guide)", "](../", section)
+    source[0] = source[0].replace("KEYS OF THE USER GUIDE", section)
+
+
 def need_no_list(app, docname, source):
     """A README somewhere in the code need not be in a list of pages; what lies in docs/ has to."""
     if not docname.startswith("docs/") and not source[0].startswith("---"):
@@ -57,4 +68,5 @@ def need_no_list(app, docname, source):
 def setup(app):
     app.connect("source-read", without_absent_pages)
     app.connect("source-read", folders_as_pages)
+    app.connect("source-read", keys_of_the_guide)
     app.connect("source-read", need_no_list)

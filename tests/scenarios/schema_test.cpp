@@ -127,7 +127,8 @@ TEST(Schema, UnitsStandInTheNames) {
       {"degree", "_deg"},   {"Pa", "_pa"},        {"kPa", "_kpa"},
       {"m s-1", "_m_s"},    {"kJ m-2", "_kj_m2"}, {"kg m-3", "_kg_m3"},
       {"m s-2", "_m_s2"},   {"Pa s", "_pa_s"},    {"m2", "_m2"},
-      {"Pa s^n", "_pa_sn"}, {"m-1", "_per_m"},    {"m kPa-1", "_m_per_kpa"}};
+      {"Pa s^n", "_pa_sn"}, {"m-1", "_per_m"},    {"m kPa-1", "_m_per_kpa"},
+      {"h", "_hours"}};
   for (const auto& key : schema()) {
     if (key.units.empty() || key.units == "1") continue;
     ASSERT_TRUE(tails.count(key.units)) << key.path << " [" << key.units << "]";
@@ -157,10 +158,11 @@ TEST(Schema, BlocksAreKnownByTheirKeys) {
   EXPECT_FALSE(is_block("grain"));
   EXPECT_THAT(names_in_block("grains.friction"),
               ElementsAre("static", "dynamic", "inertial_number_scale"));
-  EXPECT_THAT(names_in_block(""),
-              ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture",
-                          "fluid", "coupling", "basal", "formulation", "erosion", "numerics",
-                          "domain", "ensemble", "hazard", "gauges", "observation", "assets"));
+  EXPECT_THAT(
+      names_in_block(""),
+      ElementsAre("title", "terrain", "release", "inflow", "material", "grains", "mixture", "fluid",
+                  "coupling", "basal", "formulation", "erosion", "numerics", "domain", "ensemble",
+                  "hazard", "gauges", "observation", "assets", "report"));
   for (const auto& block : optional_blocks()) {
     Scenario s;
     EXPECT_FALSE(block.present(s)) << block.path;

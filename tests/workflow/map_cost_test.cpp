@@ -15,11 +15,11 @@ TEST_F(MapCosts, GrowWithWhatIsTouchedAndNotWithAnythingElse) {
   EXPECT_NEAR(predict_map_cost(work, speed).seconds, 0.2 + 0.1 + 0.34 + 0.034, 1e-12);
   workflow::MapWork many = work;
   many.members = 4000;  // 4e7 touches do not fit: more passes, each of which opens every file
-  EXPECT_GT(predict_map_cost(many, speed).seconds, 4000 * 1e-3 * 10 + 4);
+  EXPECT_GT(predict_map_cost(many, speed).seconds, 4000 * 1e-3 * 3 + 4);
   many.members = 100000;  // in packs: opened once, and 1e9 touches
   const workflow::MapCost cost = predict_map_cost(many, speed);
   EXPECT_NEAR(cost.seconds, 2e5 * 1e-4 + 100 + 0.34 + 0.034, 1e-9);
-  EXPECT_LT(cost.memory_bytes, 500e6);
+  EXPECT_LT(cost.memory_bytes, 1.5e9) << "records take up to 1 GiB (decision 0052)";
 }
 
 TEST_F(MapCosts, KnowHowManyMapsASceneAsksFor) {

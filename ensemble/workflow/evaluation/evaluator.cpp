@@ -84,6 +84,7 @@ bool Evaluator::take_turn(const std::atomic<bool>& cancel) {
   std::unique_lock held(lock_);
   while (!free_.wait_for(held, 50ms, [this] { return running_ < workers_; }))
     if (cancel.load()) return false;
+  if (cancel.load()) return false;
   ++running_;
   return true;
 }

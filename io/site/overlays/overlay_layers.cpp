@@ -76,10 +76,12 @@ GeometryPtr shown_part(const OGRGeometry& own, const OGRPolygon& edge, double to
 }
 
 std::string name_of(OGRFeature& feature) {
-  const int field = feature.GetFieldIndex("name");  // in any case of letters
-  return field < 0 || !feature.IsFieldSetAndNotNull(field)
-             ? std::string()
-             : as_utf8(feature.GetFieldAsString(field));
+  // In any case of letters; a layer may have several.
+  for (int field = 0; field < feature.GetFieldCount(); ++field)
+    if (EQUAL(feature.GetFieldDefnRef(field)->GetNameRef(), "name") &&
+        feature.IsFieldSetAndNotNull(field))
+      return as_utf8(feature.GetFieldAsString(field));
+  return {};
 }
 
 Overlay read_one(const PolygonRequest& request, const std::string& name, const Grid& terrain,

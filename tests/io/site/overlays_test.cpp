@@ -66,8 +66,8 @@ TEST_F(Overlays, BeyondTheTerrainAreNamedAndNotShown) {
 TEST_F(Overlays, ThatAreTooLargeOrMissingAreRefusedWithTheirName) {
   std::string line = "[";
   for (std::size_t i = 0; i <= most_overlay_corners; ++i)
-    line += fmt::format("{}[{},{}]", i == 0 ? "" : ",", 500010 + static_cast<double>(i % 400),
-                        4600010 + 5 * static_cast<double>(i % 7));
+    line += fmt::format("{}[{},{}]", i == 0 ? "" : ",", 500010 + 0.006 * static_cast<double>(i),
+                        i % 2 == 0 ? 4600050 : 4600350);
   write("dense.geojson", collection(feature("LineString", line + "]")));
   scene.report.overlays = {{"Dense", "dense.geojson"}};
   EXPECT_THAT(refusal(), AllOf(HasSubstr("report.overlays: Dense"), HasSubstr("corners")));
