@@ -18,6 +18,9 @@ namespace {
 
 using GeometryPtr = std::unique_ptr<OGRGeometry>;
 
+/// Of one geometry; larger ones are shown, or refused, as they are.
+constexpr std::size_t most_corners_to_thin = 10'000;
+
 PolygonRequest request_of(const Scenario& scenario, const std::string& name,
                           const std::string& file, bool without_terrain) {
   PolygonRequest request;
@@ -71,6 +74,8 @@ GeometryPtr shown_part(const OGRGeometry& own, const OGRPolygon& edge, double to
   if (!flat || !flat->Intersects(&edge)) return nullptr;
   GeometryPtr inside(flat->Intersection(&edge));
   if (!inside || inside->IsEmpty()) return nullptr;
+  // Thinning takes stack and the square of the time with the corners of one geometry.
+  if (inside->WkbSize() / sizeof(Vec2) > most_corners_to_thin) return inside;
   GeometryPtr thin(inside->SimplifyPreserveTopology(tolerance_m));
   return thin && !thin->IsEmpty() ? std::move(thin) : std::move(inside);
 }
