@@ -2,9 +2,8 @@
 // A region: one ensemble for each feature, maps of all, and which source hits a place.
 #include "tests/app/app_fixture.hpp"
 
-#include <signal.h>
-
 #include <chrono>
+#include <csignal>
 #include <sstream>
 #include <thread>
 #include <utility>

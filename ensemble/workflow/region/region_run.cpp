@@ -35,8 +35,8 @@ struct OpenSource {
 /// A source of this call's share, from its first member to its last.
 class Source {
  public:
-  Source(const RegionJob& region, const std::string& name)
-      : region_(region), name_(name), left_(region.members_per_source()) {}
+  Source(const RegionJob& region, std::string name)
+      : region_(region), name_(std::move(name)), left_(region.members_per_source()) {}
 
   const std::string& name() const { return name_; }
 
