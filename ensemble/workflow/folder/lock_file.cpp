@@ -139,7 +139,8 @@ std::optional<LockHolder> holder_in(const fs::path& file) {
     } catch (const IoError&) {
       struct stat about {};
       if (::lstat(file.c_str(), &about) != 0 && errno == ENOENT) return std::nullopt;
-      throw;
+      // Another process may have made it only since the reading failed.
+      if (i + 1 == tries) throw;
     }
     ::usleep(20000);
   }
