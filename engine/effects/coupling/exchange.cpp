@@ -117,6 +117,10 @@ class ExchangePass final : public Pass {
       for (std::size_t r = begin; r < end; ++r) {
         const std::uint32_t i = c.of_grains().index(r);
         const Vec3 gained = c.lift[r] + c.drag[r];
+        if (!c.walled.empty()) {
+          const Vec3 kicked = kick * Vec3(p.ax[i], p.ay[i], p.az[i] - s.gravity);
+          c.walled[r] = velocity(p, i) - at(before, i) - kicked;
+        }
         exchange[0][i] = gained.x();
         exchange[1][i] = gained.y();
         exchange[2][i] = gained.z();
@@ -188,6 +192,10 @@ class ExchangeAccounts final : public Pass {
         work(s, liquid, c.of_liquid(), c.held, [&](std::uint32_t j, std::size_t r) -> Vec3 {
           return 0.5 * (velocity(liquid, j) - c.liquid_now[r].vector(0) / c.take[r]);
         });
+    if (!c.walled.empty())
+      grains.ledger.contact_work +=
+          work(s, grains, c.of_grains(), c.walled,
+               [&](std::uint32_t, std::size_t r) -> Vec3 { return 0.5 * (c.lift[r] + c.drag[r]); });
   }
 
  private:

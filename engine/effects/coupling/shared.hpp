@@ -60,6 +60,7 @@ struct Coupling {
   std::vector<Vec3> lift, drag;  ///< changes of a grain's velocity in this step [grains' rows]
   std::vector<Vec3> drawn;       ///< of a liquid particle's, by drag [liquid's rows]
   std::vector<Vec3> held;        ///< the same by ground and walls, before the drag
+  std::vector<Vec3> walled;      ///< a grain's by walls, before the drag; empty without walls
   // What sums over neighbours read, by source.
   std::vector<double> volume;          ///< V_i
   std::vector<Quads<2>> liquid_start;  ///< q, q v at n-1/2, pore volume, q v at n+1/2

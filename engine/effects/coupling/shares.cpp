@@ -116,7 +116,7 @@ class SharesPass final : public Pass {
     Coupling& c = *shared_;
     anew_ = weighings_ != c.pairs.n_weighings();
     weighings_ = c.pairs.n_weighings();
-    make_room();
+    make_room(s);
     if (anew_) {
       measure_grains(s);
       divide_liquid(s);
@@ -133,11 +133,12 @@ class SharesPass final : public Pass {
   }
 
  private:
-  void make_room() {
+  void make_room(const State& s) {
     Coupling& c = *shared_;
     c.met.resize(c.of_grains().n_rows());
     for (auto* v : {&c.lift, &c.drag}) v->resize(c.of_grains().n_rows());
     for (auto* v : {&c.drawn, &c.held}) v->resize(c.of_liquid().n_rows());
+    if (!s.domain.walls.empty()) c.walled.resize(c.of_grains().n_rows());
     c.share.resize(c.of_liquid().n_rows());
     c.filled.resize(c.of_liquid().n_rows());
     fit(c.volume, c.of_grains().n_sources());
