@@ -47,7 +47,7 @@ void build(Grammar& grammar) {
       "--version", fmt::format("sturz {} ({}, {}, {})", version, git_commit, compiler, build_type));
   program.require_subcommand(1);
   program.failure_message([](const CLI::App*, const CLI::Error& problem) {
-    return fmt::format("error: {}\nRun with --help for more information.\n", problem.what());
+    return fmt::format("error: {}\n`sturz help COMMAND` says what it takes.\n", problem.what());
   });
   program.get_formatter()->column_width(text_column);
   program.footer(
@@ -143,7 +143,7 @@ std::optional<int> help_command(const Grammar& grammar, int argc, char** argv) {
   const std::string hint =
       argc > 2 && one == nullptr ? hint_on_words(grammar.program, {argv[2]}) : "";
   if (!hint.empty()) {
-    std::cerr << "error: " << hint << "\n";
+    std::cerr << folded("error: " + hint, columns_of(STDERR_FILENO)) << "\n";
     return usage_or_scenario_error;
   }
   print_help(grammar, one);
@@ -176,11 +176,12 @@ int command_line(int argc, char** argv) {
     }
     // One was given: that "a subcommand is required" says less than the hint.
     if (!hint.empty() && command_named(grammar.program, argv[1]) == nullptr) {
-      std::cerr << hint << "\nRun with --help for more information.\n";
+      std::cerr << folded("error: " + hint, columns_of(STDERR_FILENO))
+                << "\n`sturz help` says more.\n";
       return usage_or_scenario_error;
     }
     if (grammar.program.exit(problem) == 0) return after_output(ok);
-    if (!hint.empty()) std::cerr << hint << "\n";
+    if (!hint.empty()) std::cerr << folded(hint, columns_of(STDERR_FILENO)) << "\n";
     return usage_or_scenario_error;
   }
   watch_for_interrupts(grammar.json);

@@ -70,6 +70,13 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// A file of features, where the ground should be; what cannot be opened is told when it is read.
+bool is_layer(const std::string& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) &&
+         !look_at_release(file, fs::current_path().string()).is_raster;
+}
+
 /// The field of a layer that has one of these names; empty: none.
 std::string field_named(const ReleaseFile& file, std::initializer_list<const char*> names) {
   for (const std::string& field : file.number_fields)
@@ -165,6 +172,10 @@ class Writer {
 void Writer::choose_release() {
   const ReleaseFile file = look_at_release(request_.release, fs::current_path().string());
   if (file.is_raster) {
+    require(!is_layer(request_.terrain),
+            fmt::format("{} holds polygons and {} cells: they seem to be swapped. First comes the "
+                        "elevation raster, then the outline of the mass.",
+                        request_.terrain, request_.release));
     require(!request_.thickness_m,
             "--thickness (the release is a raster, which says it). Leave it "
             "out, or give the outline as a polygon.");
