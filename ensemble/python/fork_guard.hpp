@@ -13,7 +13,7 @@ void watch_forks();
 int threads_here(int wanted);
 
 /// Around each member. \throws std::runtime_error in a child that was forked while a member was
-/// computed, since nobody knows what was locked then
+/// computed, since what was locked then is not known
 class Computing {
  public:
   Computing();
