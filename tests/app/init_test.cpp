@@ -87,6 +87,16 @@ TEST_F(Init, PicksASpacingThatResolvesTheNarrowSide) {
   EXPECT_THAT(read("narrow/scenario.yaml"), HasSubstr("spacing_m: 2 "));
 }
 
+TEST_F(Init, PicksARoundSpacingWhereTheSourceIsTooLargeForAFinerOne) {
+  // 24 300 m2 in some 4,000 columns are 2.46 m apart.
+  write("source.geojson",
+        replaced(outline(""), "[[[-160, -30], [-100, -30], [-100, 30], [-160, 30], [-160, -30]]]",
+                 "[[[-290, -45], [-20, -45], [-20, 45], [-290, 45], [-290, -45]]]"));
+  const Ended ended = init({"--thickness", "1"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(read("mine/scenario.yaml"), HasSubstr("spacing_m: 2.5 "));
+}
+
 TEST_F(Init, TakesThicknessFromAFieldOrGuessesItAndSaysSo) {
   const Ended guessed = init({});
   ASSERT_EQ(guessed.exit_code, 0) << guessed.err;

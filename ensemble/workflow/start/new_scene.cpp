@@ -15,6 +15,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -85,11 +86,22 @@ std::string field_named(const ReleaseFile& file, std::initializer_list<const cha
   return {};
 }
 
+/// Numbers that people would write, of one power of ten.
+constexpr std::array<double, 9> nice_steps{1, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
+
 double nice_below(double v) {
   const double unit = std::pow(10, std::floor(std::log10(v)));
-  for (const double step : {8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5})
-    if (step * unit <= v * (1 + 1e-9)) return step * unit;
-  return unit;
+  double best = unit;
+  for (const double step : nice_steps)
+    if (step * unit <= v * (1 + 1e-9)) best = step * unit;
+  return best;
+}
+
+double nice_above(double v) {
+  const double unit = std::pow(10, std::floor(std::log10(v)));
+  for (const double step : nice_steps)
+    if (step * unit >= v * (1 - 1e-9)) return step * unit;
+  return 10 * unit;
 }
 
 /// What is known of a release once its files are read.
@@ -258,7 +270,8 @@ void Writer::choose_spacing(const Measures& m) {
   if (!request_.spacing_m) {
     const double finest = std::min(std::sqrt(m.area_m2 / most_columns), coarsest);
     spacing = nice_below(std::clamp(std::min(m.cell_m, m.thickness_m), finest, coarsest));
-    if (spacing < finest) spacing = finest * 1.0001;
+    if (spacing < finest)
+      spacing = nice_above(finest) <= coarsest ? nice_above(finest) : finest * 1.0001;
     spacing = std::strtod(short_number(spacing).c_str(), nullptr);
   }
   draft_.spacing.text = fmt::format("spacing_m: {}", number_text(spacing));
