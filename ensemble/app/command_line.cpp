@@ -116,9 +116,10 @@ std::string in_plain_words(std::string line) {
         {":POSITIVE", " > 0"},
         {":NONNEGATIVE", " >= 0"}})
     if (const auto at = line.find(said); at < text_column) {
+      const auto end = said.ends_with('[') ? line.find(']', at) : at + said.size();
       line.replace(at, said.size(), plain);
       const std::size_t shorter = said.size() - plain.size();
-      if (has_text) line.insert(text_column - shorter, shorter, ' ');
+      if (has_text && end < text_column) line.insert(text_column - shorter, shorter, ' ');
     }
   return line;
 }
@@ -170,8 +171,11 @@ int command_line(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     const std::string hint = hint_on_words(grammar.program, {argv + 1, argv + argc});
     if (argc < 2) {
-      std::cerr << "error: a command is missing. `sturz help` lists them; `sturz init` begins with "
-                   "your own elevation raster.\n";
+      std::cerr << folded(
+                       "error: a command is missing. `sturz help` lists them; `sturz init` begins "
+                       "with your own elevation raster.",
+                       columns_of(STDERR_FILENO))
+                << "\n";
       return usage_or_scenario_error;
     }
     // One was given: that "a subcommand is required" says less than the hint.

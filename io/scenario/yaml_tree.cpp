@@ -236,10 +236,8 @@ std::string YamlNode::shown() const {
 std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& source,
                                    std::vector<FileProblem>& problems) {
   const Position whole{source, 0, 0};
-  if (text.substr(0, 1024).find('\0') != std::string_view::npos) {
-    problems.push_back({whole,
-                        "is binary, such as a raster, and no scenario. `sturz init RASTER "
-                        "RELEASE -o DIR` writes one around an elevation raster."});
+  if (looks_binary(text)) {
+    problems.push_back({whole, binary_words});
     return std::nullopt;
   }
   if (text.size() > max_yaml_bytes) {
