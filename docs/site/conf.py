@@ -7,6 +7,8 @@ are linked once they are there.
 import pathlib
 import re
 
+from docutils import nodes
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 project = "sturz"
@@ -27,6 +29,9 @@ html_title = f"sturz {release}"
 html_show_sphinx = False
 html_copy_source = False
 templates_path = []
+html_static_path = ["static"]
+html_css_files = ["site.css"]
+highlight_language = "text"  # of blocks that name none: what a terminal shows
 # Nothing of the theme is fetched: fonts are the reader's own.
 html_theme_options = {"sidebar_hide_name": False, "navigation_with_keys": True}
 pygments_style = "friendly"
@@ -65,7 +70,34 @@ def need_no_list(app, docname, source):
         source[0] = "---\norphan: true\n---\n" + source[0]
 
 
+def mark_tables_of_keys(app, doctree):
+    """So that a telephone can show their rows as cards."""
+    for table in doctree.findall(nodes.table):
+        first = next(iter(table.findall(nodes.entry)), None)
+        if first is not None and first.astext().strip() in ("key", "command", "option"):
+            table["classes"].append("keys")
+
+
+def complete_theme(app, exception):
+    """Debian's build of the theme asks the server for normalize.css, which a file has not, and lost its dark colours where
+    the browser, not the reader, chooses them."""
+    css = pathlib.Path(app.outdir) / "_static/styles/furo.css"
+    if exception or not css.is_file():
+        return
+    text = css.read_text()
+    wanted = re.search(r"@import url\((/javascript/[^)]*)\);", text)
+    if wanted:
+        plain = pathlib.Path("/usr/share") / wanted[1].lstrip("/")
+        text = text.replace(wanted[0], plain.read_text() if plain.is_file() else "body { margin: 0; }")
+    dark = re.search(r'body\[data-theme="dark"\] (\{[^}]*--color-background-primary[^}]*\})', text)
+    if dark and "prefers-color-scheme" not in text:
+        text += f'\n@media not print {{ @media (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {dark[1]} }} }}\n'
+    css.write_text(text)
+
+
 def setup(app):
+    app.connect("doctree-read", mark_tables_of_keys)
+    app.connect("build-finished", complete_theme)
     app.connect("source-read", without_absent_pages)
     app.connect("source-read", folders_as_pages)
     app.connect("source-read", keys_of_the_guide)

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -24,7 +25,9 @@
 #include <new>
 #include <optional>
 #include <sstream>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace sturz::app {
 namespace {
@@ -34,6 +37,9 @@ using workflow::compiler;
 using workflow::git_commit;
 using workflow::version;
 
+/// Where the text of an option begins in the help.
+constexpr int text_column = 34;
+
 /// Every sub-command with its options. Help, manual page and completion walk it.
 void build(Grammar& grammar) {
   CLI::App& program = grammar.program;
@@ -41,9 +47,9 @@ void build(Grammar& grammar) {
       "--version", fmt::format("sturz {} ({}, {}, {})", version, git_commit, compiler, build_type));
   program.require_subcommand(1);
   program.failure_message([](const CLI::App*, const CLI::Error& problem) {
-    return fmt::format("error: {}\nRun with --help for more information.\n", problem.what());
+    return fmt::format("error: {}\n`sturz help COMMAND` says what it takes.\n", problem.what());
   });
-  program.get_formatter()->column_width(34);
+  program.get_formatter()->column_width(text_column);
   program.footer(
       "Exit codes: 0 done, 1 usage or scenario error, 2 too many failed members, "
       "3 stopped, run the same again.");
@@ -100,12 +106,34 @@ int after_output(int code) {
   return code == ok ? usage_or_scenario_error : code;
 }
 
+/// Ranges as people write them: the parser says "INT:INT in [1 - 64]" and "FLOAT:POSITIVE". The
+/// text of the option stays in its column.
+std::string in_plain_words(std::string line) {
+  const bool has_text = line.size() > text_column && line[text_column - 1] == ' ';
+  for (const auto& [said, plain] :
+       {std::pair<std::string_view, std::string_view>{":INT in [", " in ["},
+        {":FLOAT in [", " in ["},
+        {":POSITIVE", " > 0"},
+        {":NONNEGATIVE", " >= 0"}})
+    if (const auto at = line.find(said); at < text_column) {
+      const auto end = said.ends_with('[') ? line.find(']', at) : at + said.size();
+      line.replace(at, said.size(), plain);
+      const std::size_t shorter = said.size() - plain.size();
+      if (has_text && end < text_column) line.insert(text_column - shorter, shorter, ' ');
+    }
+  return line;
+}
+
 /// Help of the program, or of one of its commands, as wide as the terminal.
 void print_help(const Grammar& grammar, const CLI::App* one) {
   const std::string text = one ? one->help(grammar.program.get_name()) : grammar.program.help();
   const int columns = help_columns(STDOUT_FILENO);
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) std::cout << folded(line, columns) << "\n";
+  for (std::string line; std::getline(lines, line);) {
+    std::optional<int> hang;  // what lies in the two columns of options
+    if (line.starts_with("  ") && columns >= 2 * text_column) hang = text_column;
+    std::cout << folded(in_plain_words(line), columns, hang) << "\n";
+  }
 }
 
 /// `sturz help` and `sturz help run`, as many other programs have it.
@@ -116,7 +144,7 @@ std::optional<int> help_command(const Grammar& grammar, int argc, char** argv) {
   const std::string hint =
       argc > 2 && one == nullptr ? hint_on_words(grammar.program, {argv[2]}) : "";
   if (!hint.empty()) {
-    std::cerr << "error: " << hint << "\n";
+    std::cerr << folded("error: " + hint, columns_of(STDERR_FILENO)) << "\n";
     return usage_or_scenario_error;
   }
   print_help(grammar, one);
@@ -142,13 +170,22 @@ int command_line(int argc, char** argv) {
     return after_output(ok);
   } catch (const CLI::ParseError& problem) {
     const std::string hint = hint_on_words(grammar.program, {argv + 1, argv + argc});
+    if (argc < 2) {
+      std::cerr << folded(
+                       "error: a command is missing. `sturz help` lists them; `sturz init` begins "
+                       "with your own elevation raster.",
+                       columns_of(STDERR_FILENO))
+                << "\n";
+      return usage_or_scenario_error;
+    }
     // One was given: that "a subcommand is required" says less than the hint.
     if (!hint.empty() && command_named(grammar.program, argv[1]) == nullptr) {
-      std::cerr << hint << "\nRun with --help for more information.\n";
+      std::cerr << folded("error: " + hint, columns_of(STDERR_FILENO))
+                << "\n`sturz help` says more.\n";
       return usage_or_scenario_error;
     }
     if (grammar.program.exit(problem) == 0) return after_output(ok);
-    if (!hint.empty()) std::cerr << hint << "\n";
+    if (!hint.empty()) std::cerr << folded(hint, columns_of(STDERR_FILENO)) << "\n";
     return usage_or_scenario_error;
   }
   watch_for_interrupts(grammar.json);

@@ -2,6 +2,7 @@
 // The module `_sturz`: the workflow's Evaluator for Python. The package `sturz` has what people
 // use.
 #include "engine/core/error.hpp"
+#include "ensemble/python/fork_guard.hpp"
 #include "ensemble/python/result_views.hpp"
 #include "ensemble/workflow/evaluation/evaluator.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -65,6 +66,9 @@ class Listener {
 
 std::shared_ptr<MemberResult> run(Evaluator& evaluator, const std::vector<double>& values,
                                   const py::object& on_progress) {
+  const Computing computing;
+  if (const int n = threads_here(evaluator.threads()); n != evaluator.threads())
+    evaluator.set_threads(n);
   Listener listener(on_progress);
   std::shared_ptr<MemberResult> result;
   {
@@ -78,6 +82,7 @@ std::shared_ptr<MemberResult> run(Evaluator& evaluator, const std::vector<double
 
 std::unique_ptr<Evaluator> load(const std::string& file, const std::vector<std::string>& overrides,
                                 int threads, int workers) {
+  require_whole_process();
   workflow::EvaluatorRequest request;
   request.scene = {file, overrides, {}, false};
   request.threads = threads;
@@ -99,6 +104,7 @@ namespace py = pybind11;
 PYBIND11_MODULE(_sturz, m) {
   using namespace sturz;
   m.doc() = "One member of a sturz scene in this process; use it through the package sturz.";
+  python::watch_forks();
   m.attr("version") = workflow::version;
   m.attr("commit") = workflow::git_commit;
   py::register_exception<SetupError>(m, "SetupError", PyExc_ValueError);

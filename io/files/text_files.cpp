@@ -11,6 +11,7 @@
 #include <fstream>
 #include <span>
 #include <sstream>
+#include <system_error>
 
 namespace sturz {
 
@@ -19,10 +20,18 @@ void write_text_atomic(const std::filesystem::path& target, std::string_view tex
 }
 
 std::string read_text(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    const std::filesystem::path inside = file / "scenario.yaml";
+    throw IoError(fmt::format("{} is a folder. {}", file.string(),
+                              std::filesystem::exists(inside, ignored)
+                                  ? fmt::format("Did you mean {}?", inside.string())
+                                  : "Name a file in it."));
+  }
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   if (stream) text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
+  if (!stream)
     throw IoError(fmt::format("cannot read {} ({}). Check its name and permissions.", file.string(),
                               std::strerror(errno)));
   return text.str();

@@ -3,6 +3,8 @@
 
 #include "io/files/text_files.hpp"
 
+#include <array>
+#include <fstream>
 #include <system_error>
 
 namespace sturz {
@@ -13,10 +15,15 @@ namespace fs = std::filesystem;
 std::string read_checked(const fs::path& file) {
   std::error_code error;
   const auto size = fs::file_size(file, error);  // an error here is read_text's to explain
-  if (!error && size > max_yaml_bytes)
+  if (!error && size > max_yaml_bytes) {
+    std::array<char, 1024> first{};
+    std::ifstream(file, std::ios::binary).read(first.data(), first.size());
+    if (looks_binary({first.data(), first.size()}))
+      throw ScenarioError({file.string() + ": " + binary_words});
     throw ScenarioError({file.string() + ": is " + std::to_string(size) +
                          " bytes long (a scenario file may have 65536). Move large tables into "
                          "files of their own."});
+  }
   return read_text(file);
 }
 

@@ -236,6 +236,10 @@ std::string YamlNode::shown() const {
 std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& source,
                                    std::vector<FileProblem>& problems) {
   const Position whole{source, 0, 0};
+  if (looks_binary(text)) {
+    problems.push_back({whole, binary_words});
+    return std::nullopt;
+  }
   if (text.size() > max_yaml_bytes) {
     problems.push_back({whole, "is " + std::to_string(text.size()) +
                                    " bytes long (a scenario file may have 65536). Move large "

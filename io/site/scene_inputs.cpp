@@ -143,11 +143,11 @@ void note_rasterised(Loading& loading, double exact_m2) {
   const ReleaseSpec& release = loading.scenario.release;
   const double laid = raster_sum(*loading.inputs.release);
   std::string text =
-      fmt::format("{}: area {:.9g} m2, on the terrain's cells {:.9g} m2 ({:+.2g} %)",
+      fmt::format("{}: area {:.7g} m2, on the terrain's cells {:.7g} m2 ({:+.2g} %)",
                   loading.release_label, exact_m2, laid, percent_beyond(laid, exact_m2));
   const bool vertical = release.thickness == ThicknessDirection::vertical;
   if (vertical && release.thickness_m && release.thickness_m->is_fixed())
-    text += fmt::format("; x {:g} m = {:.9g} m3, laid out {:.9g} m3", release.thickness_m->value,
+    text += fmt::format("; x {:g} m = {:.7g} m3, laid out {:.7g} m3", release.thickness_m->value,
                         exact_m2 * release.thickness_m->value, laid * release.thickness_m->value);
   loading.inputs.notes.push_back(text);
 }
@@ -166,7 +166,7 @@ void load_polygon(Loading& loading) {
   if (!read.is_thickness) return note_rasterised(loading, read.area_m2);
   loading.inputs.release_cover = std::make_shared<const Raster<double>>(std::move(read.cover));
   loading.inputs.notes.push_back(
-      fmt::format("{}: area {:.9g} m2, area x {} {:.9g} m3, on the terrain's cells {:.9g} m3",
+      fmt::format("{}: area {:.7g} m2, area x {} {:.7g} m3, on the terrain's cells {:.7g} m3",
                   loading.release_label, read.area_m2,
                   spec.thickness_attribute.empty() ? "volume over area" : spec.thickness_attribute,
                   read.volume_m3, raster_sum(*loading.inputs.release)));

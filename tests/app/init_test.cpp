@@ -59,6 +59,20 @@ TEST_F(Init, TakesFilesOfAnyName) {
   EXPECT_EQ(sturz({"describe", path("mine/scenario.yaml")}).exit_code, 0);
 }
 
+TEST_F(Init, WhatIsInTheWrongPlaceIsSaid) {
+  EXPECT_THAT(sturz({"init", path("source.geojson"), path("ground/elevation.tif"), "-o",
+                     path("mine"), "--crs", "local", "--thickness", "4"})
+                  .err,
+              HasSubstr("they seem to be swapped"));
+  EXPECT_THAT(sturz({"describe", path("ground/elevation.tif")}).err,
+              HasSubstr("no scenario. `sturz init RASTER RELEASE"));
+  EXPECT_THAT(sturz({"describe", path("ground")}).err,
+              HasSubstr("ground is a folder. Name a file"));
+  ASSERT_EQ(init({"--thickness", "4"}).exit_code, 0);
+  EXPECT_THAT(sturz({"describe", path("mine")}).err,
+              HasSubstr("Did you mean " + path("mine/scenario.yaml") + "?"));
+}
+
 TEST_F(Init, PicksASpacingThatResolvesTheNarrowSide) {
   ASSERT_EQ(init({"--thickness", "20"}).exit_code, 0);
   // Cells of 5 m and 20 m of thickness would allow 5 m; ten across 60 m allow 6.
@@ -71,6 +85,16 @@ TEST_F(Init, PicksASpacingThatResolvesTheNarrowSide) {
                               path("narrow"), "--crs", "local", "--thickness", "20"});
   ASSERT_EQ(narrow.exit_code, 0) << narrow.err;
   EXPECT_THAT(read("narrow/scenario.yaml"), HasSubstr("spacing_m: 2 "));
+}
+
+TEST_F(Init, PicksARoundSpacingWhereTheSourceIsTooLargeForAFinerOne) {
+  // 24 300 m2 in some 4,000 columns are 2.46 m apart.
+  write("source.geojson",
+        replaced(outline(""), "[[[-160, -30], [-100, -30], [-100, 30], [-160, 30], [-160, -30]]]",
+                 "[[[-290, -45], [-20, -45], [-20, 45], [-290, 45], [-290, -45]]]"));
+  const Ended ended = init({"--thickness", "1"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(read("mine/scenario.yaml"), HasSubstr("spacing_m: 2.5 "));
 }
 
 TEST_F(Init, TakesThicknessFromAFieldOrGuessesItAndSaysSo) {

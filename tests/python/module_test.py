@@ -2,6 +2,7 @@
 """Members in this process: the bits of the command, arrays without copies, Python free meanwhile."""
 import concurrent.futures
 import gc
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -17,6 +18,24 @@ import sturz
 from scenes import InFolder, long_slide, slide
 
 KEY = "basal.friction_coefficient"
+
+
+SIMULATION = None  # what forked processes inherit
+
+
+def hash_of_forked(friction):
+    return SIMULATION.run({KEY: friction}).state_hash
+
+
+def hash_of_new(friction):
+    return sturz.Simulation(slide(), threads=2).run({KEY: friction}).state_hash
+
+
+def error_of_forked():
+    try:
+        return SIMULATION.run().outcome
+    except RuntimeError as refused:
+        return str(refused)
 
 
 class Bits(InFolder):
@@ -81,6 +100,27 @@ class Bits(InFolder):
 
 
 class Arrays(InFolder):
+    def test_forked_processes_compute_on_after_a_member_of_many_threads(self):
+        """Where the threads of the parent's member are gone, a child's would wait for them for ever."""
+        global SIMULATION
+        SIMULATION = sturz.Simulation(slide(), threads=2)
+        mine = SIMULATION.run({KEY: 0.5}).state_hash
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            known = pool.map_async(hash_of_forked, [0.5, 0.5]).get(60)
+            anew = pool.apply_async(hash_of_new, [0.5]).get(60)
+        self.assertEqual(known + [anew], [mine] * 3)
+        SIMULATION = sturz.Simulation(long_slide())
+        seen = []
+
+        def fork_once(_):
+            if not seen:
+                with multiprocessing.get_context("fork").Pool(1) as pool:
+                    seen.append(pool.apply_async(error_of_forked).get(60))
+            return False
+
+        SIMULATION.run(on_progress=fork_once)
+        self.assertIn('"spawn"', seen[0])
+
     def test_maps_are_the_engines_own_arrays(self):
         member = sturz.Simulation(slide()).run()
         plane = member.peaks["peak_thickness"]

@@ -25,10 +25,7 @@ class Model:
         """Status, headers and bytes of one request on a connection of its own."""
         connection = http.client.HTTPConnection(self.place, timeout=60)
         try:
-            try:
-                connection.request(method, path, body, headers or {})
-            except (BrokenPipeError, ConnectionResetError):
-                pass  # a server may answer and hang up before it has the whole body
+            connection.request(method, path, body, headers or {})
             reply = connection.getresponse()
             return reply.status, dict(reply.getheaders()), reply.read()
         finally:

@@ -2,6 +2,7 @@
 """Whatever a client sends, the server answers with an error that helps, and goes on serving."""
 import json
 import socket
+import time
 import unittest
 import zlib
 
@@ -91,6 +92,17 @@ class Refusals(InFolder):
         self.assertIn("Content-Length", message)
         packed = zlib.compress(json.dumps(GOOD).encode())
         self.assertEqual(self.error("POST", "/Evaluate", packed, {"Content-Encoding": "deflate"})[0], 415)
+
+    def test_a_client_that_writes_on_can_still_read_the_answer(self):
+        host, port = self.model.place.split(":")
+        chunk = b"10000\r\n" + b" " * 0x10000 + b"\r\n"
+        with socket.create_connection((host, int(port)), timeout=20) as one:
+            one.sendall(b"POST /Evaluate HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n")
+            for _ in range(20):
+                one.sendall(chunk)
+                time.sleep(0.02)
+            one.sendall(b"0\r\n\r\n")
+            self.assertTrue(one.recv(1000).startswith(b"HTTP/1.1 411 "))
 
     def test_what_web_pages_send_is_not_answered(self):
         status, _, message = self.error("POST", "/Evaluate", json.dumps(GOOD).encode(),

@@ -3,6 +3,7 @@
 import concurrent.futures
 import json
 import signal
+import socket
 import subprocess
 import time
 import unittest
@@ -43,9 +44,9 @@ class Protocol(InFolder):
         self.assertEqual((server.inputs, server.outputs), (told["inputs"], told["outputs"]))
 
     def test_sixteen_at_once_are_the_numbers_of_sixteen_runs(self):
-        _, model = self.serve(workers=2)
+        _, model = self.serve(workers=2, censored="value")
         points = [[0.45 + 0.0125 * k, 200 + 80 * k] for k in range(15)]
-        points += [[0.25, 1500]]  # beyond its distribution
+        points += [[0.25, 1500]]  # beyond its distribution, and still moving at the end time
         with concurrent.futures.ThreadPoolExecutor(16) as pool:
             answers = list(pool.map(lambda point: model([point])[0], points))
         self.assertEqual(len({tuple(answer) for answer in answers}), 16)
@@ -67,6 +68,79 @@ class Protocol(InFolder):
             model([[1.5, 500]], {"outputs": ["com_ratio"]})
         self.assertEqual((caught.exception.status, caught.exception.type), (500, "InvalidOutput"))
         self.assertIn("com_ratio", caught.exception.message)
+
+
+class Censored(InFolder):
+    """The plane ends after 300 m: with little friction all of the mass runs over its edge."""
+    OVER_THE_EDGE = [[0.05, 1500]]
+
+    def serve(self, **options):
+        server = sturz.serve(slide(), **options)
+        self.addCleanup(server.stop)
+        return server, Model(server.url)
+
+    def test_a_bound_is_an_error_that_says_how_to_go_on(self):
+        server, model = self.serve()
+        with self.assertRaises(Refused) as caught:
+            model(self.OVER_THE_EDGE)
+        problem = caught.exception
+        self.assertEqual((problem.status, problem.type), (500, "InvalidOutput"))
+        for words in ("runout_m of this member is only a lower bound", "mass left the known ground",
+                      "left_and_moving", '{"censored": "value"}', 'output "censored"'):
+            self.assertIn(words, problem.message)
+        with self.assertRaises(Refused) as caught:
+            model(self.OVER_THE_EDGE, {"outputs": ["com_travel_m"]})
+        self.assertIn("com_travel_m of this member is not known", caught.exception.message)
+        # What does not hang together with the end is a number as ever.
+        self.assertGreater(model(self.OVER_THE_EDGE, {"outputs": ["release_volume_m3"]})[0][0], 0)
+        told = model.ask("GET", "/Description")
+        self.assertEqual(told["censored"], "error")
+        self.assertEqual(set(told["config"]), {"outputs", "censored"})
+
+    def test_on_request_it_comes_as_seen_with_a_mark(self):
+        _, model = self.serve()
+        wanted = {"outputs": ["runout_m", "censored"], "censored": "value"}
+        runout, censored = model(self.OVER_THE_EDGE, wanted)[0]
+        self.assertGreater(runout, 100)
+        self.assertEqual(censored, 1)
+        runout, censored = model([[0.6, 500]], wanted)[0]
+        self.assertEqual(censored, 0)
+        self.assertEqual(model([[0.6, 500]])[0][0], runout)
+        with self.assertRaises(Refused) as caught:
+            model([[0.6, 500]], {"censored": True})
+        self.assertIn('must be "error" or "value"', caught.exception.message)
+
+    def test_a_server_may_be_told_once_for_all_clients(self):
+        _, model = self.serve(censored="value", outputs=["censored", "runout_m"])
+        self.assertEqual(model.ask("GET", "/Description")["censored"], "value")
+        self.assertEqual(model(self.OVER_THE_EDGE)[0][0], 1)
+        with self.assertRaises(Refused):
+            model(self.OVER_THE_EDGE, {"censored": "error"})
+
+
+class HangsUp(InFolder):
+    def test_the_member_of_a_client_that_is_gone_ends(self):
+        with sturz.serve(long_slide(), workers=1) as server:
+            body = json.dumps({"name": "sturz", "input": [[0.6, 1500]], "config": {}}).encode()
+            place = server.url.rpartition("/")[2].split(":")
+            clients = []
+            for _ in range(2):  # one runs, the other waits for its turn
+                one = socket.create_connection((place[0], int(place[1])), timeout=20)
+                one.sendall(b"POST /Evaluate HTTP/1.1\r\nHost: x\r\nContent-Length: %d\r\n\r\n%s"
+                            % (len(body), body))
+                clients.append(one)
+            time.sleep(1)
+            self.assertEqual(self.ended(server), 0)
+            begin = time.monotonic()
+            for one in clients:
+                one.close()
+            while self.ended(server) < 2 and time.monotonic() - begin < 20:
+                time.sleep(0.05)
+            self.assertLess(time.monotonic() - begin, 5)
+
+    @staticmethod
+    def ended(server):
+        return sum("its client hung up" in json.dumps(event) for event in list(server.events))
 
 
 class Ends(InFolder):

@@ -4,6 +4,7 @@
 
 #include "ensemble/app/commands.hpp"
 #include "ensemble/app/console/console_observer.hpp"
+#include "ensemble/app/console/fitted.hpp"
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +105,11 @@ void say(const Sensitivity& all, const ResultSensitivity& r, Console& console) {
                           r.morris[k].mean_absolute_error, r.morris[k].deviation);
     if (s != nullptr && !s->first.empty())
       line += fmt::format("  first {}  total {}", share_text(s->first[k]), share_text(s->total[k]));
+    // Where both shares do not fit, they stand below each other.
+    const std::size_t total = line.find("  total ");
+    const int wide = columns_of(STDOUT_FILENO);
+    if (wide > 0 && line.size() > static_cast<std::size_t>(wide) && total != std::string::npos)
+      line.replace(total, 2, "\n" + std::string(line.find("  first ") + 2, ' '));
     console.say(line);
   }
 }

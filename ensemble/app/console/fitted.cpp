@@ -68,10 +68,11 @@ int help_columns(int stream) {
   return columns_of(stream);
 }
 
-std::string folded(std::string_view line, int columns) {
+std::string folded(std::string_view line, int columns, std::optional<int> hang) {
   const auto limit = static_cast<std::size_t>(std::max(columns, 0));
   if (limit == 0 || shown_width(line) <= limit) return std::string(line);
-  const std::string indent(hanging_indent(line, limit), ' ');
+  const std::string indent(
+      hang ? static_cast<std::size_t>(std::max(*hang, 0)) : hanging_indent(line, limit), ' ');
   std::string all, current;
   std::size_t at = 0;
   while (at < line.size()) {

@@ -2,6 +2,7 @@
 /// Lines and tables that fit the terminal.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,7 +18,8 @@ int help_columns(int stream);
 /// The line folded at blanks, its rest under where its last wide gap ended ("name    text") or two
 /// blanks further in. Words wider than the terminal (paths) stay whole.
 /// \param columns  0: as it is
-std::string folded(std::string_view line, int columns);
+/// \param hang  where its rest begins instead
+std::string folded(std::string_view line, int columns, std::optional<int> hang = {});
 
 /// Rows of cells as aligned lines; the first row is the head. What does not fit beside comes
 /// below, in a table of its own with the same first column.

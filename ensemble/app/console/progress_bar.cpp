@@ -42,13 +42,14 @@ std::string ensemble_bar(const RunnerProgress& p, std::int64_t finished_before, 
 
 std::string member_bar(const Progress& p, int columns) {
   const double fraction = p.end_time_s > 0 ? p.time_s / p.end_time_s : 0;
-  std::string text =
-      fmt::format("t {:.1f} of {:.0f} s | front {:.0f} m | {:.1f} m/s | E {:.2g} J", p.time_s,
-                  p.end_time_s, p.front_travel_m, p.max_speed_m_s, p.kinetic_energy_j);
+  // What people wait for comes first: a narrow terminal cuts the rest.
+  std::string text = fmt::format("t {:.1f} of at most {:.0f} s", p.time_s, p.end_time_s);
+  if (fraction > 0)
+    text += fmt::format(" | {} left if it takes all",
+                        duration_text(p.wall_s * (1 - fraction) / fraction));
+  text += fmt::format(" | front {:.0f} m | {:.1f} m/s", p.front_travel_m, p.max_speed_m_s);
   if (p.wall_s > 0)
     text += fmt::format(" | {:.0f} steps/s", static_cast<double>(p.n_steps) / p.wall_s);
-  if (fraction > 0)
-    text += fmt::format(" | about {} left", duration_text(p.wall_s * (1 - fraction) / fraction));
   return with_bar(fraction, text, columns);
 }
 

@@ -2,6 +2,7 @@
 #include "ensemble/app/serve/http_door.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/app/serve/connection.hpp"
 
 #include <arpa/inet.h>
 #include <fmt/core.h>
@@ -83,19 +84,27 @@ bool is_loopback(const std::string& address) {
   return address == "localhost" || address == "::1" || (is_number && address.starts_with("127."));
 }
 
-struct HttpDoor::Server {
-  httplib::Server http;
+/// The library's server on connections of our own, one request each: nothing idle is waited for
+/// when the program stops.
+struct HttpDoor::Server final : httplib::Server {
+  Server(Hearer h, const std::atomic<bool>& o) : hearer(std::move(h)), over(o) {}
+
   Hearer hearer;
+  const std::atomic<bool>& over;
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    Connection connection(socket, over);
+    bool closed = false;
+    return process_request(connection, true, closed, [](Request&) {});
+  }
 };
 
 HttpDoor::HttpDoor(Umbridge& model, Hearer hearer, const std::atomic<bool>& cancel)
-    : server_(std::make_unique<Server>()), cancel_(cancel) {
-  server_->hearer = std::move(hearer);
-  httplib::Server& http = server_->http;
+    : server_(std::make_unique<Server>(std::move(hearer), cancel)), cancel_(cancel) {
+  httplib::Server& http = *server_;
   http.new_task_queue = [] { return new httplib::ThreadPool(most_connections); };
   http.set_payload_max_length(largest_body);
-  // One request a connection: nothing idle is waited for when the program stops.
-  http.set_keep_alive_max_count(1);
   http.set_pre_routing_handler(look_at);
   http.set_error_handler([](const Request& q, Response& r) { explain(q, r); });
   http.set_exception_handler([](const Request&, Response& r, const std::exception_ptr& thrown) {
@@ -105,7 +114,8 @@ HttpDoor::HttpDoor(Umbridge& model, Hearer hearer, const std::atomic<bool>& canc
   http.Get("/Description", [&model](const Request&, Response& r) { put(model.description(), r); });
   for (const char* const name : Umbridge::requests)
     http.Post(std::string("/") + name, [this, name, &model](const Request& q, Response& r) {
-      const UmbridgeReply reply = model.answer(name, q.body, cancel_);
+      const UmbridgeReply reply = model.answer(
+          name, q.body, [this] { return cancel_.load() || Connection::client_is_gone(); });
       server_->hearer(name, reply);
       put(reply, r);
     });
@@ -114,7 +124,7 @@ HttpDoor::HttpDoor(Umbridge& model, Hearer hearer, const std::atomic<bool>& canc
 HttpDoor::~HttpDoor() = default;
 
 int HttpDoor::bind(const std::string& address, int port) {
-  httplib::Server& http = server_->http;
+  httplib::Server& http = *server_;
   // Two servers on one port would share its requests: the library's own options allow that.
   http.set_socket_options([](socket_t socket) {
     const int yes = 1;
@@ -131,7 +141,7 @@ int HttpDoor::bind(const std::string& address, int port) {
 }
 
 void HttpDoor::serve() {
-  httplib::Server& http = server_->http;
+  httplib::Server& http = *server_;
   std::atomic<bool> over{false};
   std::thread watcher([&] {
     while (!cancel_.load() && !over.load())

@@ -32,6 +32,7 @@ struct Options {
   bool remote_clients = false;  ///< an address that other machines reach
   int workers = 0, threads = 0;
   std::vector<std::string> outputs;  ///< empty: the usual ones
+  std::string censored = "error";    ///< or "value"
 };
 
 void check(const Options& o) {
@@ -41,6 +42,15 @@ void check(const Options& o) {
                       "is no password). Leave it out for this machine alone, or add "
                       "--allow-remote-clients inside a network that you trust.",
                       o.address));
+}
+
+/// What becomes of numbers of members whose end was not seen.
+std::string options_of_censored(const Options& o) {
+  if (o.censored == "error")
+    return "Members whose mass leaves the raster or still moves at the end: numbers that are only "
+           "bounds are errors (config {\"censored\": \"value\"} or --censored value: as seen).";
+  return "Members whose mass leaves the raster or still moves at the end: numbers come as far as "
+         "they were seen; the output \"censored\" is 1 then.";
 }
 
 /// What is served where, for people and for programs that wait for it.
@@ -75,6 +85,7 @@ void announce(const Options& o, int port, const workflow::Evaluator& evaluator,
     console.say(fmt::format("  {} [{}]: {}", output["name"].get<std::string>(),
                             output["units"].get<std::string>(),
                             output["meaning"].get<std::string>()));
+  console.say(options_of_censored(o));
   console.say("Ctrl-C stops it.");
 }
 
@@ -87,7 +98,9 @@ int serve(const Options& options, Console& console) {
   const auto outputs = options.outputs.empty() ? workflow::usual_outputs()
                                                : workflow::outputs_named(options.outputs);
   workflow::Evaluator evaluator(request);
-  workflow::Umbridge model(evaluator, outputs);
+  workflow::Umbridge model(evaluator, outputs,
+                           options.censored == "value" ? workflow::Umbridge::Censored::value
+                                                       : workflow::Umbridge::Censored::error);
   std::mutex lock;  // of console and counts
   std::int64_t answered = 0, refused = 0;
   const auto hear = [&](std::string_view name, const workflow::UmbridgeReply& reply) {
@@ -138,6 +151,13 @@ void add_serve(Grammar& grammar) {
                   "Scalars of members.csv, with commas between (default: the usual ones)")
       ->delimiter(',')
       ->type_name("NAMES");
+  parser
+      .add_option(
+          "--censored", options.censored,
+          "Numbers that are only bounds, because mass left the raster or still moved at the "
+          "end: an error, or the value as far as it was seen")
+      ->check(CLI::IsMember({"error", "value"}))
+      ->capture_default_str();
   add_json(grammar, parser);
 }
 

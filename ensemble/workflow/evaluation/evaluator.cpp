@@ -79,12 +79,12 @@ Scenario Evaluator::numbers_of(std::span<const double> values) const {
   return numbers;
 }
 
-bool Evaluator::take_turn(const std::atomic<bool>& cancel) {
+bool Evaluator::take_turn(const Cancelled& cancelled) {
   using namespace std::chrono_literals;
   std::unique_lock held(lock_);
   while (!free_.wait_for(held, 50ms, [this] { return running_ < workers_; }))
-    if (cancel.load()) return false;
-  if (cancel.load()) return false;
+    if (cancelled()) return false;
+  if (cancelled()) return false;
   ++running_;
   return true;
 }
@@ -97,10 +97,10 @@ void Evaluator::give_turn() {
   free_.notify_one();
 }
 
-MemberResult Evaluator::evaluate(std::span<const double> values, const std::atomic<bool>& cancel,
+MemberResult Evaluator::evaluate(std::span<const double> values, const Cancelled& cancelled,
                                  const std::function<void(const Progress&)>& on_progress) {
   const Scenario numbers = numbers_of(values);
-  if (!take_turn(cancel)) {
+  if (!take_turn(cancelled)) {
     MemberResult result;
     result.outcome = Outcome::cancelled;
     result.reason = "cancelled before it began";
@@ -117,7 +117,7 @@ MemberResult Evaluator::evaluate(std::span<const double> values, const std::atom
   control.max_wall_s = numbers.numerics.max_wall_time_s;
   control.on_progress = [&](const Progress& progress) {
     if (on_progress) on_progress(progress);
-    return !cancel.load();
+    return !cancelled();
   };
   const auto first = ground_of_member(numbers, *scene_.ground->now());
   const auto ground = first ? scene_.ground : own_ground(numbers);
@@ -133,9 +133,18 @@ std::shared_ptr<GrowingGround> Evaluator::own_ground(const Scenario& numbers) {
   return std::make_shared<GrowingGround>(numbers, load_scene_inputs(numbers));
 }
 
+double EvaluatorOutput::value(const MemberResult& member) const {
+  return field != nullptr ? member.scalars.*field : is_censored(member.censoring) ? 1 : 0;
+}
+
+Known EvaluatorOutput::known(const MemberResult& member) const {
+  return field != nullptr ? sturz::known(field, member.scalars, member.censoring) : Known::exactly;
+}
+
 std::vector<EvaluatorOutput> outputs_named(std::span<const std::string> names) {
   std::vector<std::string> known;
   for (const ScalarInfo& scalar : scalar_table()) known.emplace_back(scalar.name);
+  known.emplace_back(censored_output);
   std::vector<EvaluatorOutput> outputs;
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
@@ -146,10 +155,16 @@ std::vector<EvaluatorOutput> outputs_named(std::span<const std::string> names) {
                       "columns of members.csv.",
                       name, near.empty() ? "" : "; did you mean " + near + "?"));
     }
-    const ScalarInfo& scalar = scalar_table()[static_cast<std::size_t>(found - known.begin())];
     require(std::none_of(outputs.begin(), outputs.end(),
                          [&](const EvaluatorOutput& o) { return o.name == name; }),
             fmt::format("output {} (stands there twice). Name it once.", name));
+    if (name == censored_output) {
+      outputs.push_back({name, "1",
+                         "1 where the member's end was not seen: mass left the known "
+                         "ground or still moved at the end time; else 0"});
+      continue;
+    }
+    const ScalarInfo& scalar = scalar_table()[static_cast<std::size_t>(found - known.begin())];
     outputs.push_back({scalar.name, scalar.units, scalar.long_name, scalar.field});
   }
   return outputs;

@@ -5,6 +5,7 @@
 
 #include "engine/simulation/member_result.hpp"
 #include "engine/simulation/simulation.hpp"
+#include "ensemble/censoring/scalar_censoring.hpp"
 #include "ensemble/workflow/scene.hpp"
 #include "scenarios/schema/schema.hpp"
 
@@ -18,6 +19,10 @@
 #include <vector>
 
 namespace sturz::workflow {
+
+/// True once a member is not wanted any more; looked at about five times a second while it runs,
+/// and more often while it waits for its turn.
+using Cancelled = std::function<bool()>;
 
 struct EvaluatorRequest {
   SceneRequest scene;
@@ -39,6 +44,8 @@ class Evaluator {
   const std::vector<UncertainKey>& keys() const { return keys_; }
   int workers() const { return workers_; }
   int threads() const { return threads_; }
+  /// Of members from now on; not while one begins.
+  void set_threads(int n) { threads_ = n; }
   /// The median of every distribution [n_keys].
   std::vector<double> medians() const;
 
@@ -48,15 +55,20 @@ class Evaluator {
   ///        bound them
   /// \param on_progress about five times a second on this thread; may be empty. What it throws
   ///        comes out here.
-  /// \param cancel looked at as often; the outcome is then `cancelled`
+  /// \param cancelled asked on this thread; the outcome is then `cancelled`
   /// \throws SetupError naming the key whose value cannot be
-  MemberResult evaluate(std::span<const double> values, const std::atomic<bool>& cancel,
+  MemberResult evaluate(std::span<const double> values, const Cancelled& cancelled,
                         const std::function<void(const Progress&)>& on_progress = {});
+  MemberResult evaluate(std::span<const double> values, const std::atomic<bool>& cancel,
+                        const std::function<void(const Progress&)>& on_progress = {}) {
+    return evaluate(
+        values, [&cancel] { return cancel.load(); }, on_progress);
+  }
 
  private:
   Scenario numbers_of(std::span<const double> values) const;
   std::shared_ptr<GrowingGround> own_ground(const Scenario& numbers);
-  bool take_turn(const std::atomic<bool>& cancel);
+  bool take_turn(const Cancelled&);
   void give_turn();
 
   Scene scene_;
@@ -71,11 +83,17 @@ class Evaluator {
 /// A number of a member that evaluations give back.
 struct EvaluatorOutput {
   std::string name, units, meaning;
-  double MemberScalars::*field = nullptr;
+  double MemberScalars::*field = nullptr;  ///< null: 1 for a censored member, else 0
+  double value(const MemberResult&) const;
+  /// What the number says of a member whose end was not seen.
+  Known known(const MemberResult&) const;
 };
 
-/// Scalars of members by their names. \throws SetupError for an unknown or repeated name, with the
-/// nearest known one
+/// The name of the output without a field.
+inline constexpr const char* censored_output = "censored";
+
+/// Scalars of members, or `censored`, by their names. \throws SetupError for an unknown or repeated
+/// name, with the nearest known one
 std::vector<EvaluatorOutput> outputs_named(std::span<const std::string> names);
 
 /// What every valid member has a number for: runout, area, largest speed, thickness, energy and

@@ -7,7 +7,9 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <utility>
 
@@ -52,25 +54,48 @@ void require_model(const Json& request) {
            fmt::format("{} is not served here; the only model is {}.", wanted, Umbridge::model));
 }
 
-/// The scalars that `config` asks for, or the server's own.
-std::vector<EvaluatorOutput> wanted_outputs(const Json& request,
-                                            const std::vector<EvaluatorOutput>& usual) {
-  const auto config = request.find("config");
-  if (config == request.end() || config->is_null()) return usual;
-  if (!config->is_object()) invalid("config must be a JSON object.");
-  for (const auto& [key, value] : config->items())
-    if (key != "outputs")
-      invalid(
-          fmt::format("config.{} is not known. The only one is outputs: names of scalars.", key));
-  const auto outputs = config->find("outputs");
-  if (outputs == config->end()) return usual;
+/// What `config` may hold.
+struct Config {
+  std::vector<EvaluatorOutput> outputs;
+  Umbridge::Censored censored;
+};
+
+/// In the order of Umbridge::Censored.
+constexpr std::array<const char*, 2> censored_words{"error", "value"};
+
+std::vector<EvaluatorOutput> outputs_in(const Json& list) {
   std::vector<std::string> names;
-  if (outputs->is_array())
-    for (const Json& name : *outputs)
+  if (list.is_array())
+    for (const Json& name : list)
       if (name.is_string()) names.push_back(name.get<std::string>());
-  if (names.empty() || names.size() != outputs->size())
+  if (names.empty() || names.size() != list.size())
     invalid("config.outputs must be a list of one or more names.");
   return outputs_named(names);
+}
+
+Umbridge::Censored censored_in(const Json& word) {
+  if (word == censored_words[0]) return Umbridge::Censored::error;
+  if (word == censored_words[1]) return Umbridge::Censored::value;
+  invalid(fmt::format("config.censored is {} (must be \"error\" or \"value\").", text_of(word)));
+}
+
+/// What `config` asks for; the server's own where it does not.
+Config config_of(const Json& request, Config own) {
+  const auto config = request.find("config");
+  if (config == request.end() || config->is_null()) return own;
+  if (!config->is_object()) invalid("config must be a JSON object.");
+  for (const auto& [key, value] : config->items()) {
+    if (key == "outputs")
+      own.outputs = outputs_in(value);
+    else if (key == "censored")
+      own.censored = censored_in(value);
+    else
+      invalid(
+          fmt::format("config.{} is not known. There are outputs (names of scalars) and "
+                      "censored (\"error\" or \"value\").",
+                      key));
+  }
+  return own;
 }
 
 /// The one input vector. \return [n_keys]
@@ -91,16 +116,34 @@ std::vector<double> input_of(const Json& request, std::size_t n_keys) {
   return values;
 }
 
+/// A bound that arrives as a plain number would be taken for the thing itself.
+void refuse_if_not_known(const MemberResult& result, const EvaluatorOutput& output) {
+  const Known known = output.known(result);
+  if (known == Known::exactly) return;
+  const bool left = has_left(result.censoring), moving = is_moving(result.censoring);
+  refuse(500, "InvalidOutput",
+         fmt::format("{} of this member is {}, because {}{}{} (censored: {}; seen: {}). A larger "
+                     "raster or a later end time may show the rest; config {{\"censored\": "
+                     "\"value\"}} gives numbers as far as they were seen, and the output \"{}\" "
+                     "says of which members.",
+                     output.name, known == Known::at_least ? "only a lower bound" : "not known",
+                     left ? "mass left the known ground" : "", left && moving ? ", and " : "",
+                     moving ? "mass still moved at its end" : "", to_string(result.censoring),
+                     output.value(result), censored_output));
+}
+
 /// JSON has no NaN, and a number in its place would be a lie.
-Json output_of(const MemberResult& result, const std::vector<EvaluatorOutput>& outputs) {
+Json output_of(const MemberResult& result, const Config& wanted) {
   if (result.outcome == Outcome::cancelled)
-    refuse(503, "InvalidOutput", "the server was told to stop before the member was finished.");
+    refuse(503, "InvalidOutput",
+           "the member was not finished: the server stops, or its client hung up.");
   if (!is_valid(result.outcome))
     refuse(500, "InvalidOutput",
            fmt::format("the member {}: {}", to_string(result.outcome), result.reason));
   Json vector = Json::array();
-  for (const EvaluatorOutput& output : outputs) {
-    const double value = result.scalars.*output.field;
+  for (const EvaluatorOutput& output : wanted.outputs) {
+    if (wanted.censored == Umbridge::Censored::error) refuse_if_not_known(result, output);
+    const double value = output.value(result);
     if (!std::isfinite(value))
       refuse(500, "InvalidOutput",
              fmt::format("this member has no {} ({}). Leave it out of config.outputs.", output.name,
@@ -110,10 +153,20 @@ Json output_of(const MemberResult& result, const std::vector<EvaluatorOutput>& o
   return Json{{"output", Json::array({vector})}};
 }
 
+/// What `config` may hold, for people who read /Description.
+Json config_meanings() {
+  return Json{
+      {"outputs", "names of scalars, or \"censored\": 1 for members whose end was not seen"},
+      {"censored",
+       "\"error\": a number that is only a bound, or not known, because mass left the "
+       "known ground or still moved at the end time, is an error; \"value\": it comes as "
+       "far as it was seen"}};
+}
+
 }  // namespace
 
-Umbridge::Umbridge(Evaluator& evaluator, std::vector<EvaluatorOutput> outputs)
-    : evaluator_(evaluator), outputs_(std::move(outputs)) {
+Umbridge::Umbridge(Evaluator& evaluator, std::vector<EvaluatorOutput> outputs, Censored censored)
+    : evaluator_(evaluator), outputs_(std::move(outputs)), censored_(censored) {
   require(!evaluator_.keys().empty(),
           "the scene has no uncertain value, so there is nothing to evaluate it at. Give a "
           "distribution for some number, such as basal.friction_coefficient: "
@@ -144,11 +197,13 @@ UmbridgeReply Umbridge::description() const {
   return {200, text_of(Json{{"model", model},
                             {"title", evaluator_.scene().scenario.title},
                             {"inputs", inputs},
-                            {"outputs", outputs}})};
+                            {"outputs", outputs},
+                            {"censored", censored_words[static_cast<std::size_t>(censored_)]},
+                            {"config", config_meanings()}})};
 }
 
 UmbridgeReply Umbridge::answer(std::string_view request, std::string_view body,
-                               const std::atomic<bool>& cancel) {
+                               const Cancelled& cancelled) {
   try {
     const Json asked = parsed(body);
     require_model(asked);
@@ -163,11 +218,11 @@ UmbridgeReply Umbridge::answer(std::string_view request, std::string_view body,
     if (request != "OutputSizes" && request != "Evaluate")
       refuse(400, "UnsupportedFeature",
              fmt::format("{} is not supported: members have no derivatives.", request));
-    const std::vector<EvaluatorOutput> outputs = wanted_outputs(asked, outputs_);
+    const Config wanted = config_of(asked, {outputs_, censored_});
     if (request == "OutputSizes")
-      return {200, text_of(Json{{"outputSizes", Json::array({outputs.size()})}})};
+      return {200, text_of(Json{{"outputSizes", Json::array({wanted.outputs.size()})}})};
     const std::vector<double> values = input_of(asked, evaluator_.keys().size());
-    return {200, text_of(output_of(evaluator_.evaluate(values, cancel), outputs)), true};
+    return {200, text_of(output_of(evaluator_.evaluate(values, cancelled), wanted)), true};
   } catch (const Refused& refused) {
     return refused.reply;
   } catch (const SetupError& problem) {

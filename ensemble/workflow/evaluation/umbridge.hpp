@@ -13,7 +13,6 @@
 #include "ensemble/workflow/evaluation/evaluator.hpp"
 
 #include <array>
-#include <atomic>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +27,9 @@ struct UmbridgeReply {
 };
 
 /// The one model "sturz": an input vector of the uncertain keys in their order, an output vector of
-/// scalars. `config` may choose others: {"outputs": ["runout_m", ...]}; it may hold nothing else.
+/// scalars. `config` may choose others, {"outputs": ["runout_m", ...]}, and what becomes of numbers
+/// that a member does not fully know because its end was not seen: {"censored": "error" | "value"}.
+/// It may hold nothing else.
 class Umbridge {
  public:
   static constexpr const char* model = "sturz";
@@ -37,23 +38,28 @@ class Umbridge {
                                                        "Evaluate",    "Gradient",   "ApplyJacobian",
                                                        "ApplyHessian"};
 
+  /// The protocol has no word for "at least": such a number is an error, or comes as it was seen.
+  enum class Censored { error, value };
+
+  /// \param censored where a question does not say it
   /// \throws SetupError for a scene without any uncertain value
-  Umbridge(Evaluator&, std::vector<EvaluatorOutput> outputs);
+  Umbridge(Evaluator&, std::vector<EvaluatorOutput> outputs, Censored censored = Censored::error);
 
   UmbridgeReply info() const;
   /// Beyond the protocol: what the vectors hold. {"model", "title", "inputs": [{"key", "units",
-  /// "distribution", "median"}], "outputs": [{"name", "units", "meaning"}]}
+  /// "distribution", "median"}], "outputs": [{"name", "units", "meaning"}], "censored": "error" |
+  /// "value", "config": {what `config` may hold: its meaning}}
   UmbridgeReply description() const;
   /// Never throws: whatever is wrong is an error reply. From any number of threads.
   /// \param request one of `requests`
-  UmbridgeReply answer(std::string_view request, std::string_view body,
-                       const std::atomic<bool>& cancel);
+  UmbridgeReply answer(std::string_view request, std::string_view body, const Cancelled&);
   /// For what the carrier refuses by itself.
   static UmbridgeReply error(int status, const std::string& type, const std::string& message);
 
  private:
   Evaluator& evaluator_;
   std::vector<EvaluatorOutput> outputs_;
+  Censored censored_;
 };
 
 }  // namespace sturz::workflow

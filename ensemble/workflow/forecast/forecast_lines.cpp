@@ -54,8 +54,8 @@ std::vector<std::string> forecast_lines(const Forecast& f) {
     lines.push_back(fmt::format("memory: {}", bytes_text(f.memory_bytes)));
     return lines;
   }
-  lines.push_back(fmt::format("predicted for {} members, {} at a time: {}{}", f.members, f.workers,
-                              seconds_text(f.elapsed_s),
+  lines.push_back(fmt::format("predicted for {} members, {} at a time: about {}{}", f.members,
+                              f.workers, seconds_text(f.elapsed_s),
                               f.slowdown > 1.5 ? fmt::format(", the cores being busy: {:.1f} times "
                                                              "what it takes on idle ones",
                                                              f.slowdown)

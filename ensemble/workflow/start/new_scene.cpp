@@ -15,6 +15,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -70,6 +71,13 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// A file of features, where the ground should be; what cannot be opened is told when it is read.
+bool is_layer(const std::string& file) {
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) &&
+         !look_at_release(file, fs::current_path().string()).is_raster;
+}
+
 /// The field of a layer that has one of these names; empty: none.
 std::string field_named(const ReleaseFile& file, std::initializer_list<const char*> names) {
   for (const std::string& field : file.number_fields)
@@ -78,11 +86,22 @@ std::string field_named(const ReleaseFile& file, std::initializer_list<const cha
   return {};
 }
 
+/// Numbers that people would write, of one power of ten.
+constexpr std::array<double, 9> nice_steps{1, 1.5, 2, 2.5, 3, 4, 5, 6, 8};
+
 double nice_below(double v) {
   const double unit = std::pow(10, std::floor(std::log10(v)));
-  for (const double step : {8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5})
-    if (step * unit <= v * (1 + 1e-9)) return step * unit;
-  return unit;
+  double best = unit;
+  for (const double step : nice_steps)
+    if (step * unit <= v * (1 + 1e-9)) best = step * unit;
+  return best;
+}
+
+double nice_above(double v) {
+  const double unit = std::pow(10, std::floor(std::log10(v)));
+  for (const double step : nice_steps)
+    if (step * unit >= v * (1 - 1e-9)) return step * unit;
+  return 10 * unit;
 }
 
 /// What is known of a release once its files are read.
@@ -165,6 +184,10 @@ class Writer {
 void Writer::choose_release() {
   const ReleaseFile file = look_at_release(request_.release, fs::current_path().string());
   if (file.is_raster) {
+    require(!is_layer(request_.terrain),
+            fmt::format("{} holds polygons and {} cells: they seem to be swapped. First comes the "
+                        "elevation raster, then the outline of the mass.",
+                        request_.terrain, request_.release));
     require(!request_.thickness_m,
             "--thickness (the release is a raster, which says it). Leave it "
             "out, or give the outline as a polygon.");
@@ -247,7 +270,8 @@ void Writer::choose_spacing(const Measures& m) {
   if (!request_.spacing_m) {
     const double finest = std::min(std::sqrt(m.area_m2 / most_columns), coarsest);
     spacing = nice_below(std::clamp(std::min(m.cell_m, m.thickness_m), finest, coarsest));
-    if (spacing < finest) spacing = finest * 1.0001;
+    if (spacing < finest)
+      spacing = nice_above(finest) <= coarsest ? nice_above(finest) : finest * 1.0001;
     spacing = std::strtod(short_number(spacing).c_str(), nullptr);
   }
   draft_.spacing.text = fmt::format("spacing_m: {}", number_text(spacing));

@@ -184,14 +184,18 @@ class Server:
 
 
 def serve(scene: SceneLike, *, port: int = 0, workers: int | None = None,
-          outputs: Sequence[str] | None = None, values: Mapping[str, Any] | None = None) -> Server:
+          outputs: Sequence[str] | None = None, censored: str | None = None,
+          values: Mapping[str, Any] | None = None) -> Server:
     """Serves a scene on this machine for programs that speak UM-Bridge, until it is stopped.
 
     Args:
         scene: a `Scenario`, its dictionary, or a file.
         port: 0 for any free one.
         workers: members at a time; default: all cores.
-        outputs: scalars of members; default: the usual ones.
+        outputs: scalars of members, or "censored" (1 where a member's end was not seen); default: the
+            usual ones.
+        censored: "error" (default) or "value": what a client gets for a number that is only a bound,
+            because mass left the raster or still moved at the end.
         values: replace those of the scene, by dotted keys.
 
     Raises:
@@ -199,7 +203,8 @@ def serve(scene: SceneLike, *, port: int = 0, workers: int | None = None,
     """
     with as_file(scene) as file:
         child = Child(["serve", file, "--umbridge", "--json", "--port", str(port), *set_options(values),
-                       *_options(workers=workers, outputs=",".join(outputs) if outputs else None)])
+                       *_options(workers=workers, outputs=",".join(outputs) if outputs else None,
+                                 censored=censored)])
         try:
             for event in child.events():
                 if event.get("event") == "serving":
