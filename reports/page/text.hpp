@@ -35,6 +35,8 @@ std::string with_unit(double value, std::string_view udunits, int digits = 3);
 std::string area_text(double area_m2);
 /// The same for both ends of a range, in the unit of the larger: "7 – 10.4 ha".
 std::string area_text(double from_m2, double to_m2);
+/// The same in the unit that `like_m2` is shown in, so that an interval can be compared with it.
+std::string area_text(double from_m2, double to_m2, double like_m2);
 
 /// "probability_of_x" or "basal.friction_coefficient" as words: "probability of x".
 std::string words(std::string_view identifier);

@@ -171,7 +171,9 @@ class Files {
     Layer probability = layer;
     probability.meaning.statistic = Statistic::probability;
     const bool lower = layer.meaning.statistic == Statistic::lower_bound;
-    return plane_title(probability, plane) + (lower ? ", lower bound" : ", upper bound");
+    const std::string level =
+        layer.confidence > 0 ? fmt::format("{:.0f} % ", 100 * layer.confidence) : "";
+    return plane_title(probability, plane) + ", " + level + (lower ? "lower" : "upper") + " bound";
   }
 
   void write_item() const {

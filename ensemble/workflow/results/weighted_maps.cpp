@@ -37,8 +37,9 @@ Manifest page_manifest(const MergeInput& of, const WeightedMapsMade& made) {
   manifest.hazard_hash = made.hazard_hash;
   manifest.weighting = weighting_text(made.effective_members);
   const std::string kind = "These maps are " + manifest.weighting +
-                           ". What is told of single members, their spread and medians, is of the "
-                           "ensemble as it was drawn.";
+                           ", and so are the sentence above and the medians. Single members, "
+                           "their histogram and their largest values are of the ensemble as it was "
+                           "drawn.";
   manifest.warnings.insert(manifest.warnings.begin(), kind);
   manifest.warnings.insert(manifest.warnings.begin() + 1, made.warnings.begin(),
                            made.warnings.end());
@@ -81,6 +82,7 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   page.hazard = &coarse;
   page.design = &of.design;
   page.effective_members = made.effective_members;
+  page.weights = weights;
   page.elevation = ground.get();
   page.members = of.store.members();
   page.cancel = cancel;

@@ -42,7 +42,7 @@ std::string card(const std::string& label, const std::string& value, const std::
 std::string area_interval(const Estimate& e, bool cut) {
   if (std::isnan(e.lower)) return tr("cards.few_for_interval");
   return tr("cards.interval", percent_text(interval_confidence)) +
-         (cut ? tr("cards.from_open", area_text(e.lower)) : area_text(e.lower, e.upper));
+         (cut ? tr("cards.from_open", area_text(e.lower)) : area_text(e.lower, e.upper, e.value));
 }
 
 std::string sentence(std::string text) {
@@ -186,8 +186,10 @@ std::string metres(double value) { return with_unit(value, "m"); }
 /// A card of a median with its interval and what is cut off.
 std::string median_card(const std::string& label, const CensoredEstimate& e,
                         const NumberWriter& number, bool single, const std::string& detail) {
-  return card(single ? sentence(label) : tr("cards.median", label), value_text(e, number),
-              joined({single ? "" : interval_text(e, number), single ? "" : cut_text(e), detail}));
+  return card(
+      single ? sentence(label) : tr(e.weighted ? "cards.median_weighted" : "cards.median", label),
+      value_text(e, number),
+      joined({single ? "" : interval_text(e, number), single ? "" : cut_text(e), detail}));
 }
 
 std::string area_card(const ReportInput& input, const Headline& h, bool single) {
