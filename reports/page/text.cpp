@@ -192,6 +192,13 @@ std::string area_text(double from_m2, double to_m2, double like_m2) {
          shown_number(to_m2 / unit.square_metres) + "\u00A0" + unit.label;
 }
 
+std::string moment_text(const std::string& iso) {
+  const bool known = iso.size() == 20 && iso[10] == 'T' && iso.back() == 'Z';
+  return known ? iso.substr(0, 10) + " " + iso.substr(11, 5) + " UTC" : iso;
+}
+
+std::string english_attribute() { return page_language() == "en" ? "" : " lang=\"en\""; }
+
 std::string words(std::string_view identifier) {
   std::string out(identifier);
   std::replace(out.begin(), out.end(), '_', ' ');

@@ -209,7 +209,10 @@ void write_multilevel_files(const MultilevelJob& job, const MultilevelMembers& f
   }
   const LayersFileReader maps(folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
-  write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  if (job.scene.scenario.hazard.gis_files)
+    write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  else
+    remove_map_files(folder.tif_folder());
   // Pictures have their bounds, which coarse layers leave out: the maps as they are, where they
   // fit.
   const LayerStack shown =
