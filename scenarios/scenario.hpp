@@ -352,6 +352,7 @@ struct HazardSpec {
   std::vector<double> quantiles{0.05, 0.5, 0.95};
   std::string observed_polygon;  ///< any OGR polygon layer, drawn over the maps
   std::string observed_note;     ///< what it is, in words
+  bool gis_files = true;         ///< write what a GIS opens beside the netCDF file
   bool operator==(const HazardSpec&) const = default;
 };
 

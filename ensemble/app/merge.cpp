@@ -37,8 +37,7 @@ int weighted(const Options& options, Console& console) {
   console.say(fmt::format("{} valid members, {}. Results are in {}:", made.valid,
                           weighting_text(made.effective_members), folder));
   console.say("  report.html   look here first");
-  console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
-  console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
+  list_maps(made.folder, console);
   for (const std::string& warning : made.warnings) console.warn(warning);
   console.event(json_text(nlohmann::json{{"event", "done"},
                                          {"weighted", true},

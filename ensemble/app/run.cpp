@@ -293,7 +293,10 @@ void print_summary(const MemberResult& r, const workflow::OutputFolder& folder, 
                                 grouped(s.n_steps), duration_text(s.wall_s), duration_text(s.cpu_s),
                                 s.n_steps * s.n_particles / (1e6 * std::max(s.wall_s, 1e-9))));
   print_effects(r, console);
-  console.say(fmt::format("Results are in {}: report.html, peaks.nc", folder.root.string()));
+  std::error_code ignored;
+  const bool gis = std::filesystem::exists(folder.peaks_project(), ignored);
+  console.say(fmt::format("Results are in {}: report.html, peaks.nc{}", folder.root.string(),
+                          gis ? ", peaks.qgz for QGIS" : ""));
 }
 
 int run(const Options& options, Console& console) {

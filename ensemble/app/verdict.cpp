@@ -90,11 +90,22 @@ void warn_of_members(const CensoringReport& censoring, const std::vector<MemberW
     console.warn(fmt::format("{} of {} members: {}", w.count, members, w.text));
 }
 
+}  // namespace
+
+void list_maps(const workflow::OutputFolder& folder, Console& console) {
+  std::error_code ignored;
+  const bool gis = std::filesystem::exists(folder.project(), ignored);
+  console.say(gis ? "  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS"
+                  : "  hazard.nc     all maps with their CRS; hazard.gis_files is false");
+  if (gis) console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
+}
+
+namespace {
+
 /// What was made, and what each file is for.
 void list_files(const workflow::OutputFolder& folder, Console& console) {
   console.say("  report.html   look here first");
-  console.say("  hazard.nc     all maps with their CRS; hazard/*.tif the same for GIS");
-  console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
+  list_maps(folder, console);
   console.say("  members.csv   one row per member");
   std::error_code ignored;
   if (std::filesystem::exists(folder.assets_csv(), ignored))

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ensemble/censoring/censored_quantile.hpp"
 
+#include "engine/core/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -65,6 +68,65 @@ double kaplan_meier(std::vector<Observation> known, double fraction) {
   return flat ? since : nan_d;
 }
 
+struct Weighed {
+  double value, weight;
+};
+
+/// Sorted by value, and what all of it weighs.
+struct WeighedSample {
+  std::vector<Weighed> sorted;
+  double sum = 0;
+
+  void add(double value, double weight) {
+    sorted.push_back({value, weight});
+    sum += weight;
+  }
+  void sort() {
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Weighed& a, const Weighed& b) { return a.value < b.value; });
+  }
+  /// Smallest value with more than this share at or below it; where one has exactly this share, the
+  /// middle between it and the next.
+  double quantile(double fraction) const {
+    double passed = 0;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      passed += sorted[i].weight;
+      const bool meets = std::abs(passed - fraction * sum) < 1e-12 * sum;
+      if (meets && i + 1 < sorted.size())
+        return sorted[i].value == sorted[i + 1].value ? sorted[i].value  // also of two infinities
+                                                      : (sorted[i].value + sorted[i + 1].value) / 2;
+      if (passed > fraction * sum) return sorted[i].value;
+    }
+    return sorted.back().value;
+  }
+};
+
+struct WeighedObservation {
+  Observation seen;
+  double weight;
+};
+
+double weighted_kaplan_meier(std::vector<WeighedObservation> known, double fraction) {
+  std::stable_sort(known.begin(), known.end(), [](const auto& a, const auto& b) {
+    return a.seen.value != b.seen.value ? a.seen.value < b.seen.value : a.seen.known < b.seen.known;
+  });
+  double at_risk = 0;
+  for (const WeighedObservation& o : known) at_risk += o.weight;
+  double survival = 1, since = nan_d;
+  bool flat = false;
+  for (const auto& [seen, weight] : known) {
+    if (seen.known == Known::exactly) {
+      if (flat) return (since + seen.value) / 2;
+      survival *= at_risk > weight ? (at_risk - weight) / at_risk : 0;
+      since = seen.value;
+      flat = std::abs(survival - (1 - fraction)) < 1e-12;
+      if (!flat && survival < 1 - fraction) return since;
+    }
+    at_risk -= weight;
+  }
+  return flat ? since : nan_d;
+}
+
 }  // namespace
 
 CensoredEstimate censored_quantile(std::span<const Observation> sample, double fraction,
@@ -97,6 +159,55 @@ CensoredEstimate censored_quantile(std::span<const Observation> sample, double f
     e.value = smallest;
   } else if (e.n_not_at_all == 0 || smallest == largest) {
     e.value = kaplan_meier(std::move(known), fraction);
+  } else {
+    e.least = smallest;
+    e.most = largest;
+  }
+  return e;
+}
+
+CensoredEstimate weighted_censored_quantile(std::span<const Observation> sample,
+                                            std::span<const double> weights, double fraction,
+                                            double confidence) {
+  expect(weights.size() == sample.size(), "a weight for each value");
+  CensoredEstimate e;
+  e.weighted = true;
+  std::vector<WeighedObservation> known;
+  WeighedSample least, most;
+  double squares = 0;
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    const Observation& o = sample[i];
+    const double w = weights[i];
+    if (!(w > 0)) continue;
+    if (o.known == Known::not_at_all || (o.known == Known::at_least && !std::isfinite(o.value))) {
+      ++e.n_not_at_all;
+      least.add(-infinite, w), most.add(infinite, w);
+    } else if (std::isfinite(o.value)) {
+      e.n_at_least += o.known == Known::at_least;
+      known.push_back({o, w});
+      least.add(o.value, w), most.add(o.known == Known::exactly ? o.value : infinite, w);
+    } else {
+      continue;
+    }
+    squares += w * w;
+  }
+  e.n = least.sorted.size();
+  if (e.n == 0) return e;
+  least.sort(), most.sort();
+  const auto worth = static_cast<std::size_t>(least.sum * least.sum / squares * (1 + 1e-12));
+  const Ranks ranks = interval_ranks(worth, fraction, (1 - confidence) / 2);
+  const auto place = [&](std::size_t rank) {
+    return (static_cast<double>(rank) - 0.5) / static_cast<double>(worth);
+  };
+  if (ranks.lower >= 1) e.lower = least.quantile(place(ranks.lower));
+  if (ranks.upper <= worth) e.upper = most.quantile(place(ranks.upper));
+  const double smallest = least.quantile(fraction), largest = most.quantile(fraction);
+  if (!std::isfinite(smallest)) return e;
+  e.at_least = !std::isfinite(largest);
+  if (e.at_least) {
+    e.value = smallest;
+  } else if (e.n_not_at_all == 0 || smallest == largest) {
+    e.value = weighted_kaplan_meier(std::move(known), fraction);
   } else {
     e.least = smallest;
     e.most = largest;

@@ -31,6 +31,7 @@ struct CensoredEstimate {
   double lower = nan_d;   ///< NaN: too few values for the confidence; -inf: no lower end is known
   double upper = nan_d;   ///< NaN: too few values for the confidence; +inf: no upper end is known
   std::size_t n = 0, n_at_least = 0, n_not_at_all = 0;
+  bool weighted = false;  ///< the values did not count alike
 };
 
 /// Quantile of a sample with values censored from the right (and others not known at all).
@@ -53,5 +54,14 @@ struct CensoredEstimate {
 /// \param fraction, confidence in (0, 1)
 CensoredEstimate censored_quantile(std::span<const Observation> sample, double fraction,
                                    double confidence);
+
+/// The same of values that do not count alike. Value: weighted Kaplan-Meier. Interval: as of so
+/// many values of equal weight as the weights are worth (Kish 1965, rounded down): the k-th of m
+/// such values stands where the weighted distribution passes (k - 1/2) / m. So it is rough where
+/// few weights carry the sample. Equal weights give what censored_quantile() gives.
+/// \param weights [sample.size()], not negative; values of weight 0 are left out
+CensoredEstimate weighted_censored_quantile(std::span<const Observation> sample,
+                                            std::span<const double> weights, double fraction,
+                                            double confidence);
 
 }  // namespace sturz

@@ -73,6 +73,7 @@ Layer made(const PartText& part, Quantity quantity, const std::string& event,
   layer.long_name = fmt::format("{}, probability that {}", part.meaning, what);
   layer.units = std::move(units);
   layer.comment = comment;
+  if (layer.meaning.is_bound()) layer.confidence = 0.95;
   return layer;
 }
 

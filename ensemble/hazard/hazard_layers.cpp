@@ -162,19 +162,20 @@ class Builder {
   ProbabilityLayers add_probability(const std::string& name, Quantity quantity,
                                     const std::string& meaning, const std::string& comment,
                                     LayerAxis axis, std::vector<float> thresholds) {
-    const auto layer = [&](const std::string& suffix, Statistic statistic,
-                           const std::string& long_name, const std::string& rule, double fill) {
-      Layer one =
-          plain_layer(name + suffix, {quantity, statistic}, long_name, "1", joined(rule, comment));
+    const auto layer = [&](Layer one, double fill) {
       one.axis = axis;
       return add(std::move(one), static_cast<float>(fill));
     };
+    const auto bound = [&](const char* suffix, Statistic statistic) {
+      return bound_layer(name + suffix, {quantity, statistic}, meaning, 0.95,
+                         joined(rules_.bounds, comment));
+    };
     ProbabilityLayers places;
-    places.probability = layer("", Statistic::probability, meaning, rules_.share, 0);
-    places.lower = layer("_lower", Statistic::lower_bound, meaning + ", lower bound", rules_.bounds,
-                         none_.lower);
-    places.upper = layer("_upper", Statistic::upper_bound, meaning + ", upper bound", rules_.bounds,
-                         none_.upper);
+    places.probability = layer(plain_layer(name, {quantity, Statistic::probability}, meaning, "1",
+                                           joined(rules_.share, comment)),
+                               0);
+    places.lower = layer(bound("_lower", Statistic::lower_bound), none_.lower);
+    places.upper = layer(bound("_upper", Statistic::upper_bound), none_.upper);
     places.thresholds = std::move(thresholds);
     return places;
   }

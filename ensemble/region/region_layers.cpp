@@ -57,10 +57,10 @@ RegionLayers region_layers(const Grid& grid, std::span<const RegionSource> of,
   const auto add_probability = [&](const std::string& name, const std::string& meaning,
                                    const std::string& rule, const std::string& rule_of_bounds) {
     add(plain_layer(name, {sources, Statistic::probability}, meaning, "1", rule + cut));
-    add(plain_layer(name + "_lower", {sources, Statistic::lower_bound}, meaning + ", lower bound",
-                    "1", rule_of_bounds + cut));
-    add(plain_layer(
-            name + "_upper", {sources, Statistic::upper_bound}, meaning + ", upper bound", "1",
+    add(bound_layer(name + "_lower", {sources, Statistic::lower_bound}, meaning, 0.9,
+                    rule_of_bounds + cut));
+    add(bound_layer(
+            name + "_upper", {sources, Statistic::upper_bound}, meaning, 0.9,
             rule_of_bounds + (n_censored > 0 ? "; not an upper bound of what was not seen" : "")),
         wilson_interval(0, n_rows, z_90).upper);
   };

@@ -21,8 +21,12 @@ namespace {
 
 constexpr const char* value_field = "value";
 
+int CPL_STDCALL go_on(double, const char*, void* cancel) {
+  return static_cast<const CancelFlag*>(cancel)->raised() ? FALSE : TRUE;
+}
+
 /// Polygons of equal cells, those of 0 left out by the mask.
-DatasetPtr polygons_of(const Raster<std::uint8_t>& cells) {
+DatasetPtr polygons_of(const Raster<std::uint8_t>& cells, CancelFlag cancel) {
   const auto affine = affine_of(cells.grid);
   // The library takes memory that it could write to, and only reads it here.
   auto* memory = const_cast<std::uint8_t*>(cells.values.data());
@@ -37,8 +41,10 @@ DatasetPtr polygons_of(const Raster<std::uint8_t>& cells) {
   if (layer == nullptr || layer->CreateField(&field) != OGRERR_NONE) fail();
   GDALRasterBand* band = raster->GetRasterBand(1);
   if (GDALPolygonize(GDALRasterBand::ToHandle(band), GDALRasterBand::ToHandle(band),
-                     OGRLayer::ToHandle(layer), 0, nullptr, nullptr, nullptr) != CE_None)
+                     OGRLayer::ToHandle(layer), 0, nullptr, go_on, &cancel) != CE_None) {
+    cancel.check();
     fail();
+  }
   return out;
 }
 
@@ -57,13 +63,14 @@ std::string cells_as_polygons(const Raster<std::uint8_t>& cells) {
   return found.empty() ? std::string() : found.begin()->second;
 }
 
-std::map<std::uint8_t, std::string> classes_as_polygons(const Raster<std::uint8_t>& cells) {
+std::map<std::uint8_t, std::string> classes_as_polygons(const Raster<std::uint8_t>& cells,
+                                                        CancelFlag cancel) {
   std::map<std::uint8_t, std::string> found;
   if (std::all_of(cells.values.begin(), cells.values.end(), [](auto c) { return c == 0; }))
     return found;
   const GdalScope scope;
   std::map<std::uint8_t, OGRMultiPolygon> all;
-  const DatasetPtr polygons = polygons_of(cells);
+  const DatasetPtr polygons = polygons_of(cells, cancel);
   for (const auto& feature : polygons->GetLayer(0)) {
     const auto value = static_cast<std::uint8_t>(feature->GetFieldAsInteger(0));
     if (all[value].addGeometryDirectly(feature->StealGeometry()) != OGRERR_NONE) fail();

@@ -2,6 +2,7 @@
 /// Areas of a map as polygons.
 #pragma once
 
+#include "engine/core/cancel.hpp"
 #include "engine/terrain/raster.hpp"
 
 #include <cstdint>
@@ -15,7 +16,9 @@ namespace sturz {
 /// \throws IoError when the library fails
 std::string cells_as_polygons(const Raster<std::uint8_t>& cells);
 
-/// The same for each value but 0 that some cell has. \throws IoError when the library fails
-std::map<std::uint8_t, std::string> classes_as_polygons(const Raster<std::uint8_t>& cells);
+/// The same for each value but 0 that some cell has. \throws IoError when the library fails;
+/// Cancelled
+std::map<std::uint8_t, std::string> classes_as_polygons(const Raster<std::uint8_t>& cells,
+                                                        CancelFlag cancel = {});
 
 }  // namespace sturz

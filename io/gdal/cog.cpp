@@ -75,6 +75,7 @@ void describe(GDALDataset& dataset, const Layer& layer, std::size_t plane,
   item("long_name", layer.long_name);
   item("cell_methods", layer.cell_methods);
   item("comment", layer.comment);
+  if (layer.confidence > 0) item("confidence_level", fmt::format("{}", layer.confidence));
   if (layer.n_censored > 0) item("sturz_censored_members", std::to_string(layer.n_censored));
   if (!layer.axis.values.empty())
     item(layer.axis.name.c_str(), fmt::format("{} {}", layer.axis.values[plane], layer.axis.units));

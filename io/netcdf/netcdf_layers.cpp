@@ -24,6 +24,7 @@ constexpr const char* order_attribute = "layer_order";
 constexpr const char* quantity_attribute = "sturz_quantity";
 constexpr const char* statistic_attribute = "sturz_statistic";
 constexpr const char* censored_attribute = "sturz_censored_members";
+constexpr const char* confidence_attribute = "confidence_level";
 constexpr const char* intensity_attribute = "sturz_intensity_class";
 
 struct WrittenAxis {
@@ -114,6 +115,7 @@ int define_layer(NetcdfWriter& file, const Layer& layer, const Grid& grid,
   write_meaning(file, variable, layer.meaning);
   write_classes(file, variable, layer.classes);
   if (layer.n_censored > 0) file.integer(variable, censored_attribute, layer.n_censored);
+  if (layer.confidence > 0) file.number(variable, confidence_attribute, layer.confidence);
   link_grid(file, variable, grid);
   return variable;
 }
@@ -192,6 +194,8 @@ Layer read_layer(const NetcdfReader& file, const Grid& grid, const std::string& 
   layer.classes = read_classes(file, name);
   layer.n_censored =
       static_cast<int>(std::clamp(file.number(name, censored_attribute).value_or(0), 0.0, 1e9));
+  // Files made before bounds said so have none.
+  layer.confidence = std::clamp(file.number(name, confidence_attribute).value_or(0), 0.0, 1.0);
   if (dimensions.size() == 3)
     layer.axis = {dimensions[0], text(dimensions[0], "standard_name"), text(dimensions[0], "units"),
                   file.doubles(dimensions[0])};

@@ -108,17 +108,22 @@ std::string grid_svg(const Axes& axes, const std::string& unit) {
     labels += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
                           axes.x(t), height - bottom + 14, shown_number(t));
   labels += fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">time [s]</text>"
+      "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>"
       "<text transform=\"translate(11 {:.1f}) rotate(-90)\" text-anchor=\"middle\">[{}]</text>",
-      (left + width - right) / 2, height - 4, (top + height - bottom) / 2, html_escape(unit));
+      (left + width - right) / 2, height - 4, html_escape(tr("js.time_s")),
+      (top + height - bottom) / 2, html_escape(unit));
   return svg + "</g>" + labels + "</g>";
 }
 
 std::string path_of(const Axes& axes, const std::vector<double>& times,
                     const std::vector<double>& values) {
   std::string d;
-  for (std::size_t i = 0; i < times.size(); ++i)
-    d += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", axes.x(times[i]), axes.y(values[i]));
+  bool drawn = false;  // the pen is down: a value that is not known lifts it
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (!std::isnan(values[i]))
+      d += fmt::format("{}{:.1f} {:.1f}", drawn ? "L" : "M", axes.x(times[i]), axes.y(values[i]));
+    drawn = !std::isnan(values[i]);
+  }
   return d;
 }
 

@@ -93,6 +93,16 @@ std::string outline(Rgb colour, const std::string& pen) {
   return symbol(0, Shape::polygon, line(colour, "0.7", pen), line({255, 255, 255}, "1.3", "solid"));
 }
 
+/// A line over a white one, so that it can be followed over dark classes.
+std::string cased_line(Rgb colour) {
+  const auto line = [](Rgb c, const char* width_mm) {
+    return Properties{{"line_color", rgba(c, solid)}, {"line_width", width_mm},
+                      {"line_width_unit", "MM"},      {"line_style", "solid"},
+                      {"capstyle", "round"},          {"joinstyle", "round"}};
+  };
+  return symbol(0, Shape::line, line(colour, "0.6"), line({255, 255, 255}, "1.2"));
+}
+
 std::string single(const std::string& one) {
   return " <renderer-v2 type=\"singleSymbol\" symbollevels=\"0\" enableorderby=\"0\" "
          "forceraster=\"0\">\n  <symbols>\n" +
@@ -156,12 +166,14 @@ std::string class_symbology(const Legend& legend) {
 
 std::string site_symbology(SiteLayer layer, Shape shape) {
   constexpr Rgb blue{11, 79, 145}, magenta{208, 28, 110}, water{21, 101, 192}, white{255, 255, 255},
-      brown{122, 76, 40};
+      brown{122, 76, 40}, orange{230, 85, 13};
   switch (layer) {
     case SiteLayer::release:
       return single(outline(blue, "solid"));
     case SiteLayer::observed:
       return single(outline(magenta, "dash"));
+    case SiteLayer::flow:
+      return single(cased_line(orange)) + named();
     case SiteLayer::thalweg:
       return single(drawn(0, shape, water, clear, water, "0.5", "dash dot"));
     case SiteLayer::gauge:

@@ -15,6 +15,7 @@ enum class Shape { point, line, polygon };
 enum class SiteLayer {
   release,   ///< where the mass lay
   observed,  ///< what an event reached
+  flow,      ///< ways of the front
   thalweg,   ///< line down the path of an event
   gauge,     ///< points and lines that were watched
   assets,    ///< what may be hit, with a column `probability`

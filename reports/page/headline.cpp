@@ -21,9 +21,30 @@ std::vector<std::pair<Outcome, int>> count_outcomes(const std::vector<MemberSumm
   return counts;
 }
 
+/// The same of weighted maps, whose convergence nobody followed; joined cells would be too many.
+Estimate weighted_area(const LayerStack& hazard) {
+  const Layer *reached = nullptr, *lower = nullptr, *upper = nullptr;
+  for (const Layer& layer : hazard.layers) {
+    if (layer.meaning.quantity != Quantity::reached) continue;
+    if (layer.meaning.statistic == Statistic::probability) reached = &layer;
+    if (layer.meaning.statistic == Statistic::lower_bound) lower = &layer;
+    if (layer.meaning.statistic == Statistic::upper_bound) upper = &layer;
+  }
+  if (hazard.joined > 1 || reached == nullptr) return {};
+  const auto area = [&](const Layer* layer) {
+    if (layer == nullptr) return nan_d;
+    double cells = 0;
+    for (std::size_t i = 0; i < hazard.grid.n_cells(); ++i)
+      cells += reached->values[i] > 0 && layer->values[i] >= 0.5F;
+    return cells * hazard.grid.cell_m * hazard.grid.cell_m;
+  };
+  return {area(reached), area(lower), area(upper)};
+}
+
 /// Area of cells with P(reached) >= 0.5, and of those whose interval lies above or touches it. From
 /// the convergence, which knows every cell: those of the page's maps may be joined ones.
 Estimate likely_area(const ReportInput& input, int n_valid) {
+  if (!input.weights.empty()) return weighted_area(*input.hazard);
   if (input.convergence.empty() || input.convergence.back().n_members != n_valid) return {};
   const ConvergencePoint& all = input.convergence.back();
   return {all.area_likely_m2, all.area_likely_lower_m2, all.area_likely_upper_m2};
@@ -52,7 +73,9 @@ Headline headline(const ReportInput& input) {
     keep_larger(h.max_thickness_m, m.scalars.max_thickness_m);
   }
   const auto median = [&](double MemberScalars::*field) {
-    return censored_quantile(observations(input.members, field), 0.5, interval_confidence);
+    const auto seen = observations(input.members, field);
+    if (input.weights.empty()) return censored_quantile(seen, 0.5, interval_confidence);
+    return weighted_censored_quantile(seen, input.weights, 0.5, interval_confidence);
   };
   h.runout_m = median(&MemberScalars::runout_m);
   h.solid_runout_m = median(&MemberScalars::solid_runout_m);

@@ -206,9 +206,9 @@ Json agreement_json(const ReportInput& input, const std::vector<std::size_t>& ro
 
 /// An end that is not known becomes null, like one that cannot be told.
 Json median_json(const CensoredEstimate& e) {
-  return {{"median", rounded(e.value)}, {"least", rounded(e.least)}, {"most", rounded(e.most)},
-          {"atLeast", e.at_least},      {"lower", rounded(e.lower)}, {"upper", rounded(e.upper)},
-          {"open", std::isinf(e.upper)}};
+  return {{"median", rounded(e.value)},  {"least", rounded(e.least)}, {"most", rounded(e.most)},
+          {"atLeast", e.at_least},       {"lower", rounded(e.lower)}, {"upper", rounded(e.upper)},
+          {"open", std::isinf(e.upper)}, {"weighted", e.weighted}};
 }
 
 /// Columns of the scatter plots and the histogram: evenly thinned when there are very many.

@@ -104,6 +104,7 @@ struct ReportInput {
   const GaugeFindings* gauges = nullptr;      ///< may be null or empty
   std::vector<MemberSummary> members;
   double effective_members = 0;  ///< that weighted maps are worth; 0: members count alike
+  std::vector<double> weights;   ///< of the valid ones of `members`, in their order; or none
   ReportTable samples;           ///< sampled keys; one row per entry of `members`, or no rows
   std::vector<ConvergencePoint> convergence;  ///< may be empty
   std::string stop_rule;                      ///< what decided the number of members; may be empty

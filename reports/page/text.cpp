@@ -25,6 +25,22 @@ std::string grouped(const std::string& digits) {
   return out;
 }
 
+/// "8.69e-12" as "8.69 x 10^-12" is written in print.
+std::string with_power_of_ten(const std::string& text) {
+  static constexpr const char* raised[] = {"\u2070", "\u00B9", "\u00B2", "\u00B3", "\u2074",
+                                           "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text;
+  std::string number = text.substr(0, e);
+  if (const std::size_t dot = number.find('.'); dot != std::string::npos)
+    number.replace(dot, 1, tr("number.decimal"));
+  number += "\u00A0\u00D7\u00A010";
+  if (text[e + 1] == '-') number += "\u207B";
+  const std::string digits = text.substr(text.find_first_not_of("+-0", e + 1));
+  for (const char c : digits) number += raised[c - '0'];
+  return number;
+}
+
 }  // namespace
 
 std::string html_escape(std::string_view text) {
@@ -90,6 +106,8 @@ std::string shown_number(double value, int digits) {
     const std::string decimals = text.substr(std::min(dot + 1, text.size()));
     text =
         grouped(text.substr(0, dot)) + (dot < text.size() ? tr("number.decimal") : "") + decimals;
+  } else {
+    text = with_power_of_ten(text);
   }
   return negative ? minus_sign + text : text;
 }
@@ -166,11 +184,20 @@ std::string area_text(double area_m2) {
   return shown_number(area_m2 / unit.square_metres) + "\u00A0" + unit.label;
 }
 
-std::string area_text(double from_m2, double to_m2) {
-  const AreaUnit unit = area_unit(to_m2);
+std::string area_text(double from_m2, double to_m2) { return area_text(from_m2, to_m2, to_m2); }
+
+std::string area_text(double from_m2, double to_m2, double like_m2) {
+  const AreaUnit unit = area_unit(like_m2);
   return shown_number(from_m2 / unit.square_metres) + "\u00A0\u2013\u00A0" +
          shown_number(to_m2 / unit.square_metres) + "\u00A0" + unit.label;
 }
+
+std::string moment_text(const std::string& iso) {
+  const bool known = iso.size() == 20 && iso[10] == 'T' && iso.back() == 'Z';
+  return known ? iso.substr(0, 10) + " " + iso.substr(11, 5) + " UTC" : iso;
+}
+
+std::string english_attribute() { return page_language() == "en" ? "" : " lang=\"en\""; }
 
 std::string words(std::string_view identifier) {
   std::string out(identifier);

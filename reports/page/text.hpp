@@ -35,6 +35,14 @@ std::string with_unit(double value, std::string_view udunits, int digits = 3);
 std::string area_text(double area_m2);
 /// The same for both ends of a range, in the unit of the larger: "7 – 10.4 ha".
 std::string area_text(double from_m2, double to_m2);
+/// The same in the unit that `like_m2` is shown in, so that an interval can be compared with it.
+std::string area_text(double from_m2, double to_m2, double like_m2);
+
+/// "2026-11-30T22:09:27Z" as "2026-11-30 22:09 UTC"; other texts as they are.
+std::string moment_text(const std::string& iso);
+/// ` lang="en"` where the page speaks another language: for what other folders wrote, so that
+/// browsers read, break and translate it as what it is.
+std::string english_attribute();
 
 /// "probability_of_x" or "basal.friction_coefficient" as words: "probability of x".
 std::string words(std::string_view identifier);

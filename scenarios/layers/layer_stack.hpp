@@ -42,6 +42,8 @@ struct Layer {
   std::vector<float> values;  ///< empty where layers are only described, see layer_stream.hpp
   /// Members behind the values whose end was not seen: probabilities and peaks are lower bounds.
   int n_censored = 0;
+  /// Of the interval that a bound is an end of: 0.95; 0 where the layer is no bound.
+  double confidence = 0;
   /// All that the values may be besides 0 (none of them), rising; empty: values are amounts.
   std::vector<LayerClass> classes{};
 
@@ -59,6 +61,19 @@ inline Layer plain_layer(std::string name, LayerMeaning meaning, std::string lon
   layer.long_name = std::move(long_name);
   layer.units = std::move(units);
   layer.comment = std::move(comment);
+  return layer;
+}
+
+/// The lower or upper end of the interval of a probability that `meaning` names.
+inline Layer bound_layer(std::string name, LayerMeaning bound, const std::string& meaning,
+                         double confidence, std::string comment) {
+  const bool lower = bound.statistic == Statistic::lower_bound;
+  const std::string level = std::to_string(static_cast<int>(100 * confidence + 0.5));
+  Layer layer = plain_layer(
+      std::move(name), bound,
+      meaning + (lower ? ", lower end of the " : ", upper end of the ") + level + " % interval",
+      "1", std::move(comment));
+  layer.confidence = confidence;
   return layer;
 }
 

@@ -97,7 +97,7 @@ class OpenedProject(unittest.TestCase):
         self.assertIn("Areas of classes", groups)
         for group, name in (("Scene", "Release"), ("Scene", "Observed outline"), ("Scene", "Gauges"),
                             ("Probability", "Probability that the flow arrives"), ("Ground", "Hillshade"),
-                            ("Bounds of the probabilities", "Probability that the flow arrives, upper bound")):
+                            ("Bounds of the probabilities", "Probability that the flow arrives, 95 % upper bound")):
             self.assertIn((group, name), self.by_name)
         shown = {node.name() for node in self.project.layerTreeRoot().findLayers() if node.isVisible()}
         self.assertEqual(shown, {"Release", "Observed outline", "Thalweg of the event", "Gauges",

@@ -55,6 +55,8 @@ TEST(ReportText, ShowsEngineersUnits) {
   EXPECT_EQ(with_unit(3, "furlong"), "3\u00A0furlong");
   EXPECT_EQ(area_text(4.2e5), "42\u00A0ha");
   EXPECT_EQ(area_text(7e4, 2.5e6), "0.07\u00A0\u2013\u00A02.5\u00A0km²");
+  EXPECT_EQ(area_text(8.15e5, 1.08e6, 9.3e5), "81.5\u00A0\u2013\u00A0108\u00A0ha");
+  EXPECT_EQ(shown_number(8.69e-12), "8.69\u00A0\u00D7\u00A010\u207B\u00B9\u00B2");
 }
 
 }  // namespace

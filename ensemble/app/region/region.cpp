@@ -5,6 +5,7 @@
 #include "ensemble/app/console/interrupt.hpp"
 #include "ensemble/app/console/json_text.hpp"
 #include "ensemble/app/exit_codes.hpp"
+#include "ensemble/app/verdict.hpp"
 #include "ensemble/workflow/readable.hpp"
 #include "ensemble/workflow/region/region_run.hpp"
 #include "ensemble/workflow/results/maps.hpp"
@@ -75,8 +76,7 @@ int verdict(const RegionMade& made, Console& console) {
                           made.n_sources - made.n_failed_sources, made.n_sources, made.valid,
                           made.planned, folder));
   console.say("  report.html   look here first: click a cell to see which sources reach it");
-  console.say("  hazard.nc     maps of all sources with their CRS; hazard/*.tif the same for GIS");
-  console.say("  hazard.qgz    QGIS project over all of it; hazard.gpkg outlines");
+  list_maps(made.folder, console);
   console.say("  sources.csv   one row per source");
   console.say(
       fmt::format("  features/     an ensemble folder for each source; sturz merge {}/features/"

@@ -165,8 +165,8 @@ std::shared_ptr<FolderLock> FolderLock::alone(const OutputFolder& folder,
   require_no_shards(folder);
   lock->main_.holder.brief = false;
   rewrite_lock(folder.lock(), lock->main_.holder);
-  for (const fs::path& part :
-       {folder.root, folder.members(), folder.tif_folder(), folder.tif_folder() / "bounds"})
+  for (const fs::path& part : {folder.root, folder.members(), folder.tif_folder(),
+                               folder.tif_folder() / "bounds", folder.peaks_folder()})
     remove_part_files(part);  // no other process writes there now
   known = lock;
   return lock;

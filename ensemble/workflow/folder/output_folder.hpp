@@ -28,6 +28,10 @@ struct OutputFolder {
   std::filesystem::path tif_folder() const { return root / "hazard"; }
   std::filesystem::path hazard_gpkg() const { return root / "hazard.gpkg"; }
   std::filesystem::path project() const { return root / "hazard.qgz"; }
+  /// What a GIS opens of a single run, named after peaks.nc.
+  std::filesystem::path peaks_folder() const { return root / "peaks"; }
+  std::filesystem::path peaks_gpkg() const { return root / "peaks.gpkg"; }
+  std::filesystem::path peaks_project() const { return root / "peaks.qgz"; }
   std::filesystem::path ground_tif() const { return root / "ground.tif"; }
   std::filesystem::path stac_item() const { return root / "stac_item.json"; }
   std::filesystem::path particles() const { return root / "particles"; }

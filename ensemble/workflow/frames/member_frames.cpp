@@ -49,8 +49,9 @@ void FrameTaker::take(const SimulationParts& parts, bool last) {
   kept_.push_back(thickness_frame(parts));
   next_s_ = now + interval_s_;
   if (kept_.size() < 2 * most_frames) return;
-  std::size_t n = 0;
-  for (std::size_t k = 0; k < kept_.size(); k += 2) kept_[n++] = std::move(kept_[k]);
+  std::size_t n = 1;
+  // The first stays where it is: moved onto itself it would lose its values.
+  for (std::size_t k = 2; k < kept_.size(); k += 2) kept_[n++] = std::move(kept_[k]);
   kept_.resize(n);
   interval_s_ *= 2;
 }

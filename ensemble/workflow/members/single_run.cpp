@@ -11,6 +11,8 @@
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/member_summary.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
+#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -42,6 +44,8 @@ void remove_results(const OutputFolder& folder) {
   for (const auto& file : {folder.peaks_nc(), folder.report(), folder.gauges_csv(),
                            folder.gauge_series_csv(), folder.members() / "000000.nc"})
     std::filesystem::remove(file);
+  remove_map_files(folder.peaks_folder());
+  remove_gis_files(folder);
 }
 
 /// What is cut off, what was warned of before and what the run itself found: a line each.
@@ -176,6 +180,9 @@ RunStored store_run(SingleRun& run, const MemberResult& result) {
   page.scores = stored.scores ? &*stored.scores : nullptr;
   page.nearest = &nearest;
   write_page(folder, manifest, scene.medians, page);
+  const LayersFileReader maps(folder.peaks_nc());
+  write_all_for_gis(folder, scene.medians,
+                    gis_content(maps, page, manifest, scene.medians, scene.inputs));
   return stored;
 }
 

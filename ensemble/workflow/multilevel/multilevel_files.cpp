@@ -107,18 +107,20 @@ void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
   const std::string monotone =
       map.thresholds.empty() ? "" : "; made monotone in the threshold (pool adjacent violators)";
   struct Kind {
-    const char *suffix, *words;
+    const char* suffix;
     Statistic statistic;
     Raster<double> MultilevelMap::*values;
   };
-  for (const Kind& kind :
-       {Kind{"", "", Statistic::probability, &MultilevelMap::probability},
-        Kind{"_lower", ", lower bound", Statistic::lower_bound, &MultilevelMap::low},
-        Kind{"_upper", ", upper bound", Statistic::upper_bound, &MultilevelMap::high}}) {
+  for (const Kind& kind : {Kind{"", Statistic::probability, &MultilevelMap::probability},
+                           Kind{"_lower", Statistic::lower_bound, &MultilevelMap::low},
+                           Kind{"_upper", Statistic::upper_bound, &MultilevelMap::high}}) {
     const std::string bounds = kind.statistic == Statistic::probability ? "" : "90 % bounds; ";
-    Layer layer = plain_layer(
-        map.name + kind.suffix, {quantity, kind.statistic}, what + kind.words, "1",
-        bounds + rule + ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored));
+    const std::string comment =
+        bounds + rule + ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored);
+    const LayerMeaning meaning{quantity, kind.statistic};
+    Layer layer = meaning.is_bound()
+                      ? bound_layer(map.name + kind.suffix, meaning, what, 0.9, comment)
+                      : plain_layer(map.name, meaning, what, "1", comment);
     layer.n_censored = static_cast<int>(n_censored);
     if (!map.thresholds.empty()) {
       const std::string word = map.name.substr(0, map.name.find("_exceedance"));
@@ -207,7 +209,10 @@ void write_multilevel_files(const MultilevelJob& job, const MultilevelMembers& f
   }
   const LayersFileReader maps(folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
-  write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  if (job.scene.scenario.hazard.gis_files)
+    write_map_files(folder.tif_folder(), maps, coarse, cancel);
+  else
+    remove_map_files(folder.tif_folder());
   // Pictures have their bounds, which coarse layers leave out: the maps as they are, where they
   // fit.
   const LayerStack shown =

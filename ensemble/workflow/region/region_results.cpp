@@ -11,7 +11,6 @@
 #include "ensemble/workflow/region/source_table.hpp"
 #include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/ground_source.hpp"
-#include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"
@@ -169,7 +168,7 @@ void write_gis(const RegionJob& job, const LayerSource& maps, const LayerStack& 
   content.started = job.manifest.started;
   content.hazard_hash = made.hazard_hash;
   content.cancel = cancel;
-  write_gis_files(job.folder, content);
+  write_all_for_gis(job.folder, job.scenario, content);
 }
 
 RegionMade make_results(RegionJob& job, Missing rule, Observer& observer, CancelFlag cancel) {
@@ -196,7 +195,6 @@ RegionMade make_results(RegionJob& job, Missing rule, Observer& observer, Cancel
   auto [lists, hash] = write_region_file(job, members, cancel);
   const LayersFileReader maps(job.folder.hazard_nc());
   LayerStack coarse = coarse_layers(maps, page_cells, cancel);
-  write_map_files(job.folder.tif_folder(), maps, coarse, cancel);
   write_text_atomic(sources_csv(job.folder), source_table(members, lists));
   made.reached_cells = lists.cells.size();
   for (std::size_t i = 0; i < lists.cells.size(); ++i)

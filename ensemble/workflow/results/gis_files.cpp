@@ -3,7 +3,9 @@
 
 #include "ensemble/assets/asset_risk.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
+#include "ensemble/workflow/results/flow_lines.hpp"
 #include "ensemble/workflow/results/ground_source.hpp"
+#include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/outline_tables.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/features/feature_file.hpp"
@@ -68,7 +70,7 @@ class Files {
   }
 
   void write_package() {
-    GeoPackage package(folder_.hazard_gpkg());
+    GeoPackage package(gpkg());
     const std::string& crs = about_.grid.crs_wkt;
     site_.title = "Scene";
     if (of_.assets)
@@ -82,10 +84,13 @@ class Files {
       add_site(package, observed_area(of_.inputs->observed, crs), SiteLayer::observed,
                "Observed outline");
     }
-    if (of_.release != nullptr)
+    if (of_.release != nullptr) {
+      add_site(package, flow_lines(*of_.coarse, *of_.release), SiteLayer::flow,
+               "Ways of the front, by arrival times", of_.one_run);
       add_site(package, release_area(*of_.release), SiteLayer::release, "Release");
+    }
     add_site(package, deposit_centres(of_.members, crs), SiteLayer::deposits,
-             "Centres of the members' deposits", false);
+             of_.one_run ? "Centre of the deposit" : "Centres of the members' deposits", false);
     outlines_.title = "Areas of classes";
     outlines_.open = false;
     for (std::size_t l = 0; l < about_.layers.size(); ++l)
@@ -101,6 +106,7 @@ class Files {
     for (std::size_t plane = 0; plane < layer.n_planes(); ++plane) {
       const FeatureTable table = class_areas(*of_.maps, number, plane, legend, of_.cancel);
       if (table.size() == 0) continue;
+      of_.cancel.check();
       package.add(table, vector_style(symbology, Shape::polygon));
       outlines_.layers.push_back({plane_title(layer, plane), package_name(), table.name,
                                   Shape::polygon, symbology, false});
@@ -123,7 +129,7 @@ class Files {
     ProjectGroup bounds{"Bounds of the probabilities", {}, false};
     std::vector<ProjectGroup> maps;
     const Layer* first = default_layer(*of_.coarse);
-    for (const PlaneFile& file : cog_files(folder_.tif_folder(), about_)) {
+    for (const PlaneFile& file : cog_files(tifs(), about_)) {
       const Layer& layer = about_.layers[file.layer];
       ProjectLayer one{title_of(layer, file.plane),
                        file.path.lexically_relative(folder_.root).generic_string(),
@@ -151,7 +157,7 @@ class Files {
                           hillshade_symbology(),
                           true}},
                         false});
-    write_zip(folder_.project(), "hazard.qgs", qgis_project(project_));
+    write_zip(project_file(), project_file().stem().string() + ".qgs", qgis_project(project_));
   }
 
   static ProjectGroup& group_of(std::vector<ProjectGroup>& groups, const Layer& layer) {
@@ -171,17 +177,21 @@ class Files {
     Layer probability = layer;
     probability.meaning.statistic = Statistic::probability;
     const bool lower = layer.meaning.statistic == Statistic::lower_bound;
-    return plane_title(probability, plane) + (lower ? ", lower bound" : ", upper bound");
+    const std::string level =
+        layer.confidence > 0 ? fmt::format("{:.0f} % ", 100 * layer.confidence) : "";
+    return plane_title(probability, plane) + ", " + level + (lower ? "lower" : "upper") + " bound";
   }
 
   void write_item() const {
     StacItem item;
     item.id = "sturz-" + of_.hazard_hash;
     item.title = of_.title;
-    item.description = fmt::format(
-        "Maps of {} simulations of a moving mass, of which parameters "
-        "that are not known were drawn.",
-        of_.n_members);
+    item.description = of_.one_run
+                           ? "Largest values of one simulation of a moving mass."
+                           : fmt::format(
+                                 "Maps of {} simulations of a moving mass, of which parameters "
+                                 "that are not known were drawn.",
+                                 of_.n_members);
     item.datetime = of_.started;
     item.software = fmt::format("{} ({})", version, git_commit);
     item.grid = about_.grid;
@@ -196,11 +206,11 @@ class Files {
     };
     constexpr const char *netcdf = "application/netcdf", *gpkg = "application/geopackage+sqlite3",
                          *geotiff = "image/tiff; application=geotiff; profile=cloud-optimized";
-    add(folder_.hazard_nc(), "All maps", netcdf, "data");
-    add(folder_.hazard_gpkg(), "Areas of classes, release, assets", gpkg, "data");
+    add(of_.one_run ? folder_.peaks_nc() : folder_.hazard_nc(), "All maps", netcdf, "data");
+    add(gpkg(), "Areas of classes, release, ways of the front, assets", gpkg, "data");
     add(folder_.ground_tif(), "Elevations under the maps", geotiff, "data");
-    add(folder_.project(), "QGIS project", "application/x-qgis-project", "visual");
-    for (const PlaneFile& file : cog_files(folder_.tif_folder(), about_)) {
+    add(project_file(), "QGIS project", "application/x-qgis-project", "visual");
+    for (const PlaneFile& file : cog_files(tifs(), about_)) {
       const Layer& layer = about_.layers[file.layer];
       const std::string name = file.path.lexically_relative(folder_.root).generic_string();
       item.assets.push_back(
@@ -209,7 +219,12 @@ class Files {
     write_text_atomic(folder_.stac_item(), stac_item(item));
   }
 
-  std::string package_name() const { return folder_.hazard_gpkg().filename().string(); }
+  fs::path gpkg() const { return of_.one_run ? folder_.peaks_gpkg() : folder_.hazard_gpkg(); }
+  fs::path tifs() const { return of_.one_run ? folder_.peaks_folder() : folder_.tif_folder(); }
+  fs::path project_file() const {
+    return of_.one_run ? folder_.peaks_project() : folder_.project();
+  }
+  std::string package_name() const { return gpkg().filename().string(); }
 
   const OutputFolder& folder_;
   const GisContent& of_;
@@ -225,7 +240,8 @@ GisContent gis_content(const LayerSource& maps, const PageContent& page, const M
   GisContent content;
   content.title = scenario.title.empty() ? "Landslide hazard" : scenario.title;
   content.maps = &maps;
-  content.coarse = page.hazard;
+  content.one_run = page.hazard == nullptr;
+  content.coarse = content.one_run ? page.peaks : page.hazard;
   content.inputs = &inputs;
   if (page.elevation != nullptr)
     content.elevation = ground_source(maps.about().grid, [&ground = *page.elevation](auto&) {
@@ -250,10 +266,23 @@ void write_gis_files(const OutputFolder& folder, const GisContent& content) {
   Files(folder, content).write();
 }
 
+void write_all_for_gis(const OutputFolder& folder, const Scenario& scenario,
+                       const GisContent& content) {
+  const fs::path tifs = content.one_run ? folder.peaks_folder() : folder.tif_folder();
+  if (scenario.hazard.gis_files) {
+    write_map_files(tifs, *content.maps, *content.coarse, content.cancel);
+    write_gis_files(folder, content);
+    return;
+  }
+  remove_map_files(tifs);
+  remove_gis_files(folder);
+}
+
 void remove_gis_files(const OutputFolder& folder) {
   for (const fs::path& file :
-       {folder.hazard_gpkg(), folder.project(), folder.ground_tif(),
-        fs::path(folder.ground_tif()).replace_extension(".qml"), folder.stac_item()})
+       {folder.hazard_gpkg(), folder.project(), folder.peaks_gpkg(), folder.peaks_project(),
+        folder.ground_tif(), fs::path(folder.ground_tif()).replace_extension(".qml"),
+        folder.stac_item()})
     fs::remove(file);
 }
 

@@ -24,6 +24,7 @@ namespace sturz::workflow {
 /// What there is of a results folder; absent parts are null or empty.
 struct GisContent {
   std::string title;
+  bool one_run = false;                 ///< the files are called peaks, not hazard
   const LayerSource* maps = nullptr;    ///< whose GeoTIFFs lie in the folder
   const LayerStack* coarse = nullptr;   ///< the same in few cells, for the classes of the styles
   const SceneInputs* inputs = nullptr;  ///< observation, thalweg and gauges
@@ -41,9 +42,15 @@ struct GisContent {
 GisContent gis_content(const LayerSource& maps, const PageContent& page, const Manifest&,
                        const Scenario&, const SceneInputs&);
 
-/// Writes hazard.gpkg, ground.tif (where there are elevations), hazard.qgz and stac_item.json.
-/// Memory holds one layer's outlines at a time, and the files that grow. \throws IoError; Cancelled
+/// Writes hazard.gpkg (peaks.gpkg of a run; so all of these names), ground.tif (where there are
+/// elevations), hazard.qgz and stac_item.json. Memory holds one layer's outlines at a time, and the
+/// files that grow. \throws IoError; Cancelled
 void write_gis_files(const OutputFolder&, const GisContent&);
+
+/// GeoTIFFs with their styles, and write_gis_files(); or, where the scene wants none
+/// (hazard.gis_files), nothing of them, and what earlier maps left is removed.
+/// \throws IoError; Cancelled
+void write_all_for_gis(const OutputFolder&, const Scenario&, const GisContent&);
 
 /// Removes what write_gis_files() left in the folder.
 void remove_gis_files(const OutputFolder&);

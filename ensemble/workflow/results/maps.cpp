@@ -12,7 +12,6 @@
 #include "ensemble/workflow/results/gauge_files.hpp"
 #include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
-#include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
@@ -132,7 +131,6 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   const std::string hash = write_hazard_nc(request, store, ground.get(), convergence, cancel);
   const LayersFileReader maps(folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
-  write_map_files(folder.tif_folder(), maps, coarse, cancel);
   made.censoring.where = where_mass_left(coarse, inputs.terrain_grid());
 
   PageContent page;
@@ -166,7 +164,7 @@ MapsMade make_maps(const MapsRequest& request, const MemberStore& store, Observe
   manifest.maps_of = members_hash(store, design.n_members());
   const auto posterior = shown_posterior(folder, manifest, scenario, observer);
   if (posterior) page.posterior = &*posterior;
-  write_gis_files(folder, gis_content(maps, page, manifest, scenario, inputs));
+  write_all_for_gis(folder, scenario, gis_content(maps, page, manifest, scenario, inputs));
   write_page(folder, manifest, scenario, page);
   manifest.write(folder.manifest());
   made.hazard_hash = hash;

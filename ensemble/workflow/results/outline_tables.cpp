@@ -49,7 +49,7 @@ std::string quantity_word(const Layer& layer) {
 bool is_outlined(const Layer& layer) {
   const auto [quantity, statistic, intensity] = layer.meaning;
   if (statistic == Statistic::probability) return true;
-  return statistic == Statistic::quantile &&
+  return (statistic == Statistic::quantile || statistic == Statistic::peak) &&
          (quantity == Quantity::thickness || quantity == Quantity::deposit);
 }
 
@@ -68,7 +68,7 @@ FeatureTable class_areas(const LayerSource& maps, std::size_t number, std::size_
   Texts labels;
   Numbers from, to, areas;
   const std::string unit = legend.unit.label.empty() ? "" : " " + legend.unit.label;
-  for (auto& [value, wkb] : classes_as_polygons(classes)) {
+  for (auto& [value, wkb] : classes_as_polygons(classes, cancel)) {
     const std::size_t k = value - std::size_t{1};
     const bool last = k + 1 == legend.classes.size();
     table.wkb.push_back(std::move(wkb));

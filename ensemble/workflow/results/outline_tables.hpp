@@ -16,7 +16,8 @@
 
 namespace sturz::workflow {
 
-/// Maps whose classes are worth an outline: all probabilities, quantiles of thickness and deposit.
+/// Maps whose classes are worth an outline: all probabilities; quantiles of thickness and
+/// deposit, and those of a run.
 bool is_outlined(const Layer& layer);
 
 /// Areas of the classes of one plane, along its cells' edges, named as its GeoTIFF: class (1 the

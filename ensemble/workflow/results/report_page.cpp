@@ -180,6 +180,7 @@ void write_page(const OutputFolder& folder, const Manifest& manifest, const Scen
   input.gauges = content.gauges;
   input.frames = content.frames;
   input.effective_members = content.effective_members;
+  input.weights.assign(content.weights.begin(), content.weights.end());
   input.members.assign(content.members.begin(), content.members.end());
   if (content.design && !content.design->keys.empty())
     input.samples = sampled_values(*content.design, content.members);

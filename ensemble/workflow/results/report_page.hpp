@@ -50,6 +50,7 @@ struct PageContent {
   std::span<const ConvergencePoint> convergence;
   const StopRecord* stop = nullptr;  ///< null: no stop rule
   double effective_members = 0;      ///< that weighted maps are worth; 0: members count alike
+  std::span<const double> weights;   ///< of the valid members, where they do not count alike
   CancelFlag cancel;
   std::string where_mass_left;                    ///< in words
   const Raster<std::uint8_t>* release = nullptr;  ///< see release_footprint()

@@ -10,7 +10,6 @@
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
-#include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
@@ -37,8 +36,9 @@ Manifest page_manifest(const MergeInput& of, const WeightedMapsMade& made) {
   manifest.hazard_hash = made.hazard_hash;
   manifest.weighting = weighting_text(made.effective_members);
   const std::string kind = "These maps are " + manifest.weighting +
-                           ". What is told of single members, their spread and medians, is of the "
-                           "ensemble as it was drawn.";
+                           ", and so are the sentence above and the medians. Single members, "
+                           "their histogram and their largest values are of the ensemble as it was "
+                           "drawn.";
   manifest.warnings.insert(manifest.warnings.begin(), kind);
   manifest.warnings.insert(manifest.warnings.begin() + 1, made.warnings.begin(),
                            made.warnings.end());
@@ -74,13 +74,13 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   made.hazard_hash = write_hazard(made.folder.hazard_nc(), of.store, scenario.hazard, context);
   const LayersFileReader maps(made.folder.hazard_nc());
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
-  write_map_files(made.folder.tif_folder(), maps, coarse, cancel);
 
   PageContent page;
   page.scenario_file = of.finished.folder.scenario();
   page.hazard = &coarse;
   page.design = &of.design;
   page.effective_members = made.effective_members;
+  page.weights = weights;
   page.elevation = ground.get();
   page.members = of.store.members();
   page.cancel = cancel;
@@ -88,7 +88,7 @@ WeightedMapsMade make_weighted_maps(const MergeRequest& request,
   page.release = &release;
   page.observed = inputs.observed;
   const Manifest manifest = page_manifest(of, made);
-  write_gis_files(made.folder, gis_content(maps, page, manifest, scenario, inputs));
+  write_all_for_gis(made.folder, scenario, gis_content(maps, page, manifest, scenario, inputs));
   write_page(made.folder, manifest, scenario, page);
   return made;
 }

@@ -8,7 +8,9 @@ from .program import SturzError
 
 
 def project_of(folder):
-    return os.path.join(folder, "hazard.qgz")
+    """Of an ensemble or, where there is none, of a single run."""
+    ensemble, run = (os.path.join(folder, name) for name in ("hazard.qgz", "peaks.qgz"))
+    return run if os.path.isfile(run) and not os.path.isfile(ensemble) else ensemble
 
 
 def _copy(group, target, layers, project):
@@ -31,10 +33,10 @@ def _copy(group, target, layers, project):
 
 
 def show_results(folder, context, feedback):
-    """Adds one group with everything that hazard.qgz of the folder shows. Returns the number of layers."""
+    """Adds one group with everything that hazard.qgz (peaks.qgz of a run) shows. Returns the number of layers."""
     file = project_of(folder)
     if not os.path.isfile(file):
-        raise SturzError(f"{folder} has no hazard.qgz. Name a folder that `sturz ensemble` wrote; `sturz merge` makes "
+        raise SturzError(f"{folder} has no hazard.qgz. Name a folder that `sturz ensemble` or `sturz run` wrote (without `hazard.gis_files: false`); `sturz merge` makes "
                          "the file for one of an older version.")
     stored = QgsProject()
     if not stored.read(file):

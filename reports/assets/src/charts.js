@@ -79,7 +79,8 @@ function drawMedian(plot, runout, c) {
   ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
   ctx.textAlign = x(runout.median) > bbox.left + bbox.width / 2 ? 'right' : 'left';
   const gap = (ctx.textAlign === 'left' ? 6 : -6) * devicePixelRatio;
-  ctx.fillText(runout.atLeast ? `${t('median')} ≥` : t('median'), x(runout.median) + gap, bbox.top + 12 * devicePixelRatio);
+  const word = runout.weighted ? t('median_weighted') : t('median');
+  ctx.fillText(runout.atLeast ? `${word} ≥` : word, x(runout.median) + gap, bbox.top + 12 * devicePixelRatio);
   ctx.restore();
 }
 

@@ -226,7 +226,9 @@ export async function startMaps(page) {
 
   /** What a saved or printed picture holds. */
   const seen = () => ({
-    view, marks, name: nameOf(current, bound),
+    view, name: nameOf(current, bound),
+    marks: [...marks, ...view.overlays.named.filter(({layer}) => layer.getVisible())
+        .map(({name, look}) => ({kind: 'overlay', label: name, colour: look.colour, dash: look.dash}))],
     title: title.textContent, legend: current.layer.legend, values: seenValues,
     scene: document.querySelector('h1').textContent, system: maps.system, beside: swipe.beside(),
   });
@@ -265,5 +267,7 @@ export async function startMaps(page) {
   };
   await show(first);
   setTimeout(() => Promise.all(planes.map(load)).then(() => cellPanel.redraw()), 60);
-  printWhatIsSeen(seen, () => current === first && bound === 'value');
+  // A still figure has no overlays: where there are some, what is seen is printed.
+  printWhatIsSeen(seen, () => current === first && bound === 'value' && view.overlays.named.length === 0 &&
+                              !view.overlays.photo?.getVisible());
 }

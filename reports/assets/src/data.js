@@ -66,10 +66,18 @@ const grouped = new Intl.NumberFormat('en', {maximumSignificantDigits: 3, useGro
 const local = (text) => languageOf() === 'en' ? text : text.replace('.', decimalMark());
 const decimalMark = () => new Intl.NumberFormat(languageOf()).format(0.5)[1];
 
+/** "8.69 × 10⁻¹²", as tables have it. */
+function powerText(value) {
+  const [number, power] = value.toExponential(2).split('e-');
+  const raised = [...power].map((digit) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[digit]).join('');
+  return `${local(number.replace(/0+$/, '').replace(/\.$/, '').replace('-', '−'))}\u00a0×\u00a010⁻${raised}`;
+}
+
 /** Three significant digits, thousands separated by narrow spaces. */
 export function numberText(value) {
   if (!Number.isFinite(value)) return '–';
   const whole = Math.abs(value) >= 1000 ? Math.round(value).toString() : null;
+  if (value !== 0 && Math.abs(value) < 1e-6) return powerText(value);
   if (whole === null) return local(grouped.format(value).replace('-', '−'));
   const digits = Math.abs(value) >= 10000 ? whole.replace(/\B(?=(\d{3})+$)/g, '\u202f') : whole;
   return digits.replace('-', '−');

@@ -34,7 +34,7 @@ function styleOf(look) {
                               stroke: new Stroke({color: '#fff', width: 1.4})}),
       text: new Text({
         text: feature.get('name') ?? '', font: '500 11px system-ui, sans-serif',
-        overflow: false, offsetY: feature.get('kind') === 'point' ? -11 : 0,
+        overflow: feature.get('kind') !== 'line', offsetY: feature.get('kind') === 'point' ? -11 : 0,
         placement: feature.get('kind') === 'line' ? 'line' : 'point',
         fill: new Fill({color: look.colour}), stroke: new Stroke({color: '#fff', width: 3}),
       }),

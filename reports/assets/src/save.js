@@ -69,13 +69,13 @@ function drawNorth(context, x, y) {
 }
 
 /** Swatches as the map draws the marks. */
-function drawMark(context, kind, x, y) {
-  const colour = {release: '#111', observed: '#0a58ca', nearest: '#7b1fa2', left: '#b3123f',
+function drawMark(context, {kind, colour: own, dash}, x, y) {
+  const colour = own ?? {release: '#111', observed: '#0a58ca', nearest: '#7b1fa2', left: '#b3123f',
                   'front-grains': '#7a3b00', 'front-liquid': '#00798c'}[kind] ?? '#111';
   context.strokeStyle = colour;
   context.lineWidth = 2;
-  context.setLineDash(kind === 'observed' ? [5, 3] : []);
-  if (kind.startsWith('front')) {
+  context.setLineDash(kind === 'observed' || dash ? [5, 3] : []);
+  if (kind.startsWith('front') || kind === 'overlay') {
     context.beginPath();
     context.moveTo(x, y + 7);
     context.lineTo(x + 24, y + 7);
@@ -144,10 +144,10 @@ export function composePicture(seen) {
     y = drawClasses(context, seen.beside.legend, x, y);
   }
   y += 6;
-  for (const {kind, label} of seen.marks) {
-    drawMark(context, kind, x, y - 11);
+  for (const mark of seen.marks) {
+    drawMark(context, mark, x, y - 11);
     context.fillStyle = '#111';
-    y = wrapped(context, label, x + 32, y, side - 32, 16) + 4;
+    y = wrapped(context, mark.label, x + 32, y, side - 32, 16) + 4;
   }
   y += 8;
   drawScale(context, map, x, y + 4);

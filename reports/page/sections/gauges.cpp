@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -28,10 +29,29 @@ std::string head_of(const GaugeFindings& f) {
   return head;
 }
 
+/// What stands in gauges.csv in place of a number, in the page's language.
+std::string word_of(const std::string& value) {
+  if (value == "never") return tr("gauges.never");
+  if (value == "not reached") return tr("gauges.not_reached");
+  if (value == "not known") return tr("gauges.value_not_known");
+  return value;
+}
+
+std::string quantity_of(const GaugeRow& row) {
+  for (const auto& [name, key] : {std::pair{"arrival", "gauges.arrival"},
+                                  {"peak_thickness", "gauges.peak_thickness"},
+                                  {"peak_speed", "gauges.peak_speed"},
+                                  {"peak_momentum_flux", "gauges.peak_momentum_flux"},
+                                  {"peak_discharge", "gauges.peak_discharge"},
+                                  {"volume", "gauges.volume"}})
+    if (row.quantity == name) return tr(key);
+  return words(row.quantity);
+}
+
 /// ">= 0.193627" as "\u2265 0.194", in the unit that is shown; words stay as they are.
 std::string shown_quantile(const std::string& value, double factor) {
   const std::size_t digits = value.find_first_of("0123456789");
-  if (digits == std::string::npos) return value;
+  if (digits == std::string::npos) return word_of(value);
   std::string bound = value.substr(0, digits);
   if (bound == ">= ") bound = "\u2265\u00A0";
   return bound + shown_number(factor * std::strtod(value.c_str() + digits, nullptr));
@@ -41,7 +61,7 @@ std::string row_of(const GaugeRow& r) {
   const DisplayUnit unit = display_unit(r.units);
   std::string row = fmt::format(
       "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"n\">{}</td>", html_escape(r.gauge),
-      html_escape(words(r.quantity)), html_escape(unit.label),
+      html_escape(quantity_of(r)), html_escape(unit.label),
       html_escape(tr("gauges.of", r.reached, r.members,
                      r.unknown > 0 ? tr("gauges.not_known", r.unknown) : std::string())));
   for (const std::string& v : r.values)
@@ -49,8 +69,24 @@ std::string row_of(const GaugeRow& r) {
   return row + "</tr>";
 }
 
+/// From when on which members are not known any more; empty where all are throughout.
+std::string unknown_text(const GaugeBand& band, std::size_t n_members) {
+  const auto fewer = std::find_if(band.members.begin(), band.members.end(),
+                                  [&](std::size_t known) { return known < n_members; });
+  if (fewer == band.members.end()) return {};
+  const auto first = static_cast<std::size_t>(fewer - band.members.begin());
+  const std::size_t least = *std::min_element(fewer, band.members.end());
+  const std::string from = duration_text(band.time_s[first]);
+  return least == 0 && *fewer == 0 ? tr("gauges.gap", from)
+         : least == 0              ? tr("gauges.fewer_gap", from, n_members)
+                                   : tr("gauges.fewer", from, least, n_members);
+}
+
 /// Discharge of a line over time, its quantiles as lines.
 std::string chart_of(const GaugeFindings& f, const GaugeBand& band) {
+  std::size_t n_members = 0;
+  for (const GaugeRow& row : f.rows)
+    if (row.gauge == band.gauge) n_members = std::max(n_members, row.members);
   constexpr std::array<const char*, 3> paints{"rear", "front", "fastest"};
   MotionChart chart;
   chart.name = "gauge";
@@ -62,10 +98,9 @@ std::string chart_of(const GaugeFindings& f, const GaugeBand& band) {
     line.label =
         f.one_member ? tr("gauges.discharge") : fmt::format("{:g} %", 100 * f.quantiles[q]);
     line.paint = paints[q];
-    for (const double v : band.values[q]) {
-      line.values.push_back(std::isnan(v) ? 0 : v);
-      most = std::max(most, line.values.back());
-    }
+    line.values = band.values[q];
+    for (const double v : line.values)
+      if (v > most) most = v;
     chart.lines.push_back(std::move(line));
   }
   if (!(most > 0) || band.time_s.size() < 2) return {};
@@ -76,8 +111,11 @@ std::string chart_of(const GaugeFindings& f, const GaugeBand& band) {
         "<li><svg class=\"chip\" width=\"22\" height=\"12\" aria-hidden=\"true\"><rect "
         "class=\"area paint-{}\" width=\"22\" height=\"12\" rx=\"2\"/></svg>{}</li>",
         line.paint, html_escape(line.label));
-  return fmt::format("<figure class=\"chart motion\"><figcaption>{}</figcaption>{}{}</ul></figure>",
-                     html_escape(chart.title), motion_chart_svg(chart, band.time_s), legend);
+  const std::string unknown = unknown_text(band, n_members);
+  return fmt::format(
+      "<figure class=\"chart motion\"><figcaption>{}</figcaption>{}{}</ul>{}</figure>",
+      html_escape(chart.title), motion_chart_svg(chart, band.time_s), legend,
+      unknown.empty() ? "" : "<p class=\"note\">" + html_escape(unknown) + "</p>");
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ std::string title_block_html(const ReportInput& input, const Headline& h, const 
                         : input.hazard != nullptr
                             ? tr("sheet.valid_of", h.n_valid, std::max(h.n_members, h.n_valid))
                             : tr("sheet.one_run"));
-  row("sheet.started", value("started"));
+  row("sheet.started", moment_text(value("started")));
   row("sheet.program", value("program"));
   row("sheet.hash", value("hash of the maps"));
   row("sheet.sheets", tr("sheet.map_sheet"));

@@ -55,7 +55,7 @@ std::string computation_html(const ReportInput& input, const Headline&) {
                      "</h2><details><summary>" + html_escape(tr("computation.fold")) +
                      "</summary><div class=\"columns\">";
   if (!input.description.empty()) {
-    html += heading("computation.scene") + "<pre class=\"lines\">";
+    html += heading("computation.scene") + "<pre class=\"lines\"" + english_attribute() + ">";
     for (const auto& line : input.description) html += html_escape(line) + "\n";
     html += "</pre></div>";
   }

@@ -45,7 +45,8 @@ double last_arrival(const LayerStack& hazard) {
 
 /// With three digits: a sentence is no table.
 double rounded(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 2);
+  if (value == 0) return 0;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
   return std::round(value / unit) * unit;
 }
 
@@ -79,6 +80,7 @@ std::string conditions_text(const ReportInput& input) {
       if (!(most >= row[k])) most = row[k];
     }
     const DisplayUnit unit = display_unit(k < samples.units.size() ? samples.units[k] : "1");
+    least = rounded(least), most = rounded(most);
     const std::string label = unit.label.empty() ? "" : "\u00A0" + unit.label;
     text += (text.empty() ? "" : ", ") + key_label(samples, k) + " " +
             shown_number(unit.factor * least) + "\u2013" + shown_number(unit.factor * most) + label;
@@ -118,7 +120,8 @@ std::string ensemble_sentence(const ReportInput& input, const Headline& h) {
   std::string text = tr("plain.if_released", volume_text(input.members));
   const std::string runout = in_a_sentence(h.runout_m);
   if (!runout.empty()) {
-    text += tr("plain.runout", runout, h.n_valid);
+    text += input.weights.empty() ? tr("plain.runout", runout, h.n_valid)
+                                  : tr("plain.runout_weighted", runout);
     if (!std::isnan(h.runout_m.lower)) text += " (" + interval_text(h.runout_m, metres) + ")";
   }
   if (!std::isnan(h.likely_area_m2.value)) {
@@ -142,8 +145,9 @@ std::string single_sentence(const Headline& h, const MemberSummary& m) {
 }
 
 /// How many of the members the sentence rests on, and which do not count or count as bounds.
-std::string sureness_text(const Headline& h) {
+std::string sureness_text(const ReportInput& input, const Headline& h) {
   std::string text = tr_count("plain.rests_on", h.n_valid);
+  if (!input.weights.empty()) text += tr("plain.worth", shown_number(input.effective_members));
   if (h.n_members > h.n_valid) text += tr_count("plain.failed", h.n_members - h.n_valid);
   if (const auto cut = h.censoring.censored(); cut > 0) text += tr_count("plain.cut", cut);
   return text + ".";
@@ -170,7 +174,10 @@ PlainWords plain_words(const ReportInput& input, const Headline& h) {
   if (const std::string assets = assets_text(input); !assets.empty()) words.finding += " " + assets;
   const std::string conditions = conditions_text(input);
   words.holds = conditions.empty() ? tr("plain.no_ranges") : tr("plain.ranges", conditions);
-  words.holds.append(" ").append(sureness_text(h)).append(" ").append(tr("plain.not_how_often"));
+  words.holds.append(" ")
+      .append(sureness_text(input, h))
+      .append(" ")
+      .append(tr("plain.not_how_often"));
   return words;
 }
 

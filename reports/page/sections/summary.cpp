@@ -42,7 +42,7 @@ std::string card(const std::string& label, const std::string& value, const std::
 std::string area_interval(const Estimate& e, bool cut) {
   if (std::isnan(e.lower)) return tr("cards.few_for_interval");
   return tr("cards.interval", percent_text(interval_confidence)) +
-         (cut ? tr("cards.from_open", area_text(e.lower)) : area_text(e.lower, e.upper));
+         (cut ? tr("cards.from_open", area_text(e.lower)) : area_text(e.lower, e.upper, e.value));
 }
 
 std::string sentence(std::string text) {
@@ -86,7 +86,7 @@ std::string header_html(const ReportInput& input, const Headline& h) {
     add(tr("header.single"));
   add(formulations(input.members));
   add(words(manifest_value(input, "design")));
-  add(manifest_value(input, "started"));
+  add(moment_text(manifest_value(input, "started")));
   const std::string program = manifest_value(input, "program");
   add(program.empty() ? "sturz" : program);
   return fmt::format(
@@ -100,8 +100,21 @@ std::string header_html(const ReportInput& input, const Headline& h) {
 
 namespace {
 
-std::vector<std::string> warning_lines(const ReportInput& input, const Headline& h) {
+/// Sentences of the page in its language first, then those of the program, which are English.
+struct WarningLines {
   std::vector<std::string> lines;
+  std::size_t own = 0;  ///< so many of them are the page's
+
+  std::string attribute(std::size_t k) const { return k < own ? "" : english_attribute(); }
+  /// That the rest is English; empty where it is not, or nothing is.
+  std::string note() const {
+    return lines.size() > own && page_language() != "en" ? tr("warnings.english") : std::string();
+  }
+};
+
+WarningLines warning_lines(const ReportInput& input, const Headline& h) {
+  WarningLines all;
+  std::vector<std::string>& lines = all.lines;
   const int lost = h.n_members - h.n_valid;
   if (h.n_members == 0 && input.region == nullptr)
     lines.push_back(tr("warnings.none_yet"));
@@ -114,27 +127,29 @@ std::vector<std::string> warning_lines(const ReportInput& input, const Headline&
     const std::vector<std::string> said = cut_off_sentences(h.censoring);
     lines.push_back(said[0] + " " + said[1] + " " + said[said.size() - 2]);
   }
+  all.own = lines.size();
   lines.insert(lines.end(), input.warnings.begin(), input.warnings.end());
   for (const auto& w : member_warnings(input.members)) {
     if (std::find(lines.begin(), lines.end(), w.text) != lines.end()) continue;
     lines.push_back(h.n_members == 1 ? sentence(w.text)
                                      : tr("warnings.of_members", w.count, h.n_members, w.text));
   }
-  return lines;
+  return all;
 }
 
 }  // namespace
 
 std::string attention_html(const ReportInput& input, const Headline& h) {
-  const std::vector<std::string> lines = warning_lines(input, h);
-  if (lines.empty()) return {};
+  const WarningLines all = warning_lines(input, h);
+  if (all.lines.empty()) return {};
   return "<p class=\"attention\"><a href=\"#warnings\"><b>" +
-         html_escape(tr_count("attention", std::ssize(lines))) + "</b> " +
-         html_escape(lines.front()) + "</a></p>";
+         html_escape(tr_count("attention", std::ssize(all.lines))) + "</b> <span" +
+         all.attribute(0) + ">" + html_escape(all.lines.front()) + "</span></a></p>";
 }
 
 std::string warnings_html(const ReportInput& input, const Headline& h) {
-  const std::vector<std::string> lines = warning_lines(input, h);
+  const WarningLines all = warning_lines(input, h);
+  const std::vector<std::string>& lines = all.lines;
   // The banner is not on the printed sheets; what it says is.
   std::string cut;
   if (!banner_html(input, h).empty())
@@ -149,15 +164,19 @@ std::string warnings_html(const ReportInput& input, const Headline& h) {
   // A printed page holds so many lines beside the numbers, and says how many it does not.
   constexpr std::size_t most_letters = 1500;
   std::size_t letters = cut.size(), left_out = 0;
-  for (const auto& line : lines) {
-    letters += line.size();
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    letters += lines[k].size();
     const bool printed = letters <= most_letters;
     left_out += !printed;
-    html += (printed ? "<li>" : "<li class=\"screen-only\">") + html_escape(line) + "</li>";
+    html += std::string(printed ? "<li" : "<li class=\"screen-only\"") + all.attribute(k) + ">" +
+            html_escape(lines[k]) + "</li>";
   }
   if (left_out > 0)
     html += "<li class=\"print-only\">" + html_escape(tr("warnings.more", left_out)) + "</li>";
-  return html + "</ul></section>";
+  html += "</ul>";
+  if (const std::string note = all.note(); !note.empty())
+    html += "<p class=\"note\">" + html_escape(note) + "</p>";
+  return html + "</section>";
 }
 
 std::string banner_html(const ReportInput& input, const Headline& h) {
@@ -186,8 +205,10 @@ std::string metres(double value) { return with_unit(value, "m"); }
 /// A card of a median with its interval and what is cut off.
 std::string median_card(const std::string& label, const CensoredEstimate& e,
                         const NumberWriter& number, bool single, const std::string& detail) {
-  return card(single ? sentence(label) : tr("cards.median", label), value_text(e, number),
-              joined({single ? "" : interval_text(e, number), single ? "" : cut_text(e), detail}));
+  return card(
+      single ? sentence(label) : tr(e.weighted ? "cards.median_weighted" : "cards.median", label),
+      value_text(e, number),
+      joined({single ? "" : interval_text(e, number), single ? "" : cut_text(e), detail}));
 }
 
 std::string area_card(const ReportInput& input, const Headline& h, bool single) {

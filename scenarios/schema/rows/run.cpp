@@ -158,6 +158,12 @@ void add_hazard(std::vector<KeyInfo>& keys) {
   keys.push_back(text_key(hazard, &HazardSpec::observed_note, "hazard.observed_note", text,
                           "What the observed outline is, for the legend: event, source, how it "
                           "was made."));
+  keys.push_back(
+      key(hazard, &HazardSpec::gis_files,
+          {"hazard.gis_files", flag, "", -no_limit, no_limit,
+           "Write what a GIS opens: GeoTIFFs with their styles, outlines (.gpkg), project "
+           "(.qgz), ground.tif and stac_item.json. hazard.nc and peaks.nc hold the same "
+           "maps without them."}));
 }
 
 }  // namespace

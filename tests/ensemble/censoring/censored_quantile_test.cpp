@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace sturz {
 namespace {
@@ -224,6 +225,38 @@ TEST(CensoredQuantile, NaiveIntervalsMissTheTruth) {
 TEST(CensoredQuantile, IntervalsOfTheCurveMissItWhereTheFarOnesAreLostFirst) {
   EXPECT_GE(coverage(120, at_random, brookmeyer_crowley), 0.93) << "sound where it is meant for";
   EXPECT_LT(coverage(120, far_ones_early, brookmeyer_crowley), 0.8);
+}
+
+void expect_same(const CensoredEstimate& a, const CensoredEstimate& b) {
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  EXPECT_TRUE(same(a.value, b.value)) << a.value << " and " << b.value;
+  EXPECT_TRUE(same(a.least, b.least) && same(a.most, b.most));
+  EXPECT_TRUE(same(a.lower, b.lower)) << a.lower << " and " << b.lower;
+  EXPECT_TRUE(same(a.upper, b.upper)) << a.upper << " and " << b.upper;
+  EXPECT_EQ(a.at_least, b.at_least);
+  EXPECT_EQ(a.n_at_least, b.n_at_least);
+}
+
+TEST(WeightedCensoredQuantile, OfEqualWeightsIsThatOfNone) {
+  for (const auto& of : {maintained, not_maintained, mercaptopurine, sample({3, 5, -5, -8, -8, -9}),
+                         sample({1, 2, 3, 4})})
+    for (const double fraction : {0.25, 0.5, 0.9}) {
+      const std::vector<double> weights(of.size(), 1.0 / static_cast<double>(of.size()));
+      expect_same(weighted_censored_quantile(of, weights, fraction, 0.95),
+                  censored_quantile(of, fraction, 0.95));
+    }
+}
+
+TEST(WeightedCensoredQuantile, AWeightOfTwoIsAValueThatCameTwice) {
+  const auto once = sample({2, 3, -4, 6, 7});
+  const std::vector<double> weights{1, 2, 1, 3, 1};
+  const auto often = sample({2, 3, 3, -4, 6, 6, 6, 7});
+  EXPECT_EQ(weighted_censored_quantile(once, weights, 0.5, 0.95).value,
+            censored_quantile(often, 0.5, 0.95).value);
+  // Worth 64 / 16 = 4 members: too few for an end at 95 %, and no more than that is claimed.
+  EXPECT_TRUE(std::isnan(weighted_censored_quantile(once, weights, 0.5, 0.95).lower));
+  EXPECT_EQ(weighted_censored_quantile(once, std::vector<double>{1, 0, 0, 0, 0}, 0.5, 0.9).value,
+            2);
 }
 
 }  // namespace
