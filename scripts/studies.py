@@ -24,8 +24,9 @@ import shutil
 import subprocess
 import sys
 
+import studies_build
 import studies_made
-from studies_list import BESIDE, DATA, MADE, OUT, ROOT, STUDIES, WHOLE
+from studies_list import BESIDE, BUILD, DATA, MADE, OUT, ROOT, STUDIES, WHOLE
 
 
 def processor():
@@ -47,7 +48,7 @@ def put(page, name, text):
     if begin not in words:
         raise ValueError(f"{path}: no line {begin}")
     head, rest = words.split(begin, 1)
-    path.write_text(f"{head}{begin}\n{text.strip()}\n\n{machine()}\n{end}{rest.split(end, 1)[1]}")
+    studies_made.write_whole(path, f"{head}{begin}\n{text.strip()}\n\n{machine()}\n{end}{rest.split(end, 1)[1]}")
 
 
 def in_words(command):
@@ -73,12 +74,12 @@ def step(command, code):
 
 def write_page(name, study, printed):
     if study.page.startswith(WHOLE):
-        (STUDIES / study.page.removeprefix(WHOLE)).write_text(printed[-1])
+        studies_made.write_whole(STUDIES / study.page.removeprefix(WHOLE), printed[-1])
     elif study.page.startswith(BESIDE):
         parts = [f"# What {name} printed\n{machine()}"]
         parts += [f"\n    {in_words(command)}\n\n{text.strip()}" for command, text in zip(study.commands, printed)]
         (STUDIES / "printed").mkdir(exist_ok=True)
-        (STUDIES / f"printed/{name}.md").write_text("\n".join(parts) + "\n")
+        studies_made.write_whole(STUDIES / f"printed/{name}.md", "\n".join(parts) + "\n")
         print(f"{name}: carry the figures of docs/studies/printed/{name}.md over to its page")
     elif study.page:
         put(study.page, name, printed[-1])
@@ -94,9 +95,17 @@ def make(name, data):
         return False
     code = studies_made.hash_now(ROOT, study)
     commands = [[word.replace(DATA, data or "") for word in command] for command in study.commands]
+    if old := studies_build.out_of_date(str(BUILD), commands):
+        print(f"{name}: not made ({old}). cmake --build build/release")
+        return False
+    programs = studies_build.identity(str(BUILD), commands)
     # Tests that fail and bounds that do not hold are written down, too: the rest of the commands runs all the same.
     ended = [step(command, code) for command in commands]
     well = all(status == 0 for status, _ in ended)
+    if programs != studies_build.identity(str(BUILD), commands) or code != studies_made.hash_now(ROOT, study):
+        shutil.rmtree(OUT / "steps", ignore_errors=True)  # nobody knows which of them are of which code
+        print(f"{name}: not recorded (its program or its sources changed while it ran). Make it again.")
+        return False
     if well or study.page.startswith(WHOLE):
         write_page(name, study, [text for _, text in ended])
         studies_made.keep(ROOT, name, {"command": " && ".join(in_words(command) for command in study.commands), "date": str(datetime.date.today()),

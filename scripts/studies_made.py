@@ -12,6 +12,7 @@ calls a study current that is not: decision 0058.
 """
 import hashlib
 import json
+import os
 import pathlib
 import re
 import sys
@@ -77,11 +78,24 @@ def records(root):
     return json.loads(path.read_text()) if path.is_file() else {}
 
 
+def write_whole(path, text):
+    """Puts a text in a file's place at once: whoever is interrupted leaves the old one, never a half."""
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    try:
+        with open(part, "w") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(part, path)
+    finally:
+        part.unlink(missing_ok=True)
+
+
 def keep(root, name, record):
     """Writes a study's record beside the others."""
     all_of_them = records(root) | {name: record}
     lines = [f'  {json.dumps(key)}: {json.dumps(all_of_them[key], ensure_ascii=False)}' for key in sorted(all_of_them)]
-    (root / "docs/studies/made.json").write_text("{\n" + ",\n".join(lines) + "\n}\n")
+    write_whole(root / "docs/studies/made.json", "{\n" + ",\n".join(lines) + "\n}\n")
 
 
 def stale(root):
@@ -107,7 +121,7 @@ def table(root):
 def write_table(root):
     path = root / "docs/studies/README.md"
     head, rest = path.read_text().split(BEGIN, 1)
-    path.write_text(f"{head}{BEGIN}\n{table(root)}\n{END}{rest.split(END, 1)[1]}")
+    write_whole(path, f"{head}{BEGIN}\n{table(root)}\n{END}{rest.split(END, 1)[1]}")
 
 
 def undeclared(root, made, pages_of):

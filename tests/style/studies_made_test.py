@@ -1,12 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """scripts/studies_made.py on a root of one study: what it must find, and what it must leave alone."""
 import json
+import os
 import pathlib
+import shutil
 import sys
 import tempfile
+import time
 import unittest
+import unittest.mock
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import studies_build  # noqa: E402
 import studies_made  # noqa: E402
 
 LIST = """
@@ -102,6 +107,52 @@ class StudiesMade(unittest.TestCase):
         page = self.root / "docs/studies/README.md"
         page.write_text(page.read_text().replace("2026-01-02", "2026-12-31"))
         self.found("2026-12-31")
+
+
+    def test_a_record_that_is_interrupted_leaves_the_old_ones(self):
+        before = (self.root / "docs/studies/made.json").read_text()
+        with unittest.mock.patch("os.fsync", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            studies_made.keep(self.root, "other", {"date": "2026-01-03"})
+        self.assertEqual((self.root / "docs/studies/made.json").read_text(), before)
+        self.assertEqual([path.name for path in (self.root / "docs/studies").iterdir() if path.name.startswith(".")], [])
+
+
+@unittest.skipUnless(shutil.which("ninja"), "needs ninja")
+class StudiesBuild(unittest.TestCase):
+    """A program that is one source, copied by ninja."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.build = pathlib.Path(folder.name)
+        (self.build / "build.ninja").write_text("rule link\n  command = cp $in $out\n  description = Linking $out\n"
+                                                "build sturz: link source.cpp\nbuild bench: link source.cpp\n")
+        (self.build / "source.cpp").write_text("int f();\n")
+        self.commands = [["python3", "study.py", f"{self.build}/sturz", f"{self.build}/out.json"]]
+        self.make("sturz")
+
+    def make(self, target):
+        studies_build.subprocess.run(["ninja", "-C", self.build, target], check=True, capture_output=True)
+
+    def old(self):
+        return studies_build.out_of_date(str(self.build), self.commands)
+
+    def test_a_program_of_these_sources_is_taken_and_an_older_one_is_not(self):
+        self.assertEqual(studies_build.programs_of(str(self.build), self.commands), [f"{self.build}/sturz"])
+        self.assertEqual(self.old(), "")
+        (self.build / "source.cpp").write_text("int g();\n")
+        later = time.time() + 5
+        os.utime(self.build / "source.cpp", (later, later))
+        self.assertIn("sturz: older than the sources, 1 steps to build, such as Linking sturz", self.old())
+
+    def test_a_program_that_is_not_there_is_named(self):
+        self.commands.append([f"{self.build}/bench", "throughput"])
+        self.assertIn("bench is not there", self.old())
+
+    def test_a_program_that_was_built_anew_is_another(self):
+        before = studies_build.identity(str(self.build), self.commands)
+        (self.build / "sturz").write_text("int g();\n")
+        self.assertNotEqual(studies_build.identity(str(self.build), self.commands), before)
 
 
 if __name__ == "__main__":
