@@ -4,6 +4,7 @@
 #include "ensemble/fidelity/ladder.hpp"
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/hazard/map_units.hpp"
+#include "ensemble/workflow/multilevel/decision.hpp"
 
 #include <fmt/format.h>
 
@@ -191,7 +192,6 @@ class Look {
 
   /// What was asked for and is not there, by more than what a round would not be worth.
   void add_misses() {
-    constexpr double near_enough = 1.05;
     const TargetSpec target = job_.scene.scenario.ensemble.target.value_or(TargetSpec{});
     for (const std::string& name : headline_results()) {
       if (!(target.relative_error > 0)) break;
