@@ -27,7 +27,8 @@ struct MapLevels {
 
 struct MultilevelMap {
   Window extent;  ///< of the levels' grid; P = 0 beyond
-  /// Within [0, 1]; 90 % bounds. Where all draws of all levels agree: bounds by their number.
+  /// Within [0, 1]; 90 % bounds. Where all draws of the dearest level agree they are no narrower
+  /// than their number alone allows.
   Raster<double> probability, low, high;
   /// Cells whose probability is between 0.05 and 0.95, and over them: the root mean square of the
   /// standard error, sums of the variances of the increments [n_levels], and of P (1 - P), which is
