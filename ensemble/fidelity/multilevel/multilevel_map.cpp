@@ -5,6 +5,7 @@
 #include "ensemble/fidelity/multilevel/map_models.hpp"
 #include "ensemble/fidelity/multilevel/residual_smoothing.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,9 +15,17 @@
 namespace sturz {
 namespace {
 
-constexpr std::size_t most_waiting = 32;  // draws that are added up together
-constexpr int widest_smoothing = 3;       // cells
-constexpr double surely_not = 0.05;       // 1 - that: surely
+constexpr int widest_smoothing = 3;  // cells
+constexpr double surely_not = 0.05;  // 1 - that: surely
+
+void require_memory(const MapLevels& levels, std::size_t n_cells, std::size_t n_dear) {
+  const auto bytes =
+      static_cast<double>(n_cells * map_bytes_a_cell(levels.levels.size(), n_dear));
+  require(!(levels.memory_bytes > 0) || bytes <= levels.memory_bytes,
+          fmt::format("hazard.cell_size_m (a multilevel map of {} cells that some members reach and "
+                      "others do not takes {:.2g} GB, and {:.2g} GB are free). Choose larger cells.",
+                      n_cells, bytes / 1e9, levels.memory_bytes / 1e9));
+}
 
 bool is_doubtful(double p) { return p > surely_not && p < 1 - surely_not; }
 
@@ -163,6 +172,7 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
   map.variances.assign(n_levels, 0);
   const std::vector<std::size_t>& cells = distances.cells();
   if (cells.empty()) return map;
+  require_memory(levels, cells.size(), n_dear);
   const CellSums sums(levels, distances, cancel);
   std::vector<std::uint8_t> doubtful;
   for (std::size_t i = 0; i < cells.size(); ++i) doubtful.push_back(is_doubtful(sums.at(i).mean()));

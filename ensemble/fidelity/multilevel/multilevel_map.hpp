@@ -19,10 +19,14 @@
 
 namespace sturz {
 
+/// Draws of cheaper levels that are added up together.
+inline constexpr std::size_t most_waiting = 32;
+
 struct MapLevels {
   std::vector<const MemberParts*> levels;  ///< the dearest first; all on one grid
   std::vector<double> spacings_m;          ///< [n_levels]
   std::vector<LevelDraw> draws;            ///< level_draws() of them
+  double memory_bytes = 0;                 ///< that a map may take; 0: not bounded
 };
 
 struct MultilevelMap {
@@ -43,7 +47,8 @@ struct MultilevelMap {
   double smoothing_error = 0;  ///< root mean square of what that shifts, estimated; in the bounds
 };
 
-/// \pre at least least_draws at the dearest level \throws Cancelled
+/// All cells are held at a time, see map_bytes_a_cell(). \pre at least least_draws at the dearest
+/// level \throws Cancelled; SetupError where the map would take more than memory_bytes
 MultilevelMap multilevel_map(const MapLevels&, const Exceedance&, CancelFlag cancel = {});
 
 /// Maps of one quantity at rising thresholds as they must be: none above the one before. The

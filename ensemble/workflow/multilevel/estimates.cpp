@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/fidelity/choice.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,7 @@ MultilevelMap map_of(const LevelMembers& all, std::span<const std::size_t> parts
     levels.spacings_m.push_back(all.parts[part].spacing_m);
   }
   levels.draws = level_draws(valid_of(all, parts));
+  levels.memory_bytes = 0.9 * available_memory_bytes();
   return multilevel_map(levels, what, cancel);
 }
 

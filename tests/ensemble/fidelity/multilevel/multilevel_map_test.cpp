@@ -2,6 +2,7 @@
 // Probability maps of a front whose place is known at two levels, and distances to outlines.
 #include "ensemble/fidelity/multilevel/multilevel_map.hpp"
 
+#include "engine/core/error.hpp"
 #include "ensemble/fidelity/multilevel/residual_smoothing.hpp"
 #include "ensemble/fidelity/multilevel/signed_distance.hpp"
 #include "tests/ensemble/fidelity/multilevel/normal_draws.hpp"
@@ -96,6 +97,12 @@ TEST(AMultilevelMap, IsTheShareOfMembersFarFromAnyFront) {
     EXPECT_LE(map.low.values[i], map.probability.values[i]);
     EXPECT_GE(map.high.values[i], map.probability.values[i]);
   }
+}
+
+TEST(AMultilevelMap, IsRefusedWhereItDoesNotFitMemory) {
+  Strip strip(12, 100, 5);
+  strip.levels.memory_bytes = 1000;
+  EXPECT_THROW(multilevel_map(strip.levels, {PeakLayer::thickness, 0}), SetupError);
 }
 
 TEST(MultilevelMaps, FallWithTheThreshold) {
