@@ -2,6 +2,7 @@
 #include "ensemble/workflow/scene.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/fidelity/multilevel/map_models.hpp"
 #include "ensemble/sampling/design.hpp"
 #include "ensemble/workflow/folder/saved_design.hpp"
 #include "ensemble/workflow/readable.hpp"
@@ -142,6 +143,19 @@ std::string readings_text(const Scene& scene) {
                      grouped(d.release_volume_m3 * ratio));
 }
 
+/// Maps of multilevel ensembles are not made in blocks.
+std::string map_memory_line(const Scene& scene) {
+  constexpr std::size_t some = 32;
+  const std::size_t each = map_bytes_a_cell(most_levels, some),
+                    more = map_bytes_a_cell(most_levels, some + 1) - each,
+                    cells = scene.inputs.hazard_grid.n_cells();
+  return fmt::format(
+      "memory of multilevel maps: {:.1f} kB for each cell that some members reach and others do "
+      "not, {} B more for each member of the scene's own above {}; at most {:.2g} GB, if that were "
+      "all of the grid's {} cells",
+      static_cast<double>(each) / 1e3, more, some, static_cast<double>(each * cells) / 1e9, cells);
+}
+
 }  // namespace
 
 std::vector<std::string> description_lines(const Scene& scene) {
@@ -185,6 +199,8 @@ std::vector<std::string> description_lines(const Scene& scene) {
     lines.push_back(fmt::format("without effect here: {} (no `erosion`)", comma_separated(idle)));
   lines.push_back(
       fmt::format("memory: {:.1f} MB a member", static_cast<double>(d.memory_bytes) / 1e6));
+  if (scene.scenario.ensemble.estimator.value_or(Estimator::plain) == Estimator::multilevel)
+    lines.push_back(map_memory_line(scene));
   if (d.sound_speed_m_s > 0)
     lines.push_back(fmt::format("expected speed: {:.1f} m/s; numerical sound speed {:.0f} m/s",
                                 d.reference_speed_m_s, d.sound_speed_m_s));

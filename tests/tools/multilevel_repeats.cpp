@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far multilevel estimates from random parts of stored members lie from the members of the
-// dearest level that were not used (docs/studies/multilevel.py).
+// How far multilevel estimates from random parts of stored members lie from members of the dearest
+// level that they did not use (docs/studies/multilevel.py).
 //
-// usage: multilevel_repeats REPEATS SEED N0,N1,... FOLDER SPACING [FOLDER SPACING ...]
-// Folders are those of ensembles of the same independent draws on one grid, the dearest first; N0,
-// N1, ... draws of each are taken. One line of JSON per repeat: errors of means, and of P(reached)
-// over cells where the reference is between 0.05 and 0.95, its own variance taken off.
-#include "engine/core/random.hpp"
-#include "ensemble/fidelity/multilevel/multilevel_map.hpp"
-#include "io/members/member_store.hpp"
+// usage: multilevel_repeats REPEATS SEED JOBS NAME FOLDER SPACING [NAME FOLDER SPACING ...]
+// Folders are those of ensembles of the same independent draws on one grid, the dearest first. JOBS
+// are separated by ';': "0=16,2=600", fixed numbers of members of levels 0 and 2, or
+// "error=0.05,map=0.04", the whole procedure with that target. The first line of JSON tells of the
+// levels, and one per job and repeat of what was found.
+//
+// Each repeat takes `pool` of the dearest level's draws; cheaper levels have those too, and else a
+// random half of the draws beyond the dearest level's last. The plain reference are the other
+// members of the dearest level. Means are also held against a control-variate estimate from these
+// and the other half, which knows more.
+#include "tests/tools/stored_levels.hpp"
+
+#include "ensemble/workflow/multilevel/decision.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <memory>
-#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -27,110 +30,129 @@
 namespace sturz {
 namespace {
 
-const std::array<const char*, 3> headlines{"runout_m", "reached_area_m2", "com_travel_m"};
+using workflow::headline_results;
+using workflow::LevelMembers;
 
-struct Stored {
-  std::vector<std::unique_ptr<MemberStore>> stores;
-  std::vector<ByNumber> valid;
-  std::vector<double> spacings;
+constexpr std::size_t pilot = 16;
+
+struct Job {
+  std::vector<std::size_t> levels;
+  std::vector<std::int64_t> members;
+  TargetSpec target;
+  bool whole = false;  ///< the procedure decides
 };
 
-/// Draws in random order. Cheaper levels take theirs from beyond those of the dearest: the
-/// reference, its other members, then shares nothing with the estimate.
-std::vector<LevelDraw> chosen(const Stored& all, const std::vector<std::size_t>& counts,
-                              std::uint64_t seed) {
-  std::vector<std::pair<double, std::int64_t>> order;
-  for (const auto& [number, member] : all.valid.front())
-    if (std::all_of(all.valid.begin(), all.valid.end(),
-                    [n = number](const ByNumber& v) { return v.contains(n); }))
-      order.emplace_back(unit_random(seed, static_cast<std::uint64_t>(number)), number);
-  std::sort(order.begin(), order.end());
-  std::vector<LevelDraw> draws;
-  for (std::size_t k = 0; k < std::min(order.size(), counts.front()); ++k)
-    draws.push_back({order[k].second, 0, {}});
-  const std::int64_t beyond = all.valid.front().rbegin()->first;
-  for (std::size_t l = 1; l < counts.size(); ++l) {
-    std::vector<std::pair<double, std::int64_t>> more;
-    for (const auto& [number, member] : all.valid[l]) {
-      const bool taken = std::any_of(draws.begin(), draws.end(),
-                                     [n = number](const LevelDraw& d) { return d.number == n; });
-      const bool cheap =
-          std::all_of(all.valid.begin() + static_cast<std::ptrdiff_t>(l), all.valid.end(),
-                      [n = number](const ByNumber& v) { return v.contains(n); });
-      if (number > beyond && !taken && cheap)
-        more.emplace_back(unit_random(seed + 1, static_cast<std::uint64_t>(number)), number);
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+  return parts;
+}
+
+Job job_of(const std::string& text) {
+  Job job;
+  for (const std::string& item : split(text, ',')) {
+    const auto at = item.find('=');
+    if (at == std::string::npos) throw std::runtime_error("a job is LEVEL=N,... or error=E,map=E");
+    const std::string key = item.substr(0, at);
+    const double value = std::stod(item.substr(at + 1));
+    if (key == "error" || key == "map") {
+      job.whole = true;
+      (key == "error" ? job.target.relative_error : job.target.map_error) = value;
+    } else {
+      job.levels.push_back(std::stoul(key));
+      job.members.push_back(static_cast<std::int64_t>(value));
     }
-    std::sort(more.begin(), more.end());
-    for (std::size_t k = 0; k < more.size() && draws.size() < counts[l]; ++k)
-      draws.push_back({more[k].second, l, {}});
   }
-  return draws;
+  return job;
 }
 
-double value_of(const MemberSummary& m, const char* name) {
-  return m.scalars.*scalar_named(name).field;
-}
+/// What was decided, and with how many members.
+struct Chosen {
+  std::vector<std::size_t> levels;
+  std::size_t rounds = 0;
+  bool capped = false;  ///< more were asked for than are stored
+};
 
-std::string means_json(const Stored& all, std::vector<LevelDraw> draws) {
-  std::string json;
-  for (const char* name : headlines) {
-    double plain = 0, n = 0, sum = 0, squares = 0, rest = 0;
-    for (LevelDraw& d : draws)
-      for (std::size_t l = d.from; l < all.valid.size(); ++l)
-        d.values[l] = value_of(*all.valid[l].at(d.number), name);
-    for (const auto& [number, member] : all.valid.front()) {
-      const bool used = std::any_of(draws.begin(), draws.end(), [k = number](const LevelDraw& d) {
-        return d.number == k && d.from == 0;
-      });
-      const double v = value_of(*member, name);
-      (used ? plain : sum) += v;
-      (used ? n : rest) += 1;
-      if (!used) squares += v * v;
+Chosen decide(LevelMembers& all, const Job& job, const std::vector<double>& costs) {
+  const auto take = [&](const std::vector<std::int64_t>& wanted) {
+    bool capped = false;
+    for (std::size_t p = 0; p < wanted.size(); ++p) {
+      const auto stored = static_cast<std::int64_t>(all.members[p]->members().size());
+      capped = capped || wanted[p] > stored;
+      all.counts[p] = std::max(all.counts[p], std::min(wanted[p], stored));
     }
-    const MultilevelMean m = multilevel_scalar(draws, all.valid.size()).mean;
+    return capped;
+  };
+  Chosen chosen;
+  if (!job.whole) {
+    std::vector<std::int64_t> counts(all.parts.size(), 0);
+    for (std::size_t l = 0; l < job.levels.size(); ++l) counts[job.levels[l]] = job.members[l];
+    chosen.levels = job.levels;
+    chosen.capped = take(counts);
+    return chosen;
+  }
+  take(std::vector<std::int64_t>(all.parts.size(), pilot));
+  std::vector<workflow::PlanRound> rounds;
+  while (!chosen.capped) {
+    auto round = workflow::next_round(all, rounds, job.target, costs, {});
+    if (!round) break;
+    chosen.capped = take(round->members);
+    rounds.push_back(std::move(*round));
+  }
+  chosen.levels = rounds.back().plan.levels;
+  chosen.rounds = rounds.size();
+  return chosen;
+}
+
+struct Moments {
+  double mean = 0, variance_of_mean = 0;
+};
+Moments moments(const MemberParts& members, const std::string& name) {
+  double n = 0, sum = 0, squares = 0;
+  for (const MemberSummary& m : members.members()) {
+    const double v = m.scalars.*scalar_named(name).field;
+    n += 1, sum += v, squares += v * v;
+  }
+  return {sum / n, (squares / n - sum / n * (sum / n)) / (n - 1)};
+}
+
+std::string means_json(const LevelMembers& all, const std::vector<std::size_t>& levels,
+                       const LevelMembers& others) {
+  std::string json;
+  const std::vector<std::size_t> with_cheapest{0, all.parts.size() - 1};
+  for (const std::string& name : headline_results()) {
+    const MultilevelMean m = scalar_of(all, levels, name).mean;
     const Interval bounds = m.bounds_90();
-    const double reference = sum / rest;
+    const Moments plain = moments(*others.members.front(), name);
+    const MultilevelMean known = scalar_of(others, with_cheapest, name).mean;
     json += fmt::format(
-        "{}{{\"name\":\"{}\",\"mean\":{},\"se\":{},\"low\":{},\"high\":{},\"plain\":{},"
-        "\"reference\":{},\"reference_variance\":{}}}",
-        json.empty() ? "" : ",", name, m.mean, m.standard_error, bounds.low, bounds.high, plain / n,
-        reference, (squares / rest - reference * reference) / (rest - 1));
+        "{}{{\"name\":\"{}\",\"mean\":{},\"se\":{},\"low\":{},\"high\":{},\"reference\":{},"
+        "\"reference_variance\":{},\"known\":{},\"known_variance\":{}}}",
+        json.empty() ? "" : ",", name, m.mean, m.standard_error, bounds.low, bounds.high,
+        plain.mean, plain.variance_of_mean, known.mean, std::pow(known.standard_error, 2));
   }
   return json;
 }
 
 /// Shares of members that reach the cells of a window.
-std::vector<double> shares(const MemberStore& store, const std::vector<std::size_t>& which,
-                           const Window& extent) {
+std::vector<double> shares(const MemberParts& members, const Window& extent) {
   std::vector<double> share(extent.n_cells(), 0);
-  for (const std::size_t i : which) {
-    const auto cells = covered_cells(store, i, {}, extent);
-    for (std::size_t c = 0; c < share.size(); ++c)
-      share[c] += cells.values[c] / static_cast<double>(which.size());
+  const auto n = static_cast<double>(members.members().size());
+  for (std::size_t i = 0; i < members.members().size(); ++i) {
+    const auto cells = covered_cells(members, i, {}, extent);
+    for (std::size_t c = 0; c < share.size(); ++c) share[c] += cells.values[c] / n;
   }
   return share;
 }
 
-std::string map_json(const Stored& all, const std::vector<LevelDraw>& draws) {
-  MapLevels levels;
-  for (const auto& store : all.stores) levels.levels.push_back(store.get());
-  levels.spacings_m = all.spacings;
-  levels.draws = draws;
-  const MultilevelMap map = multilevel_map(levels, {});
-  std::vector<std::size_t> rest, used;
-  const MemberStore& dear = *all.stores.front();
-  for (std::size_t i = 0; i < dear.members().size(); ++i) {
-    const std::int64_t number = dear.members()[i].member;
-    if (!all.valid.front().contains(number)) continue;
-    const bool is_used = std::any_of(draws.begin(), draws.end(), [&](const LevelDraw& d) {
-      return d.number == number && d.from == 0;
-    });
-    (is_used ? used : rest).push_back(i);
-  }
-  const std::vector<double> reference = shares(dear, rest, map.extent);
-  const std::vector<double> plain = shares(dear, used, map.extent);
-  const auto n = static_cast<double>(rest.size());
-  double error = 0, plain_error = 0, own = 0, spread = 0, cells = 0, covered = 0;
+std::string map_json(const LevelMembers& all, const std::vector<std::size_t>& levels,
+                     const MemberParts& others) {
+  if (levels.size() < 2) return "null";
+  const MultilevelMap map = map_of(all, levels, {}, {});
+  const std::vector<double> reference = shares(others, map.extent);
+  const auto n = static_cast<double>(others.members().size());
+  double error = 0, own = 0, spread = 0, cells = 0, covered = 0;
   for (std::size_t c = 0; c < reference.size(); ++c) {
     const double p = reference[c];
     if (p <= 0.05 || p >= 0.95) continue;
@@ -139,27 +161,23 @@ std::string map_json(const Stored& all, const std::vector<LevelDraw>& draws) {
     own += variance;
     spread += p * (1 - p);
     error += (found - p) * (found - p);
-    plain_error += (plain[c] - p) * (plain[c] - p);
     const double half = p > found ? map.high.values[c] - found : found - map.low.values[c];
     covered += std::abs(found - p) <= std::hypot(half, 1.645 * std::sqrt(variance)) ? 1 : 0;
   }
   return fmt::format(
-      "{{\"cells\":{},\"mse\":{},\"plain_mse\":{},\"reference_variance\":{},\"spread\":{},"
-      "\"covered\":{},\"told\":{},\"smoothed\":{},\"reference_members\":{}}}",
-      cells, error / cells, plain_error / cells, own / cells, spread / cells, covered / cells,
-      map.rms_error, map.smoothed_cells, rest.size());
+      "{{\"cells\":{},\"mse\":{},\"reference_variance\":{},\"spread\":{},\"covered\":{},"
+      "\"told\":{},\"smoothed\":{},\"reference_members\":{}}}",
+      cells, error / cells, own / cells, spread / cells, covered / cells, map.rms_error,
+      map.smoothed_cells, n);
 }
 
 /// What a cheap level alone is off by, however many members it has.
-std::string cheap_json(const Stored& all) {
+std::string cheap_json(const StoredLevels& stored) {
   std::string json;
-  for (std::size_t l = 1; l < all.stores.size(); ++l) {
-    std::vector<std::size_t> dear(all.stores[0]->members().size()),
-        cheap(all.stores[l]->members().size());
-    std::iota(dear.begin(), dear.end(), std::size_t{0});
-    std::iota(cheap.begin(), cheap.end(), std::size_t{0});
-    const Window extent = whole_of(all.stores[0]->grid());
-    const auto p = shares(*all.stores[0], dear, extent), q = shares(*all.stores[l], cheap, extent);
+  const Window extent = whole_of(stored.levels().front()->grid());
+  const auto p = shares(*stored.levels().front(), extent);
+  for (std::size_t l = 1; l < stored.levels().size(); ++l) {
+    const auto q = shares(*stored.levels()[l], extent);
     double error = 0, cells = 0;
     for (std::size_t c = 0; c < p.size(); ++c) {
       if (p[c] <= 0.05 || p[c] >= 0.95) continue;
@@ -168,44 +186,43 @@ std::string cheap_json(const Stored& all) {
     }
     json += fmt::format("{}{{\"level\":{},\"map_rms\":{}", l == 1 ? "" : ",", l,
                         std::sqrt(error / cells));
-    for (const char* name : headlines) {
-      double a = 0, b = 0;
-      for (const auto& [number, m] : all.valid[0]) a += value_of(*m, name);
-      for (const auto& [number, m] : all.valid[l]) b += value_of(*m, name);
+    for (const std::string& name : headline_results())
       json += fmt::format(",\"{}\":{}", name,
-                          b / static_cast<double>(all.valid[l].size()) -
-                              a / static_cast<double>(all.valid[0].size()));
-    }
+                          moments(*stored.levels()[l], name).mean -
+                              moments(*stored.levels().front(), name).mean);
     json += "}";
   }
   return json;
 }
 
 int work(const std::vector<std::string>& args) {
-  if (args.size() < 7 || args.size() % 2 == 0)
+  if (args.size() < 9 || args.size() % 3 != 0)
     throw std::runtime_error(
-        "usage: multilevel_repeats REPEATS SEED N0,N1,... FOLDER SPACING FOLDER SPACING ...");
-  std::vector<std::size_t> counts;
-  std::istringstream list(args[2]);
-  for (std::string n; std::getline(list, n, ',');) counts.push_back(std::stoul(n));
-  Stored all;
-  for (std::size_t i = 3; i < args.size(); i += 2) {
-    all.stores.push_back(std::make_unique<MemberStore>(args[i] + "/members"));
-    all.valid.push_back(valid_members(*all.stores.back()));
-    all.spacings.push_back(std::stod(args[i + 1]));
-  }
-  std::vector<double> cost;
-  for (const ByNumber& level : all.valid) {
-    double sum = 0;
-    for (const auto& [number, m] : level) sum += m->scalars.cpu_s;
-    cost.push_back(sum / static_cast<double>(level.size()));
-  }
-  fmt::print("{{\"counts\":[{}],\"cpu_s\":[{}],\"cheap\":[{}]}}\n", fmt::join(counts, ","),
-             fmt::join(cost, ","), cheap_json(all));
+        "usage: multilevel_repeats REPEATS SEED JOBS NAME FOLDER SPACING NAME FOLDER SPACING ...");
+  std::vector<Job> jobs;
+  for (const std::string& text : split(args[2], ';')) jobs.push_back(job_of(text));
+  StoredLevels stored;
+  for (std::size_t i = 3; i < args.size(); i += 3)
+    stored.add(args[i], args[i + 1], std::stod(args[i + 2]));
+  const std::vector<double> costs = stored.costs_s();
+  std::vector<std::size_t> members;
+  for (const auto& level : stored.levels()) members.push_back(level->members().size());
+  fmt::print("{{\"members\":[{}],\"left_out\":[{}],\"cpu_s\":[{}],\"pool\":{},\"cheap\":[{}]}}\n",
+             fmt::join(members, ","), fmt::join(stored.left_out(), ","), fmt::join(costs, ","),
+             StoredLevels::pool, cheap_json(stored));
   for (std::uint64_t r = 0; r < std::stoul(args[0]); ++r) {
-    const auto draws = chosen(all, counts, std::stoul(args[1]) + 1000 * r);
-    fmt::print("{{\"means\":[{}],\"map\":{}}}\n", means_json(all, draws), map_json(all, draws));
-    std::fflush(stdout);
+    const StoredLevels::Parted parted = stored.part(std::stoul(args[1]) + 1000 * r);
+    for (std::size_t j = 0; j < jobs.size(); ++j) {
+      LevelMembers all = parted.taken;
+      const Chosen chosen = decide(all, jobs[j], costs);
+      fmt::print(
+          "{{\"job\":{},\"levels\":[{}],\"counts\":[{}],\"rounds\":{},\"capped\":{},"
+          "\"means\":[{}],\"map\":{}}}\n",
+          j, fmt::join(chosen.levels, ","), fmt::join(all.counts, ","), chosen.rounds,
+          chosen.capped, means_json(all, chosen.levels, parted.others),
+          map_json(all, chosen.levels, *parted.others.members.front()));
+      std::fflush(stdout);
+    }
   }
   return EXIT_SUCCESS;
 }

@@ -3,6 +3,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
+#include "ensemble/workflow/multilevel/multilevel_words.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
@@ -177,6 +178,23 @@ TEST_F(Multilevel, SaysWhatItDidNotReach) {
   EXPECT_THAT(made.missed.front(), HasSubstr("Not reached: 90 % bounds of the mean of runout_m"));
   EXPECT_THAT(made.missed.back(), HasSubstr("standard error of P(reached)"));
   EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("Not reached"));
+}
+
+/// As plain ensembles: too many members whose end was not seen are said first, wherever one reads.
+TEST_F(Multilevel, SaysFirstThatTooManyMembersAreCutOff) {
+  workflow::EnsembleRequest r = asked("out");
+  std::erase(r.scene.overrides, "ensemble.target.relative_error=0.15");
+  r.scene.overrides.insert(r.scene.overrides.end(),
+                           {"ensemble.target.map_error=0.4", "numerics.end_time_s=2"});
+  Recorder heard;
+  const MultilevelMade made = run(r, heard).made;
+  ASSERT_FALSE(made.cut_off.empty());
+  EXPECT_THAT(made.cut_off.front(), HasSubstr("ensemble.max_censored_fraction = 0.05"));
+  EXPECT_TRUE(made.levels.front().censoring.too_many());
+  EXPECT_GT(made.censored, 0);
+  EXPECT_EQ(workflow::page_sentences(made).front(), made.cut_off.front());
+  EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("\"too_many_censored\": true"));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("are cut off (8 out of time)"));
 }
 
 TEST_F(Multilevel, SaysThatItsPlanIsDamaged) {

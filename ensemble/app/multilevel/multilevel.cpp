@@ -54,6 +54,7 @@ void require_usable(const workflow::EnsembleRequest& request) {
 }
 
 int verdict(const MultilevelMade& made, Console& console) {
+  for (const std::string& cut : made.cut_off) console.warn(cut);
   for (const std::string& line : workflow::result_lines(made)) console.say(line);
   for (const std::string& warning : made.warnings) console.warn(warning);
   const bool too_many = made.too_many_failed();

@@ -58,14 +58,25 @@ Allocation times(Allocation a, double factor) {
 
 }  // namespace
 
+/// Beyond it few draws tell nothing of how skewed the error is.
+constexpr double most_skewness = 0.6;
+
 double student_width(double share, double degrees) {
   return OT::DistFunc::qStudent(std::clamp(degrees, 1.0, 1e6), 0.5 + share / 2);
 }
 
-Interval MultilevelMean::bounds_90() const {
+Interval MultilevelMean::even_bounds_90() const {
   if (!std::isfinite(standard_error)) return {};
   const double half = student_width(0.9, degrees) * standard_error;
   return {mean - half, mean + half};
+}
+
+Interval MultilevelMean::bounds_90() const {
+  const double a = std::clamp(skewness, -most_skewness, most_skewness);
+  if (!std::isfinite(standard_error) || std::abs(a) < 1e-3) return even_bounds_90();
+  const double width = student_width(0.9, degrees);
+  const auto straight = [a](double t) { return 3 / a * (std::cbrt(1 + a * (t - a / 6)) - 1); };
+  return {mean - standard_error * straight(width), mean - standard_error * straight(-width)};
 }
 
 void IncrementMoments::add(std::size_t from, std::span<const double> told) {
@@ -75,6 +86,7 @@ void IncrementMoments::add(std::size_t from, std::span<const double> told) {
     added[l] = told[l - from] - (l + 1 < n_levels_ ? told[l + 1 - from] : 0);
   for (std::size_t l = from; l < n_levels_; ++l) {
     n_[l] += 1;
+    cube_[l] += added[l] * added[l] * added[l];
     for (std::size_t m = l; m < n_levels_; ++m) {
       sum_[l][m] += added[m];
       product_[l][m] += added[l] * added[m];
@@ -112,19 +124,27 @@ double IncrementMoments::variance_of_mean(std::size_t first) const {
   return std::max(own + between, own / 2);
 }
 
-MultilevelMean IncrementMoments::estimate(double least_own) const {
+double IncrementMoments::third_moment(std::size_t level) const {
+  const double n = n_[level], mean = sum_[level][level] / n, square = product_[level][level] / n;
+  return cube_[level] / n - 3 * mean * square + 2 * mean * mean * mean;
+}
+
+MultilevelMean IncrementMoments::estimate(std::span<const double> least) const {
   MultilevelMean e;
   e.mean = mean();
-  const double more = std::max(0.0, least_own - variance(0)) / n_[0];
-  const double variance_all = variance_of_mean(0) + more;
-  e.standard_error = std::sqrt(variance_all);
-  double parts = 0, sum = 0;
+  double variance_all = variance_of_mean(0), parts = 0, sum = 0, third = 0;
   for (std::size_t l = 0; l < n_levels_; ++l) {
-    const double part = variance(l) / n_[l];
+    const double own = variance(l);
+    const double more = l < least.size() ? std::max(0.0, least[l] - own) : 0;
+    variance_all += more / n_[l];
+    const double part = (own + more) / n_[l];
     sum += part;
     parts += part * part / (n_[l] - 1);
+    third += third_moment(l) / (n_[l] * n_[l]);
   }
+  e.standard_error = std::sqrt(variance_all);
   e.degrees = parts > 0 ? sum * sum / parts : n_[0] - 1;
+  if (variance_all > 0) e.skewness = third / (variance_all * e.standard_error);
   return e;
 }
 

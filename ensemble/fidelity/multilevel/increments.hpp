@@ -24,8 +24,12 @@ inline constexpr std::size_t most_levels = 4;
 
 struct MultilevelMean {
   double mean = nan_d, standard_error = nan_d;
-  double degrees = nan_d;      ///< of freedom of the standard error (Welch and Satterthwaite)
-  Interval bounds_90() const;  ///< by Student's t
+  double degrees = nan_d;  ///< of freedom of the standard error (Welch and Satterthwaite)
+  double skewness = 0;     ///< of the estimate's error: third moment over the standard error cubed
+  /// By Student's t of a cubic transformation that takes the skewness off (Hall 1992, J. R. Statist.
+  /// Soc. B 54, 221-228): farther on the side where few draws weigh much.
+  Interval bounds_90() const;
+  Interval even_bounds_90() const;  ///< without it
 };
 
 /// Half width of an interval, in standard errors. \param share within it, such as 0.9
@@ -38,9 +42,9 @@ class IncrementMoments {
   /// \param told [n_levels - from] g of the levels `from`, the dearest that this draw has, and on
   void add(std::size_t from, std::span<const double> told);
 
-  /// NaN while a level has fewer than two draws. \param least_own that the variance of the dearest
-  /// level's increments has at least: few indicators may all come as foretold
-  MultilevelMean estimate(double least_own = 0) const;
+  /// NaN while a level has fewer than two draws. \param least of the dearest levels on: variances
+  /// that their increments have at least; few indicators may all come as foretold
+  MultilevelMean estimate(std::span<const double> least = {}) const;
   double mean() const;
   /// Of one level's increments over its draws.
   double variance(std::size_t level) const;
@@ -52,12 +56,14 @@ class IncrementMoments {
 
  private:
   double covariance(std::size_t dear, std::size_t cheap) const;
+  double third_moment(std::size_t level) const;  ///< central
 
   std::size_t n_levels_;
   std::array<double, most_levels> n_{};
   /// Over the draws of level i: of the increments of level j >= i, and of their products with those
   /// of level i.
   std::array<std::array<double, most_levels>, most_levels> sum_{}, product_{};
+  std::array<double, most_levels> cube_{};  ///< of the level's own increments
 };
 
 /// How many draws each level needs.

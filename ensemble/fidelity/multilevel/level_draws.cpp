@@ -2,6 +2,7 @@
 #include "ensemble/fidelity/multilevel/level_draws.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/fidelity/multilevel/level_scatter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -41,10 +42,10 @@ class Predictions {
   Predictions(std::span<const LevelDraw> draws, std::size_t n_levels)
       : draws_(draws), n_levels_(n_levels), models_(fitted(draws, n_levels)) {}
 
-  /// \param above the result itself, of a draw that has it \param tell predictions of the others
-  template <class Own, class Tell>
-  IncrementMoments moments(Own own, Tell tell) const {
-    IncrementMoments sums(n_levels_);
+  /// \param own the result itself, of a draw that has it \param tell predictions of the others
+  /// \param use called with each draw's dearest level, and with what all from there on tell
+  template <class Own, class Tell, class Use>
+  void each(Own own, Tell tell, Use use) const {
     std::array<double, most_levels> told{};
     std::size_t place = 0;
     for (const LevelDraw& draw : draws_) {
@@ -56,8 +57,14 @@ class Predictions {
       }
       const std::size_t skip = is_dear ? 1 : 0;
       tell(models_, draw, fold, std::span(told).subspan(skip, n_levels_ - draw.from - skip));
-      sums.add(draw.from, std::span(told).first(n_levels_ - draw.from));
+      use(draw.from, std::span<const double>(told).first(n_levels_ - draw.from));
     }
+  }
+
+  template <class Own, class Tell>
+  IncrementMoments moments(Own own, Tell tell) const {
+    IncrementMoments sums(n_levels_);
+    each(own, tell, [&](std::size_t from, std::span<const double> told) { sums.add(from, told); });
     return sums;
   }
 
@@ -97,6 +104,18 @@ double squared_correlation_with(std::span<const LevelDraw> draws, std::size_t le
     xx += dx * dx, yy += dy * dy, xy += dx * dy;
   }
   return xx > 0 && yy > 0 ? xy * xy / (xx * yy) : 0;
+}
+
+/// Of freedom of the variance of the mean, by Satterthwaite (1946): twice its square over what it
+/// scatters by itself. Far outliers leave few.
+double degrees_of(const MultilevelScalar& s, std::span<const double> doubt) {
+  double variance = 0, scatter = 0;
+  for (std::size_t l = 0; l < doubt.size(); ++l) {
+    const double part = s.variances[l] / s.draws[l];
+    variance += part;
+    scatter += part * part * doubt[l] * doubt[l];
+  }
+  return scatter > 0 ? 2 * variance * variance / scatter : 1e6;
 }
 
 /// P(result <= t) at rising places.
@@ -162,8 +181,8 @@ Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels
           models.shares_below(t, draw.values, draw.from, fold, told);
           if (draw.from == 0 && !told.empty()) noise += told[0] * (1 - told[0]);
         });
-    const MultilevelMean at = sums.estimate(noise / sums.draws(0));
-    const Interval bounds = at.bounds_90();
+    const MultilevelMean at = sums.estimate(std::array{noise / sums.draws(0)});
+    const Interval bounds = at.even_bounds_90();
     d.places.push_back(t);
     d.low.push_back(bounds.low);
     d.middle.push_back(at.mean);
@@ -199,19 +218,27 @@ MultilevelScalar multilevel_scalar(std::span<const LevelDraw> draws, std::size_t
   s.variances.assign(n_levels, nan_d);
   s.squared_correlations.assign(n_levels, nan_d);
   if (!enough(draws, n_levels)) return s;
-  const IncrementMoments sums = Predictions(draws, n_levels)
-                                    .moments([](double v) { return v; },
-                                             [](const FoldedModels& models, const LevelDraw& draw,
-                                                auto fold, std::span<double> told) {
-                                               models.margins(draw.values, draw.from, fold, told);
-                                             });
-  s.mean = sums.estimate();
+  IncrementMoments sums(n_levels);
+  LevelScatter scatter(n_levels);
+  Predictions(draws, n_levels)
+      .each([](double v) { return v; },
+            [](const FoldedModels& models, const LevelDraw& draw, auto fold,
+               std::span<double> told) { models.margins(draw.values, draw.from, fold, told); },
+            [&](std::size_t from, std::span<const double> told) {
+              sums.add(from, told);
+              scatter.add(from, told);
+            });
+  const std::vector<double> least = scatter.expected(), doubt = scatter.doubt();
+  s.cautious_variances.assign(n_levels, nan_d);
+  s.mean = sums.estimate(least);
   s.variance = 0;
   for (std::size_t l = 0; l < n_levels; ++l) {
-    s.variances[l] = sums.variance(l);
+    s.variances[l] = std::max(sums.variance(l), least[l]);
+    s.cautious_variances[l] = s.variances[l] * (1 + doubt[l]);
     s.variance += s.variances[l];
     s.squared_correlations[l] = l == 0 ? 1 : squared_correlation_with(draws, l);
   }
+  s.mean.degrees = std::min(s.mean.degrees, degrees_of(s, doubt));
   return s;
 }
 

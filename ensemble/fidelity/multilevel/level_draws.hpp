@@ -38,6 +38,9 @@ struct MultilevelScalar {
   MultilevelMean mean;
   std::vector<double> draws;                 ///< [n_levels]
   std::vector<double> variances;             ///< [n_levels] of the increments
+  /// The same and one standard error of each: numbers of draws that follow from them, and do not
+  /// end where few draws happen to scatter little.
+  std::vector<double> cautious_variances;
   double variance = nan_d;                   ///< of the result itself: what plain sampling has
   std::vector<double> squared_correlations;  ///< [n_levels] with the dearest, [0] = 1
 };

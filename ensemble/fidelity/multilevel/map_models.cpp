@@ -83,6 +83,13 @@ void DrawDistances::read(const LevelDraw& draw, std::vector<Margins>& out) const
   }
 }
 
+std::size_t map_bytes_a_cell(std::size_t n_levels, std::size_t n_dear) {
+  const std::size_t n_folds = std::min(n_dear, most_folds);
+  return n_folds * (sizeof(MarginSums) + (n_levels - 1) * sizeof(MarginModel)) +
+         2 * sizeof(MarginSums) + sizeof(FoldedModels) + sizeof(IncrementMoments) +
+         n_dear * (sizeof(Margins) + 2 * sizeof(float)) + most_waiting * sizeof(Margins);
+}
+
 std::vector<FoldedModels> map_models(const DrawDistances& distances,
                                      const std::vector<std::vector<Margins>>& dear,
                                      std::span<const double> spacings_m, CancelFlag cancel) {

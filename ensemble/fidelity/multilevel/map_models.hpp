@@ -37,6 +37,9 @@ class DrawDistances {
   std::vector<std::uint8_t> always_;
 };
 
+/// Held at a time for each of the cells: fits, sums, and the dearest level's draws.
+std::size_t map_bytes_a_cell(std::size_t n_levels, std::size_t n_dear);
+
 /// The models of the cells of `distances`.
 /// \param dear margins of the draws of the dearest level in order, [n_draws][n_cells]
 std::vector<FoldedModels> map_models(const DrawDistances& distances,

@@ -5,6 +5,7 @@
 #include "ensemble/fidelity/multilevel/map_models.hpp"
 #include "ensemble/fidelity/multilevel/residual_smoothing.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -14,9 +15,17 @@
 namespace sturz {
 namespace {
 
-constexpr std::size_t most_waiting = 32;  // draws that are added up together
-constexpr int widest_smoothing = 3;       // cells
-constexpr double surely_not = 0.05;       // 1 - that: surely
+constexpr int widest_smoothing = 3;  // cells
+constexpr double surely_not = 0.05;  // 1 - that: surely
+
+void require_memory(const MapLevels& levels, std::size_t n_cells, std::size_t n_dear) {
+  const auto bytes =
+      static_cast<double>(n_cells * map_bytes_a_cell(levels.levels.size(), n_dear));
+  require(!(levels.memory_bytes > 0) || bytes <= levels.memory_bytes,
+          fmt::format("hazard.cell_size_m (a multilevel map of {} cells that some members reach and "
+                      "others do not takes {:.2g} GB, and {:.2g} GB are free). Choose larger cells.",
+                      n_cells, bytes / 1e9, levels.memory_bytes / 1e9));
+}
 
 bool is_doubtful(double p) { return p > surely_not && p < 1 - surely_not; }
 
@@ -28,7 +37,10 @@ class CellSums {
         distances_(distances),
         n_cells_(distances.cells().size()),
         sums_(n_cells_, IncrementMoments(levels.levels.size())),
-        noise_(n_cells_, 0) {
+        noise_(n_cells_, 0),
+        dear_covered_(n_cells_, 0) {
+    for (const std::size_t n : draws_of_levels(levels.draws, levels.levels.size()))
+      counts_.push_back(static_cast<double>(n));
     std::vector<std::vector<Margins>> dear;
     for (const LevelDraw& draw : levels.draws)
       if (draw.from == 0) distances.read(draw, dear.emplace_back());
@@ -52,12 +64,17 @@ class CellSums {
   const IncrementMoments& at(std::size_t cell) const { return sums_[cell]; }
   /// [n_draws of the dearest level][n_cells] indicator less prediction
   const std::vector<std::vector<float>>& residuals() const { return residuals_; }
+  /// [n_draws of the dearest level][n_cells] what the same draws add to the estimate beside that
+  const std::vector<std::vector<float>>& others() const { return others_; }
+  /// Draws of the dearest level that cover it.
+  std::uint32_t covering(std::size_t cell) const { return dear_covered_[cell]; }
   /// Mean of g (1 - g): the variance of the residual as the model itself has it.
   double noise(std::size_t cell) const { return noise_[cell]; }
 
  private:
   void add_dear(const std::vector<Margins>& margins, std::size_t fold) {
     std::vector<float>& residual = residuals_.emplace_back(n_cells_, 0.0F);
+    std::vector<float>& other = others_.emplace_back(n_cells_, 0.0F);
     const std::size_t n_levels = levels_.levels.size();
     tbb::parallel_for(std::size_t{0}, n_cells_, [&](std::size_t i) {
       std::array<double, most_levels> told{};
@@ -65,6 +82,11 @@ class CellSums {
       models_[i].probabilities(margins[i], 0, fold, std::span(told).subspan(1, n_levels - 1));
       sums_[i].add(0, std::span(told).first(n_levels));
       residual[i] = static_cast<float>(told[0] - told[1]);
+      double rest = 0;
+      for (std::size_t l = 1; l < n_levels; ++l)
+        rest += (told[l] - (l + 1 < n_levels ? told[l + 1] : 0)) / counts_[l];
+      other[i] = static_cast<float>(rest);
+      dear_covered_[i] += margins[i][0] > 0 ? 1 : 0;
       noise_[i] += told[1] * (1 - told[1]);
     });
   }
@@ -88,16 +110,23 @@ class CellSums {
   std::size_t n_cells_;
   std::vector<FoldedModels> models_;
   std::vector<IncrementMoments> sums_;
-  std::vector<std::vector<float>> residuals_;
+  std::vector<std::vector<float>> residuals_, others_;
   std::vector<double> noise_;
+  std::vector<std::uint32_t> dear_covered_;
+  std::vector<double> counts_;  // [n_levels] draws
   std::vector<std::pair<std::size_t, std::vector<Margins>>> waiting_;  // draws of cheaper levels
 };
 
-/// Where all draws agree: bounds by their number, as of n of n by Clopper and Pearson (1934).
-MultilevelMap blank(const DrawDistances& distances, std::size_t n_draws) {
+/// What so many draws of the dearest level may still do that all agree: of n of n, the upper end of
+/// the 90 % interval of Clopper and Pearson (1934). Cheaper draws are no draws of that level, and do
+/// not count, however many they are.
+double possible(std::size_t n_dear) {
+  return 1 - std::pow(0.05, 1 / static_cast<double>(n_dear));
+}
+
+MultilevelMap blank(const DrawDistances& distances, double possible) {
   MultilevelMap map;
   map.extent = distances.extent();
-  const double possible = 1 - std::pow(0.05, 1 / static_cast<double>(n_draws));
   for (Raster<double>* r : {&map.probability, &map.low, &map.high})
     *r = Raster<double>(distances.grid(), 0);
   for (std::size_t i = 0; i < map.probability.values.size(); ++i) {
@@ -137,15 +166,19 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
   const std::size_t n_levels = levels.levels.size();
   expect(n_levels >= 2 && n_levels <= most_levels, "a dear level and some cheaper ones");
   const DrawDistances distances(levels, what, cancel);
-  MultilevelMap map = blank(distances, levels.draws.size());
+  const std::size_t n_dear = draws_of_levels(levels.draws, n_levels).front();
+  const double unseen = possible(n_dear);
+  MultilevelMap map = blank(distances, unseen);
   map.variances.assign(n_levels, 0);
   const std::vector<std::size_t>& cells = distances.cells();
   if (cells.empty()) return map;
+  require_memory(levels, cells.size(), n_dear);
   const CellSums sums(levels, distances, cancel);
   std::vector<std::uint8_t> doubtful;
   for (std::size_t i = 0; i < cells.size(); ++i) doubtful.push_back(is_doubtful(sums.at(i).mean()));
   const SmoothedCorrection correction =
-      smoothed_correction(sums.residuals(), cells, distances.grid(), doubtful, widest_smoothing);
+      smoothed_correction(sums.residuals(), sums.others(), cells, distances.grid(), doubtful,
+                          widest_smoothing);
   map.smoothed_cells = correction.radius;
   map.smoothing_error = std::sqrt(correction.bias_squared);
   const double n = sums.at(0).draws(0), width = student_width(0.9, n - 1);
@@ -157,11 +190,19 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
     p = std::clamp(p, 0.0, 1.0);
     // Members that all come as foretold do not show how far they scatter.
     const double own = std::max(correction.variance[i], sums.noise(i) * correction.variance_ratio);
-    const double variance = own / n + at.variance_of_mean(1) + correction.bias_squared;
+    const double parts = own / n + at.variance_of_mean(1);
+    // The draws of the dearest level are among those of the others: of the covariance of a mean of
+    // n of them with one of N the N-th part remains. No more than half is taken away by it.
+    const double variance =
+        std::max(parts + 2 * correction.covariance[i], parts / 2) + correction.bias_squared;
     map.probability.values[cells[i]] = p;
     const double half = width * std::sqrt(variance);
     map.low.values[cells[i]] = std::max(0.0, p - half);
     map.high.values[cells[i]] = std::min(1.0, p + half);
+    if (sums.covering(i) == 0)
+      map.high.values[cells[i]] = std::max(map.high.values[cells[i]], unseen);
+    if (sums.covering(i) == n_dear)
+      map.low.values[cells[i]] = std::min(map.low.values[cells[i]], 1 - unseen);
     if (!is_doubtful(p)) continue;
     ++map.doubtful;
     squares += variance;

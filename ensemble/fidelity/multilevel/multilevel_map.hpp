@@ -19,15 +19,20 @@
 
 namespace sturz {
 
+/// Draws of cheaper levels that are added up together.
+inline constexpr std::size_t most_waiting = 32;
+
 struct MapLevels {
   std::vector<const MemberParts*> levels;  ///< the dearest first; all on one grid
   std::vector<double> spacings_m;          ///< [n_levels]
   std::vector<LevelDraw> draws;            ///< level_draws() of them
+  double memory_bytes = 0;                 ///< that a map may take; 0: not bounded
 };
 
 struct MultilevelMap {
   Window extent;  ///< of the levels' grid; P = 0 beyond
-  /// Within [0, 1]; 90 % bounds. Where all draws of all levels agree: bounds by their number.
+  /// Within [0, 1]; 90 % bounds. Where all draws of the dearest level agree they are no narrower
+  /// than their number alone allows.
   Raster<double> probability, low, high;
   /// Cells whose probability is between 0.05 and 0.95, and over them: the root mean square of the
   /// standard error, sums of the variances of the increments [n_levels], and of P (1 - P), which is
@@ -42,7 +47,8 @@ struct MultilevelMap {
   double smoothing_error = 0;  ///< root mean square of what that shifts, estimated; in the bounds
 };
 
-/// \pre at least least_draws at the dearest level \throws Cancelled
+/// All cells are held at a time, see map_bytes_a_cell(). \pre at least least_draws at the dearest
+/// level \throws Cancelled; SetupError where the map would take more than memory_bytes
 MultilevelMap multilevel_map(const MapLevels&, const Exceedance&, CancelFlag cancel = {});
 
 /// Maps of one quantity at rising thresholds as they must be: none above the one before. The

@@ -55,6 +55,7 @@ struct Spread {
 }  // namespace
 
 SmoothedCorrection smoothed_correction(const std::vector<std::vector<float>>& residuals,
+                                       const std::vector<std::vector<float>>& others,
                                        const std::vector<std::size_t>& places, const Grid& grid,
                                        const std::vector<std::uint8_t>& counts, int most) {
   const std::size_t n_cells = places.size();
@@ -64,12 +65,17 @@ SmoothedCorrection smoothed_correction(const std::vector<std::vector<float>>& re
   double least = std::numeric_limits<double>::infinity(), plain_variance = 0;
   for (int radius = 0; radius <= most; ++radius) {
     Spread smooth(n_cells), shift(n_cells);
-    for (const std::vector<float>& member : residuals) {
+    std::vector<double> products(n_cells, 0), other_sum(n_cells, 0);
+    for (std::size_t k = 0; k < residuals.size(); ++k) {
+      const std::vector<float>& member = residuals[k];
       box.take(member);
       for (std::size_t i = 0; i < n_cells; ++i) {
         const double s = radius == 0 ? member[i] : box.around(places[i], radius);
         smooth.add(i, s);
         shift.add(i, s - member[i]);
+        if (others.empty()) continue;
+        products[i] += s * others[k][i];
+        other_sum[i] += others[k][i];
       }
     }
     double risk = 0, bias = 0, variance = 0, cells = 0;
@@ -87,9 +93,11 @@ SmoothedCorrection smoothed_correction(const std::vector<std::vector<float>>& re
     best.radius = radius;
     best.mean.assign(n_cells, 0);
     best.variance.assign(n_cells, 0);
+    best.covariance.assign(n_cells, 0);
     for (std::size_t i = 0; i < n_cells; ++i) {
       best.mean[i] = smooth.mean(i, n);
       best.variance[i] = smooth.variance(i, n);
+      best.covariance[i] = (products[i] - smooth.sum[i] * other_sum[i] / n) / (n - 1);
     }
     best.bias_squared = cells > 0 ? std::max(0.0, bias / cells) : 0;
     best.variance_ratio = plain_variance > 0 ? variance / plain_variance : 1;

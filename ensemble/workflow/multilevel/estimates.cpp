@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/fidelity/choice.hpp"
+#include "ensemble/workflow/machine/cores.hpp"
 
 #include <fmt/format.h>
 
@@ -115,6 +116,7 @@ MultilevelMap map_of(const LevelMembers& all, std::span<const std::size_t> parts
     levels.spacings_m.push_back(all.parts[part].spacing_m);
   }
   levels.draws = level_draws(valid_of(all, parts));
+  levels.memory_bytes = 0.9 * available_memory_bytes();
   return multilevel_map(levels, what, cancel);
 }
 
@@ -126,10 +128,13 @@ LevelSet level_set(const LevelMembers& all, std::vector<std::size_t> parts,
   for (const std::string& name : headline_results()) {
     const MultilevelScalar s = scalar_of(all, set.levels, name);
     if (!std::isfinite(s.mean.mean) || !(s.variance > 0)) continue;
-    const double half =
-        target.relative_error * std::abs(s.mean.mean) / student_width(0.9, s.mean.degrees);
-    LevelResult r{name, s.variances, s.variance, half * half, 0};
+    const Interval bounds = s.mean.bounds_90();
+    const double allowed = target.relative_error * std::abs(s.mean.mean) * s.mean.standard_error /
+                           ((bounds.high - bounds.low) / 2);
+    LevelResult r{name, s.cautious_variances, s.variance, allowed * allowed, 0};
     r.reached = s.mean.standard_error * s.mean.standard_error;
+    for (std::size_t l = 0; l < set.levels.size(); ++l)
+      r.reached += (s.cautious_variances[l] - s.variances[l]) / s.draws[l];
     // Of some valid members this result is not known: so many more are needed of each level.
     for (std::size_t l = 0; l < set.levels.size(); ++l)
       r.variances[l] *= static_cast<double>(valid[l].size()) / s.draws[l];

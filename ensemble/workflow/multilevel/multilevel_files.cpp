@@ -46,6 +46,7 @@ Json headline_json(const MultilevelHeadline& h) {
           {"standard_deviation", number(std::sqrt(h.scalar.variance))},
           {"quantiles", quantiles},
           {"draws", numbers(h.scalar.draws)},
+          {"left_out", h.left_out},
           {"variances", numbers(h.scalar.variances)},
           {"squared_correlations", numbers(h.scalar.squared_correlations)},
           {"plain_cpu_s", number(h.plain_seconds)}};
@@ -56,6 +57,9 @@ Json level_json(const LevelShare& l) {
           {"used", l.used},
           {"members", l.members},
           {"valid", l.valid},
+          {"censored", l.censoring.censored()},
+          {"too_many_censored", l.censoring.too_many()},
+          {"unpaired", l.unpaired},
           {"member_cpu_s", number(l.member_cpu_s)},
           {"cpu_s", number(l.seconds)},
           {"variance_shares", numbers(l.variance_shares)}};
@@ -164,7 +168,8 @@ void write_page(const MultilevelJob& job, const MultilevelMade& made, const Laye
   page.when = utc_now();
   page.program = build_text(this_build());
   page.sentences = page_sentences(made);
-  page.warnings = made.warnings;
+  page.warnings = made.cut_off;
+  page.warnings.insert(page.warnings.end(), made.warnings.begin(), made.warnings.end());
   for (const MultilevelHeadline& h : made.headlines) page.results.push_back(page_result(h));
   for (const LevelShare& l : made.levels)
     page.levels.push_back({l.name, l.used, static_cast<double>(l.members), l.member_cpu_s,
@@ -188,6 +193,7 @@ std::string multilevel_json_text(const MultilevelMade& made) {
             {"cpu_s", number(made.seconds)},
             {"failed_members", made.failed},
             {"censored_members", made.censored},
+            {"cut_off", made.cut_off},
             {"missed", made.missed},
             {"warnings", made.warnings}};
   for (const LevelShare& l : made.levels) json["levels"].push_back(level_json(l));

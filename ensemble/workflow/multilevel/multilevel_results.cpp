@@ -4,6 +4,7 @@
 #include "ensemble/fidelity/ladder.hpp"
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/hazard/map_units.hpp"
+#include "ensemble/workflow/multilevel/decision.hpp"
 
 #include <fmt/format.h>
 
@@ -52,6 +53,11 @@ class Look {
     h.units = scalar_named(name).units;
     h.scalar = scalar_of(all_, made_.used, name);
     if (!std::isfinite(h.scalar.mean.mean)) return;
+    const auto valid =
+        static_cast<std::int64_t>(draws_of_levels(level_draws(valid_of(all_, made_.used)),
+                                                  made_.used.size())
+                                      .front());
+    h.left_out = valid - static_cast<std::int64_t>(h.scalar.draws.front());
     const Interval bounds = h.scalar.mean.bounds_90();
     h.sampling = (bounds.high - bounds.low) / 2;
     h.quantiles =
@@ -179,19 +185,35 @@ class Look {
   }
 
   void add_members() {
-    for (std::size_t p = 0; p < all_.parts.size(); ++p)
-      for (const MemberSummary& m : all_.members[p]->members()) {
-        if (m.member >= all_.counts[p]) continue;
-        if (!is_valid(m.outcome)) ++made_.failed;
-        if (is_valid(m.outcome) && m.censoring != Censoring::none) ++made_.censored;
-      }
+    const EnsembleSpec& ensemble = job_.scene.scenario.ensemble;
+    const std::vector<std::size_t> paired =
+        draws_of_levels(level_draws(valid_of(all_, made_.used)), made_.used.size());
+    for (std::size_t p = 0; p < all_.parts.size(); ++p) {
+      LevelShare& level = made_.levels[p];
+      std::vector<MemberSummary> counted;
+      for (const MemberSummary& m : all_.members[p]->members())
+        if (m.member < all_.counts[p]) counted.push_back(m);
+      level.censoring = censoring_report(counted, ensemble.max_censored_fraction);
+      made_.failed += level.members - level.valid;
+      made_.censored += level.censoring.censored();
+      if (!level.used) continue;
+      const auto at = std::find(made_.used.begin(), made_.used.end(), p) - made_.used.begin();
+      level.unpaired =
+          level.valid - static_cast<std::int64_t>(paired[static_cast<std::size_t>(at)]);
+      if (level.censoring.too_many())
+        made_.cut_off.push_back(fmt::format(
+            "{}: {} of {} valid members are cut off ({}), more than the accepted share "
+            "(ensemble.max_censored_fraction = {}). Means and quantiles are of the others and lie "
+            "too low where the furthest are among them; probabilities are lower bounds.",
+            level.name, level.censoring.censored(), level.valid, counts_text(level.censoring),
+            ensemble.max_censored_fraction));
+    }
     made_.warnings = job_.scene.description.warnings;
-    made_.max_failed_fraction = job_.scene.scenario.ensemble.max_failed_fraction;
+    made_.max_failed_fraction = ensemble.max_failed_fraction;
   }
 
   /// What was asked for and is not there, by more than what a round would not be worth.
   void add_misses() {
-    constexpr double near_enough = 1.05;
     const TargetSpec target = job_.scene.scenario.ensemble.target.value_or(TargetSpec{});
     for (const std::string& name : headline_results()) {
       if (!(target.relative_error > 0)) break;

@@ -3,6 +3,7 @@
 /// each level brought and took.
 #pragma once
 
+#include "ensemble/censoring/censoring_report.hpp"
 #include "ensemble/workflow/multilevel/estimates.hpp"
 #include "ensemble/workflow/multilevel/multilevel_run.hpp"
 
@@ -25,6 +26,7 @@ struct MultilevelHeadline {
   /// there is none.
   double model = nan_d;
   double plain_seconds = nan_d;  ///< CPU, of plain sampling for the same error
+  std::int64_t left_out = 0;     ///< members of the dearest level whose end does not tell it
 };
 
 /// What one level brought.
@@ -33,6 +35,10 @@ struct LevelShare {
   std::int64_t members = 0, valid = 0;
   double member_cpu_s = nan_d, seconds = nan_d;
   bool used = false;
+  CensoringReport censoring;  ///< of the members that count
+  /// Valid members that no estimate has, because a cheaper used level's member of the same draw
+  /// failed: nothing foretells them, and the sum over the levels would count them twice.
+  std::int64_t unpaired = 0;
   /// [headlines, and the map] of the estimate's variance.
   std::vector<double> variance_shares;
 };
@@ -59,6 +65,9 @@ struct MultilevelMade {
   double seconds = 0;                ///< CPU of all members
   std::int64_t failed = 0;           ///< members of any level
   std::int64_t censored = 0;         ///< valid ones whose end was not seen
+  /// As plain ensembles: of used levels of which more members than ensemble.max_censored_fraction
+  /// are cut off, a sentence each. Every door says it first.
+  std::vector<std::string> cut_off;
   std::vector<std::string> missed;   ///< of ensemble.target, a sentence each
   double max_failed_fraction = 1;    ///< of the scene
   std::vector<std::string> warnings;

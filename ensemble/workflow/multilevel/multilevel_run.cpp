@@ -6,7 +6,7 @@
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
-#include "ensemble/workflow/multilevel/estimates.hpp"
+#include "ensemble/workflow/multilevel/decision.hpp"
 #include "ensemble/workflow/without_folder.hpp"
 
 #include <fmt/format.h>
@@ -20,9 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int usual_pilot = 16;
-constexpr std::size_t most_rounds = 5;
-constexpr double most_draws = 1e6;
-constexpr double near_enough = 1.05;  // of a wanted error: what the next round would not be worth
 
 fs::path plan_of(const EnsembleRequest& request) { return request.folder / "multilevel_plan.json"; }
 
@@ -61,15 +58,6 @@ std::vector<LevelPart> possible_parts(const EnsembleRequest& request, const Scen
   return possible;
 }
 
-/// A set whose members do not let one know some result asks for nothing of it, and would look
-/// cheap.
-bool tells_all_of(const LevelSet& set, const LevelSet& plain) {
-  return std::all_of(plain.results.begin(), plain.results.end(), [&](const LevelResult& wanted) {
-    return std::any_of(set.results.begin(), set.results.end(),
-                       [&](const LevelResult& r) { return r.name == wanted.name; });
-  });
-}
-
 class Levels {
  public:
   Levels(MultilevelJob& job, Observer& observer, PlanListener& listener,
@@ -95,10 +83,9 @@ class Levels {
     look_at_pilot();
     for (std::size_t r = 0;; ++r) {
       if (r == job_.plan.rounds.size()) {
-        if (!wants_more()) break;
-        PlanRound round = decide();
-        if (r > 0 && round.members == counts_) break;  // no more of them would help
-        job_.plan.rounds.push_back(std::move(round));
+        auto round = next_round(members(), job_.plan.rounds, target_, look_.cost_s, cancel_);
+        if (!round) break;
+        job_.plan.rounds.push_back(std::move(*round));
         write_plan(plan_of(job_.request), job_.plan);
       }
       look_.rounds.push_back(job_.plan.rounds[r]);
@@ -172,60 +159,6 @@ class Levels {
   }
 
   static std::vector<std::size_t> pair_with(std::size_t part) { return {0, part}; }
-
-  bool wants_more() const {
-    const std::vector<PlanRound>& rounds = job_.plan.rounds;
-    if (rounds.empty()) return true;
-    if (target_.core_hours > 0)
-      return 3600 * target_.core_hours > near_enough * rounds.back().budget_s;
-    if (rounds.size() >= most_rounds) return false;
-    const LevelSet set = level_set(members(), rounds.back().plan.levels, target_, cancel_);
-    // By the draws that tell it: members that failed, or whose end was not seen, are none.
-    return std::any_of(set.results.begin(), set.results.end(), [&](const LevelResult& r) {
-      return r.allowed > 0 && r.reached > near_enough * near_enough * r.allowed;
-    });
-  }
-
-  PlanRound decide() const {
-    const LevelMembers all = members();
-    std::vector<std::vector<std::size_t>> subsets = level_subsets(counts_.size());
-    if (!job_.plan.rounds.empty()) {
-      subsets = {{0}};
-      if (job_.plan.rounds.back().plan.levels.size() > 1)
-        subsets.push_back(job_.plan.rounds.back().plan.levels);
-    }
-    std::vector<LevelSet> sets;
-    for (std::vector<std::size_t>& subset : subsets) {
-      if (shared_draws(all, subset) < least_draws) continue;
-      LevelSet set = level_set(all, std::move(subset), target_, cancel_);
-      if (sets.empty() || tells_all_of(set, sets.front())) sets.push_back(std::move(set));
-    }
-    PlanRound round;
-    round.cost_s = look_.cost_s;
-    round.budget_s = 3600 * target_.core_hours;
-    std::vector<double> have, valid_share;
-    LevelBudget budget{round.budget_s, {}};
-    for (std::size_t p = 0; p < counts_.size(); ++p) {
-      const auto valid =
-          static_cast<double>(valid_of(all, std::vector<std::size_t>{p}).front().size());
-      const auto n = static_cast<double>(counts_[p]);
-      have.push_back(valid);
-      valid_share.push_back(std::max(valid, 1.0) / n);
-      budget.spent_s.push_back(n * round.cost_s[p]);
-    }
-    round.plan = plan_levels(sets, round.cost_s, have, budget);
-    round.members = counts_;
-    for (std::size_t l = 0; l < round.plan.levels.size(); ++l) {
-      const std::size_t p = round.plan.levels[l];
-      const double n = std::ceil(round.plan.draws[l] / valid_share[p] - 1e-9);
-      require(n <= most_draws,
-              fmt::format("ensemble.target (it would take {:.0f} members of {}). Ask for a larger "
-                          "error.",
-                          n, job_.parts[p].name));
-      round.members[p] = std::max(counts_[p], static_cast<std::int64_t>(n));
-    }
-    return round;
-  }
 
   MultilevelJob& job_;
   WithoutFolder quiet_;

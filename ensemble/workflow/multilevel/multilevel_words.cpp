@@ -85,7 +85,8 @@ std::string gain_text(const MultilevelMade& made) {
 }
 
 std::vector<std::string> page_sentences(const MultilevelMade& made) {
-  std::vector<std::string> lines = made.missed;
+  std::vector<std::string> lines = made.cut_off;
+  lines.insert(lines.end(), made.missed.begin(), made.missed.end());
   if (std::isfinite(made.map_error))
     lines.push_back(
         fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
@@ -97,11 +98,23 @@ std::vector<std::string> page_sentences(const MultilevelMade& made) {
         fmt::format("{} members failed; their draws count where a level and all cheaper ones "
                     "have them.",
                     made.failed));
+  for (const LevelShare& l : made.levels)
+    if (l.unpaired > 0)
+      lines.push_back(
+          fmt::format("{} valid members of {} are not used: a cheaper member of the same draw "
+                      "failed, and nothing foretells them.",
+                      l.unpaired, l.name));
   if (made.censored > 0)
     lines.push_back(
         fmt::format("The end of {} members was not seen: results are of the others, and "
                     "probabilities are lower bounds.",
                     made.censored));
+  for (const MultilevelHeadline& h : made.headlines)
+    if (h.left_out > 0)
+      lines.push_back(
+          fmt::format("{}: {} of {} members of {} do not tell it and are left out.", h.name,
+                      h.left_out, h.left_out + static_cast<std::int64_t>(h.scalar.draws.front()),
+                      made.levels.front().name));
   return lines;
 }
 

@@ -2,10 +2,11 @@
 // Probability maps of a front whose place is known at two levels, and distances to outlines.
 #include "ensemble/fidelity/multilevel/multilevel_map.hpp"
 
+#include "engine/core/error.hpp"
 #include "ensemble/fidelity/multilevel/residual_smoothing.hpp"
 #include "ensemble/fidelity/multilevel/signed_distance.hpp"
 #include "tests/ensemble/fidelity/multilevel/normal_draws.hpp"
-#include "tests/support/memory_members.hpp"
+#include "tests/support/front_members.hpp"
 
 #include <gtest/gtest.h>
 
@@ -35,24 +36,6 @@ TEST(ASignedDistance, IsThatOfTheNearestCellOfTheOtherKind) {
                   static_cast<float>(-grid.cell_m * 30));
 }
 
-/// A front across the strip; the flow is as thick as it is far behind it, over 100.
-MemberResult member(std::int64_t number, double front_m) {
-  MemberResult m;
-  m.member = number;
-  m.outcome = Outcome::settled;
-  m.grid = small_grid(n_rows, n_cols);
-  m.window = whole_of(m.grid);
-  for (int layer = 0; layer < n_peak_layers; ++layer)
-    m.layers[layer].assign(m.window.n_cells(), info(static_cast<PeakLayer>(layer)).untouched);
-  for (int row = 0; row < n_rows; ++row)
-    for (int col = 0; col < n_cols; ++col) {
-      const double behind = front_m - m.grid.cell_m * (col + 0.5);
-      if (behind > 0)
-        m.layer(PeakLayer::thickness)[m.grid.index(row, col)] = static_cast<float>(behind / 100);
-    }
-  return m;
-}
-
 /// Fronts at 250 + 60 z + 8 e at the dear level, 350 + 80 z + 8 e at the cheap one, which is wrong
 /// by far more than a cell.
 struct Strip {
@@ -63,8 +46,8 @@ struct Strip {
     for (std::size_t k = 0; k < n_cheap; ++k) {
       const double z = normal(stream, k);
       const auto number = static_cast<std::int64_t>(k);
-      if (k < n_dear) dear.add(member(number, 250 + 60 * z + 8 * normal(stream + 1, k)));
-      cheap.add(member(number, 350 + 80 * z + 8 * normal(stream + 2, k)));
+      if (k < n_dear) dear.add(front_member(number, 250 + 60 * z + 8 * normal(stream + 1, k), dear.grid()));
+      cheap.add(front_member(number, 350 + 80 * z + 8 * normal(stream + 2, k), cheap.grid()));
       levels.draws.push_back({number, k < n_dear ? 0U : 1U, {}});
     }
     levels.levels = {&dear, &cheap};
@@ -116,6 +99,12 @@ TEST(AMultilevelMap, IsTheShareOfMembersFarFromAnyFront) {
   }
 }
 
+TEST(AMultilevelMap, IsRefusedWhereItDoesNotFitMemory) {
+  Strip strip(12, 100, 5);
+  strip.levels.memory_bytes = 1000;
+  EXPECT_THROW(multilevel_map(strip.levels, {PeakLayer::thickness, 0}), SetupError);
+}
+
 TEST(MultilevelMaps, FallWithTheThreshold) {
   const Strip strip(12, 100, 9);
   std::vector<MultilevelMap> maps;
@@ -148,12 +137,12 @@ TEST(ACorrection, IsSmoothedWhereThatLowersItsRisk) {
       even[k][i] = static_cast<float>(0.1 + normal(k, i));
       steep[k][i] = static_cast<float>((i % 2 == 0 ? 3 : -3) + normal(k, i));
     }
-  const SmoothedCorrection wide = smoothed_correction(even, places, grid, all, 3);
+  const SmoothedCorrection wide = smoothed_correction(even, {}, places, grid, all, 3);
   // Means over 25 and over 49 cells have risks of 0.0025 and 0.0013: no estimate tells them apart.
   EXPECT_GE(wide.radius, 2);
   EXPECT_LT(wide.variance_ratio, 0.1);
   EXPECT_NEAR(wide.mean[210], 0.1, 0.15);
-  EXPECT_EQ(smoothed_correction(steep, places, grid, all, 3).radius, 0);
+  EXPECT_EQ(smoothed_correction(steep, {}, places, grid, all, 3).radius, 0);
 }
 
 }  // namespace
