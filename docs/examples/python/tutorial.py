@@ -106,5 +106,5 @@ with sturz.serve(scene, workers=2) as server:
 expected = [simulation.run([friction, 500]) for friction in frictions]
 assert [runout for runout, _ in served] == [each.scalars["runout_m"] for each in expected]  # again the same
 assert [bool(mark) for _, mark in served] == [each.censored != "none" for each in expected]
-print("served", len(served), "members,", sum(mark for _, mark in served), "of them bounds")
+print("served", len(served), "members,", int(sum(mark for _, mark in served)), "of them bounds")
 print("Results are in", out)
