@@ -2,6 +2,7 @@
 #include "io/scenario/scenario_file.hpp"
 
 #include "io/files/text_files.hpp"
+#include "io/scenario/binary_text.hpp"
 
 #include <array>
 #include <fstream>

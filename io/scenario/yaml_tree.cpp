@@ -2,6 +2,7 @@
 #include "io/scenario/yaml_tree.hpp"
 
 #include "io/files/plain_text.hpp"
+#include "io/scenario/binary_text.hpp"
 #include "scenarios/schema/value_text.hpp"
 
 #include <yaml-cpp/eventhandler.h>

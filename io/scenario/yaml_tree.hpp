@@ -51,14 +51,6 @@ struct FileProblem {
 };
 
 inline constexpr std::size_t max_yaml_bytes = 65536;
-
-/// What begins like no text: the raster was named in place of the scenario.
-inline bool looks_binary(std::string_view text) {
-  return text.substr(0, 1024).find('\0') != std::string_view::npos;
-}
-inline constexpr const char* binary_words =
-    "is binary, such as a raster, and no scenario. `sturz init RASTER RELEASE -o DIR` writes one "
-    "around an elevation raster.";
 inline constexpr int max_yaml_depth = 16;
 
 /// Reads one document. Nothing is thrown for bad text: what is wrong is added to `problems`, and

@@ -193,8 +193,9 @@ int tell_end(const BatchDone& done, Console& console) {
   console.clear_progress();
   const std::size_t failed = done.count(RowState::failed);
   const std::size_t open = done.count(RowState::interrupted) + done.count(RowState::waiting);
-  console.say(fmt::format("{} jobs: {} computed, {} unchanged, {} failed{}", done.rows.size(),
-                          done.count(RowState::computed), done.count(RowState::unchanged), failed,
+  console.say(fmt::format("{} job{}: {} computed, {} unchanged, {} failed{}", done.rows.size(),
+                          done.rows.size() == 1 ? "" : "s", done.count(RowState::computed),
+                          done.count(RowState::unchanged), failed,
                           open > 0 ? fmt::format(", {} to come", open) : ""));
   if (done.count(RowState::computed) > 0)
     console.say(fmt::format(
