@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ways of the front from times of arrival: down a bent channel whose answer is known.
-#include "ensemble/workflow/results/flow_lines.hpp"
+#include "ensemble/workflow/results/gis/flow_lines.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

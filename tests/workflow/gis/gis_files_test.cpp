@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an ensemble leaves for a GIS on a scene that lies nowhere on the earth; tests/gis opens that
 // of one that does.
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 
 #include "ensemble/workflow/members/member_stack.hpp"
 #include "ensemble/workflow/members/single_run.hpp"

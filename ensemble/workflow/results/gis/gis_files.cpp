@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 
 #include "ensemble/assets/asset_risk.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
-#include "ensemble/workflow/results/flow_lines.hpp"
+#include "ensemble/workflow/results/gis/flow_lines.hpp"
+#include "ensemble/workflow/results/gis/outline_tables.hpp"
 #include "ensemble/workflow/results/ground_source.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
-#include "ensemble/workflow/results/outline_tables.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/features/feature_file.hpp"
 #include "io/features/geographic.hpp"
