@@ -64,7 +64,9 @@ int compare(const Options& options, Console& console) {
         fmt::format("  intervals from pairs are {:.2f} times narrower than without them "
                     "(median over {} cells)",
                     c.summary.median_gain, c.summary.n_cells));
-  console.say("In " + options.out);
+  console.say(c.has_page
+                  ? "In " + options.out + ": report.html with A and B beside each other"
+                  : "In " + options.out + "; no report.html, since A or B has no finished maps");
   console.event(json_text(json_of(c)));
   return ok;
 }

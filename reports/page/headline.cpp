@@ -21,7 +21,7 @@ std::vector<std::pair<Outcome, int>> count_outcomes(const std::vector<MemberSumm
   return counts;
 }
 
-/// The same of weighted maps, whose convergence nobody followed; joined cells would be too many.
+/// The same of weighted maps, which have no convergence; joined cells would be too many.
 Estimate weighted_area(const LayerStack& hazard) {
   const Layer *reached = nullptr, *lower = nullptr, *upper = nullptr;
   for (const Layer& layer : hazard.layers) {

@@ -190,6 +190,15 @@ Json maps_json(const ReportInput& input, const MapScene& scene, const LayerStack
           {"layers", std::move(layers)}};
 }
 
+/// The maps of the second of two ensembles, to be seen beside those of the first.
+Json beside_json(const ReportInput& input, const MapScene& scene) {
+  const ComparisonShown& c = *input.comparison;
+  Json layers = Json::array();
+  for (const Layer* layer : shown_layers(*c.b))
+    layers.push_back(layer_json(scene, *c.b, *layer, input, static_cast<int>(c.valid_b)));
+  return {{"nameA", c.name_a}, {"nameB", c.name_b}, {"layers", std::move(layers)}};
+}
+
 /// Whether the runout grows with sampled key `k`, over the shown members.
 Json agreement_json(const ReportInput& input, const std::vector<std::size_t>& rows, std::size_t k) {
   std::vector<double> parameter;
@@ -360,10 +369,12 @@ Quantised quantise(const std::vector<float>& values, int n_members) {
 std::string report_payload(const ReportInput& input, const MapScene* scene,
                            const LayerStack* maps) {
   const Headline h = headline(input);
+  const int valid =
+      input.comparison != nullptr ? static_cast<int>(input.comparison->valid_a) : h.n_valid;
   Json page{{"z", 1.959964},  // of ensemble/hazard/wilson.hpp
-            {"valid", h.n_valid},
+            {"valid", valid},
             {"weighted", input.effective_members > 0},
-            {"trials", input.effective_members > 0 ? input.effective_members : h.n_valid},
+            {"trials", input.effective_members > 0 ? input.effective_members : valid},
             {"single", input.hazard == nullptr},
             {"runout", median_json(h.runout_m)}};
   page["texts"] = Json::parse(script_texts());
@@ -374,7 +385,8 @@ std::string report_payload(const ReportInput& input, const MapScene* scene,
   if (input.history != nullptr) page["motion"] = motion_json(*input.history);
   page["convergence"] = convergence_json(input.convergence);
   if (scene != nullptr && maps != nullptr && default_layer(*maps) != nullptr)
-    page["maps"] = maps_json(input, *scene, *maps, h.n_valid);
+    page["maps"] = maps_json(input, *scene, *maps, valid);
+  if (scene != nullptr && input.comparison != nullptr) page["beside"] = beside_json(input, *scene);
   return page.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

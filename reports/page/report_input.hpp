@@ -82,6 +82,18 @@ struct RegionShown {
   double touched_area_m2 = 0;        ///< that some source reaches
 };
 
+/// Two ensembles beside each other, the maps of the first in ReportInput::hazard.
+struct ComparisonShown {
+  std::string name_a, name_b;
+  const LayerStack* b = nullptr;  ///< maps of the second, on the same cells
+  std::size_t pairs = 0;          ///< 0: their members have nothing in common
+  std::size_t valid_a = 0, valid_b = 0;
+  std::size_t cut_off = 0;                 ///< members of both
+  double least = 0, most = 0;              ///< P(B reaches) - P(A reaches) over the cells
+  double less_m2 = 0, more_m2 = 0;         ///< where the interval of the difference leaves out 0
+  std::vector<std::string> differences{};  ///< of the scenes: "key: A -> B"
+};
+
 /// One member's thickness over time, for the page to play.
 struct FramesShown {
   std::int64_t member = 0;
@@ -127,10 +139,11 @@ struct ReportInput {
   std::span<const Overlay> overlays;              ///< drawn over the maps
   /// Of the window of a grid as a JPEG file; null or empty bytes: there is no orthophoto.
   std::function<std::vector<std::uint8_t>(const Grid&)> orthophoto;
-  const Assets* assets = nullptr;             ///< what may be hit; null: the scene names nothing
-  const RiskTable* risk = nullptr;            ///< of these assets
-  const RegionShown* region = nullptr;        ///< null: one ensemble; else `members` is empty
-  const PosteriorShown* posterior = nullptr;  ///< null: nothing was calibrated
+  const Assets* assets = nullptr;               ///< what may be hit; null: the scene names nothing
+  const RiskTable* risk = nullptr;              ///< of these assets
+  const RegionShown* region = nullptr;          ///< null: one ensemble; else `members` is empty
+  const ComparisonShown* comparison = nullptr;  ///< null: one ensemble; else `members` is empty
+  const PosteriorShown* posterior = nullptr;    ///< null: nothing was calibrated
   double resolved_thickness_m = 0;  ///< thickness thresholds below it are marked 'not resolved'
 };
 

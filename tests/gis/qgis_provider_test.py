@@ -148,6 +148,10 @@ class Provider(unittest.TestCase):
         self.assertEqual(found["OUTCOME"], "settled")
         self.assertGreater(found["RUNOUT_M"], 100)
         self.assertTrue((self.root / "out/peaks.nc").is_file())
+        found, done, heard = self.run_algorithm("open_results", {"FOLDER": self.out})
+        self.assertTrue(done, heard.htmlLog())
+        self.assertGreater(found["LAYERS"], 8)
+        self.assertTrue(all(layer.isValid() for layer in QgsProject.instance().mapLayers().values()))
 
     def test_a_calibration_tells_what_it_found(self):
         found, done, heard = self.run_algorithm("calibrate", {"SCENARIO": self.scene, "OUT": self.out, "LOAD": False})

@@ -49,6 +49,14 @@ class GeoTiffs(Results):
         self.assertFalse([name for name in names if "lower" in name or "upper" in name])
         self.assertTrue((self.folder / "hazard/bounds/P_pressure_gt_30kPa_upper.tif").is_file())
 
+    def test_bounds_say_their_level(self):
+        data, _ = self.raster("hazard/bounds/P_reached_upper.tif")
+        metadata = data.GetRasterBand(1).GetMetadata()
+        self.assertEqual(metadata["confidence_level"], "0.95")
+        self.assertIn("upper end of the 95 % interval", metadata["long_name"])
+        probability = gdal.Open(str(self.folder / "hazard/P_reached.tif")).GetRasterBand(1).GetMetadata()
+        self.assertNotIn("confidence_level", probability)
+
     def test_unit_and_nodata_stand_in_the_band(self):
         for name, unit in (("P_reached", "1"), ("pressure_mean_kPa", "kPa"), ("energy_p50_kJ_m2", "kJ m-2"),
                            ("arrival_p50_s", "s")):
@@ -104,6 +112,24 @@ class Package(Results):
             self.assertTrue(feature["shape"].IsValid())
             seen += area
         self.assertEqual(seen, (p > 0).sum() * made_scene.CELL ** 2)
+
+    def test_flow_lines_begin_in_the_release_and_end_when_the_front_came(self):
+        data, arrival = self.raster("hazard/arrival_p50_s.tif")
+        _, p = self.raster("hazard/P_reached.tif")
+        west, cell, _, north, _, _ = data.GetGeoTransform()
+        release = self.rows("release")[0]["shape"]
+        lines = self.rows("flow_lines")
+        self.assertEqual([line["probability"] for line in lines], [0.9, 0.5, 0.05])
+        for line in lines:
+            shape = line["shape"]
+            self.assertAlmostEqual(shape.Length(), line["length_m"])
+            start = ogr.Geometry(ogr.wkbPoint)
+            start.AddPoint_2D(*shape.GetPoint_2D(0))
+            self.assertLess(start.Distance(release), 1e-6)
+            places = [(int((north - y) / cell), int((x - west) / cell)) for x, y in shape.GetPoints()]
+            self.assertTrue(all(p[place] > 0 for place in places))
+            self.assertAlmostEqual(arrival[places[-1]], line["arrival_s"], delta=1e-4)
+            self.assertGreaterEqual(p[places[-1]], line["probability"] - 1e-6)
 
     def test_thickness_has_its_unit_in_the_names_and_an_open_last_class(self):
         package, layer = self.table("thickness_p95_m")

@@ -122,6 +122,39 @@ test('swipe shows another plane to the right of its handle only', {skip}, async 
   await close();
 });
 
+test('two ensembles lie beside each other from the start', {skip}, async () => {
+  const {page, trouble, close} = await open('comparison');
+  await liveMap(page);
+  assert.ok(await page.locator('.swipe').isVisible());
+  assert.match(await page.textContent('.beside'), /A: out\/as it is \| B: out\/with a <dam>/);
+  assert.match(await page.textContent('.plain-words'), /From A \(out\/as it is\) to B .* 0 %: it is less on 25 ha/);
+  const chosen = () => page.evaluate(() => {
+    const option = document.querySelector('#pick-beside').selectedOptions[0];
+    return `${option.parentNode.label}: ${option.text}`;
+  });
+  assert.match(await chosen(), /^B: out.*Probability that the flow arrives$/);
+  const right = async () => {
+    const box = await page.locator('#map').boundingBox();
+    await page.mouse.move(2, 2);
+    return steady(page, () => page.screenshot({
+      clip: {x: box.x + 0.55 * box.width, y: box.y + 60, width: 0.15 * box.width, height: box.height - 120},
+    }));
+  };
+  const ofB = await right();
+  await page.selectOption('#pick-beside', {index: await page.evaluate(
+      () => [...document.querySelector('#pick-beside').options].findIndex(
+          (o) => o.parentNode.label.startsWith('A') && o.text === 'Probability that the flow arrives'))});
+  assert.notEqual(await right(), ofB, 'B differs from A');
+  await page.click('[data-key="thickness"]');
+  await page.waitForTimeout(300);
+  assert.match(await chosen(), /^B: .*thickness/i, 'B follows what A shows');
+  assert.ok(await page.locator('[data-key="difference"]').count() === 0);
+  await page.click('[data-key="reached"]');
+  assert.ok(await page.locator('[data-key="difference"]').isVisible());
+  assert.deepEqual(trouble, []);
+  await close();
+});
+
 test('the saved picture holds map and legend', {skip}, async () => {
   const {page, trouble, close} = await open('ensemble', {acceptDownloads: true});
   await liveMap(page);

@@ -111,6 +111,30 @@ void write_frames(const std::filesystem::path& path, const sturz::testing::MadeU
   write(path, make_report(input));
 }
 
+/// Two ensembles beside each other: the second has half the probabilities.
+void write_comparison(const std::filesystem::path& path, const sturz::ReportInput& of) {
+  using namespace sturz;
+  LayerStack a = *of.hazard, b = *of.hazard;
+  Layer difference = *a.find("probability_of_reach");
+  difference.name = "probability_difference";
+  difference.meaning.statistic = Statistic::difference;
+  for (Layer& layer : b.layers)
+    if (layer.name == "probability_of_reach")
+      for (float& v : layer.values) v /= 2;
+  for (float& v : difference.values) v /= -2;
+  a.layers.push_back(difference);
+  ComparisonShown shown{"out/as it is", "out/with a <dam>", &b};
+  shown.pairs = shown.valid_a = shown.valid_b = 31;
+  shown.least = -0.5, shown.less_m2 = 2.5e5;
+  shown.differences = {"terrain.dams: none -> 1"};
+  ReportInput input;
+  input.title = of.title;
+  input.hazard = &a;
+  input.elevation = of.elevation;
+  input.comparison = &shown;
+  write(path, make_report(input));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -130,6 +154,7 @@ int main(int argc, char** argv) {
   write_layers_json(directory / "ensemble_layers.json", results);
   write_overlays(directory / "overlays.html", input);
   write_frames(directory / "frames.html", results);
+  write_comparison(directory / "comparison.html", input);
   auto german = results.ensemble_input();
   german.language = "de";
   write(directory / "german.html", sturz::make_report(german));

@@ -4,7 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/hazard/weighting/weighted_sample.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "io/files/text_files.hpp"
 

@@ -4,6 +4,7 @@
 #include "engine/core/error.hpp"
 #include "ensemble/comparison/asset_differences.hpp"
 #include "ensemble/hazard/hazard_map.hpp"
+#include "ensemble/workflow/comparison/comparison_page.hpp"
 #include "ensemble/workflow/folder/opened_ensemble.hpp"
 #include "ensemble/workflow/folder/scene_identity.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
@@ -79,6 +80,7 @@ void write_maps(const CompareRequest& request, const Both& both, const MemberPai
   const LayersFileReader maps(made.maps);
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
   write_map_files(request.out / "comparison", maps, coarse, cancel);
+  made.has_page = write_comparison_page(request.out, both, maps, made, cancel);
 }
 
 fs::path asset_csv(const fs::path& out) { return out / "asset_differences.csv"; }

@@ -27,9 +27,11 @@ struct Compared {
   std::vector<double> thickness_m;  ///< thresholds that both scenes ask for
   std::size_t n_assets = 0;
   std::filesystem::path maps;  ///< comparison.nc
+  bool has_page = false;       ///< report.html: both have finished maps
 };
 
-/// Writes comparison.nc, comparison/*.tif with styles and list, and, where both scenes have the
+/// Writes comparison.nc, comparison/*.tif with styles and list, report.html with both beside each
+/// other, and, where both scenes have the
 /// same assets, asset_differences.csv and .gpkg.
 /// \throws SetupError: folders that are no finished ensembles or lie on other cells; with `paired`
 ///   members that did not draw the same, naming what differs; IoError; Cancelled

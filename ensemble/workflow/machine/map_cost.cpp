@@ -7,7 +7,7 @@
 #include "ensemble/workflow/folder/output_folder.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/machine/temporary_folder.hpp"
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "ensemble/workflow/version.hpp"

@@ -11,7 +11,7 @@
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/members/member_summary.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/peak_layers.hpp"
 #include "ensemble/workflow/results/report_page.hpp"

@@ -9,7 +9,7 @@
 #include "ensemble/workflow/region/region_page.hpp"
 #include "ensemble/workflow/region/region_record.hpp"
 #include "ensemble/workflow/region/source_table.hpp"
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 #include "ensemble/workflow/results/ground_source.hpp"
 #include "ensemble/workflow/results/maps.hpp"
 #include "ensemble/workflow/results/report_page.hpp"

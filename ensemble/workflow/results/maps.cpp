@@ -10,7 +10,7 @@
 #include "ensemble/workflow/machine/cores.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
 #include "ensemble/workflow/results/gauge_files.hpp"
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "io/files/atomic_file.hpp"

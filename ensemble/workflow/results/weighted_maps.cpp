@@ -8,7 +8,7 @@
 #include "ensemble/workflow/calibration/posterior_weights.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
 #include "ensemble/workflow/machine/cores.hpp"
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "io/files/atomic_file.hpp"

@@ -17,10 +17,14 @@ const capital = (text) => text[0].toUpperCase() + text.slice(1);
 const nothingYet = new Float32Array(0);
 
 /** All planes of a page as {layer, plane, values, ready}; values come one by one. */
-function loadPlanes(maps) {
+function loadPlanes(maps, beside) {
   const entries = [];
-  for (const layer of maps.layers)
-    for (const plane of layer.planes) entries.push({layer, plane, values: nothingYet, ready: null});
+  const add = (layers, ofB) => {
+    for (const layer of layers)
+      for (const plane of layer.planes) entries.push({layer, plane, ofB, values: nothingYet, ready: null});
+  };
+  add(maps.layers, false);
+  if (beside) add(beside.layers, true);
   const load = (entry) => {
     entry.ready ??= unpack(entry.plane, maps.cells.cols).then((values) => { entry.values = values; });
     return entry.ready;
@@ -84,7 +88,8 @@ function buildApp() {
 
 export async function startMaps(page) {
   const maps = page.maps;
-  const {entries: planes, load} = loadPlanes(maps);
+  const {entries, load} = loadPlanes(maps, page.beside);
+  const planes = entries.filter((p) => !p.ofB);
   const first = planes.find((p) => p.layer === maps.layers[maps.start]);
   // What the first map needs comes first; the others follow while it is looked at.
   const wanted = planes.filter(
@@ -237,7 +242,7 @@ export async function startMaps(page) {
       () => ({layer: current.layer, values: seenValues, title: title.textContent,
               name: nameOf(current, bound)}),
       groundHeight);
-  const swipe = swipeTool(parts.stage, view, planes, load);
+  const swipe = swipeTool(parts.stage, view, entries, load, page.beside);
   parts.panel.append(swipe.panel);
   parts.tools.append(profile.button);
   if (planes.length > 1) parts.tools.append(swipe.button);
@@ -263,9 +268,11 @@ export async function startMaps(page) {
     cellPanel.follow(layer.quantity, layer.material);
     profile.redraw();
     solid?.redraw();
+    swipe.follow(current);
     drawPickers();
   };
   await show(first);
+  if (page.beside) swipe.button.click();
   setTimeout(() => Promise.all(planes.map(load)).then(() => cellPanel.redraw()), 60);
   // A still figure has no overlays: where there are some, what is seen is printed.
   printWhatIsSeen(seen, () => current === first && bound === 'value' && view.overlays.named.length === 0 &&

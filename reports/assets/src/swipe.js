@@ -4,22 +4,36 @@ import {element, toggle} from './dom.js';
 import {legendList} from './legend.js';
 import {t} from './texts.js';
 
+/** The choices of what is seen to the right; those of a second ensemble in a group of their own. */
+function choicesOf(planes, names) {
+  const options = (own) => planes.flatMap(
+      (p, k) => Boolean(p.ofB) === own ? [new Option(p.plane.title, k)] : []);
+  if (!names) return options(false);
+  return [[true, `B: ${names.nameB}`], [false, `A: ${names.nameA}`]].map(([own, label]) => {
+    const group = element('optgroup', {label});
+    group.append(...options(own));
+    return group;
+  });
+}
+
 /**
  * @param {HTMLElement} stage that holds the map
  * @param {object} view of createMap
  * @param {Array} planes all {layer, plane, values}; `load` brings the values of one
- * @returns {{button: HTMLElement, panel: HTMLElement, beside: Function}} beside() is what is seen to
- *   the right, null while the tool is off
+ * @param {object} names {nameA, nameB} of two ensembles, or nothing
+ * @returns {{button, panel, beside, follow}} beside() is what is seen to the right, null while the
+ *   tool is off; follow(plane) goes to what B has of a plane of A
  */
-export function swipeTool(stage, view, planes, load) {
+export function swipeTool(stage, view, planes, load, names) {
   const handle = element('div', {
     class: 'swipe', role: 'slider', tabindex: '0', 'aria-label': t('swipe_handle'),
     'aria-valuemin': '0', 'aria-valuemax': '100',
   });
   const pick = element('select', {id: 'pick-beside', 'aria-label': t('swipe_right')});
-  planes.forEach((p, k) => pick.append(new Option(p.plane.title, k)));
+  pick.append(...choicesOf(planes, names));
   const legend = element('div', {class: 'beside-legend'});
   const panel = element('div', {class: 'beside'},
+                        names ? element('p', {class: 'both-names'}, `A: ${names.nameA} | B: ${names.nameB}`) : '',
                         element('label', {for: 'pick-beside'}, t('swipe_right')), pick, legend);
   handle.hidden = panel.hidden = true;
   stage.append(handle);
@@ -67,8 +81,14 @@ export function swipeTool(stage, view, planes, load) {
   });
   const beside = () => {
     if (handle.hidden) return null;
-    const {layer, plane} = planes[Number(pick.value)];
-    return {title: plane.title, legend: layer.legend};
+    const {layer, plane, ofB} = planes[Number(pick.value)];
+    return {title: ofB ? `B: ${plane.title}` : plane.title, legend: layer.legend};
   };
-  return {button, panel, beside};
+  const follow = ({layer, plane}) => {
+    const own = planes.findIndex((p) => p.ofB && p.layer.name === layer.name && p.plane.label === plane.label);
+    if (own < 0) return;
+    pick.value = String(own);
+    if (!handle.hidden) show();
+  };
+  return {button, panel, beside, follow};
 }

@@ -106,10 +106,12 @@ std::string title_block_html(const ReportInput& input, const Headline& h, const 
   };
   row("sheet.system", crs_name(maps.grid.crs_wkt));
   row("sheet.cells", with_unit(scene.cells.cell_m, "m"));
-  row("sheet.rests_on", input.region != nullptr ? tr("sheet.region", input.region->sources.size())
-                        : input.hazard != nullptr
-                            ? tr("sheet.valid_of", h.n_valid, std::max(h.n_members, h.n_valid))
-                            : tr("sheet.one_run"));
+  row("sheet.rests_on",
+      input.region != nullptr ? tr("sheet.region", input.region->sources.size())
+      : input.comparison != nullptr
+          ? tr("header.comparison", input.comparison->valid_a, input.comparison->valid_b)
+      : input.hazard != nullptr ? tr("sheet.valid_of", h.n_valid, std::max(h.n_members, h.n_valid))
+                                : tr("sheet.one_run"));
   row("sheet.started", moment_text(value("started")));
   row("sheet.program", value("program"));
   row("sheet.hash", value("hash of the maps"));

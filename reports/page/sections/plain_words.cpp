@@ -162,10 +162,33 @@ PlainWords region_words(const RegionShown& region) {
           tr("plain.region_holds", region.members_planned)};
 }
 
+/// "+12 %" of a difference of probabilities.
+std::string change_text(double difference) {
+  const double percent = std::round(100 * difference);
+  return percent == 0 ? "0\u00A0%"
+                      : (percent > 0 ? "+" : "\u2212") + percent_text(std::abs(difference));
+}
+
+PlainWords comparison_words(const ComparisonShown& c) {
+  PlainWords words;
+  words.finding = tr("plain.comparison", c.name_a, c.name_b, change_text(c.least),
+                     change_text(c.most), area_text(c.less_m2), area_text(c.more_m2));
+  words.holds = c.pairs > 0 ? tr("plain.comparison_pairs", c.pairs, c.valid_a, c.valid_b)
+                            : tr("plain.comparison_unpaired", c.valid_a, c.valid_b);
+  if (c.cut_off > 0) words.holds += " " + tr("plain.comparison_cut", c.cut_off);
+  std::string list;
+  for (std::size_t k = 0; k < std::min(most_conditions, c.differences.size()); ++k)
+    list += (list.empty() ? "" : "; ") + c.differences[k];
+  if (c.differences.size() > most_conditions) list += "; \u2026";
+  if (!list.empty()) words.holds += " " + tr("plain.comparison_scenes", list);
+  return words;
+}
+
 }  // namespace
 
 PlainWords plain_words(const ReportInput& input, const Headline& h) {
   if (input.region != nullptr) return region_words(*input.region);
+  if (input.comparison != nullptr) return comparison_words(*input.comparison);
   if (h.n_valid == 0) return {};
   if (input.hazard == nullptr)
     return {single_sentence(h, input.members.front()), tr("plain.single_holds")};

@@ -80,6 +80,8 @@ std::string header_html(const ReportInput& input, const Headline& h) {
   if (input.region != nullptr)
     add(tr_count("header.region", static_cast<long long>(input.region->sources.size()),
                  input.region->members_planned));
+  else if (input.comparison != nullptr)
+    add(tr("header.comparison", input.comparison->valid_a, input.comparison->valid_b));
   else if (input.hazard != nullptr)
     add(tr_count("header.ensemble", h.n_members, of_planned(input, h.n_members)));
   else
@@ -92,9 +94,10 @@ std::string header_html(const ReportInput& input, const Headline& h) {
   return fmt::format(
       "<header class=\"top\"><p class=\"kind\">{}</p><h1>{}</h1><p "
       "class=\"origin\">{}</p></header>",
-      html_escape(tr(input.region != nullptr   ? "header.kind_region"
-                     : input.hazard != nullptr ? "header.kind_ensemble"
-                                               : "header.kind_single")),
+      html_escape(tr(input.region != nullptr       ? "header.kind_region"
+                     : input.comparison != nullptr ? "header.kind_comparison"
+                     : input.hazard != nullptr     ? "header.kind_ensemble"
+                                                   : "header.kind_single")),
       html_escape(input.title.empty() ? tr("header.untitled") : input.title), html_escape(origin));
 }
 
@@ -116,7 +119,7 @@ WarningLines warning_lines(const ReportInput& input, const Headline& h) {
   WarningLines all;
   std::vector<std::string>& lines = all.lines;
   const int lost = h.n_members - h.n_valid;
-  if (h.n_members == 0 && input.region == nullptr)
+  if (h.n_members == 0 && input.region == nullptr && input.comparison == nullptr)
     lines.push_back(tr("warnings.none_yet"));
   else if (h.n_valid == 0 && h.n_members > 0)
     lines.push_back(h.n_members == 1 ? tr("warnings.run_not_valid")

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an ensemble leaves for a GIS on a scene that lies nowhere on the earth; tests/gis opens that
 // of one that does.
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 
 #include "ensemble/workflow/members/member_stack.hpp"
+#include "ensemble/workflow/members/single_run.hpp"
+#include "io/features/cell_polygons.hpp"
 #include "io/netcdf/netcdf_file.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
@@ -40,6 +42,39 @@ TEST_F(GisWorkflow, NothingOfOursStaysWhereItIsRemoved) {
        {"hazard.gpkg", "hazard.qgz", "ground.tif", "ground.qml", "stac_item.json"})
     EXPECT_FALSE(exists(std::string("out/") + file)) << file;
   EXPECT_TRUE(exists("out/mine.qgz"));
+}
+
+TEST_F(GisWorkflow, AKeyLeavesThemOutAndTakesThemAway) {
+  write("scene.yaml",
+        replaced(replaced(tiny_scene(), "formulation: full_stress", "formulation: depth_averaged"),
+                 "hazard: {", "hazard: {gis_files: false, "));
+  Recorder heard;
+  whole(request("out"), heard);
+  EXPECT_TRUE(heard.members.empty()) << "no member is computed for it";
+  for (const char* file : {"hazard.gpkg", "hazard.qgz", "ground.tif", "stac_item.json",
+                           "hazard/index.csv", "hazard/P_reached.tif", "hazard/P_reached.qml"})
+    EXPECT_FALSE(exists(std::string("out/") + file)) << file;
+  EXPECT_TRUE(exists("out/hazard.nc"));
+}
+
+TEST_F(GisWorkflow, ARunHasAProjectOfItsOwn) {
+  Recorder heard;
+  workflow::SingleRun run = workflow::prepare_run({scene(), path("run"), 1, {}, "test"}, heard);
+  workflow::store_run(run, workflow::compute_run(run, heard, heard.cancel));
+  for (const char* file : {"peaks.gpkg", "peaks.qgz", "ground.tif", "peaks/peak_thickness_m.tif",
+                           "peaks/peak_thickness_m.qml", "peaks/index.csv"})
+    EXPECT_TRUE(exists(std::string("run/") + file)) << file;
+  EXPECT_FALSE(exists("run/hazard.qgz"));
+  EXPECT_THAT(read("run/stac_item.json"), HasSubstr("peaks.nc"));
+}
+
+TEST_F(GisWorkflow, StoppedOutlinesLeaveNoPackage) {
+  Recorder heard;
+  const std::atomic<bool> stop{true};
+  const Raster<std::uint8_t> cells{
+      {.n_cols = 40, .n_rows = 40, .west_m = 0, .north_m = 0, .cell_m = 1, .crs_wkt = ""}, 1};
+  EXPECT_THROW(classes_as_polygons(cells, stop), Cancelled);
+  EXPECT_EQ(classes_as_polygons(cells).size(), 1U);
 }
 
 TEST_F(GisWorkflow, MembersAreStackedWithoutDegrees) {

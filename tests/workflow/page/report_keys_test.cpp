@@ -84,6 +84,24 @@ TEST_F(ReportKeys, AnAnimationOfARunEndsWithItsDeposit) {
   EXPECT_FALSE(exists("still/frames.nc"));
 }
 
+TEST_F(ReportKeys, AnAnimationOfALongRunKeepsItsFirstInstant) {
+  // Longer than 40 s, so that every second instant goes: in columns, which are quick.
+  const std::string columns =
+      replaced(tiny_scene(), "formulation: full_stress", "formulation: depth_averaged");
+  write("scene.yaml", replaced(columns, "end_time_s: 3", "end_time_s: 45, stop_at_rest: false") +
+                          "report: {animation: true}\n");
+  Recorder heard;
+  workflow::SingleRun run = workflow::prepare_run({scene(), path("out"), 1, {}, "test"}, heard);
+  const MemberResult result = workflow::compute_run(run, heard, heard.cancel);
+  ASSERT_GT(result.scalars.end_time_s, 44);
+  const auto frames = workflow::read_frames(run.folder);
+  ASSERT_TRUE(frames);
+  EXPECT_LE(frames->times_s.size(), workflow::FrameTaker::most_frames + 1);
+  EXPECT_LT(frames->times_s.front(), workflow::FrameTaker::first_interval_s);
+  const auto& first = frames->thickness.front();
+  EXPECT_GT(*std::max_element(first.begin(), first.end()), 1) << "the release, 3 m thick";
+}
+
 TEST_F(ReportKeys, AnEnsembleKeepsThatOfItsMiddleMember) {
   write("scene.yaml", tiny_scene() + "report: {animation: true}\n");
   Recorder heard;

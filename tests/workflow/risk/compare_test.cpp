@@ -50,6 +50,9 @@ TEST_F(CompareWorkflow, WithAndWithoutADam) {
   for (const char* file : {"both/comparison.nc", "both/comparison/index.csv"})
     EXPECT_TRUE(exists(file)) << file;
   EXPECT_FALSE(exists("both/asset_differences.csv"));
+  ASSERT_TRUE(made.has_page);
+  EXPECT_THAT(read("both/report.html"), HasSubstr("A: 6, B: 6 valid simulations"));
+  EXPECT_THAT(read("both/report.html"), HasSubstr("\"beside\":{"));
   const LayerStack maps = read_layers(path("both/comparison.nc"));
   ASSERT_NE(maps.find("probability_difference"), nullptr);
   EXPECT_EQ(maps.find("thickness_exceedance_difference")->axis.values,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/workflow/results/flow_lines.hpp"
+#include "ensemble/workflow/results/gis/flow_lines.hpp"
 
 #include "engine/core/vec.hpp"
 #include "io/features/shapes.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/workflow/results/outline_tables.hpp"
+#include "ensemble/workflow/results/gis/outline_tables.hpp"
 
 #include "io/features/cell_polygons.hpp"
 #include "io/features/shapes.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ensemble/workflow/results/gis_files.hpp"
+#include "ensemble/workflow/results/gis/gis_files.hpp"
 
 #include "ensemble/assets/asset_risk.hpp"
 #include "ensemble/workflow/results/asset_files.hpp"
-#include "ensemble/workflow/results/flow_lines.hpp"
+#include "ensemble/workflow/results/gis/flow_lines.hpp"
+#include "ensemble/workflow/results/gis/outline_tables.hpp"
 #include "ensemble/workflow/results/ground_source.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
-#include "ensemble/workflow/results/outline_tables.hpp"
 #include "ensemble/workflow/version.hpp"
 #include "io/features/feature_file.hpp"
 #include "io/features/geographic.hpp"
@@ -70,7 +70,7 @@ class Files {
   }
 
   void write_package() {
-    GeoPackage package(gpkg());
+    GeoPackage package(package_file());
     const std::string& crs = about_.grid.crs_wkt;
     site_.title = "Scene";
     if (of_.assets)
@@ -207,7 +207,7 @@ class Files {
     constexpr const char *netcdf = "application/netcdf", *gpkg = "application/geopackage+sqlite3",
                          *geotiff = "image/tiff; application=geotiff; profile=cloud-optimized";
     add(of_.one_run ? folder_.peaks_nc() : folder_.hazard_nc(), "All maps", netcdf, "data");
-    add(gpkg(), "Areas of classes, release, ways of the front, assets", gpkg, "data");
+    add(package_file(), "Areas of classes, release, ways of the front, assets", gpkg, "data");
     add(folder_.ground_tif(), "Elevations under the maps", geotiff, "data");
     add(project_file(), "QGIS project", "application/x-qgis-project", "visual");
     for (const PlaneFile& file : cog_files(tifs(), about_)) {
@@ -219,12 +219,14 @@ class Files {
     write_text_atomic(folder_.stac_item(), stac_item(item));
   }
 
-  fs::path gpkg() const { return of_.one_run ? folder_.peaks_gpkg() : folder_.hazard_gpkg(); }
+  fs::path package_file() const {
+    return of_.one_run ? folder_.peaks_gpkg() : folder_.hazard_gpkg();
+  }
   fs::path tifs() const { return of_.one_run ? folder_.peaks_folder() : folder_.tif_folder(); }
   fs::path project_file() const {
     return of_.one_run ? folder_.peaks_project() : folder_.project();
   }
-  std::string package_name() const { return gpkg().filename().string(); }
+  std::string package_name() const { return package_file().filename().string(); }
 
   const OutputFolder& folder_;
   const GisContent& of_;
