@@ -7,6 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
 namespace sturz::bench {
 namespace {
 
@@ -63,14 +67,45 @@ TEST(BenchHistory, MachinesAreComparedWithThemselvesAlone) {
   EXPECT_THAT(text, Not(HasSubstr("better")));
 }
 
-TEST(BenchHistory, ALineThatIsNoRecordIsNamed) {
+TEST(BenchHistory, WhatIsNoRecordIsNamedInOneNoteAndTheOthersCount) {
+  const std::string first = run("A", "2026-01-01", 0.60), last = run("A", "2026-01-03", 0.75);
+  const std::string text = first + "1 2 3\n" + "{\"other\": NaN}\n" + last + last.substr(0, 90);
+  EXPECT_THAT(shown(text), HasSubstr("25.0"));
+  const std::vector<std::string> notes = history_report(text).notes;
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_THAT(notes.back(), HasSubstr("beside 2 whole records: line 2 (no record of sturz_bench), "
+                                      "line 3 (no record of sturz_bench), line 5 (cut off)"));
+  EXPECT_EQ(history_report(first + last).notes.size(), 1U);
+}
+
+TEST(BenchHistory, AFigureThatIsNoNumberIsLeftOutOfItsRun) {
+  const std::string text =
+      run("A", "2026-01-01", 0.60) + run("A", "2026-01-02", NAN) + run("A", "2026-01-03", 0.75);
+  EXPECT_THAT(shown(text), HasSubstr("25.0"));
+  EXPECT_THAT(shown(text), Not(HasSubstr("nan")));
+  EXPECT_THAT(history_report(text).notes.back(),
+              HasSubstr("slide: engine / reference of line 2 (not a number)"));
+}
+
+TEST(BenchHistory, WithoutARecordThereIsOneClearError) {
+  EXPECT_THROW(history_report("\n"), SetupError);
   try {
-    history_report(run("A", "2026-01-01", 0.60) + "{\"half\": ");
+    history_report("{\"half\": ");
     ADD_FAILURE() << "should have thrown";
   } catch (const SetupError& problem) {
-    EXPECT_THAT(problem.what(), HasSubstr("line 2: no record of sturz_bench"));
+    EXPECT_THAT(problem.what(), HasSubstr("no records (line 1 (cut off)). Make one"));
   }
-  EXPECT_THROW(history_report("\n"), SetupError);
+}
+
+TEST(BenchHistory, ARecordAfterACutOneBeginsItsOwnLine) {
+  const std::string file = ::testing::TempDir() + "bench_history_cut.jsonl";
+  const std::string whole = run("A", "2026-01-01", 0.60);
+  std::ofstream(file) << whole << whole.substr(0, 50);
+  ASSERT_TRUE(append_history(file, whole.substr(0, whole.size() - 1)));
+  std::stringstream text;
+  text << std::ifstream(file).rdbuf();
+  EXPECT_THAT(history_report(text.str()).notes.back(),
+              HasSubstr("beside 2 whole records: line 2 (no record"));
 }
 
 }  // namespace

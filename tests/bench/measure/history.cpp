@@ -34,38 +34,76 @@ std::string machine_of(const ordered_json& line) {
                      m.at("cores").get<int>(), m.at("instruction_set").get<std::string>());
 }
 
-void take(const ordered_json& line, Series& series) {
+/// What a file holds, and which of its lines are left out.
+struct History {
+  Series series;
+  int records = 0;
+  std::vector<std::string> left_out;  // "line 3 (cut off)"
+};
+
+/// A figure that was no number is written as null: it tells nothing, and its run still counts.
+bool is_number(const ordered_json& figure) {
+  return figure.at("value").is_number() && figure.at("low").is_number() &&
+         figure.at("high").is_number();
+}
+
+/// All of a record or, by an exception, nothing.
+void take(const ordered_json& line, int n, History& history) {
   const ordered_json& m = line.at("machine");
   const std::string command = fmt::format("{}{}", line.at("command").get<std::string>(),
                                           line.at("quick").get<bool>() ? " --quick" : "");
-  for (const ordered_json& f : line.at("figures"))
-    series[{machine_of(line), command, f.at("name").get<std::string>()}].push_back(
-        {m.at("date").get<std::string>().substr(0, 10),
-         m.at("commit").get<std::string>().substr(0, 7), f.at("value").get<double>(),
-         f.at("low").get<double>(), f.at("high").get<double>(), f.at("more_is_better").get<bool>(),
-         line.at("others_cores").get<double>() > busy_cores});
+  std::vector<std::pair<Series::key_type, Seen>> found;
+  std::vector<std::string> without;
+  for (const ordered_json& f : line.at("figures")) {
+    const std::string name = f.at("name").get<std::string>();
+    if (!is_number(f)) {
+      without.push_back(fmt::format("{} of line {} (not a number)", name, n));
+      continue;
+    }
+    found.push_back(
+        {{machine_of(line), command, name},
+         {m.at("date").get<std::string>().substr(0, 10),
+          m.at("commit").get<std::string>().substr(0, 7), f.at("value").get<double>(),
+          f.at("low").get<double>(), f.at("high").get<double>(), f.at("more_is_better").get<bool>(),
+          line.at("others_cores").get<double>() > busy_cores}});
+  }
+  for (auto& [key, seen] : found) history.series[key].push_back(std::move(seen));
+  history.left_out.insert(history.left_out.end(), without.begin(), without.end());
+  ++history.records;
 }
 
-Series read(const std::string& text) {
-  Series series;
+History read(const std::string& text) {
+  History history;
   std::istringstream in(text);
   int n = 0;
   for (std::string line; std::getline(in, line);) {
     ++n;
     if (line.empty()) continue;
     try {
-      take(ordered_json::parse(line), series);
-    } catch (const ordered_json::exception& problem) {
-      throw SetupError(
-          fmt::format("line {}: no record of sturz_bench ({}). Take the line out, or "
-                      "begin another file.",
-                      n, problem.what()));
+      take(ordered_json::parse(line), n, history);
+    } catch (const ordered_json::exception&) {
+      // Only the last line has no end, where a writer was cut off.
+      history.left_out.push_back(
+          fmt::format("line {} ({})", n, in.eof() ? "cut off" : "no record of sturz_bench"));
     }
   }
-  require(!series.empty(),
-          "no records (an empty history). Make one: sturz_bench throughput "
-          "--history FILE");
-  return series;
+  require(!history.series.empty(),
+          fmt::format("no records ({}). Make one: sturz_bench throughput --history FILE",
+                      history.left_out.empty() ? std::string("an empty history")
+                                               : history.left_out.front()));
+  return history;
+}
+
+/// One sentence on all that was left out; empty: nothing was.
+std::string left_out_text(const History& history) {
+  constexpr std::size_t most = 5;
+  if (history.left_out.empty()) return {};
+  std::string text = fmt::format("Left out, beside {} whole records: ", history.records);
+  for (std::size_t i = 0; i < std::min(most, history.left_out.size()); ++i)
+    text += (i > 0 ? ", " : "") + history.left_out[i];
+  if (history.left_out.size() > most)
+    text += fmt::format(" and {} more", history.left_out.size() - most);
+  return text + ". Take them out, or leave them: the others count.";
 }
 
 /// What changed from one run to a later one, in words.
@@ -105,8 +143,15 @@ std::string history_line(const Report& report, const ordered_json& all) {
 }
 
 bool append_history(const std::string& file, const std::string& line) {
+  // A record after one that was cut off begins a line of its own.
+  std::ifstream before(file, std::ios::binary | std::ios::ate);
+  bool cut = false;
+  if (before && before.tellg() > 0) {
+    before.seekg(-1, std::ios::end);
+    cut = before.get() != '\n';
+  }
   std::ofstream out(file, std::ios::app);
-  out << line << "\n";
+  out << (cut ? "\n" : "") << line << "\n";
   return static_cast<bool>(out.flush());
 }
 
@@ -114,7 +159,8 @@ Report history_report(const std::string& text) {
   Report report;
   std::string machine;
   std::vector<Table> tables;
-  for (auto& [key, seen] : read(text)) {
+  const History history = read(text);
+  for (const auto& [key, seen] : history.series) {
     const auto& [on, command, figure] = key;
     if (on != machine || tables.empty()) {
       machine = on;
@@ -142,6 +188,8 @@ Report history_report(const std::string& text) {
       "Better and worse: the 95 % intervals of the two runs do not meet (a figure that was taken "
       "once counts as good to 5 %). In the order of the file; "
       "machines are compared with themselves alone."};
+  if (std::string left = left_out_text(history); !left.empty())
+    report.notes.push_back(std::move(left));
   return report;
 }
 

@@ -21,7 +21,8 @@ bool append_history(const std::string& file, const std::string& line);
 /// A row per machine, command and figure: how often, first, before, last, and whether it moved by
 /// more than the intervals of both. A machine is its processor, cores and instruction set.
 /// \param text  of a history file
-/// \raises SetupError with the number of the first line that is no record
+/// Lines that are no record, and figures that are no number, are left out and named in one note.
+/// \raises SetupError when no record is left
 Report history_report(const std::string& text);
 
 }  // namespace sturz::bench
