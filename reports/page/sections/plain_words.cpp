@@ -175,12 +175,12 @@ PlainWords comparison_words(const ComparisonShown& c) {
                      change_text(c.most), area_text(c.less_m2), area_text(c.more_m2));
   words.holds = c.pairs > 0 ? tr("plain.comparison_pairs", c.pairs, c.valid_a, c.valid_b)
                             : tr("plain.comparison_unpaired", c.valid_a, c.valid_b);
-  if (c.cut_off > 0) words.holds += " " + tr("plain.comparison_cut", c.cut_off);
+  if (c.cut_off > 0) words.holds.append(" ").append(tr("plain.comparison_cut", c.cut_off));
   std::string list;
   for (std::size_t k = 0; k < std::min(most_conditions, c.differences.size()); ++k)
     list += (list.empty() ? "" : "; ") + c.differences[k];
   if (c.differences.size() > most_conditions) list += "; \u2026";
-  if (!list.empty()) words.holds += " " + tr("plain.comparison_scenes", list);
+  if (!list.empty()) words.holds.append(" ").append(tr("plain.comparison_scenes", list));
   return words;
 }
 
