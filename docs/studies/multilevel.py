@@ -2,12 +2,13 @@
 """Multilevel estimates of the shipped Zhangjiawan-like case in full stress at 6 m, held against members that they did not use.
 
 usage: multilevel.py members STURZ CASES OUT [N]     members of four levels, N (400) of full stress at 6 m; goes on where it was stopped
-       multilevel.py repeats TOOL OUT                TOOL is tests/tools/multilevel_repeats; minutes
+       multilevel.py repeats TOOL OUT [MEMBERS]      TOOL is tests/tools/multilevel_repeats; MEMBERS where the levels lie, OUT when absent
        multilevel.py show OUT [PICTURE.png]          prints the tables
-needs python3-numpy; python3-matplotlib for the picture. Draws are independent and the same at every level. Each repeat takes some members
-of each level at random; cheaper levels take theirs beyond the draws of the dearest. The reference are the members of the dearest level
-that the repeat has not taken, and its own variance is taken off every mean square. Plain sampling: the variance of the members of the
-dearest level over their number, at their mean CPU seconds.
+needs python3-numpy; python3-matplotlib for the picture. Draws are independent and the same at every level. Each repeat parts the members at
+random: 64 draws of the dearest level and half of the cheaper ones' further draws are there to be used, the others are what the estimate
+is held against, and share no draw with it. Means are held against a control-variate estimate from these others, the map against their
+plain shares; the reference's own variance is taken off every mean square. Plain sampling: the variance of a member of the dearest
+level over their number, at their mean CPU seconds. Error bars of measured gains: standard errors from the repeats.
 """
 import json
 import math
@@ -17,11 +18,10 @@ import sys
 
 LEVELS = {"fs6": ("full_stress", 6, 400), "fs12": ("full_stress", 12, 800), "da9": ("depth_averaged", 9, 2000),
           "da18": ("depth_averaged", 18, 2000)}
-REPEATS = 40
-# Levels, and draws of each for 8 members of the dearest.
-SETS = {"columns 9 m": (["fs6", "da9"], [8, 400]), "columns 9 and 18 m": (["fs6", "da9", "da18"], [8, 120, 400]),
-        "full stress 12 m, columns 9 m": (["fs6", "fs12", "da9"], [8, 40, 400])}
-MEMBERS = [8, 12, 16, 24, 32]
+REPEATS = 24
+# What is repeated: fixed members of levels by their place above, or the whole procedure with a target.
+JOBS = {"columns 9 m, 16": "0=16,2=800", "full stress 12 m, columns 9 m, 16": "0=16,1=64,2=800", "chosen by the procedure": "error=0.03,map=0.04",
+        "columns 9 m, 8": "0=8,2=400", "columns 9 m, 32": "0=32,2=860"}
 
 
 def members(sturz, cases, out, n):
@@ -32,25 +32,25 @@ def members(sturz, cases, out, n):
                         str(n if name == "fs6" else count), "-o", f"{out}/{name}"], check=True)
 
 
-def repeats(tool, out):
-    for label, (levels, counts) in SETS.items():
-        for n in MEMBERS:
-            scaled = ",".join(str(max(1, round(c * n / counts[0]))) for c in counts)
-            folders = [word for level in levels for word in (f"{out}/{level}", str(LEVELS[level][1]))]
-            text = subprocess.run([tool, str(REPEATS), "1", scaled, *folders], check=True, capture_output=True, text=True).stdout
-            (out / f"{label.replace(' ', '_').replace(',', '')}_{n}.jsonl").write_text(text)
+def repeats(tool, out, members_in):
+    levels = [word for name, level in LEVELS.items() for word in (name, f"{members_in}/{name}", str(level[1]))]
+    out.mkdir(parents=True, exist_ok=True)
+    with open(out / "repeats.jsonl", "w") as file:
+        subprocess.run([tool, str(REPEATS), "1", ";".join(JOBS.values()), *levels], check=True, stdout=file)
 
 
 def read(out):
-    """label -> n -> (first line, repeats)."""
+    """First line, and label -> repeats; a last line that was cut off is left out."""
+    lines = []
+    for line in (out / "repeats.jsonl").read_text().splitlines():
+        try:
+            lines.append(json.loads(line))
+        except json.JSONDecodeError:
+            break
     found = {}
-    for label in SETS:
-        for n in MEMBERS:
-            file = out / f"{label.replace(' ', '_').replace(',', '')}_{n}.jsonl"
-            if file.exists():
-                lines = [json.loads(line) for line in file.read_text().splitlines()]
-                found.setdefault(label, {})[n] = (lines[0], lines[1:])
-    return found
+    for row in lines[1:]:
+        found.setdefault(list(JOBS)[row["job"]], []).append(row)
+    return lines[0], found
 
 
 def mean(values):
@@ -58,94 +58,95 @@ def mean(values):
     return sum(values) / len(values)
 
 
+def error_of_mean(values):
+    m = mean(values)
+    return math.sqrt(sum((v - m) ** 2 for v in values) / (len(values) - 1) / len(values)) if len(values) > 1 else math.nan
+
+
 def row(head, rows):
-    """Seconds, and by name: root mean square error, gain over plain sampling, coverage."""
-    counts, cost = head["counts"], head["cpu_s"]
-    seconds = sum(n * c for n, c in zip(counts, cost))
+    """Seconds, and by result: mean square error with its standard error, that of plain sampling of so many seconds, coverage, what the bounds tell."""
+    seconds = mean(sum(n * c for n, c in zip(r["counts"], head["cpu_s"])) for r in rows)
     found = {}
     for i, name in enumerate(m["name"] for m in rows[0]["means"]):
-        own = mean(r["means"][i]["reference_variance"] for r in rows)
-        size = mean(r["map"]["reference_members"] for r in rows)
-        square = mean((r["means"][i]["mean"] - r["means"][i]["reference"]) ** 2 for r in rows) - own
-        plain = own * (size - 0) * cost[0] / seconds
-        covered = mean(abs(r["means"][i]["mean"] - r["means"][i]["reference"]) <=
-                       math.hypot(r["means"][i]["high"] - r["means"][i]["mean"], 1.645 * math.sqrt(own)) for r in rows)
-        told = mean(r["means"][i]["se"] ** 2 for r in rows)
-        found[name] = (square, plain, covered, told, own)
-    own = mean(r["map"]["reference_variance"] for r in rows)
-    square = mean(r["map"]["mse"] for r in rows) - own
-    plain = mean(r["map"]["spread"] for r in rows) * cost[0] / seconds
-    found["map"] = (square, plain, mean(r["map"]["covered"] for r in rows), mean(r["map"]["told"] ** 2 for r in rows), own)
+        squares = [(r["means"][i]["mean"] - r["means"][i]["known"]) ** 2 - r["means"][i]["known_variance"] for r in rows]
+        others = head["members"][0] - head["pool"]
+        plain = mean(r["means"][i]["reference_variance"] for r in rows) * others * head["cpu_s"][0] / seconds
+
+        def covers(m):
+            half = m["high"] - m["mean"] if m["known"] > m["mean"] else m["mean"] - m["low"]
+            return abs(m["mean"] - m["known"]) <= math.hypot(half, 1.645 * math.sqrt(m["known_variance"]))
+        found[name] = (mean(squares), error_of_mean(squares), plain, mean(covers(r["means"][i]) for r in rows),
+                       mean(r["means"][i]["se"] ** 2 for r in rows), mean(r["means"][i]["known_variance"] for r in rows))
+    maps = [r["map"] for r in rows if r["map"]]
+    if maps:
+        squares = [m["mse"] - m["reference_variance"] for m in maps]
+        found["map"] = (mean(squares), error_of_mean(squares), mean(m["spread"] for m in maps) * head["cpu_s"][0] / seconds,
+                        mean(m["covered"] for m in maps), mean(m["told"] ** 2 for m in maps), mean(m["reference_variance"] for m in maps))
     return seconds, found
 
 
 def show(out, picture):
-    found = read(out)
-    head, rows = next(iter(next(iter(found.values())).values()))
-    size = mean(r["map"]["reference_members"] for r in rows)
-    print(f"Dearest level: {size + head['counts'][0]:.0f} members, {head['cpu_s'][0]:.2f} CPU s each; {len(rows)} repeats a row.\n")
-    print("| levels | members | CPU s | result | error | by its bounds | plain, same seconds | 1/gain measured | 1/gain told | 90 % bounds cover |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
-    for label, by_n in found.items():
-        for n, (head, rows) in by_n.items():
-            seconds, values = row(head, rows)
-            for name, (square, plain, covered, told, own) in values.items():
-                error = f"{math.sqrt(square):.3g}" if square > 0 else f"under {math.sqrt(own):.2g}"
-                gain = f"1/{plain / square:.1f}" if square > 0 else "not told"
-                print(f"| {label} | {', '.join(map(str, head['counts']))} | {seconds:.0f} | {name} | {error} | {math.sqrt(told):.3g} | "
-                      f"{math.sqrt(plain):.3g} | {gain} | 1/{plain / told:.1f} | {100 * covered:.0f} % |")
+    head, found = read(out)
+    print(f"Members that settled: {head['members']}, left out: {head['left_out']}, CPU s a member: {[round(c, 4) for c in head['cpu_s']]}.\n")
+    print("| levels, members of full stress 6 m | repeats | members (mean) | CPU s | result | error | told by its bounds | plain, same seconds | 1/gain measured | told | 90 % bounds cover |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    for label, rows in found.items():
+        seconds, values = row(head, rows)
+        counts = ", ".join(f"{mean(r['counts'][p] for r in rows):.0f}" for p in range(len(head["members"])))
+        for name, (square, doubt, plain, covered, told, own) in values.items():
+            low, high = square - doubt, square + doubt
+            error = f"{math.sqrt(square):.3g}" if square > 0 else f"under {math.sqrt(high):.2g}"
+            gain = (f"1/{plain / square:.1f} (1/{plain / high:.1f} to " + (f"1/{plain / low:.0f})" if low > 0 else "more)")) if square > 0 else f"over 1/{plain / high:.0f}"
+            print(f"| {label} | {len(rows)} | {counts} | {seconds:.0f} | {name} | {error} | {math.sqrt(told):.3g} | "
+                  f"{math.sqrt(plain):.3g} | {gain} | 1/{plain / told:.1f} | {100 * covered:.0f} % |")
+    print("\nWhat a cheaper level alone is off by, however many members it has:")
+    for c in head["cheap"]:
+        print(list(LEVELS)[c["level"]], {k: round(v, 3) for k, v in c.items() if k != "level"})
     if picture:
-        draw(found, picture)
+        draw(head, found, picture)
 
 
-def draw(found, picture):
+def draw(head, found, picture):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     names = {"runout_m": "run-out [m]", "reached_area_m2": "area reached [m2]", "com_travel_m": "way of the centre of mass [m]",
              "map": "P(reached), doubtful cells"}
     figure, axes = plt.subplots(1, 4, figsize=(17, 4.4))
-    cheap = {}
-    for label, by_n in found.items():
-        for head, rows in by_n.values():
-            for name, c in zip(SETS[label][0][1:], head["cheap"]):
-                cheap[name] = (c, head["cpu_s"][SETS[label][0].index(name)])
+    all_rows = {label: row(head, rows) for label, rows in found.items()}
+    # Fixed numbers of one set of levels are joined, the others stand alone.
+    sets = {}
+    for label, value in all_rows.items():
+        sets.setdefault(label.rsplit(", ", 1)[0], []).append(value)
     for axis, (name, title) in zip(axes, names.items()):
-        plain_x, plain_y = [], []
-        for label, by_n in found.items():
-            points = [row(head, rows) for head, rows in by_n.values()]
-            x = [s for s, _ in points]
-            axis.plot(x, [math.sqrt(max(v[name][0], 0)) or math.nan for _, v in points], "o-", label=label)
-            plain_x += x
-            plain_y += [v[name][1] * s for s, v in points]
-        variance = plain_y[0]
-        x = [min(plain_x) / 2, max(plain_x) * 30]
+        for label, points in sets.items():
+            points = sorted(((s, v[name]) for s, v in points if name in v), key=lambda p: p[0])
+            axis.plot([s for s, _ in points], [math.sqrt(v[0]) if v[0] > 0 else math.nan for _, v in points], "o-", label=label)
+        seconds, values = next(iter(all_rows.values()))
+        variance = values[name][2] * seconds
+        x = [10, 10000]
         axis.plot(x, [math.sqrt(variance / s) for s in x], "k-", label="full stress 6 m alone")
-        for level, (c, cost) in sorted(cheap.items()):
+        curve = [x[0] * (x[1] / x[0]) ** (k / 30) for k in range(31)]
+        for c in head["cheap"]:
             bias = abs(c["map_rms" if name == "map" else name])
-            base = head_cost(found)
-            curve = [x[0] * (x[1] / x[0]) ** (k / 30) for k in range(31)]
-            axis.plot(curve, [math.hypot(bias, math.sqrt(variance * cost / base / s)) for s in curve], "--", label=f"{level} alone")
+            cost = head["cpu_s"][c["level"]] / head["cpu_s"][0]
+            axis.plot(curve, [math.hypot(bias, math.sqrt(variance * cost / s)) for s in curve], "--", label=f"{list(LEVELS)[c['level']]} alone")
         axis.set_xscale("log")
         axis.set_yscale("log")
         axis.set_xlabel("CPU seconds")
         axis.set_title(title)
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("root mean square error")
-    axes[3].legend(fontsize=8)
+    axes[3].legend(fontsize=7)
     figure.tight_layout()
     figure.savefig(picture, dpi=110)
-
-
-def head_cost(found):
-    return next(iter(next(iter(found.values())).values()))[0]["cpu_s"][0]
 
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["members"] and len(sys.argv) in (5, 6):
         members(sys.argv[2], sys.argv[3], pathlib.Path(sys.argv[4]), int(sys.argv[5]) if len(sys.argv) == 6 else 400)
-    elif sys.argv[1:2] == ["repeats"] and len(sys.argv) == 4:
-        repeats(sys.argv[2], pathlib.Path(sys.argv[3]))
+    elif sys.argv[1:2] == ["repeats"] and len(sys.argv) in (4, 5):
+        repeats(sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[-1])
     elif sys.argv[1:2] == ["show"] and len(sys.argv) in (3, 4):
         show(pathlib.Path(sys.argv[2]), sys.argv[3] if len(sys.argv) == 4 else None)
     else:
