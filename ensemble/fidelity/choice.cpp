@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <string>
 
 namespace sturz {
@@ -19,35 +18,19 @@ double spacing_number(const LadderAccuracy& ladder, int k) {
   return coarsest * std::pow(finest / coarsest, static_cast<double>(k) / n_between);
 }
 
-double between(const std::vector<double>& spacings, const std::vector<double>& values,
-               double spacing_m) {
-  if (spacing_m >= spacings.front()) return values.front();
-  for (std::size_t l = 1; l < spacings.size(); ++l) {
-    if (spacing_m < spacings[l]) continue;
-    const double share = (spacing_m - spacings[l]) / (spacings[l - 1] - spacings[l]);
-    return values[l] + share * (values[l - 1] - values[l]);
-  }
-  return values.back();
-}
-
 bool is_asked(std::span<const std::string> what, const std::string& name) {
   return std::find(what.begin(), what.end(), name) != what.end();
 }
 
-/// Where all is within `wanted` by the orders; NaN when one has none, or the map is not.
-double spacing_by_orders(const LadderAccuracy& ladder, std::span<const std::string> what,
-                         double wanted) {
-  double spacing = ladder.spacings_m.back();
-  if (is_asked(what, map_word) && !ladder.maps.empty() &&
-      !(ladder.maps.front().relative_errors.back() <= wanted))
-    return nan_d;
-  for (const ResultAccuracy& r : ladder.results) {
-    if (!is_asked(what, r.name) || r.relative_error(spacing) <= wanted) continue;
-    if (!r.refinement.converges) return nan_d;
-    spacing = std::min(spacing, std::pow(wanted * r.scale() / std::abs(r.refinement.coefficient),
-                                         1 / r.refinement.used_order));
+/// Where all is within `wanted`, down to an eighth of the finest spacing; NaN: not there either.
+double spacing_beyond(const LadderAccuracy& ladder, std::span<const std::string> what,
+                      double wanted) {
+  const double finest = ladder.spacings_m.back();
+  for (int k = 1; k <= n_between; ++k) {
+    const double spacing = finest * std::pow(8.0, -static_cast<double>(k) / n_between);
+    if (error_at(ladder, what, spacing).error <= wanted) return spacing;
   }
-  return spacing < ladder.spacings_m.back() ? spacing : nan_d;
+  return nan_d;
 }
 
 }  // namespace
@@ -58,9 +41,8 @@ ErrorAt error_at(const LadderAccuracy& ladder, std::span<const std::string> what
   const auto look = [&](double error, const std::string& of) {
     if (is_asked(what, of) && !(error <= worst.error)) worst = {error, of};
   };
-  for (const ResultAccuracy& r : ladder.results) look(r.relative_error(spacing_m), r.name);
-  if (!ladder.maps.empty())
-    look(between(ladder.spacings_m, ladder.maps.front().relative_errors, spacing_m), map_word);
+  for (const ResultAccuracy& r : ladder.results) look(r.member_error(spacing_m), r.name);
+  if (!ladder.maps.empty()) look(ladder.maps.front().errors.at(spacing_m), map_word);
   return worst;
 }
 
@@ -78,8 +60,7 @@ Choice cheapest_for(const LadderAccuracy& ladder, std::span<const std::string> w
     choice.member_cpu_s = ladder.seconds.at(spacing);
     choice.coarsest = k == 0;
   }
-  if (std::isnan(choice.spacing_m))
-    choice.finer_spacing_m = spacing_by_orders(ladder, what, wanted);
+  if (std::isnan(choice.spacing_m)) choice.finer_spacing_m = spacing_beyond(ladder, what, wanted);
   return choice;
 }
 
@@ -90,7 +71,7 @@ Split split_at(const LadderAccuracy& ladder, double core_s, double spacing_m) {
   double resolution = 0, sampling = 0;
   int n = 0;
   for (const ResultAccuracy& r : ladder.results) {
-    const double error = r.relative_error(spacing_m);
+    const double error = r.mean_error(spacing_m);
     if (!std::isfinite(error) || !std::isfinite(r.spread)) continue;
     resolution += error * error;
     sampling += std::pow(r.spread / r.scale(), 2) / members;

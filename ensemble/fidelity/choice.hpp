@@ -10,7 +10,7 @@
 
 namespace sturz {
 
-/// Relative errors of a mean over many members at one spacing.
+/// Relative error of one member at one spacing, expected (root mean square over the members).
 struct ErrorAt {
   double error = nan_d;  ///< the largest of those asked for
   std::string of;        ///< which one
@@ -25,8 +25,8 @@ struct Choice {
   double member_cpu_s = nan_d;
   ErrorAt predicted;               ///< at that spacing, or at the finest one
   bool coarsest = false;           ///< the coarsest is enough: a coarser one may be too
-  double finer_spacing_m = nan_d;  ///< where none is enough: what the fitted orders ask for; NaN:
-                                   ///< they tell none
+  double finer_spacing_m = nan_d;  ///< where none is enough: what the estimate asks for,
+                                   ///< extrapolated; NaN: less than an eighth of the finest
 };
 
 /// The coarsest spacing between those that were computed, to a hundredth of their range, from which
@@ -41,7 +41,7 @@ struct Split {
   double resolution = nan_d, sampling = nan_d;  ///< its parts
 };
 
-/// Least root mean square, over results with a scale, of the error of resolution at that spacing
+/// Least root mean square, over results with a scale, of the error of the mean at that spacing
 /// and the standard error of so many independent members (quasi-random designs do better).
 /// \param core_s computing time for all members together; at least two members fit, or the split is
 /// NaN

@@ -4,6 +4,8 @@
 
 #include "engine/core/cancel.hpp"
 #include "engine/simulation/member_parts.hpp"
+#include "ensemble/fidelity/checked_error.hpp"
+#include "ensemble/fidelity/error_curve.hpp"
 #include "ensemble/fidelity/map_distance.hpp"
 #include "ensemble/fidelity/power_law.hpp"
 #include "ensemble/fidelity/refinement.hpp"
@@ -34,21 +36,23 @@ struct ResultAccuracy {
   /// looked at; NaN: not looked at. No spacing tells less than this apart.
   double noise = nan_d;
 
-  /// What errors are relative to: the size of the limit.
+  ErrorCurve member_errors, mean_errors;  ///< expected, in the result's unit (error_model.hpp)
+
+  /// What errors are relative to: the size of the mean at the finest spacing.
   double scale() const;
-  /// Estimated error of a mean of many members at a spacing, no less than what noise leaves in
-  /// n_members, over scale().
-  double relative_error(double spacing_m) const;
+  /// Expected error of one member, root mean square over them, over scale().
+  double member_error(double spacing_m) const;
+  /// Expected error of the mean over very many members, over scale().
+  double mean_error(double spacing_m) const;
 };
 
 /// P(peak thickness > threshold) beside that of the finest spacing.
 struct MapAccuracy {
   double threshold_m = 0;
   std::vector<MapDistance> distances;  ///< [n_spacings], the last one zero
-  /// Of area_between_m2 / mean_area_m2 over the spacing, with all but the finest; the finest is
-  /// taken to be off by what remains (Richardson with the order that two and more differences
-  /// tell).
-  std::vector<double> relative_errors;  ///< [n_spacings] estimated
+  double noise =
+      nan_d;  ///< relative distance from the map of the displaced members; NaN: not looked at
+  ErrorCurve errors;  ///< expected area between the map and its limit over the mean area
 };
 
 struct LadderAccuracy {
@@ -62,6 +66,8 @@ struct LadderAccuracy {
   /// Results that no member lets one know at every spacing: all were cut off at one or another.
   std::vector<std::string> not_told;
   std::vector<MapAccuracy> maps;
+  std::vector<CheckedError> checked;  ///< by the held-out spacing; empty: none
+  double held_out_m = nan_d;
 };
 
 /// What a ladder is looked at by.
@@ -69,6 +75,7 @@ struct LadderQuestions {
   std::vector<std::string> results;  ///< names of scalar_table()
   std::vector<double> thickness_m;   ///< thresholds of maps
   std::uint64_t seed = 1;            ///< of resampling
+  Rung held_out = {};                ///< a finer one to check by; no members: none
 };
 
 /// \param rungs coarsest first; all on one grid

@@ -15,7 +15,7 @@ constexpr double least_order = 0.5, most_order = 3, order_of_scheme = 2;
 constexpr int n_resamplings = 200;
 
 struct Fit {
-  double order = nan_d, coefficient = nan_d, limit = nan_d, residual = nan_d;
+  double order = nan_d, limit = nan_d, residual = nan_d;
 };
 
 /// Least squares of means = limit + coefficient d^order for a given order.
@@ -36,7 +36,6 @@ Fit straight_fit(std::span<const double> spacings, std::span<const double> means
   fit.order = order;
   const double slope = xy / xx;
   fit.limit = mean_y - slope * mean_x;
-  fit.coefficient = slope / std::pow(spacings.front(), order);
   fit.residual = 0;
   for (std::size_t l = 0; l < x.size(); ++l) {
     const double e = means[l] - fit.limit - slope * x[l];
@@ -64,7 +63,7 @@ Fit best_fit(std::span<const double> spacings, std::span<const double> means) {
   return straight_fit(spacings, means, 0.5 * (low + high));
 }
 
-/// What errors are told by: the fit, or that of order two where the fit is steeper (Eca and
+/// What the limit is told by: the fit, or that of order two where the fit is steeper (Eca and
 /// Hoekstra 2014).
 Fit extrapolated(std::span<const double> spacings, std::span<const double> means, const Fit& fit) {
   return fit.order > order_of_scheme ? straight_fit(spacings, means, order_of_scheme) : fit;
@@ -117,29 +116,7 @@ void resample(Refinement& r, const std::vector<std::vector<double>>& values, std
   r.limit_90 = middle_90(std::move(limits));
 }
 
-/// Without an order: what the finest is off by if the means' range falls with the spacing (Eca and
-/// Hoekstra 2014, Eq. 12 without its factor of safety), and each spacing's distance from it more.
-void scatter_errors(Refinement& r) {
-  r.limit = r.means.back();
-  const auto [least, most] = std::minmax_element(r.means.begin(), r.means.end());
-  const double coarsening = r.spacings_m.front() / r.spacings_m.back();
-  const double finest = coarsening > 1 ? (*most - *least) / (coarsening - 1) : nan_d;
-  for (const double mean : r.means) r.errors.push_back(std::abs(mean - r.limit) + finest);
-}
-
 }  // namespace
-
-double Refinement::error_at(double spacing_m) const {
-  if (converges) return std::abs(coefficient) * std::pow(spacing_m, used_order);
-  if (spacings_m.empty() || spacing_m <= spacings_m.back())
-    return errors.empty() ? nan_d : errors.back();
-  for (std::size_t l = 1; l < spacings_m.size(); ++l) {
-    if (spacing_m < spacings_m[l]) continue;
-    const double share = (spacing_m - spacings_m[l]) / (spacings_m[l - 1] - spacings_m[l]);
-    return errors[l] + std::min(share, 1.0) * (errors[l - 1] - errors[l]);
-  }
-  return errors.front();
-}
 
 Refinement refine(std::span<const double> spacings_m,
                   const std::vector<std::vector<double>>& values, std::uint64_t seed) {
@@ -153,21 +130,16 @@ Refinement refine(std::span<const double> spacings_m,
   std::vector<std::size_t> all(values.front().size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   r.means = means_of(values, all);
+  r.limit = r.means.back();
   if (spacings_m.size() >= 3) {
     const Fit fit = best_fit(spacings_m, r.means);
     r.converges = is_converging(r.means, fit);
     resample(r, values, seed);
     if (r.converges) {
-      const Fit used = extrapolated(spacings_m, r.means, fit);
       r.order = fit.order;
-      r.used_order = used.order;
-      r.coefficient = used.coefficient;
-      r.limit = used.limit;
-      for (const double mean : r.means) r.errors.push_back(std::abs(mean - r.limit));
-      return r;
+      r.limit = extrapolated(spacings_m, r.means, fit).limit;
     }
   }
-  scatter_errors(r);
   return r;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a result tends to as the spacing shrinks, how fast, and how far each spacing is from it.
+/// What a result tends to as the spacing shrinks, and how fast.
 ///
 /// Richardson's extrapolation of Q(d) = Q0 + a d^p through the means of three or more spacings
-/// (Roache 1998; least squares over p and the rules for series that do not converge after Eca and
-/// Hoekstra 2014, J. Comput. Phys. 262, 104-130).
+/// (Roache 1998; least squares over p after Eca and Hoekstra 2014, J. Comput. Phys. 262, 104-130).
+/// What each spacing is off by is told by error_model.hpp, which knows the scatter of the members
+/// too.
 #pragma once
 
 #include "engine/core/error.hpp"
@@ -21,22 +22,14 @@ struct Interval {
 
 struct Refinement {
   /// The means approach a limit from one side, with an order between 0.5 and 3. Otherwise the
-  /// finest mean stands for the limit, order and coefficient are NaN, and errors rest on how far
-  /// the means scatter.
+  /// finest mean stands for the limit and the order is NaN.
   bool converges = false;
-  double order = nan_d;         ///< p that fits best
-  double used_order = nan_d;    ///< the same, at most two: limit and coefficient are of this one
-  double coefficient = nan_d;   ///< a, in the result's unit per m^p
-  double limit = nan_d;         ///< Q0
-  Interval order_90, limit_90;  ///< 90 % intervals by drawing the members anew
+  double order = nan_d;             ///< p that fits best
+  double limit = nan_d;             ///< Q0, with the same order, at most two
+  Interval order_90, limit_90;      ///< 90 % intervals by drawing the members anew
   double resampled_converging = 0;  ///< share of those draws that converge too
   std::vector<double> means;        ///< [n_spacings] over the members
-  std::vector<double> errors;  ///< [n_spacings] distance of each mean from the limit, estimated
-
-  /// Estimated error of the mean at a spacing that was not computed.
-  double error_at(double spacing_m) const;
-
-  std::vector<double> spacings_m;  ///< as they were given
+  std::vector<double> spacings_m;   ///< as they were given
 };
 
 /// \param spacings_m coarsest first, at least one

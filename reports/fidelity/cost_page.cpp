@@ -43,7 +43,7 @@ std::vector<ErrorLine> lines_of_result(const CostPage& page, const std::string& 
     for (const ResultAccuracy& r : ladder.results) {
       if (r.name != name) continue;
       lines.push_back(line_of(ladder, k));
-      for (const double d : ladder.spacings_m) lines.back().errors.push_back(r.relative_error(d));
+      for (const double d : ladder.spacings_m) lines.back().errors.push_back(r.member_error(d));
     }
   }
   return lines;
@@ -55,7 +55,8 @@ std::vector<ErrorLine> lines_of_map(const CostPage& page) {
     const LadderAccuracy& ladder = *page.ladders[k].ladder;
     if (ladder.maps.empty()) continue;
     lines.push_back(line_of(ladder, k));
-    lines.back().errors = ladder.maps.front().relative_errors;
+    for (const double d : ladder.spacings_m)
+      lines.back().errors.push_back(ladder.maps.front().errors.at(d));
   }
   return lines;
 }
@@ -106,17 +107,20 @@ std::string charts_html(const CostPage& page) {
                         html_escape(chart.title),
                         error_chart_svg(chart.title, chart.lines, axes, page.wanted_error),
                         legend_of(chart.lines));
-  return html + fmt::format(
-                    "</div><p class=\"note\">Estimated distance of the mean over many "
-                    "members from its limit, relative to it. The dashed line is the wanted "
-                    "error, {}.</p></section>\n",
-                    share(page.wanted_error));
+  return html +
+         fmt::format(
+             "</div><p class=\"note\">Expected distance of one member from what it tends to, "
+             "relative to the mean at the finest spacing; of maps the area between the "
+             "map and what it tends to over the mean area. The dashed line is the wanted "
+             "error, {}.</p></section>\n",
+             share(page.wanted_error));
 }
 
 std::string table_of(const LadderAccuracy& ladder) {
   std::string html =
-      "<div class=\"batch-box\"><table class=\"batch steps\"><thead><tr><th scope=\"col\">error of"
-      "</th>";
+      "<div class=\"batch-box\"><table class=\"batch steps\"><thead><tr><th scope=\"col\">one "
+      "member is "
+      "off by</th>";
   for (const double d : ladder.spacings_m)
     html += fmt::format("<th scope=\"col\" class=\"n\">{}</th>", spacing_text(d));
   html +=
@@ -134,7 +138,7 @@ std::string table_of(const LadderAccuracy& ladder) {
   row("computing time of a member", cells, shown_number(ladder.seconds.exponent, 2));
   for (const ResultAccuracy& r : ladder.results) {
     cells.clear();
-    for (const double d : ladder.spacings_m) cells.push_back(share(r.relative_error(d)));
+    for (const double d : ladder.spacings_m) cells.push_back(share(r.member_error(d)));
     const Refinement& f = r.refinement;
     row(result_words(r.name), cells,
         !f.converges ? std::string("none")
@@ -145,7 +149,7 @@ std::string table_of(const LadderAccuracy& ladder) {
   }
   for (const MapAccuracy& map : ladder.maps) {
     cells.clear();
-    for (const double e : map.relative_errors) cells.push_back(share(e));
+    for (const double d : ladder.spacings_m) cells.push_back(share(map.errors.at(d)));
     row(fmt::format("map above {} m", shown_number(map.threshold_m)), cells, "");
   }
   return html + "</tbody></table></div>";
@@ -153,7 +157,8 @@ std::string table_of(const LadderAccuracy& ladder) {
 
 std::string parts_of(const CostPageLadder& l, int planned_members) {
   std::string html = fmt::format(
-      "<h3>{} planned members at {}</h3><div class=\"batch-box\"><table class=\"batch steps\">"
+      "<h3>The mean of {} planned members at {}</h3><div class=\"batch-box\"><table class=\"batch "
+      "steps\">"
       "<thead><tr><th scope=\"col\">off by about</th><th scope=\"col\" class=\"n\">sampling</th>"
       "<th scope=\"col\" class=\"n\">resolution</th><th scope=\"col\" class=\"n\">model</th></tr>"
       "</thead><tbody>",
@@ -165,7 +170,53 @@ std::string parts_of(const CostPageLadder& l, int planned_members) {
         "</tr>",
         html_escape(result_words(p.result)), share(p.sampling), share(p.resolution),
         share(p.model));
+  html += "</tbody></table></div>";
+  if (std::none_of(l.parts.begin(), l.parts.end(),
+                   [](const CostPageParts& p) { return std::isfinite(p.model); }))
+    html +=
+        "<p class=\"note\">Model is not known: no other formulation was computed "
+        "(<code>--formulations</code>).</p>";
+  return html;
+}
+
+/// What was said of a finer spacing that no estimate knew.
+std::string checked_of(const LadderAccuracy& ladder) {
+  if (ladder.checked.empty()) return {};
+  std::string html = fmt::format(
+      "<h3>Checked by members at {}</h3><div class=\"batch-box\"><table class=\"batch steps\">"
+      "<thead><tr><th scope=\"col\">difference to {} of</th><th scope=\"col\" class=\"n\">spacing"
+      "</th><th scope=\"col\" class=\"n\">said</th><th scope=\"col\" class=\"n\">found</th><th "
+      "scope=\"col\" class=\"n\">factor</th><th scope=\"col\" class=\"n\">to a factor of "
+      "2</th></tr>"
+      "</thead><tbody>",
+      spacing_text(ladder.held_out_m), spacing_text(ladder.held_out_m));
+  for (const CheckedError& c : ladder.checked)
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td class=\"n\" data-label=\"spacing\">{}</td><td "
+        "class=\"n\" "
+        "data-label=\"said\">{}</td><td class=\"n\" data-label=\"found\">{}</td><td class=\"n\" "
+        "data-label=\"factor\">{}</td><td class=\"n\" data-label=\"to a factor of 2\">{}</td></tr>",
+        html_escape(std::isfinite(c.threshold_m)
+                        ? fmt::format("map above {} m", shown_number(c.threshold_m))
+                        : result_words(c.name)),
+        spacing_text(c.spacing_m), share(c.said), share(c.found), shown_number(c.factor(), 2),
+        c.is_met() ? "yes" : "no");
   return html + "</tbody></table></div>";
+}
+
+/// The answer, before the charts that it was read from.
+std::string answers_html(const CostPage& page) {
+  std::string html = "<section id=\"answer\"><h2>In short</h2>";
+  for (const CostPageLadder& l : page.ladders) {
+    if (l.sentences.empty()) continue;
+    if (page.ladders.size() > 1)
+      html += fmt::format("<h3>{}</h3>", html_escape(words(l.ladder->formulation)));
+    html += "<ul>";
+    for (const std::string& sentence : l.sentences)
+      html += "<li>" + html_escape(sentence) + "</li>";
+    html += "</ul>";
+  }
+  return html + "</section>\n";
 }
 
 std::string ladders_html(const CostPage& page) {
@@ -173,22 +224,22 @@ std::string ladders_html(const CostPage& page) {
   for (const CostPageLadder& l : page.ladders) {
     html += fmt::format(
         "<section><h2>{}</h2><p class=\"note\">{} of {} members, drawn alike at "
-        "every spacing.</p><ul>",
+        "every spacing.</p>",
         html_escape(words(l.ladder->formulation)), l.ladder->members.size(), l.ladder->n_asked);
-    for (const std::string& sentence : l.sentences)
-      html += "<li>" + html_escape(sentence) + "</li>";
-    html += "</ul>" + table_of(*l.ladder);
+    html += table_of(*l.ladder);
     if (!l.parts.empty()) html += parts_of(l, page.planned_members);
+    html += checked_of(*l.ladder);
     html += "</section>\n";
   }
   return html;
 }
 
 std::string multilevel_html(const CostPage& page) {
-  std::string html;
+  if (page.multilevel.empty()) return {};
+  std::string html = "<section><h2>Few dear members and many cheap ones</h2>";
   for (const std::string& sentence : page.multilevel)
     html += "<p>" + html_escape(sentence) + "</p>\n";
-  return html;
+  return html + "</section>\n";
 }
 
 std::string changes_html(const CostPage& page) {
@@ -221,10 +272,13 @@ std::string warnings_html(const CostPage& page) {
 }
 
 const char* const reading_html =
-    "<section id=\"reading\"><h2>How to read this</h2><p class=\"note\">Errors are estimates: "
-    "Richardson's extrapolation of the means where they approach a limit, else a guess from their "
-    "range that is rather too large. Sampling is one standard error of independent members; "
-    "resolution what the finest spacing is off by; model how far another formulation lies away "
+    "<section id=\"reading\"><h2>How to read this</h2><p class=\"note\">Errors are "
+    "estimates from the differences of the same members between spacings: a law of the spacing "
+    "that all follow (Richardson's extrapolation) and what scatters about it, with the first order "
+    "of a front as prior. They are root mean squares: one member of three is off by more. Sampling "
+    "is one standard error of the mean of independent members; resolution what that mean is off by "
+    "at "
+    "the finest spacing; model how far another formulation lies away "
     "with the same values, which no member and no spacing removes. The same numbers and more stand "
     "in cost.json and cost.csv.</p></section>\n";
 
@@ -236,8 +290,8 @@ std::string make_cost_page(const CostPage& page) {
              "<header class=\"top\"><p class=\"kind\">What accuracy costs</p><h1>{}</h1><p "
              "class=\"origin\">{} \u00B7 {}</p></header>\n",
              html_escape(page.title), html_escape(page.when), html_escape(page.program)) +
-         warnings_html(page) + charts_html(page) + multilevel_html(page) + ladders_html(page) +
-         changes_html(page) + reading_html + "</main>\n</body>\n</html>\n";
+         answers_html(page) + warnings_html(page) + charts_html(page) + ladders_html(page) +
+         changes_html(page) + multilevel_html(page) + reading_html + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace sturz

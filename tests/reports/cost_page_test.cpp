@@ -28,11 +28,12 @@ LadderAccuracy ladder() {
   r.n_members = 3;
   r.refinement = refine(l.spacings_m, {{118}, {114}, {112}}, 1);
   r.member_rms = {6, 2, 0};
+  r.member_errors = ErrorCurve(l.spacings_m, {8.96, 4.48, 2.24});
   l.results.push_back(r);
   MapAccuracy map;
   map.threshold_m = 0.5;
   map.distances.resize(3);
-  map.relative_errors = {0.4, 0.2, 0.1};
+  map.errors = ErrorCurve(l.spacings_m, {0.4, 0.2, 0.1});
   l.maps.push_back(map);
   return l;
 }
@@ -50,12 +51,28 @@ TEST(CostPage, ShowsErrorsChoiceAndParts) {
   EXPECT_THAT(html, HasSubstr("thin &amp; flow"));
   EXPECT_THAT(html, HasSubstr("3 of 4 members"));
   EXPECT_THAT(html, HasSubstr("512 planned members"));
-  // 8 of 110, 4 and 2 of it.
-  for (const char* cell : {"7.3\u00A0%", "3.6\u00A0%", "1.8\u00A0%", "40\u00A0%"})
+  // 8.96 of 112, 4.48 and 2.24 of it.
+  for (const char* cell : {"8.0\u00A0%", "4.0\u00A0%", "2.0\u00A0%", "40\u00A0%"})
     EXPECT_THAT(html, HasSubstr(cell));
+  EXPECT_THAT(html, Not(HasSubstr("Checked by")));
   EXPECT_THAT(html, HasSubstr("script-src 'none'"));
   EXPECT_THAT(html, Not(HasSubstr("http:")));
   EXPECT_THAT(html, Not(HasSubstr("<script")));
+}
+
+TEST(CostPage, ShowsWhatWasSaidBesideWhatWasFound) {
+  LadderAccuracy l = ladder();
+  l.held_out_m = 1;
+  CheckedError c;
+  c.name = "runout_m";
+  c.spacing_m = 2;
+  c.said = 0.03, c.found = 0.02, c.noise = 0;
+  l.checked.push_back(c);
+  CostPage page;
+  page.ladders.push_back({&l, {}, {}});
+  const std::string html = make_cost_page(page);
+  for (const char* words : {"Checked by members at 1", "3.0\u00A0%", "1.5</td>", ">yes<"})
+    EXPECT_THAT(html, HasSubstr(words));
 }
 
 TEST(ErrorChart, PutsPowersOfTenWhereTheyBelong) {

@@ -39,6 +39,7 @@ struct Options {
   std::vector<std::string> wanted;
   double wanted_error = 0.05;
   double core_hours = 0;
+  double check = 0;
 };
 
 std::string command_text(const Options& o) {
@@ -56,6 +57,7 @@ workflow::CostRequest request_of(const Options& o) {
   request.spacings_m = o.spacings;
   request.formulations = o.formulations;
   request.variants = o.variants;
+  request.check_m = o.check;
   for (const std::string& name : o.wanted)
     if (name != map_word) request.results.push_back(name);
   request.command = command_text(o);
@@ -83,20 +85,20 @@ void say_table(const LadderAccuracy& ladder, Console& console) {
   line("CPU s a member", seconds, fmt::format("{:.1f}", ladder.seconds.exponent));
   for (const ResultAccuracy& r : ladder.results) {
     std::vector<std::string> cells;
-    for (const double d : ladder.spacings_m) cells.push_back(share_text(r.relative_error(d)));
+    for (const double d : ladder.spacings_m) cells.push_back(share_text(r.member_error(d)));
     line(r.name, cells, order_text(r.refinement));
   }
   for (const MapAccuracy& m : ladder.maps) {
     std::vector<std::string> cells;
-    for (const double e : m.relative_errors) cells.push_back(share_text(e));
+    for (const double d : ladder.spacings_m) cells.push_back(share_text(m.errors.at(d)));
     line(fmt::format("map > {:g} m", m.threshold_m), cells, "");
   }
 }
 
 void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
   const double finest = study.ladders[i].spacings_m.back();
-  console.say(fmt::format("  {} planned members at {:g} m are off by about", study.planned_members,
-                          finest));
+  console.say(fmt::format("  the mean of {} planned members at {:g} m is off by about",
+                          study.planned_members, finest));
   console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", "", "sampling", "resolution", "model"));
   for (const workflow::Certainty& c :
        workflow::certainty_at(study, i, finest, study.planned_members))
@@ -104,6 +106,19 @@ void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
                             share_text(c.resolution),
                             std::isfinite(c.model) ? share_text(c.model) : "?"));
   if (study.models.empty()) console.say("  ?: no other formulation was computed (--formulations)");
+}
+
+void say_check(const LadderAccuracy& ladder, Console& console) {
+  if (ladder.checked.empty()) return;
+  console.say(fmt::format("  differences to {:g} m, which no estimate knew", ladder.held_out_m));
+  console.say(fmt::format("  {:<17}{:>9}{:>9}{:>9}{:>8}{:>12}{:>9}", "", "spacing", "said", "found",
+                          "factor", "mean: said", "found"));
+  for (const CheckedError& c : ladder.checked)
+    console.say(fmt::format("  {:<17}{:>9}{:>9}{:>9}{:>8}{:>12}{:>9}", workflow::name_of(c),
+                            fmt::format("{:.4g} m", c.spacing_m), share_text(c.said),
+                            share_text(c.found), fmt::format("{:.2f}", c.factor()),
+                            c.name == map_word ? "" : share_text(c.said_mean),
+                            c.name == map_word ? "" : share_text(c.found_mean)));
 }
 
 void say_changes(const std::vector<Change>& changes, Console& console) {
@@ -117,12 +132,14 @@ void say_all(const CostStudy& study, const CostQuestions& questions, Console& co
   for (std::size_t i = 0; i < study.ladders.size(); ++i) {
     const LadderAccuracy& ladder = study.ladders[i];
     console.say(fmt::format(
-        "{}: about how far means are off, of {} of {} members drawn alike at every spacing",
+        "{}: about how far one member is off (root mean square over {} of {} members, drawn alike "
+        "at every spacing)",
         ladder.formulation, ladder.members.size(), study.members));
     say_table(ladder, console);
     for (const std::string& sentence : workflow::ladder_sentences(study, i, questions))
       console.say("  " + sentence);
     say_certainty(study, i, console);
+    say_check(ladder, console);
   }
   for (const workflow::MultilevelForecast& f : study.multilevel)
     console.say(workflow::multilevel_sentence(f));
@@ -206,6 +223,13 @@ void add_cost(Grammar& grammar) {
       .add_option("--core-hours", options.core_hours,
                   "Computing time to split between spacing and members")
       ->type_name("HOURS")
+      ->check(CLI::PositiveNumber);
+  parser
+      .add_option(
+          "--check", options.check,
+          "A finer spacing, computed too but kept from every estimate: tells what was said of "
+          "it beside what was found")
+      ->type_name("M")
       ->check(CLI::PositiveNumber);
   add_json(grammar, parser);
 }

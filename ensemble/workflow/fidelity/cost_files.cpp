@@ -3,11 +3,11 @@
 
 #include "ensemble/workflow/fidelity/cost_words.hpp"
 #include "ensemble/workflow/folder/manifest.hpp"
+#include "ensemble/workflow/results/json_numbers.hpp"
 #include "io/files/text_files.hpp"
 #include "reports/fidelity/cost_page.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +15,9 @@
 namespace sturz::workflow {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json interval(const Interval& i) { return {number(i.low), number(i.high)}; }
-Json numbers(const std::vector<double>& values) {
+Json errors_json(const ErrorCurve& curve, const std::vector<double>& spacings_m) {
   Json all = Json::array();
-  for (const double v : values) all.push_back(number(v));
+  for (const double d : spacings_m) all.push_back(number(curve.at(d)));
   return all;
 }
 
@@ -33,18 +29,18 @@ Json result_json(const ResultAccuracy& r) {
           {"means", numbers(f.means)},
           {"converges", f.converges},
           {"order", number(f.order)},
-          {"used_order", number(f.used_order)},
           {"order_90", interval(f.order_90)},
           {"limit", number(f.limit)},
           {"limit_90", interval(f.limit_90)},
           {"resampled_converging", f.resampled_converging},
-          {"errors", numbers(f.errors)},
+          {"mean_errors", errors_json(r.mean_errors, f.spacings_m)},
+          {"member_errors", errors_json(r.member_errors, f.spacings_m)},
           {"member_rms_to_finest", numbers(r.member_rms)},
           {"spread", number(r.spread)},
           {"noise_of_a_member", number(r.noise)}};
 }
 
-Json map_json(const MapAccuracy& map) {
+Json map_json(const MapAccuracy& map, const std::vector<double>& spacings_m) {
   Json distances = Json::array();
   for (const MapDistance& d : map.distances)
     distances.push_back({{"area_between_m2", d.area_between_m2},
@@ -53,7 +49,19 @@ Json map_json(const MapAccuracy& map) {
                          {"boundary_m", number(d.boundary_m)}});
   return {{"threshold_m", map.threshold_m},
           {"to_finest", distances},
-          {"relative_errors", numbers(map.relative_errors)}};
+          {"relative_errors", errors_json(map.errors, spacings_m)},
+          {"noise", number(map.noise)}};
+}
+
+Json checked_json(const CheckedError& c) {
+  return {{"name", name_of(c)},
+          {"spacing_m", c.spacing_m},
+          {"said", number(c.said)},
+          {"found", number(c.found)},
+          {"said_mean", number(c.said_mean)},
+          {"found_mean", number(c.found_mean)},
+          {"noise", number(c.noise)},
+          {"met", c.is_met()}};
 }
 
 Json split_json(const Split& s) {
@@ -105,9 +113,12 @@ Json ladder_json(const CostStudy& study, std::size_t i, const CostQuestions& que
             {"seconds_fit_worst_ratio", number(ladder.seconds.worst_ratio)},
             {"results", Json::array()},
             {"not_told", ladder.not_told},
-            {"maps", Json::array()}};
+            {"maps", Json::array()},
+            {"checked", Json::array()}};
+  for (const CheckedError& c : ladder.checked) json["checked"].push_back(checked_json(c));
   for (const ResultAccuracy& r : ladder.results) json["results"].push_back(result_json(r));
-  for (const MapAccuracy& map : ladder.maps) json["maps"].push_back(map_json(map));
+  for (const MapAccuracy& map : ladder.maps)
+    json["maps"].push_back(map_json(map, ladder.spacings_m));
   json["cheapest"] = choice_json(choice);
   json["core_s"] = core_s;
   json["best_split"] = split_json(best_split(ladder, core_s));
@@ -132,18 +143,19 @@ Json multilevel_json(const MultilevelForecast& f) {
 
 std::string csv_of(const CostStudy& study) {
   std::string text =
-      "formulation,spacing_m,member_cpu_s,result,units,mean,relative_error,member_rms_to_finest,"
-      "members\n";
+      "formulation,spacing_m,member_cpu_s,result,units,mean,member_error,mean_error,"
+      "member_rms_to_finest,members\n";
   const auto cell = [](double v) {
     return std::isfinite(v) ? fmt::format("{}", v) : std::string();
   };
   for (const LadderAccuracy& ladder : study.ladders)
     for (std::size_t l = 0; l < ladder.spacings_m.size(); ++l)
       for (const ResultAccuracy& r : ladder.results)
-        text += fmt::format(
-            "{},{},{},{},{},{},{},{},{}\n", ladder.formulation, ladder.spacings_m[l],
-            ladder.member_cpu_s[l], r.name, r.units, cell(r.refinement.means[l]),
-            cell(r.relative_error(ladder.spacings_m[l])), cell(r.member_rms[l]), r.n_members);
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", ladder.formulation,
+                            ladder.spacings_m[l], ladder.member_cpu_s[l], r.name, r.units,
+                            cell(r.refinement.means[l]), cell(r.member_error(ladder.spacings_m[l])),
+                            cell(r.mean_error(ladder.spacings_m[l])), cell(r.member_rms[l]),
+                            r.n_members);
   return text;
 }
 
@@ -185,7 +197,7 @@ std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, 
     Certainty c;
     c.result = r.name;
     c.sampling = r.spread / r.scale() / std::sqrt(members);
-    c.resolution = r.relative_error(spacing_m);
+    c.resolution = r.mean_error(spacing_m);
     for (const ModelDifference& model : study.models)
       for (const Change& change : model.changes)
         if (change.name == r.name && !(std::abs(change.mean) / r.scale() <= c.model))

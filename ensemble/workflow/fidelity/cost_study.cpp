@@ -86,9 +86,15 @@ std::vector<CostPart> parts_of(const CostRequest& request, const Scene& scene) {
   const double middle = spacings[spacings.size() / 2];
   const bool draws = !uncertain_keys(scene.scenario).empty();
   std::vector<CostPart> parts;
+  require(
+      !(request.check_m > 0) || request.check_m < spacings.back(),
+      fmt::format("--check {:g} (it is no finer than the finest spacing, {:g} m, and would check "
+                  "nothing). Such as --check {:g}.",
+                  request.check_m, spacings.back(), spacings.back() / 2));
   for (const std::string& formulation : formulations) {
     for (const double spacing : spacings) parts.push_back({{}, formulation, spacing, {}, false});
     if (draws) parts.push_back({{}, formulation, middle, {}, true});
+    if (request.check_m > 0) parts.push_back({{}, formulation, request.check_m, {}, false, true});
   }
   for (const std::string& variant : request.variants)
     parts.push_back({{}, formulations.front(), middle, variant, false});
@@ -175,19 +181,22 @@ struct Found {
 std::vector<CostPart> rungs_of(const std::vector<CostPart>& parts, const std::string& formulation) {
   std::vector<CostPart> rungs;
   for (const CostPart& part : parts)
-    if (part.formulation == formulation && part.variant.empty() && !part.displaced)
+    if (part.formulation == formulation && part.variant.empty() && !part.displaced &&
+        !part.held_out)
       rungs.push_back(part);
   return rungs;
 }
 
 LadderAccuracy ladder_of(const Found& found, const std::string& formulation,
-                         const LadderQuestions& questions, CancelFlag cancel) {
+                         LadderQuestions questions, CancelFlag cancel) {
   const std::vector<CostPart> parts = rungs_of(found.parts, formulation);
   std::vector<Rung> rungs;
   for (const CostPart& part : parts) rungs.push_back({part.spacing_m, &found.of(part)});
   const MemberParts* displaced = nullptr;
   std::size_t twin = 0;
   for (const CostPart& part : found.parts) {
+    if (part.formulation == formulation && part.held_out)
+      questions.held_out = {part.spacing_m, &found.of(part)};
     if (part.formulation != formulation || !part.displaced) continue;
     displaced = &found.of(part);
     while (parts[twin].spacing_m != part.spacing_m) ++twin;

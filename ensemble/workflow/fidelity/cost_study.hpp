@@ -25,7 +25,8 @@ struct CostRequest {
   /// "key=value": the scene with that change, at the middle spacing of the first formulation.
   std::vector<std::string> variants;
   std::vector<std::string> results;  ///< of scalar_table(), looked at besides the usual ones
-  std::string command;               ///< how the user asked for it
+  double check_m = 0;   ///< a finer spacing that no estimate may know, to check them by; 0: none
+  std::string command;  ///< how the user asked for it
 };
 
 /// One ensemble of the study.
@@ -35,6 +36,7 @@ struct CostPart {
   double spacing_m = 0;
   std::string variant;     ///< empty: a rung of the ladder
   bool displaced = false;  ///< a rung again, with uncertain values displaced by next to nothing
+  bool held_out = false;   ///< finer than all rungs; estimates are checked by it
 };
 
 /// Results of a variant beside the rung that it changes.

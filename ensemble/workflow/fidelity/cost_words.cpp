@@ -2,15 +2,53 @@
 #include "ensemble/workflow/fidelity/cost_words.hpp"
 
 #include "ensemble/workflow/readable.hpp"
+#include "reports/fidelity/result_words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace sturz::workflow {
 namespace {
+
+std::string plain(const std::string& name) {
+  return name == map_word ? std::string("the map") : result_words(name);
+}
+
+std::string plain(const std::vector<std::string>& names) {
+  std::vector<std::string> all;
+  all.reserve(names.size());
+  for (const std::string& name : names) all.push_back(plain(name));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// "depth_averaged_8m": "depth averaged at 8 m".
+std::string plain_level(const std::string& name) {
+  const std::size_t at = name.rfind('_');
+  if (at == std::string::npos || name.back() != 'm') return name;
+  std::string formulation = name.substr(0, at);
+  std::replace(formulation.begin(), formulation.end(), '_', ' ');
+  return fmt::format("{} at {} m", formulation, name.substr(at + 1, name.size() - at - 2));
+}
+
+/// Results that few members tell, together where as many do.
+void add_counts(const LadderAccuracy& ladder, std::vector<std::string>& lines) {
+  std::map<std::int64_t, std::vector<std::string>> by_count;
+  for (const ResultAccuracy& r : ladder.results)
+    if (r.n_members < static_cast<std::int64_t>(ladder.members.size()))
+      by_count[r.n_members].push_back(r.name);
+  for (const auto& [n, names] : by_count)
+    lines.push_back(
+        fmt::format("Known by {} of {} members only: {}. The others were cut off, by an edge or "
+                    "their end time.",
+                    n, ladder.members.size(), plain(names)));
+}
 
 /// What the table of errors cannot say.
 void add_notes(const LadderAccuracy& ladder, std::vector<std::string>& lines) {
@@ -18,23 +56,19 @@ void add_notes(const LadderAccuracy& ladder, std::vector<std::string>& lines) {
     lines.push_back(
         fmt::format("Not told: {}. Every member was cut off, by an edge or its end "
                     "time, at one spacing or another.",
-                    fmt::join(ladder.not_told, ", ")));
+                    plain(ladder.not_told)));
+  add_counts(ladder, lines);
   std::vector<std::string> without;
   double noise = nan_d;
   for (const ResultAccuracy& r : ladder.results) {
-    if (r.n_members < static_cast<std::int64_t>(ladder.members.size()))
-      lines.push_back(
-          fmt::format("{} is told by {} members: the others were cut off, by an edge or "
-                      "their end time.",
-                      r.name, r.n_members));
     if (!r.refinement.converges) without.push_back(r.name);
     if (std::isfinite(r.noise) && !(r.noise / r.scale() <= noise)) noise = r.noise / r.scale();
   }
   if (!without.empty())
     lines.push_back(
-        fmt::format("No order: at these spacings the means of {} approach no limit; "
-                    "their errors are guessed from the range of the means.",
-                    fmt::join(without, ", ")));
+        fmt::format("No order: at these spacings the means of {} approach no limit from one side; "
+                    "their errors rest on how far members and means scatter.",
+                    plain(without)));
   if (std::isfinite(noise))
     lines.push_back(
         fmt::format("A displacement of 1e-7 of the values moves a member by up to "
@@ -49,19 +83,21 @@ std::string choice_sentence(const LadderAccuracy& ladder, const CostQuestions& q
     return fmt::format("{}: {:.3g} m{}, about {} of one core a member (largest: {}, {}).", wanted,
                        choice.spacing_m,
                        choice.coarsest ? " or coarser (the coarsest that was computed)" : "",
-                       duration_text(choice.member_cpu_s), choice.predicted.of,
+                       duration_text(choice.member_cpu_s), plain(choice.predicted.of),
                        share_text(choice.predicted.error));
   if (std::isfinite(choice.finer_spacing_m))
     return fmt::format(
-        "{}: finer than was computed; by the orders about {:.2g} m, {} of one core a member "
-        "(extrapolated).",
-        wanted, choice.finer_spacing_m, duration_text(ladder.seconds.at(choice.finer_spacing_m)));
+        "{}: finer than was computed; about {:.2g} m, {} of one core a member (extrapolated; at "
+        "the "
+        "finest {} is {} off).",
+        wanted, choice.finer_spacing_m, duration_text(ladder.seconds.at(choice.finer_spacing_m)),
+        plain(choice.predicted.of), share_text(choice.predicted.error));
   if (choice.predicted.of.empty())
     return fmt::format("{}: nothing of what was asked for is told.", wanted);
   return fmt::format(
-      "{}: not at these spacings ({} is {} off at the finest), and no order says "
-      "where. Add finer ones.",
-      wanted, choice.predicted.of, share_text(choice.predicted.error));
+      "{}: not at these spacings ({} is {} off at the finest), nor at an eighth of the finest. Add "
+      "finer ones, or ask for less.",
+      wanted, plain(choice.predicted.of), share_text(choice.predicted.error));
 }
 
 std::string split_text(const Split& s) {
@@ -96,26 +132,54 @@ std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,
   std::vector<std::string> lines;
   lines.push_back(choice_sentence(ladder, questions));
   add_split(study, ladder, questions, lines);
+  if (!ladder.checked.empty()) lines.push_back(check_sentence(ladder, questions));
   add_notes(ladder, lines);
   return lines;
+}
+
+std::string name_of(const CheckedError& c) {
+  return c.name == map_word ? fmt::format("map > {:g} m", c.threshold_m) : c.name;
+}
+
+double checked_spacing(const LadderAccuracy& ladder, const CostQuestions& questions) {
+  const Choice choice = cheapest_for(ladder, questions.wanted, questions.wanted_error);
+  for (const double d : ladder.spacings_m)
+    if (d <= choice.spacing_m * (1 + 1e-9)) return d;
+  return ladder.spacings_m.back();
+}
+
+std::string check_sentence(const LadderAccuracy& ladder, const CostQuestions& questions) {
+  const double where = checked_spacing(ladder, questions);
+  std::int64_t met = 0, of = 0, all_met = 0;
+  for (const CheckedError& c : ladder.checked) {
+    all_met += c.is_met();
+    if (c.spacing_m != where) continue;
+    met += c.is_met();
+    ++of;
+  }
+  return fmt::format(
+      "Checked by members at {:g} m that no estimate knew: of {:g} m, {} of {} differences were "
+      "said "
+      "to a factor of two; of all spacings {} of {}.",
+      ladder.held_out_m, where, met, of, all_met, ladder.checked.size());
 }
 
 std::string multilevel_sentence(const MultilevelForecast& f) {
   std::string with;
   for (std::size_t i = 1; i < f.gain.levels.size(); ++i)
     with += fmt::format("{}{:.3g} of {}", i > 1 ? " and " : "", f.gain.members[i],
-                        f.levels[f.gain.levels[i]]);
-  const std::string what =
-      fmt::format("Forecast of a multilevel estimate of {}", fmt::join(f.results, ", "));
+                        plain_level(f.levels[f.gain.levels[i]]));
+  const std::string what = fmt::format("Forecast of a multilevel estimate of {}", plain(f.results));
   if (with.empty())
     return fmt::format(
         "{}: cheaper members would not help those of {}, their correlation is too "
         "low for what they cost.",
-        what, f.levels.front());
+        what, plain_level(f.levels.front()));
   return fmt::format(
       "{}: {} beside each member of {} give the same sampling error for 1/{:.3g} of "
       "the seconds (90 %: 1/{:.3g} to 1/{:.3g}).",
-      what, with, f.levels.front(), f.gain.gain, f.gain.gain_90.low, f.gain.gain_90.high);
+      what, with, plain_level(f.levels.front()), f.gain.gain, f.gain.gain_90.low,
+      f.gain.gain_90.high);
 }
 
 std::string title_of(const ModelDifference& m) {

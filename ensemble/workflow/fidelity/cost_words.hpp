@@ -17,6 +17,14 @@ std::string share_text(double share);
 std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,
                                           const CostQuestions&);
 
+/// "runout_m", or "map > 0.5 m".
+std::string name_of(const CheckedError&);
+/// The spacing that the estimates are checked at: the coarsest computed one that is no coarser than
+/// what is chosen for the wanted error, or the finest.
+double checked_spacing(const LadderAccuracy&, const CostQuestions&);
+/// How many of the quantities were met there, and at all spacings. \pre something was checked
+std::string check_sentence(const LadderAccuracy&, const CostQuestions&);
+
 /// What a multilevel estimate would save.
 std::string multilevel_sentence(const MultilevelForecast&);
 

@@ -4,6 +4,7 @@
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
 #include "ensemble/workflow/multilevel/multilevel_words.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
+#include "ensemble/workflow/results/json_numbers.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
 #include "ensemble/workflow/results/report_page.hpp"
 #include "io/files/text_files.hpp"
@@ -13,22 +14,11 @@
 #include "scenarios/layers/coarse_layers.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 
 namespace sturz::workflow {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-Json interval(const Interval& i) { return {number(i.low), number(i.high)}; }
-Json numbers(const std::vector<double>& values) {
-  Json all = Json::array();
-  for (const double v : values) all.push_back(number(v));
-  return all;
-}
 
 Json headline_json(const MultilevelHeadline& h) {
   Json quantiles = Json::array();

@@ -95,7 +95,7 @@ class Look {
           ladder_accuracy(all_.parts.front().formulation, rungs, nullptr, 0,
                           {names, {}, job_.scene.scenario.ensemble.seed}, cancel_);
       for (const ResultAccuracy& r : ladder.results)
-        headline(r.name).resolution = r.refinement.error_at(all_.parts.front().spacing_m);
+        headline(r.name).resolution = r.mean_errors.at(all_.parts.front().spacing_m);
     }
     for (std::size_t p = 0; p < all_.parts.size(); ++p) {
       if (!is_finest_of_another(p)) continue;

@@ -73,7 +73,21 @@ TEST_F(Cost, ForecastsWhatCheapMembersWouldSave) {
   EXPECT_GE(forecast.at("gain").get<double>(), 1.0);
 }
 
+TEST_F(Cost, IsCheckedByAFinerSpacing) {
+  const Ended ended = cost({"--spacings", "2,1.5,1", "--check", "0.75"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("Checked by members at 0.75 m that no estimate knew"));
+  const auto study = nlohmann::json::parse(read("out/cost.json"));
+  const auto& ladder = study.at("ladders").at(0);
+  EXPECT_EQ(ladder.at("spacings_m").size(), 3U);
+  EXPECT_GE(ladder.at("checked").size(), 3U);
+  EXPECT_THAT(read("out/cost.html"), HasSubstr("Checked by members at"));
+}
+
 TEST_F(Cost, SaysWhatIsWrongBeforeItComputes) {
+  const Ended coarse = cost({"--spacings", "2,1", "--check", "1"});
+  EXPECT_EQ(coarse.exit_code, 1);
+  EXPECT_THAT(coarse.err, HasSubstr("no finer than the finest spacing, 1 m"));
   const Ended one = cost({"--spacings", "2"});
   EXPECT_EQ(one.exit_code, 1);
   EXPECT_THAT(one.err, HasSubstr("two or more different ones"));
@@ -95,7 +109,7 @@ TEST_F(Cost, MembersThatAreCutOffTellNothingAndThatIsSaid) {
   write("scene.yaml", replaced(scene(), "end_time_s: 30", "end_time_s: 1"));
   const Ended ended = cost({});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_THAT(ended.out, HasSubstr("Not told: runout_m"));
+  EXPECT_THAT(ended.out, HasSubstr("Not told: run-out"));
   EXPECT_THAT(ended.out, Not(HasSubstr("Best for")));
 }
 

@@ -74,6 +74,9 @@ TEST(ALadder, TellsOrdersSecondsSpreadAndNoise) {
   EXPECT_NEAR(a.seconds.exponent, -3, 1e-9);
   EXPECT_GT(a.results[0].spread, 20);
   EXPECT_EQ(a.results[1].spread, 0);
+  // Run-out is 10 d off, every member alike: a law and next to no scatter.
+  EXPECT_NEAR(a.results[0].mean_errors.at(4), 40, 10);
+  EXPECT_NEAR(a.results[0].member_error(8), 80 / a.results[0].scale(), 20 / a.results[0].scale());
 }
 
 TEST(ALadder, MeasuresItsMaps) {
@@ -87,9 +90,10 @@ TEST(ALadder, MeasuresItsMaps) {
   EXPECT_NEAR(map.distances[0].mean_area_m2, 1200, 1e-9);
   EXPECT_NEAR(map.distances[0].worst_cell, 1, 1e-9);
   EXPECT_NEAR(map.distances[0].relative(), 1.0 / 6, 1e-12);
-  // One cell per two metres of spacing: order 1, so the finest is two cells off too.
-  EXPECT_NEAR(map.relative_errors[2], 1.0 / 6, 1e-3);
-  EXPECT_NEAR(map.relative_errors[0], 2.0 / 6, 1e-3);
+  // One cell per two metres of spacing: order 1, so the finest is two cells off too. Three
+  // distances tell that to a quarter beside the prior.
+  EXPECT_NEAR(map.errors.at(4), 1.0 / 6, 0.25 / 6);
+  EXPECT_NEAR(map.errors.at(8), 2.0 / 6, 0.25 * 2 / 6);
   EXPECT_GT(map.distances[0].boundary_m, 0);
 }
 
@@ -110,19 +114,43 @@ TEST(ALadder, LeavesMembersOutThatOneSpacingLacks) {
   EXPECT_EQ(made.accuracy.n_asked, static_cast<std::int64_t>(n_members));
 }
 
+TEST(ALadder, IsCheckedByASpacingThatItDoesNotKnow) {
+  const Made made;
+  std::vector<Rung> list;
+  for (std::size_t l = 0; l < made.rungs.size(); ++l) list.push_back({spacings[l], &made.rungs[l]});
+  const MemoryMembers finer = rung_of(2);
+  LadderQuestions questions{both, {0.1}, 1};
+  questions.held_out = {2, &finer};
+  const LadderAccuracy a = ladder_accuracy("depth_averaged", list, &made.displaced, 0, questions);
+  ASSERT_EQ(a.checked.size(), 9U);  // two numbers and a map at three spacings
+  EXPECT_EQ(a.results[0].refinement.means, made.accuracy.results[0].refinement.means);
+  EXPECT_EQ(a.results[0].member_error(4), made.accuracy.results[0].member_error(4));
+  const CheckedError& runout = a.checked[2];
+  EXPECT_EQ(runout.spacing_m, 4);
+  EXPECT_NEAR(runout.found, 20 / a.results[0].scale(), 1e-9);
+  EXPECT_NEAR(runout.found_mean, runout.found, 1e-9);
+  EXPECT_TRUE(runout.is_met()) << runout.said << " " << runout.found;
+  const CheckedError& map = a.checked.back();
+  EXPECT_EQ(map.name, "map");
+  EXPECT_NEAR(map.found, 1.0 / 12, 1e-9);  // 12 cells, 11 at 2 m
+  EXPECT_TRUE(map.is_met());
+}
+
 TEST(TheCheapestSpacing, IsTheCoarsestWithinTheError) {
   const Made made;
   const LadderAccuracy& a = made.accuracy;
-  const double scale = a.results[0].scale();
-  const Choice choice = cheapest_for(a, both, 50 / scale);
+  const double wanted = a.results[0].member_error(5);
+  const Choice choice = cheapest_for(a, both, wanted);
   EXPECT_NEAR(choice.spacing_m, 5, 0.05);
   EXPECT_LE(choice.spacing_m, 5.0001);
+  EXPECT_LE(choice.predicted.error, wanted);
   EXPECT_EQ(choice.predicted.of, "runout_m");
   EXPECT_NEAR(choice.member_cpu_s, 100 * std::pow(choice.spacing_m, -3), 1e-6);
   EXPECT_TRUE(cheapest_for(a, both, 1).coarsest);
-  const Choice none = cheapest_for(a, both, 10 / scale);
+  const Choice none = cheapest_for(a, both, a.results[0].member_error(1));
   EXPECT_TRUE(std::isnan(none.spacing_m));
-  EXPECT_NEAR(none.finer_spacing_m, 1, 1e-3);
+  EXPECT_NEAR(none.finer_spacing_m, 1, 0.03);
+  EXPECT_TRUE(std::isnan(cheapest_for(a, both, 1e-9).finer_spacing_m));
 }
 
 TEST(TheCheapestSpacing, LooksAtMapsToo) {
@@ -133,10 +161,11 @@ TEST(TheCheapestSpacing, LooksAtMapsToo) {
   EXPECT_NEAR(choice.predicted.error, 0.2, 0.005);
   const Choice none = cheapest_for(made.accuracy, all, 0.1);
   EXPECT_TRUE(std::isnan(none.spacing_m));
-  EXPECT_TRUE(std::isnan(none.finer_spacing_m));  // no order for maps
+  EXPECT_NEAR(made.accuracy.maps.front().errors.at(none.finer_spacing_m), 0.1, 0.005);
 }
 
-/// Against a search over a fine table of error^2 = (10 d / L)^2 + (s / L)^2 / n, n = T d^3 / 100.
+/// Against a search over a fine table of error^2 = (error of the mean)^2 + (s / L)^2 / n, n = T d^3
+/// / 100.
 TEST(TheBestSplit, BalancesResolutionAndSampling) {
   Made made;
   made.accuracy.results.resize(1);
@@ -146,7 +175,7 @@ TEST(TheBestSplit, BalancesResolutionAndSampling) {
     for (double d = 4; d <= 8; d += 1e-3) {
       const double n = core_s * d * d * d / 100;
       if (n < 2) continue;
-      const double error = std::hypot(10 * d / r.scale(), r.spread / r.scale() / std::sqrt(n));
+      const double error = std::hypot(r.mean_error(d), r.spread / r.scale() / std::sqrt(n));
       if (error < least) least = error, where = d;
     }
     const Split split = best_split(made.accuracy, core_s);
