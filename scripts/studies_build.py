@@ -2,48 +2,59 @@
 """Whether the programs that a study runs are built from the sources on disk.
 
 A program that was built before the last change measures older code, and its figures would be recorded as those of this code. What
-has to be built anew is known by ninja alone, which has the headers of each program; so it is asked (`ninja -n` builds nothing).
+a program is built from is known by ninja alone, sources and headers; all of it outside the build folder has to be older than the program.
+(`ninja -n` cannot tell: it takes each program for old, because CMake looks for new sources before every build.)
 """
 import hashlib
+import os
 import pathlib
-import re
 import subprocess
-
-WORK = re.compile(r"Re-running CMake|\.o(bj)?$|Building|Linking|Generating|-> ")
 
 
 def programs_of(build, commands):
-    """Paths below the build folder that the commands run or hand on, and `all` where ctest runs whatever there is."""
-    found = set()
-    for command in commands:
-        found |= {word for word in command if word.startswith(f"{build}/") and pathlib.Path(word).suffix in ("", ".so")}
-        if command[:1] == ["ctest"]:
-            found.add("all")
+    """Paths below the build folder that the commands run or hand on, and every test that ctest would run."""
+    found = {word for command in commands for word in command if word.startswith(f"{build}/") and pathlib.Path(word).suffix in ("", ".so")}
+    if any(command[:1] == ["ctest"] for command in commands):
+        found |= {str(path) for path in pathlib.Path(build).glob("tests/**/*_test") if path.is_file()}
     return sorted(found)
+
+
+def ninja(build, *arguments):
+    return subprocess.run(["ninja", "-C", build, *arguments], capture_output=True, text=True, check=True).stdout.splitlines()
+
+
+def inputs_of(build, program):
+    """Paths of all that a program is made from outside the build folder, headers too."""
+    inputs = {line.strip() for line in ninja(build, "-t", "inputs", program.removeprefix(f"{build}/"))}
+    headers, wanted = set(), False
+    for line in ninja(build, "-t", "deps"):  # "OBJECT: #deps 3, ..." and an indented line for each
+        if line.startswith(" "):
+            if wanted:
+                headers.add(line.strip())
+        elif line:
+            wanted = line.split(": #deps", 1)[0] in inputs
+    paths = {os.path.normpath(os.path.join(build, path)) for path in inputs | headers}
+    return sorted(path for path in paths if not path.startswith(f"{os.path.normpath(build)}/") and os.path.isfile(path))
 
 
 def out_of_date(build, commands):
     """Why what the commands run is not built from the sources on disk; "" when it is."""
-    programs = programs_of(build, commands)
-    for program in programs:
-        if program != "all" and not pathlib.Path(program).is_file():
+    for program in programs_of(build, commands):
+        path = pathlib.Path(program)
+        if not path.is_file():
             return f"{program} is not there"
-    if not programs:
-        return ""
-    targets = [program.removeprefix(f"{build}/") for program in programs]
-    asked = subprocess.run(["ninja", "-C", build, "-n", *targets], capture_output=True, text=True)
-    if asked.returncode != 0:
-        return f"ninja cannot tell whether {', '.join(targets)} is built: {(asked.stderr or asked.stdout).strip()[-300:]}"
-    steps = [line for line in asked.stdout.splitlines() if WORK.search(line)]
-    if not steps:
-        return ""
-    return f"{', '.join(targets)}: older than the sources, {len(steps)} steps to build, such as {steps[0].split('] ', 1)[-1]}"
+        try:
+            newer = [source for source in inputs_of(build, program) if os.stat(source).st_mtime_ns > path.stat().st_mtime_ns]
+        except subprocess.CalledProcessError as problem:
+            return f"ninja cannot tell what {program} is built from: {(problem.stderr or problem.stdout).strip()[-300:]}"
+        if newer:
+            return f"{path.name} is older than {len(newer)} of the files that it is built from, such as {newer[0]}"
+    return ""
 
 
 def identity(build, commands):
     """Hash of the programs themselves: it says whether one was built anew while a study ran."""
     whole = hashlib.sha256()
     for program in programs_of(build, commands):
-        if program != "all":
-            whole.update(pathlib.Path(program).read_bytes())
+        whole.update(pathlib.Path(program).read_bytes())
     return whole.hexdigest()

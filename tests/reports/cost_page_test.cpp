@@ -28,7 +28,7 @@ LadderAccuracy ladder() {
   r.n_members = 3;
   r.refinement = refine(l.spacings_m, {{118}, {114}, {112}}, 1);
   r.member_rms = {6, 2, 0};
-  r.member_errors = ErrorCurve(l.spacings_m, {8.96, 4.48, 2.24});
+  r.member_errors = ErrorCurve(l.spacings_m, {8.2, 4.1, 2.02});
   l.results.push_back(r);
   MapAccuracy map;
   map.threshold_m = 0.5;
@@ -51,8 +51,8 @@ TEST(CostPage, ShowsErrorsChoiceAndParts) {
   EXPECT_THAT(html, HasSubstr("thin &amp; flow"));
   EXPECT_THAT(html, HasSubstr("3 of 4 members"));
   EXPECT_THAT(html, HasSubstr("512 planned members"));
-  // 8.96 of 112, 4.48 and 2.24 of it.
-  for (const char* cell : {"8.0\u00A0%", "4.0\u00A0%", "2.0\u00A0%", "40\u00A0%"})
+  // Shares of 112.
+  for (const char* cell : {"7.3\u00A0%", "3.7\u00A0%", "1.8\u00A0%", "40\u00A0%"})
     EXPECT_THAT(html, HasSubstr(cell));
   EXPECT_THAT(html, Not(HasSubstr("Checked by")));
   EXPECT_THAT(html, HasSubstr("script-src 'none'"));
@@ -66,12 +66,12 @@ TEST(CostPage, ShowsWhatWasSaidBesideWhatWasFound) {
   CheckedError c;
   c.name = "runout_m";
   c.spacing_m = 2;
-  c.said = 0.03, c.found = 0.02, c.noise = 0;
+  c.said = 0.034, c.found = 0.02, c.noise = 0;
   l.checked.push_back(c);
   CostPage page;
   page.ladders.push_back({&l, {}, {}});
   const std::string html = make_cost_page(page);
-  for (const char* words : {"Checked by members at 1", "3.0\u00A0%", "1.5</td>", ">yes<"})
+  for (const char* words : {"Checked by members at 1", "3.4\u00A0%", "1.7</td>", ">yes<"})
     EXPECT_THAT(html, HasSubstr(words));
 }
 

@@ -124,10 +124,14 @@ class StudiesBuild(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.build = pathlib.Path(folder.name)
-        (self.build / "build.ninja").write_text("rule link\n  command = cp $in $out\n  description = Linking $out\n"
-                                                "build sturz: link source.cpp\nbuild bench: link source.cpp\n")
-        (self.build / "source.cpp").write_text("int f();\n")
+        self.build = pathlib.Path(folder.name).resolve()
+        (self.build / "build").mkdir()
+        (self.build / "build/build.ninja").write_text(
+            "rule compile\n  command = cp $in $out && echo $out: $in ../part.hpp > $out.d\n  depfile = $out.d\n  deps = gcc\n"
+            "rule link\n  command = cp $in $out\nbuild one.o: compile ../source.cpp\nbuild sturz: link one.o\nbuild bench: link one.o\n")
+        for name in ("source.cpp", "part.hpp", "other.hpp"):
+            (self.build / name).write_text("int f();\n")
+        self.build = self.build / "build"
         self.commands = [["python3", "study.py", f"{self.build}/sturz", f"{self.build}/out.json"]]
         self.make("sturz")
 
@@ -140,10 +144,13 @@ class StudiesBuild(unittest.TestCase):
     def test_a_program_of_these_sources_is_taken_and_an_older_one_is_not(self):
         self.assertEqual(studies_build.programs_of(str(self.build), self.commands), [f"{self.build}/sturz"])
         self.assertEqual(self.old(), "")
-        (self.build / "source.cpp").write_text("int g();\n")
         later = time.time() + 5
-        os.utime(self.build / "source.cpp", (later, later))
-        self.assertIn("sturz: older than the sources, 1 steps to build, such as Linking sturz", self.old())
+        os.utime(self.build.parent / "other.hpp", (later, later))
+        self.assertEqual(self.old(), "", "it is not built from that")
+        for name in ("source.cpp", "part.hpp"):
+            os.utime(self.build.parent / name, (later, later))
+            self.assertEqual(self.old(), f"sturz is older than 1 of the files that it is built from, such as {self.build.parent}/{name}")
+            os.utime(self.build.parent / name, (1, 1))
 
     def test_a_program_that_is_not_there_is_named(self):
         self.commands.append([f"{self.build}/bench", "throughput"])

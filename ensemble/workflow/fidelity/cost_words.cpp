@@ -70,10 +70,10 @@ void add_notes(const LadderAccuracy& ladder, std::vector<std::string>& lines) {
                     "their errors rest on how far members and means scatter.",
                     plain(without)));
   if (std::isfinite(noise))
-    lines.push_back(
-        fmt::format("A displacement of 1e-7 of the values moves a member by up to "
-                    "{:.2g} %.",
-                    100 * noise));
+    lines.push_back(fmt::format(
+        "Noise: values displaced by 1e-7 move a member by up to {:.2g} %; no spacing tells "
+        "less than that apart.",
+        100 * noise));
 }
 
 std::string choice_sentence(const LadderAccuracy& ladder, const CostQuestions& questions) {
@@ -158,9 +158,8 @@ std::string check_sentence(const LadderAccuracy& ladder, const CostQuestions& qu
     ++of;
   }
   return fmt::format(
-      "Checked by members at {:g} m that no estimate knew: of {:g} m, {} of {} differences were "
-      "said "
-      "to a factor of two; of all spacings {} of {}.",
+      "Checked by members at {:g} m that no estimate knew: at {:g} m {} of {} differences were "
+      "predicted to a factor of two, at all spacings {} of {}.",
       ladder.held_out_m, where, met, of, all_met, ladder.checked.size());
 }
 

@@ -119,7 +119,7 @@ TEST_F(Cost, WithNothingUncertainTheLatticesDiffer) {
   const Ended ended = cost({});
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_THAT(ended.out, HasSubstr("3 ensembles"));
-  EXPECT_THAT(ended.out, Not(HasSubstr("displacement")));
+  EXPECT_THAT(ended.out, Not(HasSubstr("displaced")));
 }
 
 }  // namespace
