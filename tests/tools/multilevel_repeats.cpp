@@ -87,7 +87,7 @@ Chosen decide(LevelMembers& all, const Job& job, const std::vector<double>& cost
   Chosen chosen;
   if (!job.whole) {
     std::vector<std::int64_t> counts(all.parts.size(), 0);
-    for (std::size_t l = 0; l < job.levels.size(); ++l) counts[job.levels[l]] = job.members[l];
+    for (std::size_t l = 0; l < job.levels.size(); ++l) counts.at(job.levels[l]) = job.members[l];
     chosen.levels = job.levels;
     chosen.capped = take(counts);
     return chosen;
