@@ -2,11 +2,12 @@
 // How far multilevel estimates from random parts of stored members lie from members of the dearest
 // level that they did not use (docs/studies/multilevel.py).
 //
-// usage: multilevel_repeats REPEATS SEED JOBS NAME FOLDER SPACING [NAME FOLDER SPACING ...]
+// usage: multilevel_repeats REPEATS[,MAPS] SEED JOBS NAME FOLDER SPACING [NAME FOLDER SPACING ...]
 // Folders are those of ensembles of the same independent draws on one grid, the dearest first. JOBS
 // are separated by ';': "0=16,2=600", fixed numbers of members of levels 0 and 2, or
 // "error=0.05,map=0.04", the whole procedure with that target. The first line of JSON tells of the
-// levels, and one per job and repeat of what was found.
+// levels, and one per job and repeat of what was found. MAPS: after so many repeats (all when
+// absent) maps are left away, and with them the jobs that need them to decide.
 //
 // Each repeat takes `pool` of the dearest level's draws; cheaper levels have those too, and else a
 // random half of the draws beyond the dearest level's last. The plain reference are the other
@@ -86,7 +87,7 @@ Chosen decide(LevelMembers& all, const Job& job, const std::vector<double>& cost
   Chosen chosen;
   if (!job.whole) {
     std::vector<std::int64_t> counts(all.parts.size(), 0);
-    for (std::size_t l = 0; l < job.levels.size(); ++l) counts[job.levels[l]] = job.members[l];
+    for (std::size_t l = 0; l < job.levels.size(); ++l) counts.at(job.levels[l]) = job.members[l];
     chosen.levels = job.levels;
     chosen.capped = take(counts);
     return chosen;
@@ -209,9 +210,13 @@ int work(const std::vector<std::string>& args) {
   fmt::print("{{\"members\":[{}],\"left_out\":[{}],\"cpu_s\":[{}],\"pool\":{},\"cheap\":[{}]}}\n",
              fmt::join(members, ","), fmt::join(stored.left_out(), ","), fmt::join(costs, ","),
              StoredLevels::pool, cheap_json(stored));
-  for (std::uint64_t r = 0; r < std::stoul(args[0]); ++r) {
+  const std::vector<std::string> repeats = split(args[0], ',');
+  const std::uint64_t with_maps = std::stoul(repeats.back());
+  for (std::uint64_t r = 0; r < std::stoul(repeats.front()); ++r) {
     const StoredLevels::Parted parted = stored.part(std::stoul(args[1]) + 1000 * r);
     for (std::size_t j = 0; j < jobs.size(); ++j) {
+      const bool maps = r < with_maps;
+      if (!maps && jobs[j].whole) continue;
       LevelMembers all = parted.taken;
       const Chosen chosen = decide(all, jobs[j], costs);
       fmt::print(
@@ -219,7 +224,7 @@ int work(const std::vector<std::string>& args) {
           "\"means\":[{}],\"map\":{}}}\n",
           j, fmt::join(chosen.levels, ","), fmt::join(all.counts, ","), chosen.rounds,
           chosen.capped, means_json(all, chosen.levels, parted.others),
-          map_json(all, chosen.levels, *parted.others.members.front()));
+          maps ? map_json(all, chosen.levels, *parted.others.members.front()) : "null");
       std::fflush(stdout);
     }
   }

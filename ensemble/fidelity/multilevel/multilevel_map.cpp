@@ -117,11 +117,7 @@ class CellSums {
   std::vector<std::pair<std::size_t, std::vector<Margins>>> waiting_;  // draws of cheaper levels
 };
 
-/// What so many draws of the dearest level may still do that all agree: of n of n, the upper end of
-/// the 90 % interval of Clopper and Pearson (1934). Cheaper draws are no draws of that level, and
-/// do not count, however many they are.
-double possible(std::size_t n_dear) { return 1 - std::pow(0.05, 1 / static_cast<double>(n_dear)); }
-
+/// Where all draws of all levels agree.
 MultilevelMap blank(const DrawDistances& distances, double possible) {
   MultilevelMap map;
   map.extent = distances.extent();
@@ -160,12 +156,16 @@ void make_falling(std::span<double> row) {
 
 }  // namespace
 
+double unseen_share(std::size_t n_dear) {
+  return 1 - std::pow(0.05, 1 / static_cast<double>(n_dear));
+}
+
 MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, CancelFlag cancel) {
   const std::size_t n_levels = levels.levels.size();
   expect(n_levels >= 2 && n_levels <= most_levels, "a dear level and some cheaper ones");
   const DrawDistances distances(levels, what, cancel);
   const std::size_t n_dear = draws_of_levels(levels.draws, n_levels).front();
-  const double unseen = possible(n_dear);
+  const double unseen = unseen_share(n_dear);
   MultilevelMap map = blank(distances, unseen);
   map.variances.assign(n_levels, 0);
   const std::vector<std::size_t>& cells = distances.cells();

@@ -47,6 +47,11 @@ struct MultilevelMap {
   double smoothing_error = 0;  ///< root mean square of what that shifts, estimated; in the bounds
 };
 
+/// What so many draws of the dearest level may still do that all agree: of n of n, the upper end of
+/// the 90 % interval of Clopper and Pearson (1934). Cheaper draws are no draws of that level, and
+/// do not count, however many they are.
+double unseen_share(std::size_t n_dear);
+
 /// All cells are held at a time, see map_bytes_a_cell(). \pre at least least_draws at the dearest
 /// level \throws Cancelled; SetupError where the map would take more than memory_bytes
 MultilevelMap multilevel_map(const MapLevels&, const Exceedance&, CancelFlag cancel = {});

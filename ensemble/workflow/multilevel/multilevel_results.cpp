@@ -131,6 +131,7 @@ class Look {
     NamedMap reach{"probability_of_reach", PeakLayer::arrival, {}, {}};
     reach.maps.push_back(map_of(all_, made_.used, {}, cancel_));
     made_.map_error = reach.maps.front().rms_error;
+    made_.dear_draws = shared_draws(all_, made_.used);
     made_.maps.push_back(std::move(reach));
     add_map("thickness_exceedance", PeakLayer::thickness, hazard_.thickness_m);
     add_map("speed_exceedance", PeakLayer::speed, hazard_.speed_m_s);

@@ -60,6 +60,7 @@ struct MultilevelMade {
   std::vector<MultilevelHeadline> headlines;
   std::vector<LevelShare> levels;
   std::vector<NamedMap> maps;        ///< empty where plain sampling was kept
+  std::size_t dear_draws = 0;        ///< of the dearest level, that maps are made of
   double map_error = nan_d;          ///< as ensemble.target.map_error, of P(reached)
   double map_plain_seconds = nan_d;  ///< CPU, of plain sampling for the same map_error
   double seconds = 0;                ///< CPU of all members

@@ -92,6 +92,13 @@ std::vector<std::string> page_sentences(const MultilevelMade& made) {
         fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
                     "{:.3g} (root mean square of {} cells).",
                     made.map_error, made.maps.front().maps.front().doubtful));
+  // Probabilities come from draws that all used levels have.
+  if (!made.maps.empty())
+    lines.push_back(fmt::format(
+        "Upper bounds are nowhere on the maps below {:.0f} %: so much may what none of {} members "
+        "of "
+        "{} does, whatever cheaper ones do.",
+        100 * unseen_share(made.dear_draws), made.dear_draws, made.levels.front().name));
   lines.push_back(gain_text(made));
   if (made.failed > 0)
     lines.push_back(
