@@ -165,8 +165,8 @@ PlainWords region_words(const RegionShown& region) {
 /// "+12 %" of a difference of probabilities.
 std::string change_text(double difference) {
   const double percent = std::round(100 * difference);
-  return percent == 0 ? "0\u00A0%"
-                      : (percent > 0 ? "+" : "\u2212") + percent_text(std::abs(difference));
+  std::string text(percent > 0 ? "+" : percent < 0 ? "\u2212" : "");
+  return text.append(percent_text(percent == 0 ? 0 : std::abs(difference)));
 }
 
 PlainWords comparison_words(const ComparisonShown& c) {
@@ -175,12 +175,12 @@ PlainWords comparison_words(const ComparisonShown& c) {
                      change_text(c.most), area_text(c.less_m2), area_text(c.more_m2));
   words.holds = c.pairs > 0 ? tr("plain.comparison_pairs", c.pairs, c.valid_a, c.valid_b)
                             : tr("plain.comparison_unpaired", c.valid_a, c.valid_b);
-  if (c.cut_off > 0) words.holds += " " + tr("plain.comparison_cut", c.cut_off);
+  if (c.cut_off > 0) words.holds.append(" ").append(tr("plain.comparison_cut", c.cut_off));
   std::string list;
   for (std::size_t k = 0; k < std::min(most_conditions, c.differences.size()); ++k)
     list += (list.empty() ? "" : "; ") + c.differences[k];
   if (c.differences.size() > most_conditions) list += "; \u2026";
-  if (!list.empty()) words.holds += " " + tr("plain.comparison_scenes", list);
+  if (!list.empty()) words.holds.append(" ").append(tr("plain.comparison_scenes", list));
   return words;
 }
 
