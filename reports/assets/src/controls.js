@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map's panel: which quantity, which statistic, which threshold; legend, hover, tools.
 import {createCellPanel} from './cell.js';
-import {cellIndex, classOf, numberText, percentText, unpack, valueText, wilson} from './data.js';
+import {cellIndex, classOf, extentOf, numberText, percentText, unpack, valueText, wilson} from './data.js';
 import {chips, element, northArrow} from './dom.js';
 import {drawLegend, marksOf} from './legend.js';
 import {createMap} from './map.js';
@@ -276,5 +276,5 @@ export async function startMaps(page) {
   setTimeout(() => Promise.all(planes.map(load)).then(() => cellPanel.redraw()), 60);
   // A still figure has no overlays: where there are some, what is seen is printed.
   printWhatIsSeen(seen, () => current === first && bound === 'value' && view.overlays.named.length === 0 &&
-                              !view.overlays.photo?.getVisible());
+                              !view.overlays.photo?.getVisible(), extentOf(maps.view));
 }

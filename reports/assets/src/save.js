@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is seen, as a picture and as numbers.
+import {getIntersection, isEmpty} from 'ol/extent.js';
+
 import {element, saveAs} from './dom.js';
 import {t} from './texts.js';
 
@@ -202,15 +204,33 @@ export function saveTools(seen, grid) {
   return [png, csv];
 }
 
+const sheet = [640, 760];  // CSS pixels of the map on a printed sheet
+
+/** Draws what is seen of the ground in the shape of a sheet, whatever shape the screen has. */
+function composeSheet(seen, ground) {
+  const {map} = seen.view;
+  const view = map.getView();
+  const [size, centre, resolution] = [map.getSize(), view.getCenter(), view.getResolution()];
+  const shown = getIntersection(view.calculateExtent(size), ground);
+  map.setSize(sheet);
+  if (!isEmpty(shown)) view.fit(shown, {size: sheet});
+  const canvas = composePicture(seen);
+  map.setSize(size);
+  view.setCenter(centre);
+  view.setResolution(resolution);
+  map.renderSync();
+  return canvas;
+}
+
 /** What is printed is what is seen, where that is no longer what the page opened with. */
-export function printWhatIsSeen(seen, isFirst) {
+export function printWhatIsSeen(seen, isFirst, ground) {
   const figure = document.getElementById('seen-map');
   if (!figure) return;
   addEventListener('beforeprint', () => {
     figure.hidden = isFirst();
     document.documentElement.classList.toggle('print-seen', !isFirst());
     if (isFirst()) return;
-    const canvas = composePicture(seen());
+    const canvas = composeSheet(seen(), ground);
     figure.replaceChildren(element('figcaption', {}, seen().title),
                            element('img', {src: canvas.toDataURL('image/png'), alt: seen().title}));
   });

@@ -22,7 +22,7 @@ function choicesOf(planes, names) {
  * @param {Array} planes all {layer, plane, values}; `load` brings the values of one
  * @param {object} names {nameA, nameB} of two ensembles, or nothing
  * @returns {{button, panel, beside, follow}} beside() is what is seen to the right, null while the
- *   tool is off; follow(plane) goes to what B has of a plane of A
+ *   tool is off; follow(plane) is told what is seen to the left, and goes to what B has of it
  */
 export function swipeTool(stage, view, planes, load, names) {
   const handle = element('div', {
@@ -33,8 +33,11 @@ export function swipeTool(stage, view, planes, load, names) {
   pick.append(...choicesOf(planes, names));
   const legend = element('div', {class: 'beside-legend'});
   const panel = element('div', {class: 'beside'},
-                        names ? element('p', {class: 'both-names'}, `A: ${names.nameA} | B: ${names.nameB}`) : '',
                         element('label', {for: 'pick-beside'}, t('swipe_right')), pick, legend);
+  if (names)
+    handle.append(element('span', {class: 'side-a', title: names.nameA}, 'A'),
+                  element('span', {class: 'side-b', title: names.nameB}, 'B'));
+  let main = null;  // the legend of what is seen to the left
   handle.hidden = panel.hidden = true;
   stage.append(handle);
 
@@ -50,6 +53,8 @@ export function swipeTool(stage, view, planes, load, names) {
     if (chosen !== planes[Number(pick.value)]) return;  // another one was chosen meanwhile
     const {layer} = chosen;
     view.showBeside(layer.legend, chosen.values);
+    // The same classes need not be told twice.
+    legend.hidden = JSON.stringify(main) === JSON.stringify(layer.legend);
     legend.replaceChildren(element('p', {class: 'legend-title'}, layer.legend.title),
                            legendList(layer.legend));
   };
@@ -85,9 +90,9 @@ export function swipeTool(stage, view, planes, load, names) {
     return {title: ofB ? `B: ${plane.title}` : plane.title, legend: layer.legend};
   };
   const follow = ({layer, plane}) => {
+    main = layer.legend;
     const own = planes.findIndex((p) => p.ofB && p.layer.name === layer.name && p.plane.label === plane.label);
-    if (own < 0) return;
-    pick.value = String(own);
+    if (own >= 0) pick.value = String(own);
     if (!handle.hidden) show();
   };
   return {button, panel, beside, follow};

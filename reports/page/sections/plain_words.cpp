@@ -165,8 +165,8 @@ PlainWords region_words(const RegionShown& region) {
 /// "+12 %" of a difference of probabilities.
 std::string change_text(double difference) {
   const double percent = std::round(100 * difference);
-  return percent == 0 ? "0\u00A0%"
-                      : (percent > 0 ? "+" : "\u2212") + percent_text(std::abs(difference));
+  std::string text(percent > 0 ? "+" : percent < 0 ? "\u2212" : "");
+  return text.append(percent_text(percent == 0 ? 0 : std::abs(difference)));
 }
 
 PlainWords comparison_words(const ComparisonShown& c) {
