@@ -56,7 +56,7 @@ Next: a slope of your own. This writes a commented scenario around your elevatio
 of the mass; then ask what will be computed:
   $program init dtm.tif source.gpkg --thickness 6 -o my_slope
   $program describe my_slope/scenario.yaml
-Ten minutes with real ground that is shipped: docs/tutorial.md
+Ten minutes with real ground that is shipped, and how to come by an outline: docs/tutorial.md
 
 To have the command \`sturz\` with manual page and completion (another --prefix needs no sudo):
   sudo cmake --install build/release
