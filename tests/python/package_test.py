@@ -137,8 +137,8 @@ class Stopped(InFolder):
         stub = pathlib.Path("stub")
         stub.write_text(f"#!{sys.executable}\nimport pathlib, signal\n"
                         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-                        "print('{\"event\": \"serving\", \"url\": \"\", \"inputs\": [], \"outputs\": []}', flush=True)\n"
-                        "try:\n    signal.pause()\n"
+                        "try:\n    print('{\"event\": \"serving\", \"url\": \"\", \"inputs\": [], \"outputs\": []}', flush=True)\n"
+                        "    signal.pause()\n"
                         "except KeyboardInterrupt:\n    pathlib.Path('ended').touch()\n")
         stub.chmod(0o755)
         subprocess.run([sys.executable, "-c", "import sturz\nserver = sturz.serve({})"], check=True, timeout=30,
