@@ -150,8 +150,7 @@ std::string make_multilevel_page(const MultilevelPage& page) {
           "<h1>{}</h1><p class=\"origin\">{} \u00B7 {}</p></header>\n",
           html_escape(page.title), html_escape(page.when), html_escape(page.program));
   if (!page.warnings.empty())
-    html += "<div class=\"warnings\"><h2>Warnings</h2>" + list_html(page.warnings) +
-            "</div>\n";
+    html += "<div class=\"warnings\"><h2>Warnings</h2>" + list_html(page.warnings) + "</div>\n";
   return html + list_html(page.sentences) + results_html(page) + maps_html(page) +
          levels_html(page) + reading_html + "</main>\n</body>\n</html>\n";
 }

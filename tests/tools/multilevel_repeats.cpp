@@ -12,9 +12,8 @@
 // random half of the draws beyond the dearest level's last. The plain reference are the other
 // members of the dearest level. Means are also held against a control-variate estimate from these
 // and the other half, which knows more.
-#include "tests/tools/stored_levels.hpp"
-
 #include "ensemble/workflow/multilevel/decision.hpp"
+#include "tests/tools/stored_levels.hpp"
 
 #include <fmt/format.h>
 
@@ -187,9 +186,9 @@ std::string cheap_json(const StoredLevels& stored) {
     json += fmt::format("{}{{\"level\":{},\"map_rms\":{}", l == 1 ? "" : ",", l,
                         std::sqrt(error / cells));
     for (const std::string& name : headline_results())
-      json += fmt::format(",\"{}\":{}", name,
-                          moments(*stored.levels()[l], name).mean -
-                              moments(*stored.levels().front(), name).mean);
+      json += fmt::format(
+          ",\"{}\":{}", name,
+          moments(*stored.levels()[l], name).mean - moments(*stored.levels().front(), name).mean);
     json += "}";
   }
   return json;

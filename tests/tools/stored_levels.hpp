@@ -33,9 +33,8 @@ class CoveredMembers final : public MemberParts {
     const Window& whole = summaries_[index].window;
     for (int row = 0; row < part.n_rows; ++row)
       for (int col = 0; col < part.n_cols; ++col) {
-        const auto at =
-            static_cast<std::size_t>(row + part.row0 - whole.row0) * whole.n_cols + col +
-            part.col0 - whole.col0;
+        const auto at = static_cast<std::size_t>(row + part.row0 - whole.row0) * whole.n_cols +
+                        col + part.col0 - whole.col0;
         out[static_cast<std::size_t>(row) * part.n_cols + col] =
             (*covered_[index])[at] != 0 ? 1.0F : std::nanf("");
       }

@@ -57,8 +57,7 @@ class Procedure {
  private:
   void compute(const std::vector<std::int64_t>& counts) {
     for (std::size_t p = 0; p < counts.size(); ++p)
-      for (; counts_[p] < counts[p]; ++counts_[p])
-        stores_[p]->add(make_(p, stream_, counts_[p]));
+      for (; counts_[p] < counts[p]; ++counts_[p]) stores_[p]->add(make_(p, stream_, counts_[p]));
   }
 
   MakeMember make_;
@@ -176,8 +175,8 @@ TEST(MultilevelBounds, OfMapsHoldThroughTheWholeProcedure) {
   EXPECT_LT(std::sqrt(squares / cells), 1.1 * 0.04);
 }
 
-/// A branch that one dear member in twelve takes, and no cheap one ever: where all dear members stay
-/// away, their number alone says what is possible, and four hundred cheap ones say nothing.
+/// A branch that one dear member in twelve takes, and no cheap one ever: where all dear members
+/// stay away, their number alone says what is possible, and four hundred cheap ones say nothing.
 TEST(MultilevelBounds, OfMapsCountNoCheapDrawsAsDearOnes) {
   constexpr int repeats = 200;
   constexpr double truth = 1.0 / 12;

@@ -26,8 +26,8 @@ struct MultilevelMean {
   double mean = nan_d, standard_error = nan_d;
   double degrees = nan_d;  ///< of freedom of the standard error (Welch and Satterthwaite)
   double skewness = 0;     ///< of the estimate's error: third moment over the standard error cubed
-  /// By Student's t of a cubic transformation that takes the skewness off (Hall 1992, J. R. Statist.
-  /// Soc. B 54, 221-228): farther on the side where few draws weigh much.
+  /// By Student's t of a cubic transformation that takes the skewness off (Hall 1992, J. R.
+  /// Statist. Soc. B 54, 221-228): farther on the side where few draws weigh much.
   Interval bounds_90() const;
   Interval even_bounds_90() const;  ///< without it
 };

@@ -36,8 +36,8 @@ struct QuantileEstimate {
 /// One result of all members.
 struct MultilevelScalar {
   MultilevelMean mean;
-  std::vector<double> draws;                 ///< [n_levels]
-  std::vector<double> variances;             ///< [n_levels] of the increments
+  std::vector<double> draws;      ///< [n_levels]
+  std::vector<double> variances;  ///< [n_levels] of the increments
   /// The same and one standard error of each: numbers of draws that follow from them, and do not
   /// end where few draws happen to scatter little.
   std::vector<double> cautious_variances;

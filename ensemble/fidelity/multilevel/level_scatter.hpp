@@ -32,8 +32,9 @@ class LevelScatter {
     double increment, size;
   };
   std::size_t n_levels_;
-  std::array<std::vector<One>, most_levels> of_level_;  ///< of the draws that have it; the last: predictions
-  double n_ = 0, sum_ = 0, squares_ = 0;                ///< sizes of all draws, less the first
+  std::array<std::vector<One>, most_levels>
+      of_level_;                          ///< of the draws that have it; the last: predictions
+  double n_ = 0, sum_ = 0, squares_ = 0;  ///< sizes of all draws, less the first
   double first_ = 0;
 };
 

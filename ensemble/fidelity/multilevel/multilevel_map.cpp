@@ -19,12 +19,12 @@ constexpr int widest_smoothing = 3;  // cells
 constexpr double surely_not = 0.05;  // 1 - that: surely
 
 void require_memory(const MapLevels& levels, std::size_t n_cells, std::size_t n_dear) {
-  const auto bytes =
-      static_cast<double>(n_cells * map_bytes_a_cell(levels.levels.size(), n_dear));
-  require(!(levels.memory_bytes > 0) || bytes <= levels.memory_bytes,
-          fmt::format("hazard.cell_size_m (a multilevel map of {} cells that some members reach and "
-                      "others do not takes {:.2g} GB, and {:.2g} GB are free). Choose larger cells.",
-                      n_cells, bytes / 1e9, levels.memory_bytes / 1e9));
+  const auto bytes = static_cast<double>(n_cells * map_bytes_a_cell(levels.levels.size(), n_dear));
+  require(
+      !(levels.memory_bytes > 0) || bytes <= levels.memory_bytes,
+      fmt::format("hazard.cell_size_m (a multilevel map of {} cells that some members reach and "
+                  "others do not takes {:.2g} GB, and {:.2g} GB are free). Choose larger cells.",
+                  n_cells, bytes / 1e9, levels.memory_bytes / 1e9));
 }
 
 bool is_doubtful(double p) { return p > surely_not && p < 1 - surely_not; }
@@ -113,16 +113,14 @@ class CellSums {
   std::vector<std::vector<float>> residuals_, others_;
   std::vector<double> noise_;
   std::vector<std::uint32_t> dear_covered_;
-  std::vector<double> counts_;  // [n_levels] draws
+  std::vector<double> counts_;                                         // [n_levels] draws
   std::vector<std::pair<std::size_t, std::vector<Margins>>> waiting_;  // draws of cheaper levels
 };
 
 /// What so many draws of the dearest level may still do that all agree: of n of n, the upper end of
-/// the 90 % interval of Clopper and Pearson (1934). Cheaper draws are no draws of that level, and do
-/// not count, however many they are.
-double possible(std::size_t n_dear) {
-  return 1 - std::pow(0.05, 1 / static_cast<double>(n_dear));
-}
+/// the 90 % interval of Clopper and Pearson (1934). Cheaper draws are no draws of that level, and
+/// do not count, however many they are.
+double possible(std::size_t n_dear) { return 1 - std::pow(0.05, 1 / static_cast<double>(n_dear)); }
 
 MultilevelMap blank(const DrawDistances& distances, double possible) {
   MultilevelMap map;
@@ -176,9 +174,8 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
   const CellSums sums(levels, distances, cancel);
   std::vector<std::uint8_t> doubtful;
   for (std::size_t i = 0; i < cells.size(); ++i) doubtful.push_back(is_doubtful(sums.at(i).mean()));
-  const SmoothedCorrection correction =
-      smoothed_correction(sums.residuals(), sums.others(), cells, distances.grid(), doubtful,
-                          widest_smoothing);
+  const SmoothedCorrection correction = smoothed_correction(
+      sums.residuals(), sums.others(), cells, distances.grid(), doubtful, widest_smoothing);
   map.smoothed_cells = correction.radius;
   map.smoothing_error = std::sqrt(correction.bias_squared);
   const double n = sums.at(0).draws(0), width = student_width(0.9, n - 1);

@@ -10,9 +10,9 @@
 namespace sturz {
 
 struct SmoothedCorrection {
-  int radius = 0;                ///< cells to each side
-  std::vector<double> mean;      ///< [n_cells]
-  std::vector<double> variance;  ///< [n_cells] of one member's smoothed residual
+  int radius = 0;                  ///< cells to each side
+  std::vector<double> mean;        ///< [n_cells]
+  std::vector<double> variance;    ///< [n_cells] of one member's smoothed residual
   std::vector<double> covariance;  ///< [n_cells] of that with the member's `others`
   double bias_squared = 0;  ///< mean over the cells that count of what smoothing shifts, estimated
   double variance_ratio = 1;  ///< of the smoothed residuals to the others, over those cells

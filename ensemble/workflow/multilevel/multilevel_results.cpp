@@ -53,10 +53,8 @@ class Look {
     h.units = scalar_named(name).units;
     h.scalar = scalar_of(all_, made_.used, name);
     if (!std::isfinite(h.scalar.mean.mean)) return;
-    const auto valid =
-        static_cast<std::int64_t>(draws_of_levels(level_draws(valid_of(all_, made_.used)),
-                                                  made_.used.size())
-                                      .front());
+    const auto valid = static_cast<std::int64_t>(
+        draws_of_levels(level_draws(valid_of(all_, made_.used)), made_.used.size()).front());
     h.left_out = valid - static_cast<std::int64_t>(h.scalar.draws.front());
     const Interval bounds = h.scalar.mean.bounds_90();
     h.sampling = (bounds.high - bounds.low) / 2;

@@ -68,8 +68,8 @@ struct MultilevelMade {
   /// As plain ensembles: of used levels of which more members than ensemble.max_censored_fraction
   /// are cut off, a sentence each. Every door says it first.
   std::vector<std::string> cut_off;
-  std::vector<std::string> missed;   ///< of ensemble.target, a sentence each
-  double max_failed_fraction = 1;    ///< of the scene
+  std::vector<std::string> missed;  ///< of ensemble.target, a sentence each
+  double max_failed_fraction = 1;   ///< of the scene
   std::vector<std::string> warnings;
 
   /// Of a level that is used, as ensemble.max_failed_fraction.

@@ -111,10 +111,10 @@ std::vector<std::string> page_sentences(const MultilevelMade& made) {
                     made.censored));
   for (const MultilevelHeadline& h : made.headlines)
     if (h.left_out > 0)
-      lines.push_back(
-          fmt::format("{}: {} of {} members of {} do not tell it and are left out.", h.name,
-                      h.left_out, h.left_out + static_cast<std::int64_t>(h.scalar.draws.front()),
-                      made.levels.front().name));
+      lines.push_back(fmt::format("{}: {} of {} members of {} do not tell it and are left out.",
+                                  h.name, h.left_out,
+                                  h.left_out + static_cast<std::int64_t>(h.scalar.draws.front()),
+                                  made.levels.front().name));
   return lines;
 }
 

@@ -190,8 +190,8 @@ TEST(MultilevelQuantiles, AreThoseOfTheDearestLevel) {
     EXPECT_GE(covered[q], 0.85) << q;
     // No control by level 1 does better than its conditional expectation, which has 0.699 of the
     // indicator's variance at the ends and 0.751 amid (of two normal numbers of correlation 1/1.04,
-    // by quadrature): sqrt(q (1 - q) ((1 - share) / 20 + share / 600)) over the density is 0.222 and
-    // 0.150, where 20 plain draws have 0.390 and 0.286.
+    // by quadrature): sqrt(q (1 - q) ((1 - share) / 20 + share / 600)) over the density is 0.222
+    // and 0.150, where 20 plain draws have 0.390 and 0.286.
     const double best = q == 1 ? 0.1496 : 0.2220;
     EXPECT_LT(std::sqrt(squares[q]), 1.125 * best) << q;
   }

@@ -46,7 +46,8 @@ struct Strip {
     for (std::size_t k = 0; k < n_cheap; ++k) {
       const double z = normal(stream, k);
       const auto number = static_cast<std::int64_t>(k);
-      if (k < n_dear) dear.add(front_member(number, 250 + 60 * z + 8 * normal(stream + 1, k), dear.grid()));
+      if (k < n_dear)
+        dear.add(front_member(number, 250 + 60 * z + 8 * normal(stream + 1, k), dear.grid()));
       cheap.add(front_member(number, 350 + 80 * z + 8 * normal(stream + 2, k), cheap.grid()));
       levels.draws.push_back({number, k < n_dear ? 0U : 1U, {}});
     }
