@@ -45,6 +45,14 @@ std::string half_width(double value, const std::string& units) {
   return std::isfinite(value) ? "\u00B1 " + with_unit(value, units, 2) : "unknown";
 }
 
+/// Bounds of a skewed mean lie farther on one side; half their width would put them elsewhere.
+std::string off_by(double below, double above, const std::string& units) {
+  if (!std::isfinite(below) || !std::isfinite(above)) return "unknown";
+  if (std::abs(above - below) <= 0.05 * (above + below))
+    return half_width((above + below) / 2, units);
+  return "\u2212 " + with_unit(below, units, 2) + ", + " + with_unit(above, units, 2);
+}
+
 /// Bounds of a quantile; an open end where the draws do not tell one.
 std::string between(double low, double high, const std::string& units) {
   if (std::isfinite(low) && std::isfinite(high))
@@ -61,7 +69,7 @@ std::string results_html(const MultilevelPage& page) {
   Table means("mean of all members", {"mean", "sampling, 90 %", "resolution", "model"});
   for (const MultilevelPageResult& r : page.results)
     means.row(result_words(r.name),
-              {with_unit(r.mean, r.units), half_width(r.sampling, r.units),
+              {with_unit(r.mean, r.units), off_by(r.below, r.above, r.units),
                half_width(r.resolution, r.units), half_width(r.model, r.units)});
   std::string html =
       "<section id=\"means\"><h2>Means, and by how much they may be off</h2>" + means.html();
@@ -133,9 +141,10 @@ const char* const reading_html =
     "tell "
     "where the mean lies, the others correct what the cheap ones get wrong: means and "
     "probabilities "
-    "are those of the scene itself. Sampling is what more members would remove (half width of 90 % "
-    "bounds); resolution what finer particles would, estimated from the levels of the same "
-    "formulation; model how far another formulation lies away with the same values, which no "
+    "are those of the scene itself. Sampling is what more members would remove (90 % bounds); "
+    "resolution what finer particles would, estimated from the levels of the same formulation (of "
+    "two spacings alone it is mostly the first order that is assumed); model how far another "
+    "formulation lies away with the same values, which no "
     "member "
     "and no spacing removes. All numbers stand in multilevel.json, all maps with their bounds in "
     "hazard.nc.</p></section>\n";

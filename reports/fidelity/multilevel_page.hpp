@@ -10,10 +10,11 @@
 
 namespace sturz {
 
-/// One mean, and by how much it may be off: half widths in its unit, NaN where not known.
+/// One mean, and by how much it may be off in its unit, NaN where not known. Sampling: how far its
+/// 90 % bounds lie below and above.
 struct MultilevelPageResult {
   std::string name, units;
-  double mean = nan_d, sampling = nan_d, resolution = nan_d, model = nan_d;
+  double mean = nan_d, below = nan_d, above = nan_d, resolution = nan_d, model = nan_d;
   struct Quantile {
     double level = 0, value = nan_d, low = nan_d, high = nan_d;
   };

@@ -35,7 +35,7 @@ TEST(MultilevelPage, ShowsThreeNumbersUnderEachMean) {
   MultilevelPage page;
   page.title = "Slope <A>";
   page.sentences = {"3 minutes of one core in all."};
-  page.results = {{"runout_m", "m", 812, 9.4, 31, nan_d, {{0.5, 800, 790, 815}}}};
+  page.results = {{"runout_m", "m", 812, 9.4, 9.4, 31, nan_d, {{0.5, 800, 790, 815}}}};
   page.levels = {{"full_stress_6m", true, 24, 4.5, 0.8, {0.7, 0.6}},
                  {"depth_averaged_18m", false, 16, 0.01, 0.001, {}}};
   page.maps = &stack;
@@ -53,6 +53,12 @@ TEST(MultilevelPage, ShowsThreeNumbersUnderEachMean) {
   EXPECT_EQ(figures, 3U);
   EXPECT_THAT(html, Not(HasSubstr("<script")));
   EXPECT_THAT(html, Not(HasSubstr(" style=")));
+}
+
+TEST(MultilevelPage, SaysOnWhichSideAMeanMayBeFartherOff) {
+  MultilevelPage page;
+  page.results = {{"runout_m", "m", 812, 4.2, 13, nan_d, nan_d, {}}};
+  EXPECT_THAT(make_multilevel_page(page), HasSubstr("\u2212 4.2\u00A0m, + 13\u00A0m"));
 }
 
 TEST(MultilevelPage, LeavesOutWhatIsNotThere) {

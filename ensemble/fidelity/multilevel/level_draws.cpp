@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/fidelity/multilevel/level_scatter.hpp"
+#include "ensemble/hazard/wilson.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -157,6 +158,15 @@ double reached(const Distribution& d, const std::vector<double>& f, double level
   return d.places[i - 1] + share * (d.places[i] - d.places[i - 1]);
 }
 
+/// 90 % bounds of a share. Draws of one level alone are counted: near 0 and 1 the scatter of few of
+/// them is far too small, and none at all where they agree.
+Interval bounds_of_share(const IncrementMoments& sums, double noise) {
+  if (sums.n_levels() > 1) return sums.estimate(std::array{noise / sums.draws(0)}).even_bounds_90();
+  const double n = sums.draws(0);
+  const ProbabilityBounds b = wilson_interval(std::llround(sums.mean() * n), std::llround(n), z_90);
+  return {b.lower, b.upper};
+}
+
 Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels) {
   const Predictions predictions(draws, n_levels);
   double least = nan_d, most = nan_d;
@@ -181,11 +191,10 @@ Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels
           models.shares_below(t, draw.values, draw.from, fold, told);
           if (draw.from == 0 && !told.empty()) noise += told[0] * (1 - told[0]);
         });
-    const MultilevelMean at = sums.estimate(std::array{noise / sums.draws(0)});
-    const Interval bounds = at.even_bounds_90();
+    const Interval bounds = bounds_of_share(sums, noise);
     d.places.push_back(t);
     d.low.push_back(bounds.low);
-    d.middle.push_back(at.mean);
+    d.middle.push_back(sums.mean());
     d.high.push_back(bounds.high);
   }
   for (std::vector<double>* f : {&d.low, &d.middle, &d.high}) make_rising(*f);

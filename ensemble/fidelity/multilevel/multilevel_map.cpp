@@ -23,7 +23,9 @@ void require_memory(const MapLevels& levels, std::size_t n_cells, std::size_t n_
   require(
       !(levels.memory_bytes > 0) || bytes <= levels.memory_bytes,
       fmt::format("hazard.cell_size_m (a multilevel map of {} cells that some members reach and "
-                  "others do not takes {:.2g} GB, and {:.2g} GB are free). Choose larger cells.",
+                  "others do not takes {:.2g} GB, and {:.2g} GB are free). Free memory and run "
+                  "the same again, which computes no member twice, or choose larger cells in "
+                  "another folder.",
                   n_cells, bytes / 1e9, levels.memory_bytes / 1e9));
 }
 

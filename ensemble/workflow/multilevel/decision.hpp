@@ -17,8 +17,8 @@ inline constexpr double near_enough = 1.05;
 /// What the members so far say is to be computed next: nothing where what was asked for is reached,
 /// or where no more of them would help. The levels are those of the first round.
 /// \param rounds those before \param cost_s [parts] CPU seconds of a member
-/// \pre least_draws valid members of the dearest level \throws Cancelled; SetupError for numbers
-/// beyond what is ever computed
+/// \pre least_draws valid members of the dearest level \throws Cancelled; SetupError for more
+/// than a million members
 std::optional<PlanRound> next_round(const LevelMembers&, std::span<const PlanRound> rounds,
                                     const TargetSpec&, std::span<const double> cost_s, CancelFlag);
 

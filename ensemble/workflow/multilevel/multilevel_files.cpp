@@ -144,7 +144,8 @@ MultilevelPageResult page_result(const MultilevelHeadline& h) {
   r.name = h.name;
   r.units = h.units;
   r.mean = h.scalar.mean.mean;
-  r.sampling = h.sampling;
+  const Interval bounds = h.scalar.mean.bounds_90();
+  r.below = r.mean - bounds.low, r.above = bounds.high - r.mean;
   r.resolution = h.resolution;
   r.model = h.model;
   for (const QuantileEstimate& q : h.quantiles)

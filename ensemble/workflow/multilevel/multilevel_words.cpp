@@ -14,12 +14,21 @@ namespace {
 
 std::string row_of(const std::string& name, const std::vector<std::string>& cells) {
   std::string text = fmt::format("  {:<20}", name);
-  for (const std::string& cell : cells) text += fmt::format("{:>16}", cell);
+  for (const std::string& cell : cells) text += fmt::format(" {:>15}", cell);
   return text;
 }
 
 std::string number_or(double v, const char* otherwise) {
   return std::isfinite(v) ? fmt::format("{:.3g}", v) : otherwise;
+}
+
+/// Bounds of a skewed mean lie farther on one side; half their width would put them elsewhere.
+std::string off_by(const MultilevelMean& m) {
+  const Interval bounds = m.bounds_90();
+  const double below = m.mean - bounds.low, above = bounds.high - m.mean;
+  if (!(std::abs(above - below) > 0.05 * (above + below)))
+    return "+- " + number_or((above + below) / 2, "?");
+  return fmt::format("-{:.3g} +{:.3g}", below, above);
 }
 
 std::string share_or_dash(double v) {
@@ -129,9 +138,9 @@ std::vector<std::string> result_lines(const MultilevelMade& made) {
   std::vector<std::string> lines{"Means, and by how much they may be off:"};
   lines.push_back(row_of("", {"mean", "sampling (90 %)", "resolution", "model"}));
   for (const MultilevelHeadline& h : made.headlines)
-    lines.push_back(row_of(
-        h.name, {fmt::format("{:.4g}", h.scalar.mean.mean), "+- " + number_or(h.sampling, "?"),
-                 "+- " + number_or(h.resolution, "?"), "+- " + number_or(h.model, "?")}));
+    lines.push_back(
+        row_of(h.name, {fmt::format("{:.4g}", h.scalar.mean.mean), off_by(h.scalar.mean),
+                        "+- " + number_or(h.resolution, "?"), "+- " + number_or(h.model, "?")}));
   std::vector<std::string> names;
   for (const MultilevelHeadline& h : made.headlines)
     if (names.size() < 3) names.push_back(h.name);

@@ -221,6 +221,27 @@ TEST(MultilevelQuantiles, HaveNoBoundWhereFewDrawsTellNone) {
   }
 }
 
+/// Plain sampling, where no cheaper level is worth its members: the scatter of indicators among so
+/// few draws would hold the outer quantiles in 56 (16 draws) and 78 (30) of 100 cases.
+TEST(MultilevelQuantiles, OfOneLevelHoldToo) {
+  const std::vector<double> levels{0.05, 0.5, 0.95};
+  const double spread = std::sqrt(1.04), truth[] = {-1.6449 * spread, 0, 1.6449 * spread};
+  constexpr int some = 400;
+  for (const std::size_t n : {16U, 30U}) {
+    double covered[3] = {};
+    for (int r = 0; r < some; ++r) {
+      const auto found = multilevel_quantiles(
+          family({0.2}, {n}, 600000 + 10 * static_cast<std::uint64_t>(r)), 1, levels);
+      for (int q = 0; q < 3; ++q) {
+        const Interval bounds = found[q].bounds_90;
+        EXPECT_TRUE(std::isfinite(found[q].value));
+        covered[q] += bounds.low <= truth[q] && truth[q] <= bounds.high ? 1.0 / some : 0;
+      }
+    }
+    for (int q = 0; q < 3; ++q) EXPECT_GE(covered[q], 0.85) << n << " draws, " << levels[q];
+  }
+}
+
 TEST(MultilevelQuantiles, OfDrawsThatAreAllTheSameAreThese) {
   std::vector<LevelDraw> same;
   for (std::int64_t k = 0; k < 20; ++k) same.push_back({k, k < 8 ? 0U : 1U, {3, 5, 0, 0}});
