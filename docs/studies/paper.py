@@ -18,6 +18,7 @@ SLOPE, FLOOR = math.radians(20), 3.0
 FOOT = FLOOR * math.cos(SLOPE)  # of the floor, on the map from the gate [m]
 HOPPER = 0.46875                # length of the release on the map, whole spacings of which fit [m]
 CROWN = (500000, 2900000)       # of the Shuicheng-like ground
+END = 1650                      # where it ends, from there [m]
 BED = {"basal.pore_pressure_ratio": 0, "basal.zones": []}  # the grains' own friction and no more
 WET = {"coupling.scheme": "physical"}
 PHYSICAL = {**WET, **BED}
@@ -217,8 +218,10 @@ def show_ratios(found):
         for key in ("front_98", "front_95"):
             cells = []
             for k in ("II", "III", "IV"):
-                ours, paper = runs[k][key] / runs["I"][key], SHUICHENG_PAPER[k][3] / 600
-                cells.append(f"{number(ours, 2)} of {paper:.2f}: {'within' if abs(ours / paper - 1) <= 0.25 else 'missed'}")
+                gone, paper = math.isinf(runs[k][key]), SHUICHENG_PAPER[k][3] / 600
+                ours = (END if gone else runs[k][key]) / runs["I"][key]
+                within = "within" if abs(ours / paper - 1) <= 0.25 else "missed"
+                cells.append(f"{'over ' if gone else ''}{ours:.2f} of {paper:.2f}: {'not known' if gone and ours < 1.25 * paper else within}")
             rows.append((f"{dx}, {key[-2:]} % of the grains", *cells))
     table(("spacing", "II / I", "III / I", "IV / I"), rows)
 

@@ -60,6 +60,8 @@ Allocation times(Allocation a, double factor) {
 
 /// Beyond it few draws tell nothing of how skewed the error is.
 constexpr double most_skewness = 0.6;
+/// Over the width of the bounds: at 1 the transform's root has its pole at one of them.
+constexpr double most_bend = 0.8;
 
 double student_width(double share, double degrees) {
   return OT::DistFunc::qStudent(std::clamp(degrees, 1.0, 1e6), 0.5 + share / 2);
@@ -72,9 +74,10 @@ Interval MultilevelMean::even_bounds_90() const {
 }
 
 Interval MultilevelMean::bounds_90() const {
-  const double a = std::clamp(skewness, -most_skewness, most_skewness);
+  const double width = student_width(0.9, degrees),
+               most = std::min(most_skewness, most_bend / width);
+  const double a = std::clamp(skewness, -most, most);
   if (!std::isfinite(standard_error) || std::abs(a) < 1e-3) return even_bounds_90();
-  const double width = student_width(0.9, degrees);
   const auto straight = [a](double t) { return 3 / a * (std::cbrt(1 + a * (t - a / 6)) - 1); };
   return {mean - standard_error * straight(width), mean - standard_error * straight(-width)};
 }

@@ -2,6 +2,7 @@
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
 
 #include "ensemble/fidelity/ladder.hpp"
+#include "ensemble/fidelity/multilevel/first_members.hpp"
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/hazard/map_units.hpp"
 #include "ensemble/workflow/multilevel/decision.hpp"
@@ -85,10 +86,13 @@ class Look {
   void add_errors() {
     std::vector<std::string> names;
     for (const MultilevelHeadline& h : made_.headlines) names.push_back(h.name);
+    std::vector<FirstMembers> counted;
+    for (std::size_t p = 0; p < all_.parts.size(); ++p)
+      counted.emplace_back(*all_.members[p], all_.counts[p]);
     const std::vector<std::size_t> own = same_formulation();
     if (own.size() > 1) {
       std::vector<Rung> rungs;
-      for (const std::size_t p : own) rungs.push_back({all_.parts[p].spacing_m, all_.members[p]});
+      for (const std::size_t p : own) rungs.push_back({all_.parts[p].spacing_m, &counted[p]});
       const LadderAccuracy ladder =
           ladder_accuracy(all_.parts.front().formulation, rungs, nullptr, 0,
                           {names, {}, job_.scene.scenario.ensemble.seed}, cancel_);
@@ -97,7 +101,7 @@ class Look {
     }
     for (std::size_t p = 0; p < all_.parts.size(); ++p) {
       if (!is_finest_of_another(p)) continue;
-      for (const Change& change : changes(*all_.members.front(), *all_.members[p], names)) {
+      for (const Change& change : changes(counted.front(), counted[p], names)) {
         double& model = headline(change.name).model;
         if (!(std::abs(change.mean) <= model)) model = std::abs(change.mean);
       }
