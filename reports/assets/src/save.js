@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is seen, as a picture and as numbers.
+import {isClear} from './data.js';
 import {element, saveAs} from './dom.js';
 import {t} from './texts.js';
 
@@ -164,7 +165,7 @@ const asWord = (text) => text.replaceAll('²', '2').replaceAll('³', '3').replac
 export function nameOf({layer, plane}, bound) {
   const level = layer.planes.length > 1 && plane.axis !== undefined
       ? `_${round(plane.axis)}${layer.axisUnit}` : '';
-  const end = bound === 'value' || !layer.legend.probability ? '' : `_${bound}`;
+  const end = bound === 'value' || !layer.legend.probability || layer.legend.diverging ? '' : `_${bound}`;
   return asWord(layer.name + level + end);
 }
 
@@ -176,7 +177,7 @@ export function cellsAsCsv(grid, extent, legend, values, name) {
   const rows = [`x_m,y_m,${columnOf(name, legend)}`];
   for (let i = 0; i < values.length; i++) {
     const v = values[i];
-    if (Number.isNaN(v) || (legend.clearZero && v <= 0)) continue;
+    if (isClear(legend, v)) continue;
     const x = grid.west + (i % grid.cols + 0.5) * grid.cell;
     const y = grid.north - (Math.floor(i / grid.cols) + 0.5) * grid.cell;
     if (x < extent[0] || x > extent[2] || y < extent[1] || y > extent[3]) continue;

@@ -162,11 +162,11 @@ PlainWords region_words(const RegionShown& region) {
           tr("plain.region_holds", region.members_planned)};
 }
 
-/// "+12 %" of a difference of probabilities.
+/// "+12" of a difference of probabilities, in percentage points.
 std::string change_text(double difference) {
-  const double percent = std::round(100 * difference);
-  return percent == 0 ? "0\u00A0%"
-                      : (percent > 0 ? "+" : "\u2212") + percent_text(std::abs(difference));
+  const double points = std::round(100 * difference);
+  const char* const sign = points > 0 ? "+" : points < 0 ? "\u2212" : "";
+  return fmt::format("{}{:.0f}", sign, std::abs(points));
 }
 
 PlainWords comparison_words(const ComparisonShown& c) {
