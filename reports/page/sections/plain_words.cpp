@@ -5,6 +5,8 @@
 #include "reports/page/text.hpp"
 #include "reports/texts/text_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
