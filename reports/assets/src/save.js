@@ -211,9 +211,11 @@ export function printWhatIsSeen(seen, isFirst) {
     figure.hidden = isFirst();
     document.documentElement.classList.toggle('print-seen', !isFirst());
     if (isFirst()) return;
-    const canvas = composePicture(seen());
-    figure.replaceChildren(element('figcaption', {}, seen().title),
-                           element('img', {src: canvas.toDataURL('image/png'), alt: seen().title}));
+    const what = seen();
+    const canvas = composePicture(what);
+    const caption = what.beside ? `${what.title} | ${what.beside.title}` : what.title;
+    figure.replaceChildren(element('figcaption', {}, caption),
+                           element('img', {src: canvas.toDataURL('image/png'), alt: caption}));
   });
 }
 
