@@ -81,6 +81,12 @@ std::string plane_title(const Layer& layer, std::size_t plane) {
                      meaning.quantity == Quantity::left || meaning.quantity == Quantity::eroded
                  ? what
                  : tr("title.peak", lower);
+    case Statistic::difference: {
+      Layer of;  // without the values
+      of.name = layer.name, of.meaning = layer.meaning, of.axis = layer.axis;
+      of.meaning.statistic = Statistic::probability;
+      return tr("title.difference", plane_title(of, plane));
+    }
     default:
       break;
   }

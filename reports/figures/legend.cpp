@@ -134,7 +134,10 @@ std::string legend_title(const Layer& layer, const DisplayUnit& unit) {
   if (layer.meaning.statistic == Statistic::difference) return tr("legend.difference");
   if (layer.meaning.statistic == Statistic::probability) {
     if (layer.meaning.quantity == Quantity::sources) return tr("legend.every_source");
-    return layer.name == likeliest_source_layer ? tr("legend.likeliest") : tr("legend.share");
+    if (layer.name == likeliest_source_layer) return tr("legend.likeliest");
+    // As ensemble/hazard/hazard_layers.cpp says it of members that do not count alike.
+    const bool weighted = layer.comment.starts_with("weight of the members");
+    return tr(weighted ? "legend.share_weighted" : "legend.share");
   }
   const bool named =
       layer.meaning.quantity != Quantity::other && layer.meaning.quantity != Quantity::sources;

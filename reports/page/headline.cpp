@@ -2,6 +2,7 @@
 #include "reports/page/headline.hpp"
 
 #include "ensemble/censoring/scalar_censoring.hpp"
+#include "ensemble/hazard/wilson.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,30 +22,32 @@ std::vector<std::pair<Outcome, int>> count_outcomes(const std::vector<MemberSumm
   return counts;
 }
 
-/// The same of weighted maps, which have no convergence; joined cells would be too many.
-Estimate weighted_area(const LayerStack& hazard) {
-  const Layer *reached = nullptr, *lower = nullptr, *upper = nullptr;
-  for (const Layer& layer : hazard.layers) {
-    if (layer.meaning.quantity != Quantity::reached) continue;
-    if (layer.meaning.statistic == Statistic::probability) reached = &layer;
-    if (layer.meaning.statistic == Statistic::lower_bound) lower = &layer;
-    if (layer.meaning.statistic == Statistic::upper_bound) upper = &layer;
+/// The same of weighted maps, which have no convergence; joined cells would be too many. A page's
+/// maps come without bounds, so these are made as those of the files are.
+Estimate weighted_area(const LayerStack& hazard, double effective_members) {
+  const auto reached =
+      std::find_if(hazard.layers.begin(), hazard.layers.end(), [](const Layer& layer) {
+        return layer.meaning.quantity == Quantity::reached &&
+               layer.meaning.statistic == Statistic::probability;
+      });
+  if (hazard.joined > 1 || reached == hazard.layers.end()) return {};
+  double likely = 0, surely = 0, possibly = 0;
+  for (const float p : reached->values) {
+    if (!(p > 0)) continue;
+    const ProbabilityBounds bounds =
+        wilson_interval_of_share(static_cast<double>(std::min(p, 1.0F)), effective_members);
+    likely += p >= 0.5F;
+    surely += bounds.lower >= 0.5;
+    possibly += bounds.upper >= 0.5;
   }
-  if (hazard.joined > 1 || reached == nullptr) return {};
-  const auto area = [&](const Layer* layer) {
-    if (layer == nullptr) return nan_d;
-    double cells = 0;
-    for (std::size_t i = 0; i < hazard.grid.n_cells(); ++i)
-      cells += reached->values[i] > 0 && layer->values[i] >= 0.5F;
-    return cells * hazard.grid.cell_m * hazard.grid.cell_m;
-  };
-  return {area(reached), area(lower), area(upper)};
+  const double cell = hazard.grid.cell_m * hazard.grid.cell_m;
+  return {likely * cell, surely * cell, possibly * cell};
 }
 
 /// Area of cells with P(reached) >= 0.5, and of those whose interval lies above or touches it. From
 /// the convergence, which knows every cell: those of the page's maps may be joined ones.
 Estimate likely_area(const ReportInput& input, int n_valid) {
-  if (!input.weights.empty()) return weighted_area(*input.hazard);
+  if (!input.weights.empty()) return weighted_area(*input.hazard, input.effective_members);
   if (input.convergence.empty() || input.convergence.back().n_members != n_valid) return {};
   const ConvergencePoint& all = input.convergence.back();
   return {all.area_likely_m2, all.area_likely_lower_m2, all.area_likely_upper_m2};

@@ -125,6 +125,7 @@ Json legend_json(const Legend& legend) {
           {"unitFactor", legend.unit.factor},
           {"probability", legend.probability},
           {"clearZero", legend.clear_zero},
+          {"diverging", legend.diverging},
           {"nominal", legend.nominal},
           {"classes", classes}};
 }
@@ -196,7 +197,10 @@ Json beside_json(const ReportInput& input, const MapScene& scene) {
   Json layers = Json::array();
   for (const Layer* layer : shown_layers(*c.b))
     layers.push_back(layer_json(scene, *c.b, *layer, input, static_cast<int>(c.valid_b)));
-  return {{"nameA", c.name_a}, {"nameB", c.name_b}, {"layers", std::move(layers)}};
+  return {{"nameA", c.name_a},
+          {"nameB", c.name_b},
+          {"valid", c.valid_b},
+          {"layers", std::move(layers)}};
 }
 
 /// Whether the runout grows with sampled key `k`, over the shown members.
@@ -349,8 +353,9 @@ Quantised quantise(const std::vector<float>& values, int n_members) {
     if (high < 255) q.nodata = 255;
   } else if (any) {
     q.square = low >= 0;
-    q.offset = q.square ? 0 : low;
-    q.factor = q.square ? high / (static_cast<double>(steps) * steps) : (high - low) / steps;
+    q.factor = q.square ? high / (static_cast<double>(steps) * steps) : (high - low) / (steps - 1);
+    // A whole number of steps: 0, which is no change in a map of differences, stays 0.
+    q.offset = q.square ? 0 : q.factor > 0 ? q.factor * std::floor(low / q.factor) : low;
     q.nodata = steps + 1;
   }
   for (const float v : values) {

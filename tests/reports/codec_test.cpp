@@ -98,7 +98,10 @@ TEST(ReportQuantise, TakesNegativeValuesConstantsAndNothing) {
   const Quantised negative = quantise({-3, 0, 5.5F}, 4);
   EXPECT_NEAR(value_of(negative, 0), -3, 0.01);
   EXPECT_NEAR(value_of(negative, 2), 5.5, 0.01);
+  for (const float high : {0.375F, 0.1F, 5.5F})  // no change stays no change
+    EXPECT_EQ(value_of(quantise({-1, 0, high}, 0), 1), 0);
   EXPECT_NEAR(value_of(quantise({2.5F, 2.5F}, 0), 1), 2.5, 1e-6);
+  EXPECT_NEAR(value_of(quantise({-2.5F, -2.5F}, 0), 1), -2.5, 1e-6);
   const Quantised nothing = quantise({nan_f, nan_f}, 7);
   EXPECT_TRUE(std::isnan(value_of(nothing, 0)));
 }

@@ -79,5 +79,21 @@ TEST(ReportHeadline, LikelyAreaIsTheCellsWithAtLeastOneHalf) {
   EXPECT_DOUBLE_EQ(h.likely_area_m2.value, area);
 }
 
+TEST(ReportHeadline, WeightedAreaHasAnIntervalOfItsEffectiveMembers) {
+  const auto results = testing::make_up_results();
+  ReportInput input = results.ensemble_input();
+  const Estimate alike = headline(input).likely_area_m2;
+  input.weights.assign(31, 1.0 / 31);
+  input.effective_members = 10;
+  const Estimate few = headline(input).likely_area_m2;
+  EXPECT_DOUBLE_EQ(few.value, alike.value);
+  EXPECT_LT(few.lower, few.value);
+  EXPECT_GT(few.upper, few.value);
+  input.effective_members = 1000;
+  const Estimate many = headline(input).likely_area_m2;
+  EXPECT_GE(many.lower, few.lower);
+  EXPECT_LE(many.upper, few.upper);
+}
+
 }  // namespace
 }  // namespace sturz

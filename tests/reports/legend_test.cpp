@@ -93,6 +93,10 @@ TEST(ReportLegend, OfDifferencesIsSymmetricAndPaintsWhatIsLess) {
   EXPECT_EQ(less.classes[0].label, "less by \u2265\u00A050\u00A0%");
   EXPECT_EQ(more.classes[8].label, "more by 25\u201350\u00A0%");
   EXPECT_EQ(less.title, "Difference of the shares of the valid simulations");
+  Layer weighted = layer(reached, probability, "1", {0.5F});
+  EXPECT_EQ(legend_for(weighted).title, "Share of the valid simulations");
+  weighted.comment = "weight of the members / weight of the valid members, weighted by posterior";
+  EXPECT_EQ(legend_for(weighted).title, "Weighted share of the valid simulations");
 }
 
 TEST(ReportLegend, IsNeverEmpty) {
@@ -109,6 +113,8 @@ TEST(ReportLegend, NamesPlanesInWords) {
   const Layer q = layer(thickness, quantile, "m", {}, {"quantile", "", "1", {0.05, 0.5}});
   EXPECT_EQ(plane_label(q, 0), "5\u00A0% quantile");
   EXPECT_EQ(plane_title(q, 1), "Flow thickness, median");
+  const Layer less = layer(thickness, difference, "1", {}, {"thickness_threshold", "", "m", {0.5}});
+  EXPECT_EQ(plane_title(less, 0), "Probability that flow thickness exceeds 0.5\u00A0m: B less A");
 }
 
 TEST(ReportLegend, ShowsOnlyLayersThatSaySomething) {

@@ -128,7 +128,8 @@ test('two ensembles lie beside each other from the start', {skip}, async () => {
   assert.ok(await page.locator('.swipe').isVisible());
   assert.equal(await page.getAttribute('.side-b', 'title'), 'out/with a <dam>');
   assert.ok(!await page.locator('.beside-legend').isVisible(), 'the same classes are told once');
-  assert.match(await page.textContent('.plain-words'), /From A \(out\/as it is\) to B .* 0 %: it is less on 25 ha/);
+  assert.match(await page.textContent('.beside'), /A: out\/as it is \| B: out\/with a <dam>/);
+  assert.match(await page.textContent('.plain-words'), /From A \(out\/as it is\) to B .* by −50 to 0 percentage points: it is less on 25 ha/);
   const chosen = () => page.evaluate(() => {
     const option = document.querySelector('#pick-beside').selectedOptions[0];
     return `${option.parentNode.label}: ${option.text}`;
@@ -151,7 +152,23 @@ test('two ensembles lie beside each other from the start', {skip}, async () => {
   assert.match(await chosen(), /^B: .*thickness/i, 'B follows what A shows');
   assert.ok(await page.locator('[data-key="difference"]').count() === 0);
   await page.click('[data-key="reached"]');
-  assert.ok(await page.locator('[data-key="difference"]').isVisible());
+  assert.equal(await page.textContent('.map-title'), 'A: Probability that the flow arrives');
+  // The same end of the interval on both sides.
+  await page.click('[data-key="lower"]');
+  await page.waitForTimeout(300);
+  assert.notEqual(await right(), ofB, 'lower ends of B');
+  await page.click('[data-key="value"]');
+  await page.waitForTimeout(300);
+  assert.equal(await right(), ofB);
+  // Differences below 0 are painted, and have no interval of a share.
+  await page.click('#tool-swipe');
+  await page.click('[data-key="difference"]');
+  await page.waitForTimeout(300);
+  assert.equal(await page.locator('[data-key="lower"]').count(), 0);
+  const less = await right();
+  await page.locator('#pick-opacity').fill('0');
+  await page.waitForTimeout(300);
+  assert.notEqual(await right(), less, 'less is seen');
   assert.deepEqual(trouble, []);
   await close();
 });

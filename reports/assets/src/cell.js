@@ -173,6 +173,7 @@ export function createCellPanel(box, page, planes, sources, closed) {
       closed();
     });
     box.replaceChildren(close, named('h4', '', `${t('cell.here')} `, named('small', '', place)));
+    if (page.beside) box.append(named('p', 'note', `A: ${page.beside.nameA}`));
     if (sources) {
       regionPanel(box, sources.at(at), planes, at);
       return;

@@ -16,6 +16,9 @@ const capital = (text) => text[0].toUpperCase() + text.slice(1);
 
 const nothingYet = new Float32Array(0);
 
+/** Whether values are shares with a Wilson interval; a difference of two shares has none. */
+const hasEnds = ({legend}) => legend.probability && !legend.diverging;
+
 /** All planes of a page as {layer, plane, values, ready}; values come one by one. */
 function loadPlanes(maps, beside) {
   const entries = [];
@@ -90,9 +93,10 @@ export async function startMaps(page) {
   const maps = page.maps;
   const {entries, load} = loadPlanes(maps, page.beside);
   const planes = entries.filter((p) => !p.ofB);
+  const reachedB = entries.find((p) => p.ofB && p.layer.quantity === 'reached');
   const first = planes.find((p) => p.layer === maps.layers[maps.start]);
   // What the first map needs comes first; the others follow while it is looked at.
-  const wanted = planes.filter(
+  const wanted = entries.filter(
       (p) => p === first || ['reached', 'left'].includes(p.layer.quantity));
   await Promise.all(wanted.map(load));
   const sources = await loadSources(page.region, maps.cells.cols);
@@ -121,11 +125,15 @@ export async function startMaps(page) {
     const value = at < 0 ? NaN : current.values[at];
     const legend = current.layer.legend;
     let text = at < 0 ? '–' : valueText(legend, seenValues[at]);
-    if (bound === 'value' && legend.probability && value >= 0 && page.trials > 0) {
+    if (bound === 'value' && hasEnds(current.layer) && value >= 0 && page.trials > 0) {
       const [low, high] = wilson(value, page.trials, page.z);
       text += ` (${percentText(low)} – ${percentText(high)})`;
     }
-    if (at < 0 || (reached && !(reached.values[at] > 0))) text = t('not_reached');
+    // Where A did not come B may have: their difference says so.
+    if (at < 0 || (!legend.diverging && reached && !(reached.values[at] > 0))) text = t('not_reached');
+    const there = at < 0 ? undefined : besideOf(current)?.values[at];
+    if (there !== undefined)
+      text = `A ${text} · B ${there > 0 ? valueText(legend, endOf(there, page.beside.valid)) : t('not_reached')}`;
     hover.append(element('b', {}, text), ` x ${Math.round(x)} y ${Math.round(y)}`);
     const z = groundHeight(coordinate);
     if (Number.isFinite(z)) hover.append(` · ${t('ground')} ${numberText(Math.round(z))} m`);
@@ -157,13 +165,23 @@ export async function startMaps(page) {
   });
   parts.panel.append(switchesOf(view, maps, heights));
 
+  /** What B has of a plane of A. */
+  const besideOf = ({layer, plane}) => entries.find(
+      (p) => p.ofB && p.layer.name === layer.name && p.plane.label === plane.label);
+
+  /** A share, or the chosen end of its interval. */
+  const endOf = (p, trials) => bound === 'value' || !hasEnds(current.layer) || !(trials > 0)
+      ? p : wilson(p, trials, page.z)[bound === 'lower' ? 0 : 1];
+
   /** A plane's probabilities, or one end of their interval where the flow came at all. Where it did
    *  not, the upper end is no 0: it is that of the files, and left out here. */
-  const boundOf = ({layer, values}, which) => {
-    if (which === 'value' || !layer.legend.probability || !(page.trials > 0)) return values;
+  const boundOf = ({layer, values, ofB}, which) => {
+    const trials = ofB ? page.beside.valid : page.trials;
+    if (which === 'value' || !hasEnds(layer) || !(trials > 0)) return values;
     const end = which === 'lower' ? 0 : 1;
+    const came = ofB ? reachedB : reached;
     return values.map(
-        (p, i) => p > 0 || !reached || reached.values[i] > 0 ? wilson(p, page.trials, page.z)[end]
+        (p, i) => p > 0 || !came || came.values[i] > 0 ? wilson(p, trials, page.z)[end]
             : which === 'upper' ? NaN : p);
   };
 
@@ -219,7 +237,7 @@ export async function startMaps(page) {
                         flag: p.plane.resolved === false ? t('not_resolved') : '',
                       })),
           `level-${choices.indexOf(current)}`, (key) => show(choices[Number(key.slice(6))])));
-    if (current.layer.legend.probability && page.trials > 0)
+    if (hasEnds(current.layer) && page.trials > 0)
       rows.push(pickRow(t('end_of_interval'), ['value', 'lower', 'upper'], (key) => t(`end.${key}`),
                         bound, (key) => {
                           bound = key;
@@ -229,9 +247,10 @@ export async function startMaps(page) {
     if (focused) pickers.querySelector(`[data-key="${focused}"]`)?.focus();
   };
 
+  const fileName = () => (page.beside && !current.layer.legend.diverging ? 'A_' : '') + nameOf(current, bound);
   /** What a saved or printed picture holds. */
   const seen = () => ({
-    view, name: nameOf(current, bound),
+    view, name: fileName(),
     marks: [...marks, ...view.overlays.named.filter(({layer}) => layer.getVisible())
         .map(({name, look}) => ({kind: 'overlay', label: name, colour: look.colour, dash: look.dash}))],
     title: title.textContent, legend: current.layer.legend, values: seenValues,
@@ -240,9 +259,13 @@ export async function startMaps(page) {
   const profile = profileTool(
       view, maps.cells,
       () => ({layer: current.layer, values: seenValues, title: title.textContent,
-              name: nameOf(current, bound)}),
+              name: fileName()}),
       groundHeight);
-  const swipe = swipeTool(parts.stage, view, entries, load, page.beside);
+  /** What is seen of a plane to the right: of B the same end as of A, of the page's own the value. */
+  const endSeen = (p) => p.ofB && bound !== 'value' && hasEnds(p.layer)
+      ? {values: boundOf(p, bound), title: t('title_of_end', p.plane.title, t(`end_in_title.${bound}`))}
+      : {values: p.values, title: p.plane.title};
+  const swipe = swipeTool(parts.stage, view, entries, load, page.beside, besideOf, endSeen);
   parts.panel.append(swipe.panel);
   parts.tools.append(profile.button);
   if (planes.length > 1) parts.tools.append(swipe.button);
@@ -260,8 +283,9 @@ export async function startMaps(page) {
     current = next;
     const {layer, plane} = current;
     seenValues = boundOf(current, bound);
-    title.textContent = bound === 'value' || !layer.legend.probability
-        ? plane.title : t('title_of_end', plane.title, t(`end_in_title.${bound}`));
+    const own = page.beside && !layer.legend.diverging ? `A: ${plane.title}` : plane.title;
+    title.textContent = bound === 'value' || !hasEnds(layer)
+        ? own : t('title_of_end', own, t(`end_in_title.${bound}`));
     comment.textContent = layer.comment ? `${capital(layer.comment)}.` : '';
     drawLegend(legendBox, layer.legend, marks);
     view.show(layer.legend, seenValues);
@@ -274,7 +298,7 @@ export async function startMaps(page) {
   await show(first);
   if (page.beside) swipe.button.click();
   setTimeout(() => Promise.all(planes.map(load)).then(() => cellPanel.redraw()), 60);
-  // A still figure has no overlays: where there are some, what is seen is printed.
+  // A still figure has no overlays and is of A alone: where there is more, what is seen is printed.
   printWhatIsSeen(seen, () => current === first && bound === 'value' && view.overlays.named.length === 0 &&
-                              !view.overlays.photo?.getVisible(), extentOf(maps.view));
+                              swipe.beside() === null && !view.overlays.photo?.getVisible(), extentOf(maps.view));
 }

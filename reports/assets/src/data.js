@@ -41,9 +41,13 @@ export function extentOf(grid) {
   ];
 }
 
+/** Whether a cell stays clear: no value, or nothing came (of a difference: nothing changed). */
+export const isClear = (legend, stored) => Number.isNaN(stored) ||
+    (legend.clearZero && (legend.diverging ? stored === 0 : stored <= 0));
+
 /** Index of the legend class of a stored value, -1 where the cell stays clear. */
 export function classOf(legend, stored) {
-  if (Number.isNaN(stored) || (legend.clearZero && stored <= 0)) return -1;
+  if (isClear(legend, stored)) return -1;
   const shown = stored * legend.unitFactor;
   if (legend.nominal) return Math.round(shown - legend.classes[0].lower);
   let found = 0;
@@ -96,6 +100,9 @@ export function percentText(p) {
 /** A stored value of a layer as a reader wants it. */
 export function valueText(legend, stored) {
   if (Number.isNaN(stored)) return '–';
+  // A difference says which way it goes.
+  if (legend.diverging && stored !== 0 && Number.isFinite(stored))
+    return `${stored > 0 ? '+' : '−'}${percentText(Math.abs(stored))}`;
   if (legend.probability) return percentText(stored);
   if (legend.nominal) return legend.classes[classOf(legend, stored)]?.label ?? '–';
   return `${numberText(stored * legend.unitFactor)} ${legend.unit}`.trim().replace(' ', '\u00a0');

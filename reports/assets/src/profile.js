@@ -3,7 +3,7 @@
 import uPlot from 'uplot';
 
 import {colours, onColourChange} from './colours.js';
-import {cellIndex, numberText, valueText} from './data.js';
+import {cellIndex, isClear, numberText, valueText} from './data.js';
 import {element, saveAs, toggle} from './dom.js';
 import {columnOf} from './save.js';
 import {t} from './texts.js';
@@ -44,7 +44,7 @@ function plotOf(box, rows, legend, view) {
   const axis = {stroke: c.muted, grid: {stroke: c.line, width: 1}, ticks: {show: false}, font,
                 labelFont: font, values: (_, ticks) => ticks.map((v) => v === null ? null : numberText(v))};
   const factor = legend.probability ? 100 : legend.unitFactor;
-  const shown = (v) => Number.isNaN(v) || (legend.clearZero && v <= 0) ? null : v * factor;
+  const shown = (v) => isClear(legend, v) ? null : v * factor;
   const lowest = Math.min(...rows.map((r) => r.z).filter(Number.isFinite));
   const read = box.parentNode.querySelector('.profile-read');
   return new uPlot({

@@ -2,6 +2,7 @@
 // What is seen, as a picture and as numbers.
 import {getIntersection, isEmpty} from 'ol/extent.js';
 
+import {isClear} from './data.js';
 import {element, saveAs} from './dom.js';
 import {t} from './texts.js';
 
@@ -166,7 +167,7 @@ const asWord = (text) => text.replaceAll('²', '2').replaceAll('³', '3').replac
 export function nameOf({layer, plane}, bound) {
   const level = layer.planes.length > 1 && plane.axis !== undefined
       ? `_${round(plane.axis)}${layer.axisUnit}` : '';
-  const end = bound === 'value' || !layer.legend.probability ? '' : `_${bound}`;
+  const end = bound === 'value' || !layer.legend.probability || layer.legend.diverging ? '' : `_${bound}`;
   return asWord(layer.name + level + end);
 }
 
@@ -178,7 +179,7 @@ export function cellsAsCsv(grid, extent, legend, values, name) {
   const rows = [`x_m,y_m,${columnOf(name, legend)}`];
   for (let i = 0; i < values.length; i++) {
     const v = values[i];
-    if (Number.isNaN(v) || (legend.clearZero && v <= 0)) continue;
+    if (isClear(legend, v)) continue;
     const x = grid.west + (i % grid.cols + 0.5) * grid.cell;
     const y = grid.north - (Math.floor(i / grid.cols) + 0.5) * grid.cell;
     if (x < extent[0] || x > extent[2] || y < extent[1] || y > extent[3]) continue;
@@ -230,9 +231,11 @@ export function printWhatIsSeen(seen, isFirst, ground) {
     figure.hidden = isFirst();
     document.documentElement.classList.toggle('print-seen', !isFirst());
     if (isFirst()) return;
-    const canvas = composeSheet(seen(), ground);
-    figure.replaceChildren(element('figcaption', {}, seen().title),
-                           element('img', {src: canvas.toDataURL('image/png'), alt: seen().title}));
+    const what = seen();
+    const canvas = composeSheet(what, ground);
+    const caption = what.beside ? `${what.title} | ${what.beside.title}` : what.title;
+    figure.replaceChildren(element('figcaption', {}, caption),
+                           element('img', {src: canvas.toDataURL('image/png'), alt: caption}));
   });
 }
 

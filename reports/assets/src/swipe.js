@@ -21,10 +21,12 @@ function choicesOf(planes, names) {
  * @param {object} view of createMap
  * @param {Array} planes all {layer, plane, values}; `load` brings the values of one
  * @param {object} names {nameA, nameB} of two ensembles, or nothing
+ * @param {Function} besideOf what B has of a plane of A
+ * @param {Function} endSeen {values, title} of a plane as it is to be seen
  * @returns {{button, panel, beside, follow}} beside() is what is seen to the right, null while the
  *   tool is off; follow(plane) is told what is seen to the left, and goes to what B has of it
  */
-export function swipeTool(stage, view, planes, load, names) {
+export function swipeTool(stage, view, planes, load, names, besideOf, endSeen) {
   const handle = element('div', {
     class: 'swipe', role: 'slider', tabindex: '0', 'aria-label': t('swipe_handle'),
     'aria-valuemin': '0', 'aria-valuemax': '100',
@@ -52,7 +54,7 @@ export function swipeTool(stage, view, planes, load, names) {
     await load(chosen);
     if (chosen !== planes[Number(pick.value)]) return;  // another one was chosen meanwhile
     const {layer} = chosen;
-    view.showBeside(layer.legend, chosen.values);
+    view.showBeside(layer.legend, endSeen(chosen).values);
     // The same classes need not be told twice.
     legend.hidden = JSON.stringify(main) === JSON.stringify(layer.legend);
     legend.replaceChildren(element('p', {class: 'legend-title'}, layer.legend.title),
@@ -86,12 +88,13 @@ export function swipeTool(stage, view, planes, load, names) {
   });
   const beside = () => {
     if (handle.hidden) return null;
-    const {layer, plane, ofB} = planes[Number(pick.value)];
-    return {title: ofB ? `B: ${plane.title}` : plane.title, legend: layer.legend};
+    const chosen = planes[Number(pick.value)];
+    const {title} = endSeen(chosen);
+    return {title: names ? `${chosen.ofB ? 'B' : 'A'}: ${title}` : title, legend: chosen.layer.legend};
   };
-  const follow = ({layer, plane}) => {
-    main = layer.legend;
-    const own = planes.findIndex((p) => p.ofB && p.layer.name === layer.name && p.plane.label === plane.label);
+  const follow = (current) => {
+    main = current.layer.legend;
+    const own = planes.indexOf(besideOf(current));
     if (own >= 0) pick.value = String(own);
     if (!handle.hidden) show();
   };

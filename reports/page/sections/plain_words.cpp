@@ -5,6 +5,8 @@
 #include "reports/page/text.hpp"
 #include "reports/texts/text_table.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -162,11 +164,11 @@ PlainWords region_words(const RegionShown& region) {
           tr("plain.region_holds", region.members_planned)};
 }
 
-/// "+12 %" of a difference of probabilities.
+/// "+12" of a difference of probabilities, in percentage points.
 std::string change_text(double difference) {
-  const double percent = std::round(100 * difference);
-  std::string text(percent > 0 ? "+" : percent < 0 ? "\u2212" : "");
-  return text.append(percent_text(percent == 0 ? 0 : std::abs(difference)));
+  const double points = std::round(100 * difference);
+  const char* const sign = points > 0 ? "+" : points < 0 ? "\u2212" : "";
+  return fmt::format("{}{:.0f}", sign, std::abs(points));
 }
 
 PlainWords comparison_words(const ComparisonShown& c) {
