@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -67,6 +68,22 @@ void add_differences(LayerStack& a, const LayerSource& differences, CancelFlag c
       a.layers.push_back(std::move(layer));
 }
 
+/// What restricts the maps of either, said once where it is said of both.
+std::vector<std::string> warnings_of(const std::array<OpenedEnsemble, 2>& both) {
+  const auto of = [&](std::size_t k) {
+    return still_true(both[k].finished.manifest.warnings, both[k].members->members());
+  };
+  const std::vector<std::string> a = of(0), b = of(1);
+  const auto has = [](const std::vector<std::string>& list, const std::string& w) {
+    return std::find(list.begin(), list.end(), w) != list.end();
+  };
+  std::vector<std::string> all;
+  for (const std::string& w : a) all.push_back(has(b, w) ? w : fmt::format("A: {}", w));
+  for (const std::string& w : b)
+    if (!has(a, w)) all.push_back(fmt::format("B: {}", w));
+  return all;
+}
+
 bool has_maps(const OpenedEnsemble& ensemble) {
   std::error_code ignored;
   return !ensemble.finished.manifest.hazard_hash.empty() &&
@@ -107,6 +124,7 @@ bool write_comparison_page(const std::filesystem::path& out,
   input.overlays = first.inputs->overlays;
   input.observed = first.inputs->observed;
   input.observed_note = first.scenario.hazard.observed_note;
+  input.warnings = warnings_of(both);
   input.cancel = cancel;
   input.manifest = {{"program", fmt::format("sturz {} ({})", version, git_commit)},
                     {"ensemble A", both[0].name()},

@@ -91,17 +91,6 @@ void require_own_maps(const std::filesystem::path& file, const Manifest& manifes
                                              : "Make them again with `sturz merge`."));
 }
 
-/// What was said of the edge before is answered where every member kept all its mass.
-std::vector<std::string> still_true(std::vector<std::string> warnings,
-                                    std::span<const MemberSummary> members) {
-  const bool left = std::any_of(members.begin(), members.end(), [](const MemberSummary& m) {
-    return !is_valid(m.outcome) || has_left(m.censoring);
-  });
-  if (!left && !members.empty())
-    std::erase_if(warnings, [](const std::string& w) { return w.starts_with(edge_warning); });
-  return warnings;
-}
-
 /// A page of some members over the maps of others would mislead.
 void require_maps_of(const OutputFolder& folder, const Manifest& manifest, const MemberStore& store,
                      const DesignTable& design) {
@@ -146,6 +135,16 @@ FinishedFolder open_with_page(const std::filesystem::path& folder, Observer& obs
 }
 
 }  // namespace
+
+std::vector<std::string> still_true(std::vector<std::string> warnings,
+                                    std::span<const MemberSummary> members) {
+  const bool left = std::any_of(members.begin(), members.end(), [](const MemberSummary& m) {
+    return !is_valid(m.outcome) || has_left(m.censoring);
+  });
+  if (!left && !members.empty())
+    std::erase_if(warnings, [](const std::string& w) { return w.starts_with(edge_warning); });
+  return warnings;
+}
 
 void require_language(const std::string& language, const std::string& asked) {
   const std::vector<std::string> known = page_languages();

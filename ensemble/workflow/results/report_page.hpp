@@ -64,6 +64,11 @@ struct PageContent {
   const MemberResult* run = nullptr;      ///< of a single run: its history and where its time went
 };
 
+/// `warnings` of a scene without those that its members have answered: what was said of the edge,
+/// where every member kept all its mass.
+std::vector<std::string> still_true(std::vector<std::string> warnings,
+                                    std::span<const MemberSummary> members);
+
 /// Writes report.html. \throws IoError; Cancelled
 void write_page(const OutputFolder&, const Manifest&, const Scenario&, const PageContent&);
 
