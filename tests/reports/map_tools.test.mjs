@@ -127,7 +127,7 @@ test('two ensembles lie beside each other from the start', {skip}, async () => {
   await liveMap(page);
   assert.ok(await page.locator('.swipe').isVisible());
   assert.match(await page.textContent('.beside'), /A: out\/as it is \| B: out\/with a <dam>/);
-  assert.match(await page.textContent('.plain-words'), /From A \(out\/as it is\) to B .* by −50 to 0 percentage points: it is less on 25 ha/);
+  assert.match(await page.textContent('.plain-words'), /From A \(out\/as it is\) to B .* by −50 to 0 percentage points: it is less on 25\sha/);
   const chosen = () => page.evaluate(() => {
     const option = document.querySelector('#pick-beside').selectedOptions[0];
     return `${option.parentNode.label}: ${option.text}`;
