@@ -128,7 +128,7 @@ test('two ensembles lie beside each other from the start', {skip}, async () => {
   assert.ok(await page.locator('.swipe').isVisible());
   assert.equal(await page.getAttribute('.side-b', 'title'), 'out/with a <dam>');
   assert.ok(!await page.locator('.beside-legend').isVisible(), 'the same classes are told once');
-  assert.match(await page.textContent('.plain-words'), /From A \(out\/as it is\) to B .* by −50 to 0 percentage points: it is less on 25 ha/);
+  assert.match(await page.textContent('.plain-words'), /From A \(out\/as it is\) to B .* by −50 to 0 percentage points: it is less on 25\sha/);
   const chosen = () => page.evaluate(() => {
     const option = document.querySelector('#pick-beside').selectedOptions[0];
     return `${option.parentNode.label}: ${option.text}`;
