@@ -86,7 +86,8 @@ std::string results_html(const MultilevelPage& page) {
     quantiles.row(result_words(r.name), cells);
   }
   return html + "<h3>Quantiles, with 90 % bounds</h3>" + quantiles.html() +
-         "<p class=\"note\">Where results are skewed, the upper bound of a high quantile holds in 60 to 85 % "
+         "<p class=\"note\">Where results are skewed, the upper bound of a high quantile holds in "
+         "60 to 85 % "
          "rather than 90 %: few members of the dearest level lie out there, and it trusts that "
          "cheaper levels order the extremes alike.</p></section>\n";
 }
