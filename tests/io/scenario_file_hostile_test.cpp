@@ -95,6 +95,7 @@ TEST(HostileScenario, LargeLegalFilesTakeNoTime) {
 }
 
 TEST(HostileScenario, BytesThatAreNoTextAreNamed) {
+  EXPECT_THAT(message(std::string("II*\0\x08\0\0\0", 8)), HasSubstr("`sturz init RASTER RELEASE"));
   EXPECT_THAT(message(std::string("title: a\0b", 10)), HasSubstr("s.yaml:1:9: a byte that is not"));
   EXPECT_THAT(message("title: x\nb: \xff\n"), HasSubstr("s.yaml:2:4: a byte that is not UTF-8"));
   EXPECT_THAT(message("title: \xc0\xaf"), HasSubstr("byte 0xc0"));

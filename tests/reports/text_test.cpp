@@ -27,7 +27,7 @@ TEST(ReportText, RoundsToSignificantDigits) {
   EXPECT_EQ(shown_number(0), "0");
   EXPECT_EQ(shown_number(0.0999999), "0.1");
   EXPECT_EQ(shown_number(std::numeric_limits<double>::quiet_NaN()), "\u2013");
-  EXPECT_EQ(shown_number(1e-9), "1.00e-09");
+  EXPECT_EQ(shown_number(1e-9), "1.00\u00A0\u00D7\u00A010\u207B\u2079");
 }
 
 TEST(ReportText, NeverRoundsAChanceToNothingOrCertainty) {
