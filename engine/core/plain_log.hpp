@@ -15,6 +15,7 @@ inline double plain_log(double x) {
   constexpr std::uint64_t one = std::uint64_t{1023} << 52, half = 0x3fe6a09e667f3bcd;
   const auto bits = std::bit_cast<std::uint64_t>(x);
   const std::uint64_t raised = (bits - half + one) >> 52;  // n + 1023
+  // NOLINTNEXTLINE(modernize-use-auto): the type is what is said here
   const double m = std::bit_cast<double>(bits - (raised << 52) + one);
   // As a number by way of the last bits of 2^52, for lanes know no other.
   constexpr std::uint64_t shift = 0x4330000000000000;

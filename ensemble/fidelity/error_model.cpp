@@ -281,7 +281,10 @@ std::vector<double> expected_distances(std::span<const double> spacings_m,
     for (std::size_t j = 0; j < i; ++j) squares += distances[i][j] * distances[i][j];
   const double scale = std::sqrt(2 * squares / static_cast<double>(n * (n - 1)));
   if (n < 2 || !std::isfinite(scale)) return found;
-  if (!(scale > 0)) return std::vector<double>(questions.size(), noise);
+  if (!(scale > 0)) {
+    std::fill(found.begin(), found.end(), noise);
+    return found;
+  }
   const double floor2 = noise * noise;
   const auto size_of = [&](const Target& t, double bias, double scatter) {
     return std::sqrt(std::pow(scale * bias * t.lift, 2) +

@@ -8,6 +8,7 @@
 #include "engine/terrain/raster.hpp"
 #include "scenarios/layers/layer_meaning.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +69,7 @@ inline Layer plain_layer(std::string name, LayerMeaning meaning, std::string lon
 inline Layer bound_layer(std::string name, LayerMeaning bound, const std::string& meaning,
                          double confidence, std::string comment) {
   const bool lower = bound.statistic == Statistic::lower_bound;
-  const std::string level = std::to_string(static_cast<int>(100 * confidence + 0.5));
+  const std::string level = std::to_string(std::lround(100 * confidence));
   Layer layer = plain_layer(
       std::move(name), bound,
       meaning + (lower ? ", lower end of the " : ", upper end of the ") + level + " % interval",

@@ -36,7 +36,6 @@ class CellSums {
  public:
   CellSums(const MapLevels& levels, const DrawDistances& distances, CancelFlag cancel)
       : levels_(levels),
-        distances_(distances),
         n_cells_(distances.cells().size()),
         sums_(n_cells_, IncrementMoments(levels.levels.size())),
         noise_(n_cells_, 0),
@@ -108,7 +107,6 @@ class CellSums {
   }
 
   const MapLevels& levels_;
-  const DrawDistances& distances_;
   std::size_t n_cells_;
   std::vector<FoldedModels> models_;
   std::vector<IncrementMoments> sums_;
