@@ -6,17 +6,26 @@ a program is built from is known by ninja alone, sources and headers; all of it 
 (`ninja -n` cannot tell: it takes each program for old, because CMake looks for new sources before every build.)
 """
 import hashlib
+import json
 import os
 import pathlib
 import subprocess
 
 
 def programs_of(build, commands):
-    """Paths below the build folder that the commands run or hand on, and every test that ctest would run."""
+    """Paths below the build folder that the commands run or hand on, and the programs of the tests that ctest would run."""
     found = {word for command in commands for word in command if word.startswith(f"{build}/") and pathlib.Path(word).suffix in ("", ".so")}
-    if any(command[:1] == ["ctest"] for command in commands):
-        found |= {str(path) for path in pathlib.Path(build).glob("tests/**/*_test") if path.is_file()}
+    for command in commands:
+        if command[:1] == ["ctest"]:
+            found |= tests_of(build, command)
     return sorted(found)
+
+
+def tests_of(build, command):
+    """Programs of the build folder that a ctest command would run. Others wait for programs that they only start, and are not built anew with them."""
+    told = subprocess.run([*command, "--show-only=json-v1"], capture_output=True, text=True, check=True).stdout
+    tests = json.loads(told[told.index("{"):])["tests"]
+    return {test["command"][0] for test in tests if "command" in test and test["command"][0].startswith(f"{build}/")}
 
 
 def ninja(build, *arguments):
