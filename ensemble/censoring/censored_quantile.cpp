@@ -127,6 +127,22 @@ double weighted_kaplan_meier(std::vector<WeighedObservation> known, double fract
   return flat ? since : nan_d;
 }
 
+/// What the quantiles with all that is not known at its least and at its most leave to say.
+/// \param estimate  of the quantile between them
+template <class Estimate>
+void conclude(CensoredEstimate& e, double smallest, double largest, Estimate&& estimate) {
+  if (!std::isfinite(smallest)) return;
+  e.at_least = !std::isfinite(largest);
+  if (e.at_least) {
+    e.value = smallest;
+  } else if (e.n_not_at_all == 0 || smallest == largest) {
+    e.value = estimate();
+  } else {
+    e.least = smallest;
+    e.most = largest;
+  }
+}
+
 }  // namespace
 
 CensoredEstimate censored_quantile(std::span<const Observation> sample, double fraction,
@@ -153,16 +169,7 @@ CensoredEstimate censored_quantile(std::span<const Observation> sample, double f
   if (ranks.lower >= 1) e.lower = least[ranks.lower - 1];
   if (ranks.upper <= e.n) e.upper = most[ranks.upper - 1];
   const double smallest = quantile_of(least, fraction), largest = quantile_of(most, fraction);
-  if (!std::isfinite(smallest)) return e;
-  e.at_least = !std::isfinite(largest);
-  if (e.at_least) {
-    e.value = smallest;
-  } else if (e.n_not_at_all == 0 || smallest == largest) {
-    e.value = kaplan_meier(std::move(known), fraction);
-  } else {
-    e.least = smallest;
-    e.most = largest;
-  }
+  conclude(e, smallest, largest, [&] { return kaplan_meier(std::move(known), fraction); });
   return e;
 }
 
@@ -202,16 +209,7 @@ CensoredEstimate weighted_censored_quantile(std::span<const Observation> sample,
   if (ranks.lower >= 1) e.lower = least.quantile(place(ranks.lower));
   if (ranks.upper <= worth) e.upper = most.quantile(place(ranks.upper));
   const double smallest = least.quantile(fraction), largest = most.quantile(fraction);
-  if (!std::isfinite(smallest)) return e;
-  e.at_least = !std::isfinite(largest);
-  if (e.at_least) {
-    e.value = smallest;
-  } else if (e.n_not_at_all == 0 || smallest == largest) {
-    e.value = weighted_kaplan_meier(std::move(known), fraction);
-  } else {
-    e.least = smallest;
-    e.most = largest;
-  }
+  conclude(e, smallest, largest, [&] { return weighted_kaplan_meier(std::move(known), fraction); });
   return e;
 }
 

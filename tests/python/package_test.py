@@ -103,7 +103,7 @@ class Scenes(InFolder):
             sturz.copy_case("zangjiawan", "other")
 
 
-STUB = """#!{python}
+STAND_IN = """#!{python}
 import signal, sys
 told = []
 signal.signal(signal.SIGINT, lambda *_: told.append(1))
@@ -118,15 +118,15 @@ class Stopped(InFolder):
     """A program that has much to say when it is told to stop puts its things away all the same."""
 
     def test_a_full_pipe_does_not_get_it_killed(self):
-        stub = pathlib.Path("stub")
-        stub.write_text(STUB.format(python=sys.executable))
-        stub.chmod(0o755)
+        stand_in = pathlib.Path("stand_in")
+        stand_in.write_text(STAND_IN.format(python=sys.executable))
+        stand_in.chmod(0o755)
 
         def enough(_):
             time.sleep(0.5)  # the pipe is full now
             raise ZeroDivisionError
 
-        with mock.patch.dict(os.environ, STURZ=str(stub.resolve())):
+        with mock.patch.dict(os.environ, STURZ=str(stand_in.resolve())):
             begin = time.monotonic()
             with self.assertRaises(ZeroDivisionError):
                 call(["ensemble"], enough)
@@ -134,15 +134,15 @@ class Stopped(InFolder):
         self.assertLess(time.monotonic() - begin, 8)
 
     def test_a_server_that_nobody_stopped_ends_with_the_script(self):
-        stub = pathlib.Path("stub")
-        stub.write_text(f"#!{sys.executable}\nimport pathlib, signal\n"
+        stand_in = pathlib.Path("stand_in")
+        stand_in.write_text(f"#!{sys.executable}\nimport pathlib, signal\n"
                         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
                         "try:\n    print('{\"event\": \"serving\", \"url\": \"\", \"inputs\": [], \"outputs\": []}', flush=True)\n"
                         "    signal.pause()\n"
                         "except KeyboardInterrupt:\n    pathlib.Path('ended').touch()\n")
-        stub.chmod(0o755)
+        stand_in.chmod(0o755)
         subprocess.run([sys.executable, "-c", "import sturz\nserver = sturz.serve({})"], check=True, timeout=30,
-                       env={**os.environ, "STURZ": str(stub.resolve())})
+                       env={**os.environ, "STURZ": str(stand_in.resolve())})
         self.assertTrue(pathlib.Path("ended").exists())
 
     def test_names_that_begin_with_a_dash_are_no_options(self):
