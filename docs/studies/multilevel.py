@@ -85,20 +85,29 @@ def row(head, rows):
     return seconds, found
 
 
+def decided(rows):
+    """Mean rounds, - where the numbers were fixed, and in how many repeats members ran out."""
+    capped = sum(bool(r["capped"]) for r in rows)
+    rounds = mean(r["rounds"] for r in rows)
+    return f"{rounds:.1f}" if rounds > 0 else "-", f"{capped} of {len(rows)}" if capped else "0"
+
+
 def show(out, picture):
     head, found = read(out)
     print(f"Members that settled: {head['members']}, left out: {head['left_out']}, CPU s a member: {[round(c, 4) for c in head['cpu_s']]}.\n")
-    print("| levels, members of full stress 6 m | repeats (with maps) | members (mean) | CPU s | result | error | told by its bounds | plain, same seconds | 1/gain measured | told | 90 % bounds cover |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    print("| levels, members of full stress 6 m | repeats (with maps) | rounds (mean) | capped | members (mean) | CPU s | result | error | told by its bounds | plain, same seconds | 1/gain measured | told | 90 % bounds cover |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|---|")
     for label, rows in found.items():
         seconds, values = row(head, rows)
+        rounds, capped = decided(rows)
         counts = ", ".join(f"{mean(r['counts'][p] for r in rows):.0f}" for p in range(len(head["members"])))
         for name, (square, doubt, plain, covered, told, own) in values.items():
             low, high = square - doubt, square + doubt
             error = f"{math.sqrt(square):.3g}" if square > 0 else f"under {math.sqrt(high):.2g}"
             gain = (f"1/{plain / square:.1f} (1/{plain / high:.1f} to " + (f"1/{plain / low:.0f})" if low > 0 else "more)")) if square > 0 else f"over 1/{plain / high:.0f}"
-            print(f"| {label} | {len(rows)} ({sum(r['map'] is not None for r in rows)}) | {counts} | {seconds:.0f} | {name} | {error} | {math.sqrt(told):.3g} | "
+            print(f"| {label} | {len(rows)} ({sum(r['map'] is not None for r in rows)}) | {rounds} | {capped} | {counts} | {seconds:.0f} | {name} | {error} | {math.sqrt(told):.3g} | "
                   f"{math.sqrt(plain):.3g} | {gain} | 1/{plain / told:.1f} | {100 * covered:.0f} % |")
+    print("\nCapped: repeats that asked for more members than are stored, got those that are, and decided no further.")
     print("\nWhat a cheaper level alone is off by, however many members it has:")
     for c in head["cheap"]:
         print(list(LEVELS)[c["level"]], {k: round(v, 3) for k, v in c.items() if k != "level"})
