@@ -86,10 +86,9 @@ std::string results_html(const MultilevelPage& page) {
     quantiles.row(result_words(r.name), cells);
   }
   return html + "<h3>Quantiles, with 90 % bounds</h3>" + quantiles.html() +
-         "<p class=\"note\">Where results are skewed, the upper bound of a high quantile holds in "
-         "60 to 85 % "
-         "rather than 90 %: few members of the dearest level lie out there, and it trusts that "
-         "cheaper levels order the extremes alike.</p></section>\n";
+         "<p class=\"note\">A bound is left open (above, below) where so few members of the "
+         "dearest level are expected beyond the quantile that none might be: how many tell it is "
+         "said at the top.</p></section>\n";
 }
 
 std::string levels_html(const MultilevelPage& page) {
@@ -118,6 +117,13 @@ const Layer* layer_of(const LayerStack& maps, Statistic statistic) {
   return nullptr;
 }
 
+/// Elsewhere no colour is 0: here it is not.
+std::string untold_html(const std::string& note) {
+  if (note.empty()) return {};
+  return "<p class=\"note\"><strong>No colour: not told, which is not 0.</strong> " +
+         html_escape(note) + "</p>";
+}
+
 std::string maps_html(const MultilevelPage& page) {
   if (page.maps == nullptr || page.maps->grid.n_cells() == 0) return {};
   const MapScene scene = make_map_scene(*page.maps, page.elevation);
@@ -128,7 +134,9 @@ std::string maps_html(const MultilevelPage& page) {
     if (layer == nullptr) continue;
     html += fmt::format(
         "<figure><figcaption>{}</figcaption>{}{}</figure>", html_escape(plane_title(*layer, 0)),
-        map_figure_svg(scene, *page.maps, *layer, 0, MapMarks{}), legend_html(legend_for(*layer)));
+        map_figure_svg(scene, *page.maps, *layer, 0, MapMarks{}),
+        legend_html(legend_for(*layer)) +
+            (s == Statistic::upper_bound ? untold_html(page.upper_bound_note) : std::string()));
   }
   return html + "</section>\n";
 }

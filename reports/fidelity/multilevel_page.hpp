@@ -34,6 +34,7 @@ struct MultilevelPage {
   std::vector<MultilevelPageResult> results;
   std::vector<MultilevelPageLevel> levels;
   const LayerStack* maps = nullptr;           ///< P(reached) with its bounds among them
+  std::string upper_bound_note;               ///< what no colour means on the map of upper bounds
   const Raster<double>* elevation = nullptr;  ///< may be null
   std::vector<std::string> warnings;
 };

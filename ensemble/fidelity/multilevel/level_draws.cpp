@@ -3,6 +3,7 @@
 
 #include "engine/core/error.hpp"
 #include "ensemble/fidelity/multilevel/level_scatter.hpp"
+#include "ensemble/fidelity/multilevel/share_bounds.hpp"
 #include "ensemble/hazard/wilson.hpp"
 
 #include <algorithm>
@@ -60,13 +61,6 @@ class Predictions {
       tell(models_, draw, fold, std::span(told).subspan(skip, n_levels_ - draw.from - skip));
       use(draw.from, std::span<const double>(told).first(n_levels_ - draw.from));
     }
-  }
-
-  template <class Own, class Tell>
-  IncrementMoments moments(Own own, Tell tell) const {
-    IncrementMoments sums(n_levels_);
-    each(own, tell, [&](std::size_t from, std::span<const double> told) { sums.add(from, told); });
-    return sums;
   }
 
  private:
@@ -158,13 +152,15 @@ double reached(const Distribution& d, const std::vector<double>& f, double level
   return d.places[i - 1] + share * (d.places[i] - d.places[i - 1]);
 }
 
-/// 90 % bounds of a share. Draws of one level alone are counted: near 0 and 1 the scatter of few of
-/// them is far too small, and none at all where they agree.
-Interval bounds_of_share(const IncrementMoments& sums, double noise) {
-  if (sums.n_levels() > 1) return sums.estimate(std::array{noise / sums.draws(0)}).even_bounds_90();
-  const double n = sums.draws(0);
+/// 90 % bounds of a share. Draws of one level alone are counted.
+Interval bounds_of_share(const IncrementMoments& sums, double noise, const Surprises& surprises) {
+  if (sums.n_levels() > 1) {
+    const MultilevelMean e = sums.estimate(std::array{noise / sums.draws(0)});
+    return share_bounds(e.mean, e.standard_error, e.degrees, surprises);
+  }
+  const double n = sums.draws(0), unseen = unseen_share(static_cast<std::size_t>(n));
   const ProbabilityBounds b = wilson_interval(std::llround(sums.mean() * n), std::llround(n), z_90);
-  return {b.lower, b.upper};
+  return {std::min(b.lower, 1 - unseen), std::max(b.upper, unseen)};
 }
 
 Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels) {
@@ -175,23 +171,31 @@ Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels
     if (!(v <= most)) most = v;
     return v;
   };
-  predictions.moments(widen, [&](const FoldedModels& models, const LevelDraw& draw, auto fold,
-                                 std::span<double> told) {
-    models.margins(draw.values, draw.from, fold, told);
-    for (const double v : told) widen(v);
-  });
+  predictions.each(
+      widen,
+      [&](const FoldedModels& models, const LevelDraw& draw, auto fold, std::span<double> told) {
+        models.margins(draw.values, draw.from, fold, told);
+        for (const double v : told) widen(v);
+      },
+      [](std::size_t, std::span<const double>) {});
   Distribution d;
   const double margin = 0.05 * (most - least);
   for (int i = 0; i < n_places; ++i) {
     const double t = least - margin + (most - least + 2 * margin) * i / (n_places - 1);
     double noise = 0;  // of the indicator, as the predictions have it
-    const IncrementMoments sums = predictions.moments(
+    IncrementMoments sums(n_levels);
+    Surprises surprises;
+    predictions.each(
         [&](double v) { return v <= t ? 1.0 : 0.0; },
         [&](const FoldedModels& models, const LevelDraw& draw, auto fold, std::span<double> told) {
           models.shares_below(t, draw.values, draw.from, fold, told);
           if (draw.from == 0 && !told.empty()) noise += told[0] * (1 - told[0]);
+        },
+        [&](std::size_t from, std::span<const double> told) {
+          sums.add(from, told);
+          if (from == 0) surprises.add(told[0] - (told.size() > 1 ? told[1] : 0));
         });
-    const Interval bounds = bounds_of_share(sums, noise);
+    const Interval bounds = bounds_of_share(sums, noise, surprises);
     d.places.push_back(t);
     d.low.push_back(bounds.low);
     d.middle.push_back(sums.mean());
@@ -255,7 +259,7 @@ std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw> dr
                                                    std::size_t n_levels,
                                                    std::span<const double> levels) {
   std::vector<QuantileEstimate> all;
-  for (const double level : levels) all.push_back({level, nan_d, {}});
+  for (const double level : levels) all.push_back({level, nan_d, {}, 0});
   if (!enough(draws, n_levels)) return all;
   const Distribution d = distribution(draws, n_levels);
   const double first = d.places.front(), last = d.places.back();
@@ -266,6 +270,9 @@ std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw> dr
     // The function's upper bound is at `level` first.
     q.bounds_90 = {reached(d, d.high, q.level, first - nowhere, last),
                    reached(d, d.low, q.level, first, last + nowhere)};
+    if (std::isinf(q.bounds_90.low) || std::isinf(q.bounds_90.high))
+      q.draws_needed =
+          std::max(draws_for_quantile(q.level), draws_of_levels(draws, n_levels).front() + 1);
   }
   return all;
 }

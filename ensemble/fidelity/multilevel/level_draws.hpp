@@ -30,7 +30,9 @@ inline constexpr std::size_t least_draws = 6;
 
 struct QuantileEstimate {
   double level = nan_d, value = nan_d;
-  Interval bounds_90;
+  Interval bounds_90;  ///< infinite where the draws do not tell it
+  /// Of the dearest level, at least, before both bounds can be told; 0 where they are.
+  std::size_t draws_needed = 0;
 };
 
 /// One result of all members.
@@ -48,8 +50,8 @@ struct MultilevelScalar {
 MultilevelScalar multilevel_scalar(std::span<const LevelDraw>, std::size_t n_levels);
 
 /// Through the estimated distribution function, as the nearest rising one in the mean square; its
-/// bounds are those of the distribution function, read the other way. A bound is infinite where the
-/// draws do not tell one: few of them have no upper bound of what 5 % exceed.
+/// bounds are those of the distribution function (share_bounds()), read the other way. A bound is
+/// infinite where the draws do not tell one: fewer than 59 have no upper bound of what 5 % exceed.
 /// \param levels rising, within 0 and 1
 std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw>, std::size_t n_levels,
                                                    std::span<const double> levels);

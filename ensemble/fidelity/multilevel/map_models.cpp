@@ -87,6 +87,7 @@ std::size_t map_bytes_a_cell(std::size_t n_levels, std::size_t n_dear) {
   const std::size_t n_folds = std::min(n_dear, most_folds);
   return n_folds * (sizeof(MarginSums) + (n_levels - 1) * sizeof(MarginModel)) +
          2 * sizeof(MarginSums) + sizeof(FoldedModels) + sizeof(IncrementMoments) +
+         sizeof(Surprises) + 2 * sizeof(double) + sizeof(std::uint32_t) +
          n_dear * (sizeof(Margins) + 2 * sizeof(float)) + most_waiting * sizeof(Margins);
 }
 

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int widest_smoothing = 3;  // cells
 constexpr double surely_not = 0.05;  // 1 - that: surely
+/// A probability that is seen on a map has a bound.
+constexpr double least_shown = 0.005;
 
 void require_memory(const MapLevels& levels, std::size_t n_cells, std::size_t n_dear) {
   const auto bytes = static_cast<double>(n_cells * map_bytes_a_cell(levels.levels.size(), n_dear));
@@ -39,6 +41,8 @@ class CellSums {
         n_cells_(distances.cells().size()),
         sums_(n_cells_, IncrementMoments(levels.levels.size())),
         noise_(n_cells_, 0),
+        foretold_(n_cells_, 0),
+        surprises_(n_cells_),
         dear_covered_(n_cells_, 0) {
     for (const std::size_t n : draws_of_levels(levels.draws, levels.levels.size()))
       counts_.push_back(static_cast<double>(n));
@@ -69,6 +73,9 @@ class CellSums {
   const std::vector<std::vector<float>>& others() const { return others_; }
   /// Draws of the dearest level that cover it.
   std::uint32_t covering(std::size_t cell) const { return dear_covered_[cell]; }
+  const Surprises& surprises(std::size_t cell) const { return surprises_[cell]; }
+  /// The largest chance of a draw, as the levels that it has foretell it.
+  double foretold(std::size_t cell) const { return foretold_[cell]; }
   /// Mean of g (1 - g): the variance of the residual as the model itself has it.
   double noise(std::size_t cell) const { return noise_[cell]; }
 
@@ -83,6 +90,8 @@ class CellSums {
       models_[i].probabilities(margins[i], 0, fold, std::span(told).subspan(1, n_levels - 1));
       sums_[i].add(0, std::span(told).first(n_levels));
       residual[i] = static_cast<float>(told[0] - told[1]);
+      surprises_[i].add(told[0] - told[1]);
+      foretold_[i] = std::max(foretold_[i], told[1]);
       double rest = 0;
       for (std::size_t l = 1; l < n_levels; ++l)
         rest += (told[l] - (l + 1 < n_levels ? told[l + 1] : 0)) / counts_[l];
@@ -101,6 +110,7 @@ class CellSums {
         const std::span<double> of_draw = std::span(told).first(n_levels - from);
         models_[i].probabilities(margins[i], from, std::nullopt, of_draw);
         sums_[i].add(from, of_draw);
+        foretold_[i] = std::max(foretold_[i], of_draw.front());
       }
     });
     waiting_.clear();
@@ -111,7 +121,8 @@ class CellSums {
   std::vector<FoldedModels> models_;
   std::vector<IncrementMoments> sums_;
   std::vector<std::vector<float>> residuals_, others_;
-  std::vector<double> noise_;
+  std::vector<double> noise_, foretold_;
+  std::vector<Surprises> surprises_;
   std::vector<std::uint32_t> dear_covered_;
   std::vector<double> counts_;                                         // [n_levels] draws
   std::vector<std::pair<std::size_t, std::vector<Margins>>> waiting_;  // draws of cheaper levels
@@ -123,11 +134,13 @@ MultilevelMap blank(const DrawDistances& distances, double possible) {
   map.extent = distances.extent();
   for (Raster<double>* r : {&map.probability, &map.low, &map.high})
     *r = Raster<double>(distances.grid(), 0);
+  map.told = Raster<std::uint8_t>(distances.grid(), 0);
   for (std::size_t i = 0; i < map.probability.values.size(); ++i) {
     const bool always = distances.always(i);
     map.probability.values[i] = always ? 1 : 0;
     map.low.values[i] = always ? 1 - possible : 0;
     map.high.values[i] = always ? 1 : possible;
+    map.told.values[i] = always ? 1 : 0;
   }
   return map;
 }
@@ -156,17 +169,12 @@ void make_falling(std::span<double> row) {
 
 }  // namespace
 
-double unseen_share(std::size_t n_dear) {
-  return 1 - std::pow(0.05, 1 / static_cast<double>(n_dear));
-}
-
 MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, CancelFlag cancel) {
   const std::size_t n_levels = levels.levels.size();
   expect(n_levels >= 2 && n_levels <= most_levels, "a dear level and some cheaper ones");
   const DrawDistances distances(levels, what, cancel);
   const std::size_t n_dear = draws_of_levels(levels.draws, n_levels).front();
-  const double unseen = unseen_share(n_dear);
-  MultilevelMap map = blank(distances, unseen);
+  MultilevelMap map = blank(distances, unseen_share(n_dear));
   map.variances.assign(n_levels, 0);
   const std::vector<std::size_t>& cells = distances.cells();
   if (cells.empty()) return map;
@@ -178,7 +186,7 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
       sums.residuals(), sums.others(), cells, distances.grid(), doubtful, widest_smoothing);
   map.smoothed_cells = correction.radius;
   map.smoothing_error = std::sqrt(correction.bias_squared);
-  const double n = sums.at(0).draws(0), width = student_width(0.9, n - 1);
+  const double n = sums.at(0).draws(0);
   double squares = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const IncrementMoments& at = sums.at(i);
@@ -193,13 +201,11 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
     const double variance =
         std::max(parts + 2 * correction.covariance[i], parts / 2) + correction.bias_squared;
     map.probability.values[cells[i]] = p;
-    const double half = width * std::sqrt(variance);
-    map.low.values[cells[i]] = std::max(0.0, p - half);
-    map.high.values[cells[i]] = std::min(1.0, p + half);
-    if (sums.covering(i) == 0)
-      map.high.values[cells[i]] = std::max(map.high.values[cells[i]], unseen);
-    if (sums.covering(i) == n_dear)
-      map.low.values[cells[i]] = std::min(map.low.values[cells[i]], 1 - unseen);
+    const Interval bounds = share_bounds(p, std::sqrt(variance), n - 1, sums.surprises(i));
+    map.low.values[cells[i]] = bounds.low;
+    map.high.values[cells[i]] = bounds.high;
+    map.told.values[cells[i]] =
+        sums.covering(i) > 0 || sums.foretold(i) >= least_foretold || p >= least_shown ? 1 : 0;
     if (!is_doubtful(p)) continue;
     ++map.doubtful;
     squares += variance;
@@ -213,6 +219,9 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
 
 void make_monotone(std::span<MultilevelMap> rising) {
   if (rising.empty()) return;
+  for (std::size_t t = rising.size() - 1; t-- > 0;)
+    for (std::size_t i = 0; i < rising[t].told.values.size(); ++i)
+      rising[t].told.values[i] = std::max(rising[t].told.values[i], rising[t + 1].told.values[i]);
   std::vector<double> row(rising.size());
   for (Raster<double> MultilevelMap::*layer :
        {&MultilevelMap::probability, &MultilevelMap::low, &MultilevelMap::high})

@@ -13,6 +13,7 @@
 #include "engine/core/cancel.hpp"
 #include "ensemble/fidelity/multilevel/covered_cells.hpp"
 #include "ensemble/fidelity/multilevel/level_draws.hpp"
+#include "ensemble/fidelity/multilevel/share_bounds.hpp"
 
 #include <span>
 #include <vector>
@@ -31,9 +32,13 @@ struct MapLevels {
 
 struct MultilevelMap {
   Window extent;  ///< of the levels' grid; P = 0 beyond
-  /// Within [0, 1]; 90 % bounds. Where all draws of the dearest level agree they are no narrower
-  /// than their number alone allows.
+  /// Within [0, 1]; 90 % bounds (share_bounds()), nowhere nearer to 0 and 1 than the number of
+  /// draws of the dearest level allows.
   Raster<double> probability, low, high;
+  /// 1 where the upper bound is told: a draw of the dearest level comes there, or what the others
+  /// foretell of one is a chance of least_foretold or more. Beyond, `high` is unseen_share(), there
+  /// and everywhere alike: a matter of numbers, not of the place.
+  Raster<std::uint8_t> told;
   /// Cells whose probability is between 0.05 and 0.95, and over them: the root mean square of the
   /// standard error, sums of the variances of the increments [n_levels], and of P (1 - P), which is
   /// what plain sampling has.
@@ -47,18 +52,16 @@ struct MultilevelMap {
   double smoothing_error = 0;  ///< root mean square of what that shifts, estimated; in the bounds
 };
 
-/// What so many draws of the dearest level may still do that all agree: of n of n, the upper end of
-/// the 90 % interval of Clopper and Pearson (1934). Cheaper draws are no draws of that level, and
-/// do not count, however many they are.
-double unseen_share(std::size_t n_dear);
+/// Two standard deviations of the fit's remainder outside the fitted outline.
+inline constexpr double least_foretold = 0.025;
 
 /// All cells are held at a time, see map_bytes_a_cell(). \pre at least least_draws at the dearest
 /// level \throws Cancelled; SetupError where the map would take more than memory_bytes
 MultilevelMap multilevel_map(const MapLevels&, const Exceedance&, CancelFlag cancel = {});
 
 /// Maps of one quantity at rising thresholds as they must be: none above the one before. The
-/// nearest such maps in the mean square (pool adjacent violators), of bounds as well. \pre one
-/// extent
+/// nearest such maps in the mean square (pool adjacent violators), of bounds as well. Where an
+/// upper bound is told, those of lower thresholds are. \pre one extent
 void make_monotone(std::span<MultilevelMap> rising);
 
 }  // namespace sturz

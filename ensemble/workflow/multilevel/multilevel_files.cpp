@@ -15,16 +15,25 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace sturz::workflow {
 namespace {
 
 Json headline_json(const MultilevelHeadline& h) {
   Json quantiles = Json::array();
-  for (const QuantileEstimate& q : h.quantiles)
-    quantiles.push_back(
-        {{"level", q.level}, {"value", number(q.value)}, {"bounds_90", interval(q.bounds_90)}});
+  for (const QuantileEstimate& q : h.quantiles) {
+    Json one{{"level", q.level}, {"value", number(q.value)}, {"bounds_90", interval(q.bounds_90)}};
+    if (q.draws_needed > 0) {
+      const bool lower = std::isinf(q.bounds_90.low), upper = std::isinf(q.bounds_90.high);
+      one["not_told"] = lower && upper ? "both bounds" : lower ? "lower bound" : "upper bound";
+      one["draws_needed"] = q.draws_needed;
+    }
+    quantiles.push_back(std::move(one));
+  }
   return {{"name", h.name},
           {"units", h.units},
           {"mean", number(h.scalar.mean.mean)},
@@ -67,6 +76,8 @@ Json maps_json(const MultilevelMade& made) {
            {"rms_standard_error", number(m.rms_error)},
            {"variances", numbers(m.variances)},
            {"plain_variance", number(m.plain_variance)},
+           {"upper_bound_told_cells",
+            std::count(m.told.values.begin(), m.told.values.end(), std::uint8_t{1})},
            {"correction_over_cells", 2 * m.smoothed_cells + 1},
            {"smoothing_error", number(m.smoothing_error)}});
     }
@@ -82,6 +93,14 @@ std::string rule_of(const MultilevelMade& made) {
                      levels);
 }
 
+/// No value is no promise.
+std::string untold_note(const MultilevelMade& made) {
+  return fmt::format(
+      "; no value where it is not told: none of {} members of {} comes there and cheaper ones "
+      "foretell none, so that their number alone speaks, which leaves up to {:.0f} % everywhere",
+      made.dear_draws, made.levels.front().name, 100 * unseen_share(made.dear_draws));
+}
+
 /// What a map says of members of which mass left or still moved, as plain maps say it.
 std::string cut_note(Statistic statistic, std::int64_t n_censored) {
   if (n_censored == 0) return {};
@@ -91,8 +110,8 @@ std::string cut_note(Statistic statistic, std::int64_t n_censored) {
 }
 
 /// One map and its bounds, all planes.
-void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
-                std::int64_t n_censored) {
+void add_layers(LayerStack& stack, const NamedMap& map, const MultilevelMade& made) {
+  const std::int64_t n_censored = made.censored;
   const Quantity quantity = map.thresholds.empty() ? Quantity::reached : quantity_of(map.layer);
   const std::string what =
       map.thresholds.empty()
@@ -109,8 +128,10 @@ void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
                            Kind{"_lower", Statistic::lower_bound, &MultilevelMap::low},
                            Kind{"_upper", Statistic::upper_bound, &MultilevelMap::high}}) {
     const std::string bounds = kind.statistic == Statistic::probability ? "" : "90 % bounds; ";
-    const std::string comment =
-        bounds + rule + ", within 0 and 1" + monotone + cut_note(kind.statistic, n_censored);
+    const bool upper = kind.statistic == Statistic::upper_bound;
+    const std::string comment = bounds + rule_of(made) + ", within 0 and 1" + monotone +
+                                (upper ? untold_note(made) : "") +
+                                cut_note(kind.statistic, n_censored);
     const LayerMeaning meaning{quantity, kind.statistic};
     Layer layer = meaning.is_bound()
                       ? bound_layer(map.name + kind.suffix, meaning, what, 0.9, comment)
@@ -121,8 +142,10 @@ void add_layers(LayerStack& stack, const NamedMap& map, const std::string& rule,
       layer.axis = {word + "_threshold", "", map_unit(map.layer).name, map.thresholds};
     }
     for (const MultilevelMap& one : map.maps)
-      for (const double v : (one.*kind.values).values)
-        layer.values.push_back(static_cast<float>(v));
+      for (std::size_t i = 0; i < one.told.values.size(); ++i)
+        layer.values.push_back(upper && one.told.values[i] == 0
+                                   ? nan_f
+                                   : static_cast<float>((one.*kind.values).values[i]));
     stack.layers.push_back(std::move(layer));
   }
 }
@@ -135,7 +158,7 @@ LayerStack stack_of(const MultilevelJob& job, const MultilevelMembers& found,
   const HazardContext context = hazard_context(own.manifest, job.scene.scenario, own.design);
   stack.attributes = context.attributes;
   stack.attributes.emplace_back("estimator", rule_of(made));
-  for (const NamedMap& map : made.maps) add_layers(stack, map, rule_of(made), made.censored);
+  for (const NamedMap& map : made.maps) add_layers(stack, map, made);
   return stack;
 }
 
@@ -166,6 +189,7 @@ void write_page(const MultilevelJob& job, const MultilevelMade& made, const Laye
     page.levels.push_back({l.name, l.used, static_cast<double>(l.members), l.member_cpu_s,
                            l.seconds / made.seconds, l.variance_shares});
   page.maps = &coarse;
+  if (!made.maps.empty()) page.upper_bound_note = upper_bound_text(made);
   const auto ground = ground_of_map(job.scene.scenario, job.scene.inputs, coarse.grid);
   page.elevation = ground.get();
   write_text_atomic(OutputFolder{made.folder}.report(), make_multilevel_page(page));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace sturz::workflow {
@@ -93,6 +94,45 @@ std::string gain_text(const MultilevelMade& made) {
   return text;
 }
 
+std::string upper_bound_text(const MultilevelMade& made) {
+  // Probabilities come from draws that all used levels have.
+  return fmt::format(
+      "Upper bounds are nowhere on the maps below {0:.0f} %: so much may what none of {1} members "
+      "of {2} does, whatever cheaper ones do. Where none of them comes and cheaper ones foretell "
+      "none (no chance above {3:.3g} % for any draw), no upper bound is drawn: these {0:.0f} % are "
+      "all that is known there, and beyond the maps as well.",
+      100 * unseen_share(made.dear_draws), made.dear_draws, made.levels.front().name,
+      100 * least_foretold);
+}
+
+std::vector<std::string> open_quantiles(const MultilevelMade& made) {
+  std::vector<std::string> lines;
+  const std::size_t n_levels = made.headlines.empty() ? 0 : made.headlines.front().quantiles.size();
+  for (std::size_t q = 0; q < n_levels; ++q)
+    for (const bool upper : {false, true}) {
+      std::vector<std::string> names;
+      std::size_t needed = 0;
+      double members = std::numeric_limits<double>::infinity();
+      for (const MultilevelHeadline& h : made.headlines) {
+        const Interval& bounds = h.quantiles[q].bounds_90;
+        if (!std::isinf(upper ? bounds.high : bounds.low)) continue;
+        names.push_back(h.name);
+        members = std::min(members, h.scalar.draws.front());
+        needed = std::max(needed, h.quantiles[q].draws_needed);
+      }
+      if (names.empty()) continue;
+      std::string of;
+      if (names.size() < made.headlines.size()) of = fmt::format(" of {}", fmt::join(names, ", "));
+      lines.push_back(fmt::format(
+          "No {} bound of the {:.3g} % quantile{}: {:.0f} members of {} are too few{}. At least {} "
+          "are needed.",
+          upper ? "upper" : "lower", 100 * made.headlines.front().quantiles[q].level, of, members,
+          made.levels.front().name, made.used.size() > 1 ? ", whatever cheaper ones tell" : "",
+          needed));
+    }
+  return lines;
+}
+
 std::vector<std::string> page_sentences(const MultilevelMade& made) {
   std::vector<std::string> lines = made.cut_off;
   lines.insert(lines.end(), made.missed.begin(), made.missed.end());
@@ -101,13 +141,8 @@ std::vector<std::string> page_sentences(const MultilevelMade& made) {
         fmt::format("P(reached) where it is between 0.05 and 0.95: standard error "
                     "{:.3g} (root mean square of {} cells).",
                     made.map_error, made.maps.front().maps.front().doubtful));
-  // Probabilities come from draws that all used levels have.
-  if (!made.maps.empty())
-    lines.push_back(fmt::format(
-        "Upper bounds are nowhere on the maps below {:.0f} %: so much may what none of {} members "
-        "of "
-        "{} does, whatever cheaper ones do.",
-        100 * unseen_share(made.dear_draws), made.dear_draws, made.levels.front().name));
+  if (!made.maps.empty()) lines.push_back(upper_bound_text(made));
+  for (std::string& sentence : open_quantiles(made)) lines.push_back(std::move(sentence));
   lines.push_back(gain_text(made));
   if (made.failed > 0)
     lines.push_back(

@@ -17,6 +17,10 @@ std::string round_text(const MultilevelJob&, const PlanRound&);
 std::vector<std::string> result_lines(const MultilevelMade&);
 /// The same without its tables.
 std::vector<std::string> page_sentences(const MultilevelMade&);
+/// What upper bounds of maps rest on, and where they are not told. \pre maps
+std::string upper_bound_text(const MultilevelMade&);
+/// Of quantiles whose bounds the draws do not tell: how many would.
+std::vector<std::string> open_quantiles(const MultilevelMade&);
 /// Where plain sampling was kept: why. Else what was saved.
 std::string gain_text(const MultilevelMade&);
 
