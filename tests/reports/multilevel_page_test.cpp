@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 namespace sturz {
@@ -59,6 +60,18 @@ TEST(MultilevelPage, SaysOnWhichSideAMeanMayBeFartherOff) {
   MultilevelPage page;
   page.results = {{"runout_m", "m", 812, 4.2, 13, nan_d, nan_d, {}}};
   EXPECT_THAT(make_multilevel_page(page), HasSubstr("\u2212 4.2\u00A0m, + 13\u00A0m"));
+}
+
+TEST(MultilevelPage, SaysThatNoColourOfAnUpperBoundIsNotZero) {
+  LayerStack stack = maps();
+  stack.layers.back().values[3] = nan_f;
+  MultilevelPage page;
+  page.maps = &stack;
+  page.upper_bound_note = "13 % are all that is known";
+  page.results = {{"runout_m", "m", 812, 9, 9, 31, nan_d, {{0.95, 900, 850, HUGE_VAL}}}};
+  const std::string html = make_multilevel_page(page);
+  EXPECT_THAT(html, HasSubstr("No colour: not told, which is not 0.</strong> 13 % are all"));
+  EXPECT_THAT(html, HasSubstr("above 850\u00A0m"));
 }
 
 TEST(MultilevelPage, LeavesOutWhatIsNotThere) {

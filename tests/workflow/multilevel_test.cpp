@@ -91,8 +91,22 @@ TEST_F(Multilevel, ReachesWhatWasAskedForAndSaysSo) {
                            "thickness_exceedance", "speed_exceedance_upper"}) {
     const Layer* layer = maps.find(name);
     ASSERT_NE(layer, nullptr) << name;
-    for (const float p : layer->values) EXPECT_TRUE(p >= 0 && p <= 1) << name;
+    const bool upper = std::string(name).ends_with("_upper");
+    for (const float p : layer->values)
+      EXPECT_TRUE((p >= 0 && p <= 1) || (upper && std::isnan(p))) << name;
   }
+  // A cell whose probability is seen has an upper bound; beyond the flow none is told.
+  const Layer &reach = *maps.find("probability_of_reach"),
+              &upper = *maps.find("probability_of_reach_upper");
+  std::size_t untold = 0;
+  for (std::size_t i = 0; i < reach.values.size(); ++i) {
+    untold += std::isnan(upper.values[i]) ? 1 : 0;
+    if (reach.values[i] >= 0.005F) EXPECT_GE(upper.values[i], reach.values[i]) << i;
+  }
+  EXPECT_GT(untold, 0U);
+  EXPECT_THAT(upper.comment, HasSubstr("no value where it is not told"));
+  EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("\"draws_needed\""));
+  EXPECT_THAT(workflow::page_sentences(made), ::testing::Contains(HasSubstr("are too few")));
   EXPECT_THAT(maps.find("probability_of_reach_lower")->comment, HasSubstr("90 % bounds"));
 }
 
