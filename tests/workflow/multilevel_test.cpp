@@ -101,7 +101,8 @@ TEST_F(Multilevel, ReachesWhatWasAskedForAndSaysSo) {
   std::size_t untold = 0;
   for (std::size_t i = 0; i < reach.values.size(); ++i) {
     untold += std::isnan(upper.values[i]) ? 1 : 0;
-    if (reach.values[i] >= 0.005F) EXPECT_GE(upper.values[i], reach.values[i]) << i;
+    if (reach.values[i] < 0.005F) continue;
+    EXPECT_GE(upper.values[i], reach.values[i]) << i;
   }
   EXPECT_GT(untold, 0U);
   EXPECT_THAT(upper.comment, HasSubstr("no value where it is not told"));
