@@ -154,6 +154,31 @@ TEST_F(Multilevel, KeepsPlainSamplingWhereCheaperLevelsCostMore) {
   EXPECT_NE(read_layers(path("out") / "hazard.nc").find("thickness_quantile"), nullptr);
 }
 
+TEST_F(Multilevel, SaysWhyItKeptPlainSampling) {
+  workflow::EnsembleRequest poor = asked("poor");
+  std::erase_if(poor.scene.overrides,
+                [](const std::string& o) { return o.starts_with("ensemble.target."); });
+  poor.scene.overrides.emplace_back("ensemble.target.core_hours=1e-7");
+  Recorder heard;
+  const Ended spent = run(poor, heard);
+  EXPECT_EQ(spent.made.used, std::vector<std::size_t>{0});
+  EXPECT_THAT(workflow::gain_text(spent.made), HasSubstr("The pilots took"));
+  EXPECT_THAT(spent.made.missed, ::testing::Contains(HasSubstr("Not kept: all members took")));
+  const Ended easy = run(asked("easy", "5"), heard);
+  EXPECT_THAT(workflow::gain_text(easy.made), HasSubstr("Its pilot alone reaches the target"));
+  EXPECT_THAT(easy.made.missed, ::testing::IsEmpty());
+}
+
+TEST(MultilevelWords, NameTheLevelThatTheModelsNumberIsADifferenceTo) {
+  MultilevelMade made;
+  EXPECT_EQ(workflow::model_text(made), "");
+  workflow::MultilevelHeadline& h = made.headlines.emplace_back();
+  h.name = "runout_m", h.model = 20, h.model_error = 2, h.model_of = "depth_averaged_9m";
+  EXPECT_EQ(workflow::model_text(made),
+            "Model: how far the mean of depth_averaged_9m lies away with the same draws, 20 of "
+            "runout_m +- 3.3 (90 %). What the two spacings differ by is part of it.");
+}
+
 TEST_F(Multilevel, SaysWhatIsWrongBeforeItComputes) {
   const auto refusal = [&](const std::string& set, std::vector<std::string> without = {}) {
     workflow::EnsembleRequest r = asked("out");

@@ -27,7 +27,7 @@ class Decisions final : public workflow::PlanListener {
     console_.clear_progress();
     if (look.rounds.size() == 1)
       for (const std::string& line : workflow::pilot_lines(job, look)) console_.say(line);
-    const std::string text = workflow::round_text(job, look.rounds.back());
+    const std::string text = workflow::round_text(job, look);
     console_.say(text);
     console_.event(json_text(Json{{"event", "decided"},
                                   {"round", look.rounds.size()},

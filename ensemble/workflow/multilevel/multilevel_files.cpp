@@ -42,6 +42,8 @@ Json headline_json(const MultilevelHeadline& h) {
           {"sampling_90", number(h.sampling)},
           {"resolution", number(h.resolution)},
           {"model", number(h.model)},
+          {"model_of", h.model_of},
+          {"model_standard_error", number(h.model_error)},
           {"standard_deviation", number(std::sqrt(h.scalar.variance))},
           {"quantiles", quantiles},
           {"draws", numbers(h.scalar.draws)},

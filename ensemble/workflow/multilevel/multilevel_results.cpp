@@ -6,6 +6,7 @@
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/hazard/map_units.hpp"
 #include "ensemble/workflow/multilevel/decision.hpp"
+#include "ensemble/workflow/readable.hpp"
 
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ class Look {
     made_.folder = job.request.folder;
     made_.title = job.scene.scenario.title;
     made_.rounds = job.plan.rounds;
+    made_.pilot = job.plan.pilot;
     made_.parts = job.parts;
     made_.used = job.plan.rounds.back().plan.levels;
   }
@@ -102,8 +104,11 @@ class Look {
     for (std::size_t p = 0; p < all_.parts.size(); ++p) {
       if (!is_finest_of_another(p)) continue;
       for (const Change& change : changes(counted.front(), counted[p], names)) {
-        double& model = headline(change.name).model;
-        if (!(std::abs(change.mean) <= model)) model = std::abs(change.mean);
+        MultilevelHeadline& h = headline(change.name);
+        if (!std::isfinite(change.mean) || std::abs(change.mean) <= h.model) continue;
+        h.model = std::abs(change.mean);
+        h.model_error = change.standard_error;
+        h.model_of = all_.parts[p].name;
       }
     }
   }
@@ -218,6 +223,13 @@ class Look {
   /// What was asked for and is not there, by more than what a round would not be worth.
   void add_misses() {
     const TargetSpec target = job_.scene.scenario.ensemble.target.value_or(TargetSpec{});
+    if (const double given = 3600 * target.core_hours;
+        given > 0 && made_.seconds > near_enough * given)
+      made_.missed.push_back(
+          fmt::format("Not kept: all members took {} of one core, and {} were asked for "
+                      "(ensemble.target.core_hours). {} members of each level are the least "
+                      "(ensemble.pilot).",
+                      duration_text(made_.seconds), duration_text(given), made_.pilot));
     for (const std::string& name : headline_results()) {
       if (!(target.relative_error > 0)) break;
       const auto found = std::find_if(made_.headlines.begin(), made_.headlines.end(),

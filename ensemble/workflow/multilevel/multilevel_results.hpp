@@ -22,9 +22,10 @@ struct MultilevelHeadline {
   /// Estimated distance of the mean at this spacing from that at ever finer ones, from the levels
   /// of the same formulation; NaN: there is only one.
   double resolution = nan_d;
-  /// Largest difference to another formulation with the same draws, each at its finest here; NaN:
-  /// there is none.
-  double model = nan_d;
+  /// Largest difference to another formulation with the same draws, each at its finest here: what
+  /// the two spacings differ by is part of it. NaN: there is none.
+  double model = nan_d, model_error = nan_d;  ///< and its standard error
+  std::string model_of;                       ///< the level it is a difference to
   double plain_seconds = nan_d;  ///< CPU, of plain sampling for the same error
   std::int64_t left_out = 0;     ///< members of the dearest level whose end does not tell it
 };
@@ -56,6 +57,7 @@ struct MultilevelMade {
   std::string title;
   std::vector<PlanRound> rounds;
   std::vector<LevelPart> parts;
+  int pilot = 0;                  ///< members of each level before the first round
   std::vector<std::size_t> used;  ///< of parts; {0}: plain sampling
   std::vector<MultilevelHeadline> headlines;
   std::vector<LevelShare> levels;

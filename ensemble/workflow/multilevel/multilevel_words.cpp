@@ -32,6 +32,32 @@ std::string off_by(const MultilevelMean& m) {
   return fmt::format("-{:.3g} +{:.3g}", below, above);
 }
 
+bool knows_results(const MultilevelLook& look) {
+  for (std::size_t r = 0; r < headline_results().size(); ++r)
+    for (std::size_t p = 1; p < look.squared_correlations[r].size(); ++p)
+      if (std::isfinite(look.squared_correlations[r][p])) return true;
+  return false;
+}
+bool knows_results(const MultilevelMade& made) {
+  return std::any_of(made.headlines.begin(), made.headlines.end(), [](const auto& h) {
+    return std::find(headline_results().begin(), headline_results().end(), h.name) !=
+           headline_results().end();
+  });
+}
+
+/// \param first the round that chose the levels \param known whether members tell some result
+std::string why_plain(const PlanRound& first, int pilot, bool known) {
+  double spent = 0;
+  for (const double cost : first.cost_s) spent += pilot * cost;
+  if (!known) return "No result is known of enough members to tell what cheaper levels are worth.";
+  if (first.budget_s > 0 && spent >= first.budget_s)
+    return fmt::format("The pilots took {} of one core, and ensemble.target.core_hours gives {}.",
+                       duration_text(spent), duration_text(first.budget_s));
+  if (!(first.budget_s > 0) && first.members.front() <= pilot)
+    return "Its pilot alone reaches the target.";
+  return "Cheaper levels know too little of what the scene's own members do for what they cost.";
+}
+
 std::string share_or_dash(double v) {
   return std::isfinite(v) ? fmt::format("{:.0f} %", 100 * v) : "-";
 }
@@ -61,7 +87,8 @@ std::vector<std::string> pilot_lines(const MultilevelJob& job, const MultilevelL
   return lines;
 }
 
-std::string round_text(const MultilevelJob& job, const PlanRound& round) {
+std::string round_text(const MultilevelJob& job, const MultilevelLook& look) {
+  const PlanRound& round = look.rounds.back();
   std::string what;
   for (std::size_t l = 0; l < round.plan.levels.size(); ++l) {
     const std::size_t p = round.plan.levels[l];
@@ -69,29 +96,41 @@ std::string round_text(const MultilevelJob& job, const PlanRound& round) {
         fmt::format("{}{} members of {}", l == 0 ? "" : ", ", round.members[p], job.parts[p].name);
   }
   if (round.plan.levels.size() == 1)
-    return fmt::format(
-        "Plain sampling: {}, {} of one core. Cheaper levels know too little of what "
-        "the scene's own members do for what they cost.",
-        what, duration_text(round.plan.seconds));
-  return fmt::format("{}: {} of one core, 1/{:.3g} of plain sampling.", what,
-                     duration_text(round.plan.seconds), round.plan.gain);
+    return fmt::format("Plain sampling: {}, {} of one core. {}", what,
+                       duration_text(round.plan.seconds),
+                       why_plain(look.rounds.front(), job.plan.pilot, knows_results(look)));
+  return fmt::format("{}: {} of one core, 1/{:.3g} of independent draws of {} alone.", what,
+                     duration_text(round.plan.seconds), round.plan.gain, job.parts.front().name);
 }
 
 std::string gain_text(const MultilevelMade& made) {
   if (made.used.size() == 1)
-    return "Plain sampling: no cheaper level was worth its members (see the pilot's table).";
+    return "Plain sampling. " + why_plain(made.rounds.front(), made.pilot, knows_results(made));
   std::string text = fmt::format("{} of one core in all.", duration_text(made.seconds));
   const auto add = [&](const std::string& name, double plain) {
     if (std::isfinite(plain))
-      text += fmt::format(" The same error of {} by plain sampling: {} (1/{:.3g}).", name,
-                          duration_text(plain), plain / made.seconds);
+      text += fmt::format(" The same error of {} by independent draws of {} alone: {} (1/{:.3g}).",
+                          name, made.levels.front().name, duration_text(plain),
+                          plain / made.seconds);
   };
   for (const MultilevelHeadline& h : made.headlines)
     if (std::find(headline_results().begin(), headline_results().end(), h.name) !=
         headline_results().end())
       add(h.name, h.plain_seconds);
   add("the map", made.map_plain_seconds);
-  return text;
+  return text +
+         " Latin hypercubes and Sobol' designs of it scatter less than independent draws do where "
+         "results follow few values smoothly; their bounds do not tell by how much.";
+}
+
+std::string model_text(const MultilevelMade& made) {
+  for (const MultilevelHeadline& h : made.headlines)
+    if (std::isfinite(h.model))
+      return fmt::format(
+          "Model: how far the mean of {} lies away with the same draws, {} of {} +- {:.2g} (90 %). "
+          "What the two spacings differ by is part of it.",
+          h.model_of, number_or(h.model, "?"), h.name, 1.645 * h.model_error);
+  return "";
 }
 
 std::string upper_bound_text(const MultilevelMade& made) {
@@ -143,6 +182,7 @@ std::vector<std::string> page_sentences(const MultilevelMade& made) {
                     made.map_error, made.maps.front().maps.front().doubtful));
   if (!made.maps.empty()) lines.push_back(upper_bound_text(made));
   for (std::string& sentence : open_quantiles(made)) lines.push_back(std::move(sentence));
+  if (std::string model = model_text(made); !model.empty()) lines.push_back(std::move(model));
   lines.push_back(gain_text(made));
   if (made.failed > 0)
     lines.push_back(

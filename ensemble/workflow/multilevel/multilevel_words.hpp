@@ -11,8 +11,8 @@ namespace sturz::workflow {
 
 /// A table of the pilot: seconds and squared correlations of each level.
 std::vector<std::string> pilot_lines(const MultilevelJob&, const MultilevelLook&);
-/// What a round will compute, and why.
-std::string round_text(const MultilevelJob&, const PlanRound&);
+/// What a round will compute, and why. \pre a round in the look, the last of which is told
+std::string round_text(const MultilevelJob&, const MultilevelLook&);
 /// Headlines with three numbers each, the map, what each level brought and took.
 std::vector<std::string> result_lines(const MultilevelMade&);
 /// The same without its tables.
@@ -21,6 +21,8 @@ std::vector<std::string> page_sentences(const MultilevelMade&);
 std::string upper_bound_text(const MultilevelMade&);
 /// Of quantiles whose bounds the draws do not tell: how many would.
 std::vector<std::string> open_quantiles(const MultilevelMade&);
+/// What the model's number is a difference to; "" without one.
+std::string model_text(const MultilevelMade&);
 /// Where plain sampling was kept: why. Else what was saved.
 std::string gain_text(const MultilevelMade&);
 
