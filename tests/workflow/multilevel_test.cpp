@@ -164,7 +164,7 @@ TEST_F(Multilevel, SaysWhyItKeptPlainSampling) {
   EXPECT_EQ(spent.made.used, std::vector<std::size_t>{0});
   EXPECT_THAT(workflow::gain_text(spent.made), HasSubstr("The pilots took"));
   EXPECT_THAT(spent.made.missed, ::testing::Contains(HasSubstr("Not kept: all members took")));
-  const Ended easy = run(asked("easy", "5"), heard);
+  const Ended easy = run(asked("easy", "1"), heard);
   EXPECT_THAT(workflow::gain_text(easy.made), HasSubstr("Its pilot alone reaches the target"));
   EXPECT_THAT(easy.made.missed, ::testing::IsEmpty());
 }
