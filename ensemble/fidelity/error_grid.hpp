@@ -17,7 +17,7 @@ namespace sturz {
 
 /// Orders: normal about one, the order of a front that is one particle thick; none is below a half
 /// or above two.
-inline constexpr std::array orders{0.5,   0.625, 0.75, 0.875, 1.0, 1.125,
+inline constexpr std::array orders{0.5,  0.625, 0.75, 0.875, 1.0, 1.125,
                                    1.25, 1.375, 1.5,  1.75,  2.0};
 inline constexpr std::array scatter_orders{0.5, 0.75, 1.0, 1.25, 1.5};
 /// Logarithm, up to a constant.

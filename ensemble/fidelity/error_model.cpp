@@ -223,8 +223,8 @@ void add_point(const Point& p, Weighted& all) {
   for (const double common : halves(most_common * c, 0.5 * finest))
     means.emplace_back(p, common * common);
   const double unit = std::sqrt(static_cast<double>(p.lift.size())) / p.lift.norm();
-  const std::vector<double> biases = halves(
-      most_bias * unit * p.d.of_means, unit * std::max(p.d.scattered / 4, p.d.of_means / 64));
+  const std::vector<double> biases = halves(most_bias * unit * p.d.of_means,
+                                            unit * std::max(p.d.scattered / 4, p.d.of_means / 64));
   for (const double slope : sizes) {
     const Slopes slopes(p, slope);
     const double known = p.prior + slopes.log_likelihood();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/core/error.hpp"
 #include "ensemble/fidelity/error_grid.hpp"
 #include "ensemble/fidelity/error_model.hpp"
-
-#include "engine/core/error.hpp"
 
 #include <algorithm>
 #include <array>

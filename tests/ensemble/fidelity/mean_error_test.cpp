@@ -5,13 +5,13 @@
 #include "ensemble/fidelity/error_model.hpp"
 #include "tests/ensemble/fidelity/made_up_laws.hpp"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -35,7 +35,10 @@ struct Family {
   double own() const { return slopes ? 0.3 : 1; }
   double slope() const { return slopes ? 1 : 0; }
   std::string name() const {
-    return fmt::format("bias {} common {} {} n {}", bias, common, slopes ? "slopes" : "scatter", n);
+    std::ostringstream text;
+    text << "bias " << bias << ", common " << common << (slopes ? ", slopes" : ", scatter")
+         << ", n " << n;
+    return text.str();
   }
 };
 
@@ -55,8 +58,8 @@ double true_to_limit(const Family& f) { return std::hypot(f.bias, f.common * f.o
 double true_to_finer(const Family& f, const Law& law) {
   const double y = finer_m / three.back(), lift = 1 - std::pow(y, law.order);
   const auto n = static_cast<double>(f.n);
-  const double drawn = (law.common * law.common + law.own * law.own / n) *
-                       (1 + std::pow(y, 2 * law.scatter_order));
+  const double drawn =
+      (law.common * law.common + law.own * law.own / n) * (1 + std::pow(y, 2 * law.scatter_order));
   return std::sqrt(law.bias * law.bias * lift * lift + drawn +
                    law.slope * law.slope * lift * lift / n);
 }
