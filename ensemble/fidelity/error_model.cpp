@@ -124,26 +124,34 @@ VectorXd shared_scatter(const Target& t, const VectorXd& variances) {
   return shared;
 }
 
-/// The members about their mean, with a slope.
-class Slopes {
+/// The members about their mean. What their slopes add to the covariance of the differences is a
+/// multiple of lift lift': one decomposition serves all of them (Sherman and Morrison).
+class Members {
  public:
-  Slopes(const Point& p, double slope)
+  explicit Members(const Point& p)
       : p_(p),
-        slope2_(slope * slope),
-        v_(slope2_ * p.lift * p.lift.transpose() + to_finest(p.own)),
-        log_likelihood_(-0.5 * (p.d.n - 1) *
-                        (log_determinant(v_) + v_.solve(p.d.covariance).trace())) {}
-  double slope2() const { return slope2_; }
+        known_(to_finest(p.own)),
+        by_lift_(known_.solve(p.lift)),
+        log_determinant_(log_determinant(known_)),
+        trace_(known_.solve(p.d.covariance).trace()),
+        ll_(p.lift.dot(by_lift_)),
+        lcl_(by_lift_.dot(p.d.covariance * by_lift_)) {}
   /// Of the sample covariance (Wishart), up to a constant.
-  double log_likelihood() const { return log_likelihood_; }
+  /// \param slope2 variance of the slopes
+  double log_likelihood(double slope2) const {
+    const double swell = 1 + slope2 * ll_;
+    return -0.5 * (p_.d.n - 1) *
+           (log_determinant_ + std::log(swell) + trace_ - slope2 * lcl_ / swell);
+  }
   /// Mean squares of the members' distances from their mean.
-  std::vector<double> squares() const {
-    const double noise2 = p_.d.noise * p_.d.noise;
+  std::vector<double> squares(double slope2) const {
+    const double noise2 = p_.d.noise * p_.d.noise, swell = 1 + slope2 * ll_;
     std::vector<double> all;
     for (const Target& t : p_.targets) {
-      const VectorXd cross = slope2_ * t.lift * p_.lift + shared_scatter(t, p_.own);
-      const VectorXd weights = v_.solve(cross);
-      const double variance = slope2_ * t.lift * t.lift + p_.c2 * (t.at + t.finer) +
+      const VectorXd cross = slope2 * t.lift * p_.lift + shared_scatter(t, p_.own);
+      const VectorXd weights =
+          known_.solve(cross) - slope2 * by_lift_.dot(cross) / swell * by_lift_;
+      const double variance = slope2 * t.lift * t.lift + p_.c2 * (t.at + t.finer) +
                               (t.finer > 0 ? 2 : 1) * noise2 - cross.dot(weights);
       all.push_back((p_.d.n - 1) / p_.d.n *
                     (weights.dot(p_.d.covariance * weights) + std::max(0.0, variance)));
@@ -153,14 +161,13 @@ class Slopes {
 
  private:
   const Point& p_;
-  double slope2_;
-  Eigen::LLT<MatrixXd> v_;
-  double log_likelihood_;
+  Eigen::LLT<MatrixXd> known_;
+  VectorXd by_lift_;
+  double log_determinant_, trace_, ll_, lcl_;
 };
 
-/// The mean, with a scatter that all members share. What bias and the mean of the members' slopes
-/// add to the covariance of the differences is a multiple of lift lift': one decomposition serves
-/// all of them (Sherman and Morrison).
+/// The mean, with a scatter that all members share. Bias and the mean of the members' slopes add
+/// multiples of lift lift' too.
 class Means {
  public:
   Means(const Point& p, double common2) : p_(p) {
@@ -218,28 +225,31 @@ class Means {
 /// possible outweighs what is likely.
 void add_point(const Point& p, Weighted& all) {
   const std::size_t n = p.targets.size();
-  const double c = std::sqrt(p.c2), finest = std::sqrt(p.own[p.own.size() - 1] / p.d.n);
-  std::vector<Means> means;
-  for (const double common : halves(most_common * c, 0.5 * finest))
-    means.emplace_back(p, common * common);
+  const double own = std::sqrt(p.c2), finest = std::sqrt(p.own[p.own.size() - 1] / p.d.n);
   const double unit = std::sqrt(static_cast<double>(p.lift.size())) / p.lift.norm();
   const std::vector<double> biases = halves(most_bias * unit * p.d.of_means,
                                             unit * std::max(p.d.scattered / 4, p.d.of_means / 64));
+  const Members members(p);
+  std::vector<Means> means{Means(p, 0)};
+  const double most_likely = means.front().most_likely();
   for (const double slope : sizes) {
-    const Slopes slopes(p, slope);
-    const double known = p.prior + slopes.log_likelihood();
-    if (all.is_nothing(known + means.back().most_likely())) continue;
-    const std::vector<double> squares = slopes.squares();
+    const double slope2 = slope * slope, known = p.prior + members.log_likelihood(slope2);
+    if (all.is_nothing(known + most_likely)) continue;
+    if (means.size() == 1)
+      for (const double common : halves(most_common * own, 0.5 * finest))
+        if (common > 0) means.emplace_back(p, common * common);
+    const std::vector<double> squares = members.squares(slope2);
     for (const Means& m : means)
       for (const double bias : biases) {
-        const double along = bias * bias + slopes.slope2() / p.d.n;
-        all.take(known + m.log_likelihood(along), [&](std::vector<double>& sums, double w) {
-          for (std::size_t i = 0; i < n; ++i) {
-            const double of_mean = m.square(i, bias * bias, slopes.slope2());
-            sums[i] += w * std::sqrt(squares[i] + of_mean);
-            sums[n + i] += w * std::sqrt(of_mean);
-          }
-        });
+        const double bias2 = bias * bias;
+        all.take(known + m.log_likelihood(bias2 + slope2 / p.d.n),
+                 [&](std::vector<double>& sums, double w) {
+                   for (std::size_t i = 0; i < n; ++i) {
+                     const double of_mean = m.square(i, bias2, slope2);
+                     sums[i] += w * std::sqrt(squares[i] + of_mean);
+                     sums[n + i] += w * std::sqrt(of_mean);
+                   }
+                 });
       }
   }
 }
