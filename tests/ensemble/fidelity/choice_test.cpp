@@ -63,12 +63,14 @@ double best_true_error(const Law& law, std::size_t n, double core_s) {
 }
 
 /// Set before anything was measured: the true error of the split that is found is within 1.5 of
-/// the least in the median of five draws of each family, at each budget.
+/// the least in the median of five draws of each family, at each budget. Beside one who knows that
+/// there is no bias, a split by few members that scatter much goes too fine, up to 2.7 times the
+/// least (docs/decisions/0053-what-accuracy-costs.md).
 TEST(TheBestSplit, IsNearTheBestOfAKnownLaw) {
   std::uint64_t seed = 1;
   for (const double bias : {0.0, 3.0, 30.0})
-    for (const double own : {0.5, 20.0})
-      for (const std::size_t n : {16, 64}) {
+    for (const double own : {0.5, 20.0, 60.0})
+      for (const std::size_t n : {16, 64, 400}) {
         std::vector<std::vector<double>> ratios(3);
         for (int k = 0; k < 5; ++k) {
           const Law law{k % 2 == 0 ? 0.8 : 1.4, bias, 0, 0, own, 1};
