@@ -39,7 +39,10 @@ ErrorAt error_at(const LadderAccuracy& ladder, std::span<const std::string> what
                  double spacing_m) {
   ErrorAt worst;
   const auto look = [&](double error, const std::string& of) {
-    if (is_asked(what, of) && !(error <= worst.error)) worst = {error, of};
+    if (!is_asked(what, of)) return;
+    // What is not known may be larger than all that is.
+    const bool unknown = !worst.of.empty() && std::isnan(worst.error);
+    if (!unknown && !(error <= worst.error)) worst = {error, of};
   };
   for (const ResultAccuracy& r : ladder.results) look(r.member_error(spacing_m), r.name);
   if (!ladder.maps.empty()) look(ladder.maps.front().errors.at(spacing_m), map_word);

@@ -12,8 +12,8 @@ namespace sturz {
 
 /// Relative error of one member at one spacing, expected (root mean square over the members).
 struct ErrorAt {
-  double error = nan_d;  ///< the largest of those asked for
-  std::string of;        ///< which one
+  double error = nan_d;  ///< the largest of those asked for; NaN: one of them is not known
+  std::string of;        ///< which one; empty: none was asked for
 };
 /// "map" among `what` stands for the map of the least threshold.
 inline constexpr const char* map_word = "map";

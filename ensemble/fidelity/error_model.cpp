@@ -2,6 +2,7 @@
 #include "ensemble/fidelity/error_model.hpp"
 
 #include "engine/core/error.hpp"
+#include "ensemble/fidelity/error_grid.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -17,26 +18,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Priors. Orders: normal about one, the order of a front that is one particle thick; none is below
-// a half or above two. Deviations: anything from a hundredth of the differences that were seen to
-// several times them, each as likely in logarithms.
-constexpr double order_mean = 1, order_deviation = 0.4;
-constexpr std::array orders{0.5, 0.625, 0.75, 0.875, 1.0, 1.125, 1.25, 1.375, 1.5, 1.75, 2.0};
-constexpr std::array scatter_orders{0.5, 0.75, 1.0, 1.25, 1.5};
+// Priors of deviations: each as likely in logarithms. Those of members: anything from a hundredth
+// of the differences that were seen to twice them.
 constexpr std::array sizes{1.0 / 256, 1.0 / 128, 1.0 / 64, 1.0 / 32, 1.0 / 16,
                            1.0 / 8,   1.0 / 4,   1.0 / 2,  1.0,      2.0};
-constexpr std::array bias_sizes{1.0 / 64, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 1.0, 2.0, 4.0};
-// What all members share of the scatter is about as large as their own part, or less.
-constexpr std::array common_shares{0.1, 0.25, 0.5, 1.0, 1.5};
-constexpr std::array map_sizes{0.02, 0.04, 0.06, 0.09, 0.13, 0.18, 0.25, 0.35,
-                               0.5,  0.7,  1.0,  1.4,  2.0,  2.8,  4.0};
-
-/// How well the law of distances between maps holds, in logarithms.
-constexpr double distance_deviation = 0.15;
-
-double order_prior(double order) {
-  return -0.5 * std::pow((order - order_mean) / order_deviation, 2);
-}
+/// What all members share of the scatter is no more than this times their own part.
+constexpr double most_common = 1.5;
+/// The bias makes differences of no more than so many times those that were seen of the means.
+constexpr double most_bias = 4;
 
 /// Differences of the members to their finest, in the unit `scale`.
 struct Differences {
@@ -46,6 +35,8 @@ struct Differences {
   double n = 0;
   double scale = 0;  // root mean square of all differences
   double noise = 0;
+  double of_means = 0;   // what the means differ by, with what their members' scatter may hide
+  double scattered = 0;  // what the members' scatter alone makes of it
 };
 
 Differences differences_of(std::span<const double> spacings,
@@ -69,7 +60,18 @@ Differences differences_of(std::span<const double> spacings,
   d.mean = all.rowwise().mean();
   all.colwise() -= d.mean;
   if (members > 1) d.covariance = all * all.transpose() / (d.n - 1);
+  const double of_mean = d.covariance.trace() / (d.n * static_cast<double>(k));
+  d.scattered = std::sqrt(of_mean);
+  d.of_means = std::sqrt(d.mean.squaredNorm() / static_cast<double>(k) + of_mean);
   return d;
+}
+
+/// Halves of `most` down to `least`, and zero in place of all that is less.
+std::vector<double> halves(double most, double least) {
+  std::vector<double> all;
+  for (double size = most; size >= least; size /= 2) all.push_back(size);
+  all.push_back(0);
+  return all;
 }
 
 /// Covariance of the differences to the finest of independent numbers with these variances.
@@ -80,146 +82,176 @@ MatrixXd to_finest(const VectorXd& variances) {
   return c;
 }
 
-/// What is asked about, as a weight of the bias, and the place of its spacing among those computed.
-struct Target {
-  double lift = 0;           // x^p of the spacing, less that of the finer one
-  Eigen::Index level = -1;   // -1: was not computed
-  double at = 0, finer = 0;  // variances of a number of unit deviation at both
-};
-
-/// Of a normal number with slope variance `along`, and independent numbers of these variances at
-/// the levels: conditional mean weights and variance of the target, given differences with Cholesky
-/// `v`.
-struct Conditional {
-  VectorXd weights;
-  double variance = 0;
-};
-Conditional given(const Eigen::LLT<MatrixXd>& v, const VectorXd& lift, double along,
-                  const VectorXd& variances, const Target& t, double at, double finer) {
-  const Eigen::Index k = lift.size();
-  VectorXd cross = along * t.lift * lift;
-  if (t.level >= 0 && t.level < k) cross[t.level] += variances[t.level];
-  if (t.level == k) cross.array() -= variances[k];
-  Conditional c;
-  c.weights = v.solve(cross);
-  c.variance = std::max(0.0, along * t.lift * t.lift + at + finer - cross.dot(c.weights));
-  return c;
-}
-
-/// Log likelihood of a sample covariance over n - 1, and of a mean, up to constants.
 double log_determinant(const Eigen::LLT<MatrixXd>& v) {
   double sum = 0;
   const MatrixXd& l = v.matrixLLT();
   for (Eigen::Index i = 0; i < l.rows(); ++i) sum += 2 * std::log(l(i, i));
   return sum;
 }
-double wishart(const Eigen::LLT<MatrixXd>& v, const MatrixXd& covariance, double n) {
-  return -0.5 * (n - 1) * (log_determinant(v) + v.solve(covariance).trace());
-}
-double normal(const Eigen::LLT<MatrixXd>& v, const VectorXd& mean) {
-  return -0.5 * (log_determinant(v) + mean.dot(v.solve(mean)));
-}
-
-/// Sums with weights that are known as logarithms only.
-class Weighted {
- public:
-  explicit Weighted(std::size_t n) : sums_(n, 0.0) {}
-  /// \param add(sums, weight) adds what is to be averaged
-  template <class Add>
-  void take(double log_weight, Add&& add) {
-    if (log_weight > most_) {
-      const double shrink = std::exp(most_ - log_weight);
-      for (double& s : sums_) s *= shrink;
-      weight_ *= shrink;
-      most_ = log_weight;
-    }
-    const double w = std::exp(log_weight - most_);
-    if (w < 1e-9) return;
-    add(sums_, w);
-    weight_ += w;
-  }
-  double average(std::size_t i) const { return sums_[i] / weight_; }
-  double log_total() const { return most_ + std::log(weight_); }
-
- private:
-  std::vector<double> sums_;
-  double weight_ = 0, most_ = -1e300;
-};
 
 /// One value of the orders and of the members' own scatter.
 struct Point {
   const Differences& d;
+  std::vector<Target> targets;
   VectorXd lift;     // x^p - 1 of all but the finest
   VectorXd scatter;  // x^2q of all
-  VectorXd own;      // variances of members' own numbers
-  std::vector<Target> targets;
+  VectorXd own;      // variances of members' own numbers, with the noise
+  double c2 = 0;     // that of the finest without it
+  double prior = 0;  // logarithm
 };
 
-/// Squares of the members' distances from their mean.
-Weighted over_slopes(const Point& p) {
-  Weighted sum(p.targets.size());
-  const MatrixXd own = to_finest(p.own);
-  for (const double s : sizes) {
-    const Eigen::LLT<MatrixXd> v(s * s * p.lift * p.lift.transpose() + own);
-    sum.take(wishart(v, p.d.covariance, p.d.n), [&](std::vector<double>& sums, double w) {
-      for (std::size_t i = 0; i < p.targets.size(); ++i) {
-        const Target& t = p.targets[i];
-        const double c2 = p.own[p.own.size() - 1] - p.d.noise * p.d.noise,
-                     noise = p.d.noise * p.d.noise;
-        const Conditional c = given(v, p.lift, s * s, p.own, t, c2 * t.at + noise,
-                                    t.finer > 0 ? c2 * t.finer + noise : 0);
-        sums[i] +=
-            w * (p.d.n - 1) / p.d.n * (c.weights.dot(p.d.covariance * c.weights) + c.variance);
-      }
-    });
+Point point_at(const Differences& d, std::vector<Target> targets, double p, double q, double own) {
+  const auto levels = static_cast<Eigen::Index>(d.x.size());
+  Point point{d, std::move(targets), VectorXd(levels - 1), VectorXd(levels), VectorXd(levels)};
+  point.c2 = own * own;
+  for (Eigen::Index l = 0; l < levels; ++l) {
+    const double x = d.x[static_cast<std::size_t>(l)];
+    if (l + 1 < levels) point.lift[l] = std::pow(x, p) - 1;
+    point.scatter[l] = std::pow(x, 2 * q);
+    point.own[l] = point.c2 * point.scatter[l] + d.noise * d.noise;
   }
-  return sum;
+  point.prior = order_prior(p) + order_prior(q);
+  return point;
 }
 
-/// Squares of the mean. That over many members has no scatter of its own left; one over as many as
-/// there are has, at both spacings.
-Weighted over_biases(const Point& p) {
-  const std::size_t n_targets = p.targets.size();
-  Weighted sum(n_targets);
-  const double noise = p.d.noise * p.d.noise, c2 = p.own[p.own.size() - 1] - noise;
-  for (const double share : common_shares) {
-    const double g2 = share * share * c2;
-    const VectorXd variances = g2 * p.scatter + p.own / p.d.n;
-    const MatrixXd known = to_finest(variances);
-    for (const double bias : bias_sizes) {
-      const Eigen::LLT<MatrixXd> v(bias * bias * p.lift * p.lift.transpose() + known);
-      sum.take(normal(v, p.d.mean), [&](std::vector<double>& sums, double w) {
-        for (std::size_t i = 0; i < n_targets; ++i) {
-          const Target& t = p.targets[i];
-          const bool to_limit = !(t.finer > 0);
-          const double left = to_limit ? 0 : 1 / p.d.n;
-          const VectorXd seen = to_limit ? VectorXd(g2 * p.scatter) : variances;
-          const Conditional c =
-              given(v, p.lift, bias * bias, seen, t, g2 * t.at + left * (c2 * t.at + noise),
-                    to_limit ? 0 : g2 * t.finer + left * (c2 * t.finer + noise));
-          const double mean = c.weights.dot(p.d.mean);
-          sums[i] += w * (mean * mean + c.variance);
-        }
-      });
+/// How the number that is asked about and the differences vary together, by what is drawn anew at
+/// each spacing.
+VectorXd shared_scatter(const Target& t, const VectorXd& variances) {
+  const Eigen::Index k = variances.size() - 1;
+  VectorXd shared = VectorXd::Zero(k);
+  if (t.level >= 0 && t.level < k) shared[t.level] = variances[t.level];
+  if (t.level == k) shared.setConstant(-variances[k]);
+  return shared;
+}
+
+/// The members about their mean. What their slopes add to the covariance of the differences is a
+/// multiple of lift lift': one decomposition serves all of them (Sherman and Morrison).
+class Members {
+ public:
+  explicit Members(const Point& p)
+      : p_(p),
+        known_(to_finest(p.own)),
+        by_lift_(known_.solve(p.lift)),
+        log_determinant_(log_determinant(known_)),
+        trace_(known_.solve(p.d.covariance).trace()),
+        ll_(p.lift.dot(by_lift_)),
+        lcl_(by_lift_.dot(p.d.covariance * by_lift_)) {}
+  /// Of the sample covariance (Wishart), up to a constant.
+  /// \param slope2 variance of the slopes
+  double log_likelihood(double slope2) const {
+    const double swell = 1 + slope2 * ll_;
+    return -0.5 * (p_.d.n - 1) *
+           (log_determinant_ + std::log(swell) + trace_ - slope2 * lcl_ / swell);
+  }
+  /// Mean squares of the members' distances from their mean.
+  std::vector<double> squares(double slope2) const {
+    const double noise2 = p_.d.noise * p_.d.noise, swell = 1 + slope2 * ll_;
+    std::vector<double> all;
+    for (const Target& t : p_.targets) {
+      const VectorXd cross = slope2 * t.lift * p_.lift + shared_scatter(t, p_.own);
+      const VectorXd weights =
+          known_.solve(cross) - slope2 * by_lift_.dot(cross) / swell * by_lift_;
+      const double variance = slope2 * t.lift * t.lift + p_.c2 * (t.at + t.finer) +
+                              (t.finer > 0 ? 2 : 1) * noise2 - cross.dot(weights);
+      all.push_back((p_.d.n - 1) / p_.d.n *
+                    (weights.dot(p_.d.covariance * weights) + std::max(0.0, variance)));
+    }
+    return all;
+  }
+
+ private:
+  const Point& p_;
+  Eigen::LLT<MatrixXd> known_;
+  VectorXd by_lift_;
+  double log_determinant_, trace_, ll_, lcl_;
+};
+
+/// The mean, with a scatter that all members share. Bias and the mean of the members' slopes add
+/// multiples of lift lift' too.
+class Means {
+ public:
+  Means(const Point& p, double common2) : p_(p) {
+    const VectorXd shared = common2 * p.scatter, drawn = shared + p.own / p.d.n;
+    const Eigen::LLT<MatrixXd> known(to_finest(drawn));
+    const VectorXd by_lift = known.solve(p.lift), by_mean = known.solve(p.d.mean);
+    log_determinant_ = log_determinant(known);
+    ll_ = p.lift.dot(by_lift);
+    lm_ = p.lift.dot(by_mean);
+    mm_ = p.d.mean.dot(by_mean);
+    for (const Target& t : p.targets) {
+      // Very many members have no scatter of their own left; as many as there are have, at both
+      // spacings.
+      const bool to_limit = !(t.finer > 0);
+      const VectorXd u = shared_scatter(t, to_limit ? shared : drawn);
+      Scatter s{u.dot(by_lift), u.dot(by_mean), common2 * (t.at + t.finer)};
+      if (!to_limit) s.alone += (p.c2 * (t.at + t.finer) + 2 * p.d.noise * p.d.noise) / p.d.n;
+      s.alone -= u.dot(known.solve(u));
+      scatter_.push_back(s);
     }
   }
-  return sum;
-}
-
-std::vector<Target> targets_of(std::span<const double> spacings,
-                               std::span<const ErrorQuestion> questions, double p, double q) {
-  std::vector<Target> targets;
-  for (const ErrorQuestion& question : questions) {
-    Target t;
-    const double x = question.spacing_m / spacings.back(), y = question.finer_m / spacings.back();
-    t.lift = std::pow(x, p) - (y > 0 ? std::pow(y, p) : 0);
-    t.at = std::pow(x, 2 * q);
-    t.finer = y > 0 ? std::pow(y, 2 * q) : 0;
-    const auto place = std::find(spacings.begin(), spacings.end(), question.spacing_m);
-    if (place != spacings.end()) t.level = place - spacings.begin();
-    targets.push_back(t);
+  /// Of the means of the differences (normal), up to a constant.
+  /// \param along variance of bias and mean slope together
+  double log_likelihood(double along) const {
+    const double swell = 1 + along * ll_;
+    return -0.5 * (log_determinant_ + std::log(swell) + mm_ - along * lm_ * lm_ / swell);
   }
-  return targets;
+  /// No bias makes the means more likely than this.
+  double most_likely() const { return -0.5 * log_determinant_; }
+  /// Mean square of the i-th number that is asked about, given the differences.
+  /// \param bias2 variance of the bias \param slope2 of the members' slopes
+  double square(std::size_t i, double bias2, double slope2) const {
+    const Target& t = p_.targets[i];
+    const Scatter& s = scatter_[i];
+    const double along = bias2 + slope2 / p_.d.n, swell = 1 + along * ll_;
+    // The slopes of very many members are zero in the mean.
+    const double asked = (t.finer > 0 ? along : bias2) * t.lift;
+    const double mean = s.mean + (asked - along * s.lift) * lm_ / swell;
+    const double variance = asked * t.lift + s.alone - asked * asked * ll_ / swell -
+                            2 * asked * s.lift / swell + along * s.lift * s.lift / swell;
+    return mean * mean + std::max(0.0, variance);
+  }
+
+ private:
+  struct Scatter {
+    double lift, mean, alone;
+  };
+  const Point& p_;
+  double log_determinant_ = 0, ll_ = 0, lm_ = 0, mm_ = 0;
+  std::vector<Scatter> scatter_;
+};
+
+/// Sizes, not squares, are averaged over the deviations that are not known: two or three
+/// differences of means exclude no large one for certain, and in a mean of squares what is hardly
+/// possible outweighs what is likely.
+void add_point(const Point& p, Weighted& all) {
+  const std::size_t n = p.targets.size();
+  const double own = std::sqrt(p.c2), finest = std::sqrt(p.own[p.own.size() - 1] / p.d.n);
+  const double unit = std::sqrt(static_cast<double>(p.lift.size())) / p.lift.norm();
+  const std::vector<double> biases = halves(most_bias * unit * p.d.of_means,
+                                            unit * std::max(p.d.scattered / 4, p.d.of_means / 64));
+  const Members members(p);
+  std::vector<Means> means{Means(p, 0)};
+  const double most_likely = means.front().most_likely();
+  for (const double slope : sizes) {
+    const double slope2 = slope * slope, known = p.prior + members.log_likelihood(slope2);
+    if (all.is_nothing(known + most_likely)) continue;
+    if (means.size() == 1)
+      for (const double common : halves(most_common * own, 0.5 * finest))
+        if (common > 0) means.emplace_back(p, common * common);
+    const std::vector<double> squares = members.squares(slope2);
+    for (const Means& m : means)
+      for (const double bias : biases) {
+        const double bias2 = bias * bias;
+        all.take(known + m.log_likelihood(bias2 + slope2 / p.d.n),
+                 [&](std::vector<double>& sums, double w) {
+                   for (std::size_t i = 0; i < n; ++i) {
+                     const double of_mean = m.square(i, bias2, slope2);
+                     sums[i] += w * std::sqrt(squares[i] + of_mean);
+                     sums[n + i] += w * std::sqrt(of_mean);
+                   }
+                 });
+      }
+  }
 }
 
 void check(std::span<const double> spacings, const std::vector<std::vector<double>>& values) {
@@ -243,79 +275,13 @@ std::vector<ExpectedSize> expected_sizes(std::span<const double> spacings_m,
     for (ExpectedSize& e : found) e = {noise, 0};
     return found;
   }
-  const auto levels = static_cast<Eigen::Index>(spacings_m.size());
   Weighted all(2 * questions.size());
   for (const double p : orders)
     for (const double q : scatter_orders)
-      for (const double own : sizes) {
-        Point point{d, VectorXd(levels - 1), VectorXd(levels), VectorXd(levels),
-                    targets_of(spacings_m, questions, p, q)};
-        for (Eigen::Index l = 0; l < levels; ++l) {
-          const double x = d.x[static_cast<std::size_t>(l)];
-          if (l + 1 < levels) point.lift[l] = std::pow(x, p) - 1;
-          point.scatter[l] = std::pow(x, 2 * q);
-          point.own[l] = own * own * point.scatter[l] + d.noise * d.noise;
-        }
-        const Weighted slopes = over_slopes(point), biases = over_biases(point);
-        all.take(slopes.log_total() + biases.log_total() + order_prior(p) + order_prior(q),
-                 [&](std::vector<double>& sums, double w) {
-                   for (std::size_t i = 0; i < questions.size(); ++i) {
-                     sums[i] += w * std::sqrt(slopes.average(i) + biases.average(i));
-                     sums[questions.size() + i] += w * std::sqrt(biases.average(i));
-                   }
-                 });
-      }
+      for (const double own : sizes)
+        add_point(point_at(d, targets_of(spacings_m, questions, p, q), p, q, own), all);
   for (std::size_t i = 0; i < questions.size(); ++i)
     found[i] = {d.scale * all.average(i), d.scale * all.average(questions.size() + i)};
-  return found;
-}
-
-std::vector<double> expected_distances(std::span<const double> spacings_m,
-                                       const std::vector<std::vector<double>>& distances,
-                                       double noise, std::span<const ErrorQuestion> questions) {
-  check(spacings_m, distances);
-  std::vector<double> found(questions.size(), nan_d);
-  const std::size_t n = spacings_m.size();
-  double squares = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < i; ++j) squares += distances[i][j] * distances[i][j];
-  const double scale = std::sqrt(2 * squares / static_cast<double>(n * (n - 1)));
-  if (n < 2 || !std::isfinite(scale)) return found;
-  if (!(scale > 0)) {
-    std::fill(found.begin(), found.end(), noise);
-    return found;
-  }
-  const double floor2 = noise * noise;
-  const auto size_of = [&](const Target& t, double bias, double scatter) {
-    return std::sqrt(std::pow(scale * bias * t.lift, 2) +
-                     std::pow(scale * scatter, 2) * (t.at + t.finer) + floor2);
-  };
-  std::vector<ErrorQuestion> pairs;
-  std::vector<double> seen;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 1; j < n; ++j) {
-      pairs.push_back({spacings_m[i], spacings_m[j]});
-      seen.push_back(std::max(distances[i][j], 1e-3 * scale));
-    }
-  Weighted all(questions.size());
-  for (const double p : orders)
-    for (const double q : scatter_orders) {
-      const std::vector<Target> known = targets_of(spacings_m, pairs, p, q);
-      const std::vector<Target> asked = targets_of(spacings_m, questions, p, q);
-      for (const double bias : map_sizes)
-        for (const double scatter : map_sizes) {
-          double fit = order_prior(p) + order_prior(q);
-          for (std::size_t k = 0; k < known.size(); ++k)
-            fit -= 0.5 * std::pow(std::log(seen[k] / size_of(known[k], bias, scatter)) /
-                                      distance_deviation,
-                                  2);
-          all.take(fit, [&](std::vector<double>& sums, double w) {
-            for (std::size_t k = 0; k < asked.size(); ++k)
-              sums[k] += w * size_of(asked[k], bias, scatter);
-          });
-        }
-    }
-  for (std::size_t k = 0; k < questions.size(); ++k) found[k] = all.average(k);
   return found;
 }
 

@@ -7,11 +7,12 @@
 /// with slope_m, common(d) and own_m(d) normal numbers of unknown deviation: Richardson's law with
 /// an order p, members that do not all err alike, and what lattice and ground do to one spacing by
 /// chance, to all members together and to each. own_m(d) has the noise of a displaced twin on top.
-/// Which values of the unknowns fit is told by the mean and the covariance of the members'
-/// differences between spacings (normal and Wishart likelihoods); they are summed over a grid, with
-/// the order that a scheme with fronts of one particle has as prior (p and q about 1). A
-/// random-effects form of Richardson extrapolation; see Gelman et al. 2013, Bayesian Data Analysis,
-/// ch. 5 and 15.
+/// Which values of the unknowns fit is told by the mean and the covariance of the n members'
+/// differences between spacings (normal and Wishart likelihoods; the mean of n slopes has the
+/// variance slope^2 / n, and cannot be told from bias); they are summed over a grid, with the order
+/// that a scheme with fronts of one particle has as prior (p and q about 1), and each size of a
+/// deviation as likely in logarithms, from nothing on. A random-effects form of Richardson
+/// extrapolation; see Gelman et al. 2013, Bayesian Data Analysis, ch. 5 and 15.
 #pragma once
 
 #include "engine/terrain/raster.hpp"
@@ -21,13 +22,14 @@
 
 namespace sturz {
 
-/// Expected size of an error or a difference, in the result's unit.
+/// Expected size of an error or a difference, in the result's unit: root mean square for given
+/// deviations and orders, averaged over those that may be.
 struct ExpectedSize {
-  double member = nan_d;  ///< root mean square over the members
-  double mean = nan_d;    ///< of their mean, root mean square over what it may be
+  double member = nan_d;  ///< over the members
+  double mean = nan_d;    ///< of their mean
 };
 
-/// The sums that the grid is weighted by; the work of expected_sizes().
+/// A spacing whose results are compared with the limit or with a finer one.
 struct ErrorQuestion {
   double spacing_m = 0;
   double finer_m = 0;  ///< 0: the limit

@@ -94,6 +94,9 @@ std::string choice_sentence(const LadderAccuracy& ladder, const CostQuestions& q
         plain(choice.predicted.of), share_text(choice.predicted.error));
   if (choice.predicted.of.empty())
     return fmt::format("{}: nothing of what was asked for is told.", wanted);
+  if (std::isnan(choice.predicted.error))
+    return fmt::format("{}: not told, as the error of {} is not known.", wanted,
+                       plain(choice.predicted.of));
   return fmt::format(
       "{}: not at these spacings ({} is {} off at the finest), nor at an eighth of the finest. Add "
       "finer ones, or ask for less.",
