@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Multilevel estimates of the shipped Zhangjiawan-like case in full stress at 6 m, held against members that they did not use.
 
-usage: multilevel.py members STURZ CASES OUT [N]     members of four levels, N (400) of full stress at 6 m; goes on where it was stopped
+usage: multilevel.py members STURZ CASES OUT [N]     members of four levels, N (1,000) of full stress at 6 m; goes on where it was stopped
        multilevel.py repeats TOOL OUT [MEMBERS]      TOOL is tests/tools/multilevel_repeats; MEMBERS where the levels lie, OUT when absent
        multilevel.py show OUT [PICTURE.png]          prints the tables
 needs python3-numpy; python3-matplotlib for the picture. Draws are independent and the same at every level. Each repeat parts the members at
@@ -16,8 +16,8 @@ import pathlib
 import subprocess
 import sys
 
-LEVELS = {"fs6": ("full_stress", 6, 400), "fs12": ("full_stress", 12, 800), "da9": ("depth_averaged", 9, 2000),
-          "da18": ("depth_averaged", 18, 2000)}
+LEVELS = {"fs6": ("full_stress", 6, 1000), "fs12": ("full_stress", 12, 1400), "da9": ("depth_averaged", 9, 3000),
+          "da18": ("depth_averaged", 18, 3000)}
 REPEATS = "100,24"  # of means, and of maps (and of the whole procedure, which looks at maps)
 # What is repeated: fixed members of levels by their place above, or the whole procedure with a target.
 JOBS = {"columns 9 m, 16": "0=16,2=800", "full stress 12 m, columns 9 m, 16": "0=16,1=64,2=800", "chosen by the procedure": "error=0.03,map=0.04",
@@ -144,7 +144,7 @@ def draw(head, found, picture):
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["members"] and len(sys.argv) in (5, 6):
-        members(sys.argv[2], sys.argv[3], pathlib.Path(sys.argv[4]), int(sys.argv[5]) if len(sys.argv) == 6 else 400)
+        members(sys.argv[2], sys.argv[3], pathlib.Path(sys.argv[4]), int(sys.argv[5]) if len(sys.argv) == 6 else LEVELS["fs6"][2])
     elif sys.argv[1:2] == ["repeats"] and len(sys.argv) in (4, 5):
         repeats(sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[-1])
     elif sys.argv[1:2] == ["show"] and len(sys.argv) in (3, 4):
