@@ -81,7 +81,7 @@ MADE = {
                          script("multilevel", "repeats", BUILD / "tests/tools/multilevel_repeats", OUT / "multilevel"),
                          script("multilevel", "show", OUT / "multilevel", IMAGES / "multilevel.png")),
                         (*DENSE, "engine/effects/columns", "ensemble/fidelity", "ensemble/workflow/multilevel/decision.cpp",
-                         "ensemble/workflow/multilevel/estimates.cpp", "tests/tools/multilevel_repeats.cpp", "tests/tools/stored_levels.hpp"), 90),
+                         "ensemble/workflow/multilevel/estimates.cpp", "tests/tools/multilevel_repeats.cpp", "tests/tools/stored_levels.hpp"), 130),
     "performance": Study("performance.md", (script("performance", BENCH, STURZ, OUT / "performance", IMAGES / "performance.png"),),
                          (*STATES, "engine/effects/columns", "ensemble/workflow/members", "tests/bench"), 30),
     "back_analysis": Study(BESIDE + "back_analysis.md",
