@@ -109,7 +109,7 @@ MADE = {
                      [STURZ, "ensemble", str(OUT / "region/scenario.yaml"), "-o", str(OUT / "region/out"), "--workers", "2"],
                      script("region", "check", OUT / "region/out")),
                     (*ENSEMBLE, "ensemble/region", "ensemble/workflow/region"), 40),
-    "risk_by_year": Study(BESIDE + "risk_by_year.md", (script("risk_by_year", STURZ, DATA + "/marsicano_tinitaly", OUT / "risk", 200),),
+    "risk_by_year": Study(BESIDE + "risk_by_year.md", (script("risk_by_year", STURZ, DATA, OUT / "risk", 200),),
                           ("ensemble/risk", "ensemble/assets", "ensemble/workflow/risk", "scenarios/risk", "scenarios/assets"), 15),
     "liquid": Study(BESIDE + "liquid.md",
                     (*(["env", "STURZ_LIQUID_FINE=1", str(BUILD / f"tests/physics/physics_{name}_test")] for name in ("dam_break", "rest", "impact")),
