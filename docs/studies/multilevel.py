@@ -29,7 +29,7 @@ JOBS = {"columns 9 m, 16": "0=16,2=800", "full stress 12 m, columns 9 m, 16": "0
         "columns 9 m, 8": "0=8,2=400", "columns 9 m, 32": "0=32,2=860"}
 
 
-CUBES, OF_CUBE = 10, 20  # Latin hypercubes of the dearest level, members of each: as many seconds as the first job takes
+CUBES, OF_CUBE = 6, 20  # Latin hypercubes of the dearest level, members of each: as many seconds as the first job takes
 
 
 def ensemble(sturz, cases, level, n, out, *settings):
