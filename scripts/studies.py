@@ -3,8 +3,8 @@
 """Makes the studies of docs/studies again and puts their figures into their pages, with a record in made.json.
 
 usage: scripts/make_studies.sh [--list | --table | --check] [--older] [--afresh] [--data FOLDER] [--only NAME ...] [NAME ...]
-(all when no name is given: some eight hours of one core; the wrapper is this script with Debian's python). Needs a release build with tests
-(./test.sh, or cmake --build build/release), python3-numpy, python3-netcdf4, python3-gdal, python3-matplotlib, and for some measured
+(all when no name is given: some eight hours of one core; the wrapper is this script with Debian's python). Needs a configured release build with tests
+(cmake --preset release -DSTURZ_TESTS=ON; programs that are missing or old are built), python3-numpy, python3-netcdf4, python3-gdal, python3-matplotlib, and for some measured
 ground: FOLDER holds s1000_sthelens (pre_runout_DEM.asc, landslide_depth.asc and DEM_of_Difference.asc from the tutorials
 mass_wasting_runout of github.com/landlab/landlab, MIT) and marsicano_tinitaly (marsicano_10m.tif of TINITALY,
 release_250m.geojson). A page keeps its words; what stands between <!-- made by NAME --> and <!-- end --> is replaced, with
@@ -95,8 +95,8 @@ def make(name, data):
         return False
     code = studies_made.hash_now(ROOT, study)
     commands = [[word.replace(DATA, data or "") for word in command] for command in study.commands]
-    if old := studies_build.out_of_date(str(BUILD), commands):
-        print(f"{name}: not made ({old}). cmake --build build/release")
+    if old := studies_build.make_current(str(BUILD), commands):
+        print(f"{name}: not made ({old}). cmake --preset release -DSTURZ_TESTS=ON, cmake --build build/release")
         return False
     programs = studies_build.identity(str(BUILD), commands)
     # Tests that fail and bounds that do not hold are written down, too: the rest of the commands runs all the same.

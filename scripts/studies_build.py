@@ -61,6 +61,16 @@ def out_of_date(build, commands):
     return ""
 
 
+def make_current(build, commands):
+    """Builds what of the commands' programs is not there or older than its sources. \return why that failed; "" when all is built"""
+    old = out_of_date(build, commands)
+    if not old or not pathlib.Path(build, "build.ninja").is_file():
+        return old
+    done = subprocess.run(["ninja", "-C", build, *(program.removeprefix(f"{build}/") for program in programs_of(build, commands))],
+                          capture_output=True, text=True, check=False)
+    return out_of_date(build, commands) if done.returncode == 0 else f"{old}, and building it failed: {done.stdout.strip()[-1000:]}"
+
+
 def identity(build, commands):
     """Hash of the programs themselves: it says whether one was built anew while a study ran."""
     whole = hashlib.sha256()

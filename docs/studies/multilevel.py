@@ -1,35 +1,49 @@
 # SPDX-License-Identifier: Apache-2.0
 """Multilevel estimates of the shipped Zhangjiawan-like case in full stress at 6 m, held against members that they did not use.
 
-usage: multilevel.py members STURZ CASES OUT [N]     members of four levels, N (400) of full stress at 6 m; goes on where it was stopped
+usage: multilevel.py members STURZ CASES OUT [N]     members of four levels, N (1,000) of full stress at 6 m; goes on where it was stopped
        multilevel.py repeats TOOL OUT [MEMBERS]      TOOL is tests/tools/multilevel_repeats; MEMBERS where the levels lie, OUT when absent
        multilevel.py show OUT [PICTURE.png]          prints the tables
-needs python3-numpy; python3-matplotlib for the picture. Draws are independent and the same at every level. Each repeat parts the members at
+needs python3-numpy, python3-netcdf4; python3-matplotlib for the picture. Draws are independent and the same at every level. Each repeat parts the members at
 random: 64 draws of the dearest level and half of the cheaper ones' further draws are there to be used, the others are what the estimate
 is held against, and share no draw with it. Means are held against a control-variate estimate from these others, the map against their
 plain shares; the reference's own variance is taken off every mean square. Plain sampling: the variance of a member of the dearest
-level over their number, at their mean CPU seconds. Error bars of measured gains: standard errors from the repeats.
+level over their number, at their mean CPU seconds: independent draws. Beside it Latin hypercubes of the dearest level, whose means scatter less,
+against the same members. Error bars of measured gains: standard errors from the repeats.
 """
+import csv
 import json
 import math
 import pathlib
 import subprocess
 import sys
 
-LEVELS = {"fs6": ("full_stress", 6, 400), "fs12": ("full_stress", 12, 800), "da9": ("depth_averaged", 9, 2000),
-          "da18": ("depth_averaged", 18, 2000)}
+import netCDF4
+import numpy
+
+LEVELS = {"fs6": ("full_stress", 6, 1000), "fs12": ("full_stress", 12, 1400), "da9": ("depth_averaged", 9, 3000),
+          "da18": ("depth_averaged", 18, 3000)}
 REPEATS = "100,24"  # of means, and of maps (and of the whole procedure, which looks at maps)
 # What is repeated: fixed members of levels by their place above, or the whole procedure with a target.
 JOBS = {"columns 9 m, 16": "0=16,2=800", "full stress 12 m, columns 9 m, 16": "0=16,1=64,2=800", "chosen by the procedure": "error=0.03,map=0.04",
         "columns 9 m, 8": "0=8,2=400", "columns 9 m, 32": "0=32,2=860"}
 
 
+CUBES, OF_CUBE = 6, 20  # Latin hypercubes of the dearest level, members of each: as many seconds as the first job takes
+
+
+def ensemble(sturz, cases, level, n, out, *settings):
+    formulation, spacing, _ = LEVELS[level]
+    given = [f"formulation={formulation}", f"numerics.spacing_m={spacing}", "hazard.cell_size_m=10", *settings]
+    subprocess.run([sturz, "ensemble", f"{cases}/zhangjiawan/scenario.yaml", *(word for key in given for word in ("--set", key)), "-n", str(n), "-o", str(out)],
+                   check=True)
+
+
 def members(sturz, cases, out, n):
     for name in ("da18", "da9", "fs12", "fs6"):
-        formulation, spacing, count = LEVELS[name]
-        subprocess.run([sturz, "ensemble", f"{cases}/zhangjiawan/scenario.yaml", "--set", "ensemble.design=monte_carlo", "--set",
-                        f"formulation={formulation}", "--set", f"numerics.spacing_m={spacing}", "--set", "hazard.cell_size_m=10", "-n",
-                        str(n if name == "fs6" else count), "-o", f"{out}/{name}"], check=True)
+        ensemble(sturz, cases, name, n if name == "fs6" else LEVELS[name][2], f"{out}/{name}", "ensemble.design=monte_carlo")
+    for k in range(CUBES):
+        ensemble(sturz, cases, "fs6", OF_CUBE, f"{out}/cube_{k}", "ensemble.design=latin_hypercube", f"ensemble.seed={1000 + k}")
 
 
 def repeats(tool, out, members_in):
@@ -90,6 +104,58 @@ def decided(rows):
     capped = sum(bool(r["capped"]) for r in rows)
     rounds = mean(r["rounds"] for r in rows)
     return f"{rounds:.1f}" if rounds > 0 else "-", f"{capped} of {len(rows)}" if capped else "0"
+def results_of(folder, name):
+    """member -> a result of it, of members that settled and whose end was seen."""
+    lines = (line for line in open(folder / "members.csv") if not line.startswith("#"))
+    return {int(row["member"]): float(row[name]) for row in csv.DictReader(lines) if row["outcome"] == "settled" and row["censored"] == "none"}
+
+
+def reference(out, name):
+    """Mean of the dearest level's members, corrected by the columns that have more of them, and its variance."""
+    dear, cheap = results_of(out / "fs6", name), results_of(out / "da9", name)
+    y, x = (numpy.array([level[k] for k in sorted(dear.keys() & cheap.keys())]) for level in (dear, cheap))
+    slope = numpy.cov(x, y)[0, 1] / x.var(ddof=1)
+    many = numpy.array(list(cheap.values()))
+    left = y - slope * x
+    return left.mean() + slope * many.mean(), left.var(ddof=1) / len(y) + slope ** 2 * many.var(ddof=1) / len(many), y.var(ddof=1)
+
+
+def reach(folder):
+    """P(reached) by the corner of the cell, and the number of members."""
+    with netCDF4.Dataset(folder / "hazard.nc") as data:
+        p = data["probability_of_reach"][:].filled(0)
+        n = len(results_of(folder, "runout_m"))
+        return {(x, y): p[r, c] for r, y in enumerate(data["y"][:].tolist()) for c, x in enumerate(data["x"][:].tolist()) if p[r, c] > 0}, n
+
+
+def cubes(out):
+    """Mean square errors of the Latin hypercubes: result -> (square, its standard error, that of as many independent draws)."""
+    folders = sorted(out.glob("cube_*"))
+    found = {}
+    for name in ("runout_m", "reached_area_m2", "com_travel_m"):
+        known, own, spread = reference(out, name)
+        of = [list(results_of(folder, name).values()) for folder in folders]
+        squares = [(mean(values) - known) ** 2 - own for values in of]
+        found[name] = mean(squares), error_of_mean(squares), mean(spread / len(values) for values in of)
+    known, n = reach(out / "fs6")
+    doubtful = {cell: p for cell, p in known.items() if 0.05 < p < 0.95}
+    plain = mean(p * (1 - p) for p in doubtful.values()) * n / (n - 1)
+    squares = []
+    for folder in folders:
+        p, _ = reach(folder)
+        squares.append(mean((p.get(cell, 0) - q) ** 2 for cell, q in doubtful.items()) - plain / n)
+    found["map"] = mean(squares), error_of_mean(squares), mean(plain / reach(folder)[1] for folder in folders)
+    return found
+
+
+def show_cubes(out):
+    print(f"\n{CUBES} Latin hypercubes of {OF_CUBE} members of full stress 6 m, against the same members:\n")
+    print("| result | error | independent draws, as many | 1/gain measured |\n|---|---|---|---|")
+    for name, (square, doubt, plain) in cubes(out).items():
+        low, high = square - doubt, square + doubt
+        error = f"{math.sqrt(square):.3g}" if square > 0 else f"under {math.sqrt(high):.2g}"
+        gain = (f"1/{plain / square:.1f} (1/{plain / high:.1f} to " + (f"1/{plain / low:.0f})" if low > 0 else "more)")) if square > 0 else f"over 1/{plain / high:.0f}"
+        print(f"| {name} | {error} | {math.sqrt(plain):.3g} | {gain} |")
 
 
 def show(out, picture):
@@ -111,6 +177,7 @@ def show(out, picture):
     print("\nWhat a cheaper level alone is off by, however many members it has:")
     for c in head["cheap"]:
         print(list(LEVELS)[c["level"]], {k: round(v, 3) for k, v in c.items() if k != "level"})
+    show_cubes(out)
     if picture:
         draw(head, found, picture)
 
@@ -153,7 +220,7 @@ def draw(head, found, picture):
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["members"] and len(sys.argv) in (5, 6):
-        members(sys.argv[2], sys.argv[3], pathlib.Path(sys.argv[4]), int(sys.argv[5]) if len(sys.argv) == 6 else 400)
+        members(sys.argv[2], sys.argv[3], pathlib.Path(sys.argv[4]), int(sys.argv[5]) if len(sys.argv) == 6 else LEVELS["fs6"][2])
     elif sys.argv[1:2] == ["repeats"] and len(sys.argv) in (4, 5):
         repeats(sys.argv[2], pathlib.Path(sys.argv[3]), sys.argv[-1])
     elif sys.argv[1:2] == ["show"] and len(sys.argv) in (3, 4):

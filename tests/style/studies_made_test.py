@@ -156,6 +156,17 @@ class StudiesBuild(unittest.TestCase):
         self.commands.append([f"{self.build}/bench", "throughput"])
         self.assertIn("bench is not there", self.old())
 
+    def test_what_is_missing_or_old_is_built_and_a_failure_is_told(self):
+        self.commands.append([f"{self.build}/bench", "throughput"])
+        (self.build.parent / "source.cpp").write_text("int g();\n")
+        self.assertEqual(studies_build.make_current(str(self.build), self.commands), "")
+        self.assertEqual([(self.build / name).read_text() for name in ("sturz", "bench")], ["int g();\n"] * 2)
+        (self.build.parent / "source.cpp").unlink()
+        (self.build / "bench").unlink()
+        self.assertIn("building it failed", studies_build.make_current(str(self.build), self.commands))
+        (self.build / "build.ninja").unlink()
+        self.assertIn("is not there", studies_build.make_current(str(self.build), self.commands))
+
     def test_a_program_that_was_built_anew_is_another(self):
         before = studies_build.identity(str(self.build), self.commands)
         (self.build / "sturz").write_text("int g();\n")
