@@ -104,6 +104,8 @@ def decided(rows):
     capped = sum(bool(r["capped"]) for r in rows)
     rounds = mean(r["rounds"] for r in rows)
     return f"{rounds:.1f}" if rounds > 0 else "-", f"{capped} of {len(rows)}" if capped else "0"
+
+
 def results_of(folder, name):
     """member -> a result of it, of members that settled and whose end was seen."""
     lines = (line for line in open(folder / "members.csv") if not line.startswith("#"))
