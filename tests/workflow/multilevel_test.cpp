@@ -4,6 +4,7 @@
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
 #include "ensemble/workflow/multilevel/multilevel_words.hpp"
+#include "ensemble/workflow/results/merge.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
@@ -210,6 +211,27 @@ TEST_F(Multilevel, SaysFirstThatTooManyMembersAreCutOff) {
   EXPECT_EQ(workflow::page_sentences(made).front(), made.cut_off.front());
   EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("\"too_many_censored\": true"));
   EXPECT_THAT(read("out/report.html"), HasSubstr("are cut off (8 out of time)"));
+}
+
+TEST_F(Multilevel, SaysThatAssetsAreNotEstimatedAndWhatMakesThem) {
+  write("assets.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"id": "field"},
+     "geometry": {"type": "Point", "coordinates": [-44, 0]}}]})");
+  write("scene.yaml",
+        read("scene.yaml") + "assets: {features: assets.geojson, name_attribute: id}\n");
+  Recorder heard;
+  const MultilevelMade made = run(asked("out", "0.3"), heard).made;
+  EXPECT_FALSE(exists("out/assets.csv"));
+  const auto said = HasSubstr("assets are not estimated over several levels");
+  EXPECT_THAT(made.warnings, ::testing::Contains(said));
+  EXPECT_THAT(workflow::multilevel_json_text(made), said);
+  EXPECT_THAT(read("out/report.html"), said);
+  // What it names does make them.
+  const std::string level = "out/levels/depth_averaged_1m";
+  EXPECT_FALSE(exists(level + "/assets.csv"));
+  workflow::merge_members({path(level), false}, heard, heard.cancel);
+  EXPECT_THAT(read(level + "/assets.csv"), HasSubstr("\nfield,inside,"));
+  EXPECT_TRUE(exists(level + "/assets.gpkg"));
 }
 
 TEST_F(Multilevel, SaysThatItsPlanIsDamaged) {
