@@ -96,20 +96,37 @@ TEST_F(Multilevel, ReachesWhatWasAskedForAndSaysSo) {
     for (const float p : layer->values)
       EXPECT_TRUE((p >= 0 && p <= 1) || (upper && std::isnan(p))) << name;
   }
-  // A cell whose probability is seen has an upper bound; beyond the flow none is told.
-  const Layer &reach = *maps.find("probability_of_reach"),
-              &upper = *maps.find("probability_of_reach_upper");
+  EXPECT_THAT(maps.find("probability_of_reach_lower")->comment, HasSubstr("90 % bounds"));
+}
+
+/// With two levels, whatever the seconds of this machine would choose.
+TEST_F(Multilevel, TellsNoUpperBoundWhereNumbersAloneSpeak) {
+  Recorder heard;
+  workflow::MultilevelJob job = workflow::prepare_multilevel(asked("out", "0.4"), heard);
+  workflow::PlanListener silent;
+  const workflow::MultilevelMembers found =
+      workflow::run_multilevel(job, heard, silent, heard.cancel);
+  job.plan.rounds.back().plan.levels = {0, 1};
+  const MultilevelMade made = workflow::look_at_members(job, found, {});
+  workflow::write_multilevel_files(job, found, made, {});
+  const LayerStack maps = read_layers(path("out") / "hazard.nc");
+  const Layer *reach = maps.find("probability_of_reach"),
+              *upper = maps.find("probability_of_reach_upper");
+  ASSERT_TRUE(reach != nullptr && upper != nullptr);
   std::size_t untold = 0;
-  for (std::size_t i = 0; i < reach.values.size(); ++i) {
-    untold += std::isnan(upper.values[i]) ? 1 : 0;
-    if (reach.values[i] < 0.005F) continue;
-    EXPECT_GE(upper.values[i], reach.values[i]) << i;
+  for (std::size_t i = 0; i < reach->values.size(); ++i) {
+    untold += std::isnan(upper->values[i]) ? 1 : 0;
+    EXPECT_TRUE(reach->values[i] == 0 || upper->values[i] >= reach->values[i]) << i;
   }
   EXPECT_GT(untold, 0U);
-  EXPECT_THAT(upper.comment, HasSubstr("no value where it is not told"));
-  EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("\"draws_needed\""));
-  EXPECT_THAT(workflow::page_sentences(made), ::testing::Contains(HasSubstr("are too few")));
-  EXPECT_THAT(maps.find("probability_of_reach_lower")->comment, HasSubstr("90 % bounds"));
+  EXPECT_LT(untold, reach->values.size());
+  EXPECT_THAT(upper->comment, HasSubstr("no value where it is not told"));
+  // Fewer than 59 dear members: the outer quantiles have no outer bounds.
+  ASSERT_LT(made.dear_draws, 59U);
+  EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("\"draws_needed\": 59"));
+  EXPECT_THAT(workflow::page_sentences(made),
+              ::testing::Contains(HasSubstr("No upper bound of the 95 % quantile: ")));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("No colour: not told, which is not 0"));
 }
 
 TEST_F(Multilevel, GoesOnToTheSameBitsWhereverItWasStopped) {

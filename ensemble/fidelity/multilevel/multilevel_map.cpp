@@ -193,6 +193,10 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
     double p = correction.mean[i];
     for (std::size_t l = 1; l < n_levels; ++l) p += at.increment(l);
     p = std::clamp(p, 0.0, 1.0);
+    const bool told =
+        sums.covering(i) > 0 || sums.foretold(i) >= least_foretold || p >= least_shown;
+    map.told.values[cells[i]] = told ? 1 : 0;
+    if (!told) p = 0;  // the tails of fits far out are no flow
     // Members that all come as foretold do not show how far they scatter.
     const double own = std::max(correction.variance[i], sums.noise(i) * correction.variance_ratio);
     const double parts = own / n + at.variance_of_mean(1);
@@ -204,8 +208,6 @@ MultilevelMap multilevel_map(const MapLevels& levels, const Exceedance& what, Ca
     const Interval bounds = share_bounds(p, std::sqrt(variance), n - 1, sums.surprises(i));
     map.low.values[cells[i]] = bounds.low;
     map.high.values[cells[i]] = bounds.high;
-    map.told.values[cells[i]] =
-        sums.covering(i) > 0 || sums.foretold(i) >= least_foretold || p >= least_shown ? 1 : 0;
     if (!is_doubtful(p)) continue;
     ++map.doubtful;
     squares += variance;

@@ -36,8 +36,9 @@ struct MultilevelMap {
   /// draws of the dearest level allows.
   Raster<double> probability, low, high;
   /// 1 where the upper bound is told: a draw of the dearest level comes there, or what the others
-  /// foretell of one is a chance of least_foretold or more. Beyond, `high` is unseen_share(), there
-  /// and everywhere alike: a matter of numbers, not of the place.
+  /// foretell of one is a chance of least_foretold or more. Beyond, the probability (below half a
+  /// per cent) is 0 and `high` unseen_share(), there and everywhere alike: a matter of numbers, not
+  /// of the place.
   Raster<std::uint8_t> told;
   /// Cells whose probability is between 0.05 and 0.95, and over them: the root mean square of the
   /// standard error, sums of the variances of the increments [n_levels], and of P (1 - P), which is
