@@ -115,7 +115,6 @@ std::vector<std::string> all_warnings(const Scene& scene, const DesignTable& des
     all.insert(all.end(), more.begin(), more.end());
   };
   if (design.n_members() > 0) add(workflow::ensemble_warnings(scene, design));
-  add(workflow::multilevel_warnings(scene, "OUT"));
   add(workflow::cost_warnings(scene, std::max<std::int64_t>(design.n_members(), 1),
                               workflow::available_cores(), forecast.maps_s.likely));
   return all;

@@ -41,27 +41,6 @@ TEST_F(MultilevelEnsemble, SaysWhatItTriedDecidedAndFound) {
   EXPECT_THAT(read("out/report.html"), HasSubstr("Means, and by how much they may be off"));
 }
 
-TEST_F(MultilevelEnsemble, DescribeSaysThatAssetsAreLeftOut) {
-  write("assets.geojson", R"({"type": "FeatureCollection", "features": [
-    {"type": "Feature", "properties": {"id": "field"},
-     "geometry": {"type": "Point", "coordinates": [-44, 0]}}]})");
-  const std::string bare = read("scene.yaml");
-  const auto described = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> all{"describe", path("scene.yaml")};
-    all.insert(all.end(), more.begin(), more.end());
-    const Ended ended = sturz(all);
-    EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    return ended.out + ended.err;
-  };
-  const auto said = HasSubstr("`sturz merge OUT/levels/NAME`");
-  EXPECT_THAT(described({}), ::testing::Not(said));
-  write("scene.yaml", bare + "assets: {features: assets.geojson, name_attribute: id}\n");
-  EXPECT_THAT(described({}), said);
-  EXPECT_THAT(described({"--set", "ensemble.estimator=plain", "--set", "ensemble.levels=null",
-                         "--set", "ensemble.target=null", "--set", "ensemble.pilot=null"}),
-              ::testing::Not(said));
-}
-
 TEST_F(MultilevelEnsemble, RefusesWhatDoesNotGoWithIt) {
   const Ended level = ensemble();
   EXPECT_EQ(level.exit_code, 1);

@@ -162,16 +162,4 @@ Warnings ensemble_warnings(const Scene& scene, const DesignTable& design) {
   return out;
 }
 
-Warnings multilevel_warnings(const Scene& scene, const std::string& folder) {
-  Warnings out;
-  if (scene.scenario.ensemble.estimator != Estimator::multilevel || !scene.inputs.assets)
-    return out;
-  out.push_back(
-      fmt::format("assets are not estimated over several levels: there is no assets.csv for all of "
-                  "them. `sturz merge {}/levels/NAME` makes it, and assets.gpkg, of the members of "
-                  "one level: the first is the scene as it is, with the fewest members",
-                  folder));
-  return out;
-}
-
 }  // namespace sturz::workflow

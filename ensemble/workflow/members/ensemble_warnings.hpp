@@ -15,8 +15,4 @@ namespace sturz::workflow {
 /// too thin, members that nothing brakes, formulations that change from member to member.
 std::vector<std::string> ensemble_warnings(const Scene&, const DesignTable&);
 
-/// What a scene asks for that ensembles of several levels do not make; empty for plain ones.
-/// \param folder of the results, as commands name it
-std::vector<std::string> multilevel_warnings(const Scene&, const std::string& folder);
-
 }  // namespace sturz::workflow

@@ -5,7 +5,6 @@
 #include "ensemble/fidelity/choice.hpp"
 #include "ensemble/fidelity/multilevel/remembered_members.hpp"
 #include "ensemble/workflow/folder/folder_members.hpp"
-#include "ensemble/workflow/members/ensemble_warnings.hpp"
 #include "ensemble/workflow/members/run_ensemble.hpp"
 #include "ensemble/workflow/multilevel/decision.hpp"
 #include "ensemble/workflow/without_folder.hpp"
@@ -184,8 +183,6 @@ MultilevelJob prepare_multilevel(const EnsembleRequest& request, Observer& obser
   job.request = request;
   job.scene = load_scene(scene_of(request));
   require_draws(job.scene);
-  for (std::string& warning : multilevel_warnings(job.scene, request.folder.string()))
-    job.scene.description.warnings.push_back(std::move(warning));
   job.parts = possible_parts(request, job.scene, observer);
   const OutputFolder folder{request.folder};
   require(!fs::exists(folder.manifest()),
