@@ -115,6 +115,9 @@ TEST(AssetsOverLevels, HoldTheirProbabilitiesAndDoNotLean) {
   }
 }
 
+/// With Student's 90 % of 23 degrees. The standard error itself scatters much where most members
+/// have no damage: of 200 repeats the median is three quarters of the true error, one is twelve
+/// times it.
 TEST(AssetsOverLevels, KnowTheirDamage) {
   constexpr int repeats = 200;
   // E min(max(x - edge, 0) / 2, 1) of a standard normal x: by both ends of the curve.
@@ -122,7 +125,7 @@ TEST(AssetsOverLevels, KnowTheirDamage) {
     return std::exp(-c * c / 2) / std::sqrt(2 * std::numbers::pi) - c * (1 - normal_share(c));
   };
   const double truth = (above(edge) - above(edge + 2)) / 2;
-  double mean = 0, squares = 0, said = 0;
+  double mean = 0, squares = 0, covered = 0;
   for (int r = 0; r < repeats; ++r) {
     const LevelledRisk risk =
         assessed(family(24, 400, 800000 + 10 * static_cast<std::uint64_t>(r)));
@@ -131,10 +134,11 @@ TEST(AssetsOverLevels, KnowTheirDamage) {
     EXPECT_NEAR(risk.table.total_loss.mean, row.loss.mean, 1e-6);
     mean += row.damage.mean / repeats;
     squares += (row.damage.mean - truth) * (row.damage.mean - truth) / repeats;
-    said += row.damage.standard_error * row.damage.standard_error / repeats;
+    covered +=
+        std::abs(row.damage.mean - truth) < 1.714 * row.damage.standard_error ? 1.0 / repeats : 0;
   }
   EXPECT_NEAR(mean, truth, 4 * std::sqrt(squares / repeats));
-  EXPECT_NEAR(std::sqrt(said / squares), 1, 0.25);
+  EXPECT_GE(covered, 0.85);
 }
 
 /// None of 24 comes: up to 1 - 0.05^(1/24) may still do so.
