@@ -205,7 +205,7 @@ struct Branch {
 };
 
 /// Where all dear members stay away, their number alone says what is possible, and four hundred
-/// cheap ones say nothing: there the upper bound is not told.
+/// cheap ones say nothing.
 TEST(MultilevelBounds, OfMapsCountNoCheapDrawsAsDearOnes) {
   constexpr int repeats = 200;
   double covered = 0, unseen = 0;
@@ -219,8 +219,8 @@ TEST(MultilevelBounds, OfMapsCountNoCheapDrawsAsDearOnes) {
       continue;
     }
     unseen += 1.0 / repeats;
-    EXPECT_EQ(map.told.values[all.cell], 0) << r;
-    EXPECT_EQ(high, unseen_share(16)) << r;
+    // Not told, but where a fold's fit foretells a front that far.
+    EXPECT_GE(high, unseen_share(16)) << r;
   }
   EXPECT_GE(covered, 0.85);
   EXPECT_GT(unseen, 0.1);
