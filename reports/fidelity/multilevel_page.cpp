@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -110,6 +111,35 @@ std::string levels_html(const MultilevelPage& page) {
          table.html() + "</section>\n";
 }
 
+constexpr std::size_t most_assets = 200;
+
+std::string assets_html(const MultilevelPage& page) {
+  if (page.assets.empty()) return {};
+  std::vector<std::string> heads{"hit"};
+  heads.insert(heads.end(), page.exceedances.begin(), page.exceedances.end());
+  Table table("asset", heads);
+  const std::size_t n = std::min(most_assets, page.assets.size());
+  for (std::size_t a = 0; a < n; ++a) {
+    const MultilevelPageAsset& asset = page.assets[a];
+    std::vector<std::string> cells;
+    for (const auto& s : asset.shares)
+      cells.push_back(std::isfinite(s.value)
+                          ? fmt::format("{}{} ({} \u2013 {})", asset.cut_off ? "\u2265 " : "",
+                                        percent_text(s.value), percent_text(s.low),
+                                        percent_text(s.high))
+                          : "not known");
+    table.row(asset.name, cells);
+  }
+  return "<section id=\"assets\"><h2>Whether assets are hit, and how hard</h2>" + table.html() +
+         fmt::format(
+             "<p class=\"note\">Probabilities that a member hits the asset, and that the largest "
+             "over the asset's cells exceeds the threshold, with 90 % bounds{}. All columns stand "
+             "in assets.csv.</p></section>\n",
+             n < page.assets.size()
+                 ? fmt::format("; the first {} of {} assets", n, page.assets.size())
+                 : std::string());
+}
+
 const Layer* layer_of(const LayerStack& maps, Statistic statistic) {
   for (const Layer& layer : maps.layers)
     if (layer.meaning.quantity == Quantity::reached && layer.meaning.statistic == statistic)
@@ -172,8 +202,8 @@ std::string make_multilevel_page(const MultilevelPage& page) {
           html_escape(page.title), html_escape(page.when), html_escape(page.program));
   if (!page.warnings.empty())
     html += "<div class=\"warnings\"><h2>Warnings</h2>" + list_html(page.warnings) + "</div>\n";
-  return html + list_html(page.sentences) + results_html(page) + maps_html(page) +
-         levels_html(page) + reading_html + "</main>\n</body>\n</html>\n";
+  return html + list_html(page.sentences) + results_html(page) + assets_html(page) +
+         maps_html(page) + levels_html(page) + reading_html + "</main>\n</body>\n</html>\n";
 }
 
 }  // namespace sturz

@@ -28,11 +28,23 @@ struct MultilevelPageLevel {
   std::vector<double> shares_of_variance;  ///< [results, map]; empty: not used
 };
 
+/// Probabilities at one asset, with 90 % bounds; NaN where it lies beyond the maps.
+struct MultilevelPageAsset {
+  struct Share {
+    double value = nan_d, low = nan_d, high = nan_d;
+  };
+  std::string name;
+  std::vector<Share> shares;  ///< that it is hit, and of each of the page's `exceedances`
+  bool cut_off = false;       ///< lower bounds, because members were cut off
+};
+
 struct MultilevelPage {
   std::string title, when, program;
   std::vector<std::string> sentences;  ///< what was reached, and at which price
   std::vector<MultilevelPageResult> results;
   std::vector<MultilevelPageLevel> levels;
+  std::vector<std::string> exceedances;  ///< "pressure > 30 kPa"
+  std::vector<MultilevelPageAsset> assets;
   const LayerStack* maps = nullptr;           ///< P(reached) with its bounds among them
   std::string upper_bound_note;               ///< what no colour means on the map of upper bounds
   const Raster<double>* elevation = nullptr;  ///< may be null

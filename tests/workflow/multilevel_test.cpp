@@ -4,6 +4,7 @@
 #include "ensemble/hazard/stack_hash.hpp"
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
 #include "ensemble/workflow/multilevel/multilevel_words.hpp"
+#include "ensemble/workflow/results/merge.hpp"
 #include "io/netcdf/netcdf_layers.hpp"
 #include "tests/workflow/workflow_fixture.hpp"
 
@@ -252,6 +253,48 @@ TEST_F(Multilevel, SaysFirstThatTooManyMembersAreCutOff) {
   EXPECT_EQ(workflow::page_sentences(made).front(), made.cut_off.front());
   EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("\"too_many_censored\": true"));
   EXPECT_THAT(read("out/report.html"), HasSubstr("are cut off (8 out of time)"));
+}
+
+/// Beside plain members of the dearest level: a field around the release that all hit, a hut uphill
+/// where none comes.
+TEST_F(Multilevel, TellsWhatAssetsExpect) {
+  write("assets.geojson", R"({"type": "FeatureCollection", "features": [
+    {"type": "Feature", "properties": {"id": "field"},
+     "geometry": {"type": "Point", "coordinates": [-44, 0]}},
+    {"type": "Feature", "properties": {"id": "hut"},
+     "geometry": {"type": "Point", "coordinates": [-57, 20]}}]})");
+  write("scene.yaml",
+        read("scene.yaml") + "assets: {features: assets.geojson, name_attribute: id}\n");
+  Recorder heard;
+  MultilevelMade made;
+  {
+    workflow::MultilevelJob job = workflow::prepare_multilevel(asked("out", "0.3"), heard);
+    workflow::PlanListener silent;
+    const auto found = workflow::run_multilevel(job, heard, silent, heard.cancel);
+    job.plan.rounds.back().plan.levels = {0, 1};  // whatever the seconds said
+    made = workflow::look_at_members(job, found, {});
+    workflow::write_multilevel_files(job, found, made, {});
+  }
+  ASSERT_EQ(made.used.size(), 2U);
+  ASSERT_EQ(made.risk.table.rows.size(), 2U);
+  const AssetRisk &field = made.risk.table.rows[0], &hut = made.risk.table.rows[1];
+  EXPECT_EQ(field.probability, 1);
+  EXPECT_LT(field.bounds_90.lower, 1);
+  EXPECT_EQ(hut.probability, 0);
+  EXPECT_GE(hut.bounds_90.upper,
+            1 - std::pow(0.05, 1 / static_cast<double>(made.dear_draws)) - 1e-9);
+  EXPECT_THAT(read("out/assets.csv"), HasSubstr("\nfield,inside,"));
+  EXPECT_THAT(read("out/assets.csv"), HasSubstr(",multilevel\n"));
+  EXPECT_TRUE(exists("out/assets.gpkg"));
+  EXPECT_THAT(read("out/report.html"), HasSubstr("<section id=\"assets\">"));
+  EXPECT_THAT(workflow::multilevel_json_text(made), HasSubstr("\"name\": \"hut\""));
+  // The same members alone, as plain ensembles have them.
+  const std::string level = "out/levels/depth_averaged_1m";
+  workflow::merge_members({path(level), false}, heard, heard.cancel);
+  const std::string plain = read(level + "/assets.csv");
+  const auto n = std::to_string(made.levels.front().valid);
+  EXPECT_THAT(plain, HasSubstr("\nfield,inside," + n + "," + n + ",0,0,1,"));
+  EXPECT_THAT(read("out/assets.csv"), HasSubstr("\nfield,inside," + n + "," + n + ",0,0,1,"));
 }
 
 TEST_F(Multilevel, SaysThatItsPlanIsDamaged) {

@@ -65,8 +65,9 @@ int verdict(const MultilevelMade& made, Console& console) {
                     "members.csv with their reasons; the results are of the others.",
                     made.max_failed_fraction, made.folder.string()));
   console.say("In " + made.folder.string() +
-              ": report.html (look here first), multilevel.json, hazard.nc and hazard/*.tif, and "
-              "an ensemble per level in levels/");
+              ": report.html (look here first), multilevel.json, hazard.nc and hazard/*.tif, " +
+              (made.assets == nullptr ? "" : "assets.csv and assets.gpkg, ") +
+              "and an ensemble per level in levels/");
   Json done{{"event", "done"}, {"folder", made.folder.string()}};
   done["multilevel"] = Json::parse(workflow::multilevel_json_text(made));
   console.event(json_text(done));

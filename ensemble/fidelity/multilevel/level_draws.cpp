@@ -118,28 +118,6 @@ struct Distribution {
   std::vector<double> places, low, middle, high;
 };
 
-/// The nearest rising function in the mean square, within 0 and 1. The running maximum would lie
-/// above: every quantile too low.
-void make_rising(std::vector<double>& f) {
-  struct Block {
-    double sum = 0, n = 0;
-    double mean() const { return sum / n; }
-  };
-  std::vector<Block> blocks;
-  for (const double v : f) {
-    blocks.push_back({v, 1});
-    while (blocks.size() > 1 && blocks.back().mean() < blocks[blocks.size() - 2].mean()) {
-      const Block last = blocks.back();
-      blocks.pop_back();
-      blocks.back().sum += last.sum;
-      blocks.back().n += last.n;
-    }
-  }
-  auto at = f.begin();
-  for (const Block& b : blocks)
-    at = std::fill_n(at, static_cast<std::ptrdiff_t>(b.n), std::clamp(b.mean(), 0.0, 1.0));
-}
-
 /// Where a rising function reaches `level`, between its places. \param before what is said where it
 /// is above at the first \param beyond where it is below at the last
 double reached(const Distribution& d, const std::vector<double>& f, double level, double before,
@@ -163,6 +141,24 @@ Interval bounds_of_share(const IncrementMoments& sums, double noise, const Surpr
   return {std::min(b.lower, 1 - unseen), std::max(b.upper, unseen)};
 }
 
+/// P(result <= t), which may lie beyond 0 and 1.
+ShareEstimate share_below(const Predictions& predictions, std::size_t n_levels, double t) {
+  double noise = 0;  // of the indicator, as the predictions have it
+  IncrementMoments sums(n_levels);
+  Surprises surprises;
+  predictions.each(
+      [&](double v) { return v <= t ? 1.0 : 0.0; },
+      [&](const FoldedModels& models, const LevelDraw& draw, auto fold, std::span<double> told) {
+        models.shares_below(t, draw.values, draw.from, fold, told);
+        if (draw.from == 0 && !told.empty()) noise += told[0] * (1 - told[0]);
+      },
+      [&](std::size_t from, std::span<const double> told) {
+        sums.add(from, told);
+        if (from == 0) surprises.add(told[0] - (told.size() > 1 ? told[1] : 0));
+      });
+  return {sums.mean(), bounds_of_share(sums, noise, surprises)};
+}
+
 Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels) {
   const Predictions predictions(draws, n_levels);
   double least = nan_d, most = nan_d;
@@ -182,24 +178,11 @@ Distribution distribution(std::span<const LevelDraw> draws, std::size_t n_levels
   const double margin = 0.05 * (most - least);
   for (int i = 0; i < n_places; ++i) {
     const double t = least - margin + (most - least + 2 * margin) * i / (n_places - 1);
-    double noise = 0;  // of the indicator, as the predictions have it
-    IncrementMoments sums(n_levels);
-    Surprises surprises;
-    predictions.each(
-        [&](double v) { return v <= t ? 1.0 : 0.0; },
-        [&](const FoldedModels& models, const LevelDraw& draw, auto fold, std::span<double> told) {
-          models.shares_below(t, draw.values, draw.from, fold, told);
-          if (draw.from == 0 && !told.empty()) noise += told[0] * (1 - told[0]);
-        },
-        [&](std::size_t from, std::span<const double> told) {
-          sums.add(from, told);
-          if (from == 0) surprises.add(told[0] - (told.size() > 1 ? told[1] : 0));
-        });
-    const Interval bounds = bounds_of_share(sums, noise, surprises);
+    const ShareEstimate below = share_below(predictions, n_levels, t);
     d.places.push_back(t);
-    d.low.push_back(bounds.low);
-    d.middle.push_back(sums.mean());
-    d.high.push_back(bounds.high);
+    d.low.push_back(below.bounds_90.low);
+    d.middle.push_back(below.share);
+    d.high.push_back(below.bounds_90.high);
   }
   for (std::vector<double>* f : {&d.low, &d.middle, &d.high}) make_rising(*f);
   return d;
@@ -275,6 +258,35 @@ std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw> dr
           std::max(draws_for_quantile(q.level), draws_of_levels(draws, n_levels).front() + 1);
   }
   return all;
+}
+
+ShareEstimate multilevel_share_above(std::span<const LevelDraw> draws, std::size_t n_levels,
+                                     double threshold) {
+  const std::size_t n_dear = draws_of_levels(draws, n_levels).front();
+  if (n_dear < (n_levels > 1 ? least_draws : 1)) return {};
+  const ShareEstimate below = share_below(Predictions(draws, n_levels), n_levels, threshold);
+  return {std::clamp(1 - below.share, 0.0, 1.0),
+          {1 - below.bounds_90.high, 1 - below.bounds_90.low}};
+}
+
+void make_rising(std::vector<double>& f) {
+  struct Block {
+    double sum = 0, n = 0;
+    double mean() const { return sum / n; }
+  };
+  std::vector<Block> blocks;
+  for (const double v : f) {
+    blocks.push_back({v, 1});
+    while (blocks.size() > 1 && blocks.back().mean() < blocks[blocks.size() - 2].mean()) {
+      const Block last = blocks.back();
+      blocks.pop_back();
+      blocks.back().sum += last.sum;
+      blocks.back().n += last.n;
+    }
+  }
+  auto at = f.begin();
+  for (const Block& b : blocks)
+    at = std::fill_n(at, static_cast<std::ptrdiff_t>(b.n), std::clamp(b.mean(), 0.0, 1.0));
 }
 
 }  // namespace sturz

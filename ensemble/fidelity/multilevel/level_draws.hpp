@@ -56,4 +56,20 @@ MultilevelScalar multilevel_scalar(std::span<const LevelDraw>, std::size_t n_lev
 std::vector<QuantileEstimate> multilevel_quantiles(std::span<const LevelDraw>, std::size_t n_levels,
                                                    std::span<const double> levels);
 
+/// A probability with 90 % bounds; NaN where nothing is known.
+struct ShareEstimate {
+  double share = nan_d;
+  Interval bounds_90;
+};
+/// P(result > threshold), and its bounds as those of maps and of the distribution function
+/// (share_bounds(), of one level Wilson's): nowhere nearer to 0 and 1 than unseen_share(). Unbiased
+/// before it is held within 0 and 1, whatever the cheaper levels tell. NaN with fewer than
+/// least_draws at the dearest of several levels, and without any.
+ShareEstimate multilevel_share_above(std::span<const LevelDraw>, std::size_t n_levels,
+                                     double threshold);
+
+/// The nearest rising function in the mean square, within 0 and 1. The running maximum would lie
+/// above.
+void make_rising(std::vector<double>&);
+
 }  // namespace sturz

@@ -3,6 +3,7 @@
 #include "ensemble/hazard/map_units.hpp"
 #include "ensemble/workflow/multilevel/multilevel_results.hpp"
 #include "ensemble/workflow/multilevel/multilevel_words.hpp"
+#include "ensemble/workflow/results/asset_files.hpp"
 #include "ensemble/workflow/results/hazard_file.hpp"
 #include "ensemble/workflow/results/json_numbers.hpp"
 #include "ensemble/workflow/results/map_files.hpp"
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 namespace sturz::workflow {
@@ -83,6 +85,31 @@ Json maps_json(const MultilevelMade& made) {
            {"correction_over_cells", 2 * m.smoothed_cells + 1},
            {"smoothing_error", number(m.smoothing_error)}});
     }
+  return all;
+}
+
+Json expected_json(const ExpectedValue& e) {
+  return {{"mean", number(e.mean)}, {"standard_error", number(e.standard_error)}};
+}
+
+Json assets_json(const MultilevelMade& made) {
+  Json all = Json::array();
+  for (std::size_t a = 0; made.assets != nullptr && a < made.assets->list.size(); ++a) {
+    const AssetRisk& r = made.risk.table.rows[a];
+    Json one{{"name", made.assets->list[a].name},
+             {"place", to_string(r.place)},
+             {"probability", number(r.probability)},
+             {"bounds_90", interval({r.bounds_90.lower, r.bounds_90.upper})},
+             {"exceedances", Json::array()}};
+    for (const AssetExceedance& e : made.risk.exceedances)
+      one["exceedances"].push_back({{"of", exceedance_text(e)},
+                                    {"probability", number(e.of[a].share)},
+                                    {"bounds_90", interval(e.of[a].bounds_90)}});
+    if (made.assets->has_classes) one["expected_damage"] = expected_json(r.damage);
+    if (made.assets->has_values) one["expected_loss"] = expected_json(r.loss);
+    if (!r.cut_off.empty()) one["cut_off"] = r.cut_off;
+    all.push_back(std::move(one));
+  }
   return all;
 }
 
@@ -178,6 +205,21 @@ MultilevelPageResult page_result(const MultilevelHeadline& h) {
   return r;
 }
 
+/// Their table on the page.
+void add_assets(MultilevelPage& page, const MultilevelMade& made) {
+  if (made.assets == nullptr) return;
+  for (const AssetExceedance& e : made.risk.exceedances)
+    page.exceedances.push_back(exceedance_text(e));
+  for (std::size_t a = 0; a < made.assets->list.size(); ++a) {
+    const AssetRisk& r = made.risk.table.rows[a];
+    MultilevelPageAsset asset{made.assets->list[a].name, {}, r.not_known + r.hit_cut_off > 0};
+    asset.shares.push_back({r.probability, r.bounds_90.lower, r.bounds_90.upper});
+    for (const AssetExceedance& e : made.risk.exceedances)
+      asset.shares.push_back({e.of[a].share, e.of[a].bounds_90.low, e.of[a].bounds_90.high});
+    page.assets.push_back(std::move(asset));
+  }
+}
+
 void write_page(const MultilevelJob& job, const MultilevelMade& made, const LayerStack& coarse) {
   MultilevelPage page;
   page.title = made.title.empty() ? made.folder.filename().string() : made.title;
@@ -190,6 +232,7 @@ void write_page(const MultilevelJob& job, const MultilevelMade& made, const Laye
   for (const LevelShare& l : made.levels)
     page.levels.push_back({l.name, l.used, static_cast<double>(l.members), l.member_cpu_s,
                            l.seconds / made.seconds, l.variance_shares});
+  add_assets(page, made);
   page.maps = &coarse;
   if (!made.maps.empty()) page.upper_bound_note = upper_bound_text(made);
   const auto ground = ground_of_map(job.scene.scenario, job.scene.inputs, coarse.grid);
@@ -205,6 +248,7 @@ std::string multilevel_json_text(const MultilevelMade& made) {
             {"levels", Json::array()},
             {"headlines", Json::array()},
             {"maps", maps_json(made)},
+            {"assets", assets_json(made)},
             {"map_error", number(made.map_error)},
             {"map_plain_cpu_s", number(made.map_plain_seconds)},
             {"cpu_s", number(made.seconds)},
@@ -213,6 +257,8 @@ std::string multilevel_json_text(const MultilevelMade& made) {
             {"cut_off", made.cut_off},
             {"missed", made.missed},
             {"warnings", made.warnings}};
+  if (made.assets != nullptr && made.assets->has_values)
+    json["total_loss"] = expected_json(made.risk.table.total_loss);
   for (const LevelShare& l : made.levels) json["levels"].push_back(level_json(l));
   for (const MultilevelHeadline& h : made.headlines) json["headlines"].push_back(headline_json(h));
   return json.dump(2) + "\n";
@@ -231,6 +277,11 @@ void write_multilevel_files(const MultilevelJob& job, const MultilevelMembers& f
     write_layers(folder.hazard_nc(), stack_of(job, found, made));
   }
   const LayersFileReader maps(folder.hazard_nc());
+  const Grid& grid = maps.about().grid;
+  if (made.assets == nullptr)
+    write_asset_files(folder, std::nullopt, grid);
+  else
+    write_asset_table(folder, levelled_features(*made.assets, made.risk, grid.crs_wkt));
   const LayerStack coarse = coarse_layers(maps, page_cells, cancel);
   if (job.scene.scenario.hazard.gis_files)
     write_map_files(folder.tif_folder(), maps, coarse, cancel);

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 namespace sturz::workflow {
 namespace {
@@ -43,6 +44,7 @@ class Look {
     for (const std::string& name : looked_at) add_headline(name);
     add_errors();
     if (made_.used.size() > 1) add_maps();
+    add_assets();
     add_levels();
     add_members();
     add_misses();
@@ -146,6 +148,25 @@ class Look {
     add_map("speed_exceedance", PeakLayer::speed, hazard_.speed_m_s);
     add_map("energy_exceedance", PeakLayer::energy, hazard_.energy_kj_m2);
     add_map("pressure_exceedance", PeakLayer::pressure, hazard_.pressure_kpa);
+  }
+
+  void add_assets() {
+    made_.assets = job_.scene.inputs.assets;
+    if (made_.assets == nullptr) return;
+    std::vector<AssetHits> hits;
+    for (const std::size_t p : made_.used)
+      hits.push_back(
+          find_hits(FirstMembers(*all_.members[p], all_.counts[p]), *made_.assets, cancel_));
+    std::vector<AssetExceedance> wanted;
+    const auto want = [&](PeakLayer layer, const std::vector<double>& thresholds) {
+      for (const double t : thresholds) wanted.push_back({layer, t, {}});
+    };
+    want(PeakLayer::thickness, hazard_.thickness_m);
+    want(PeakLayer::speed, hazard_.speed_m_s);
+    want(PeakLayer::energy, hazard_.energy_kj_m2);
+    want(PeakLayer::pressure, hazard_.pressure_kpa);
+    made_.risk = assess_levels(*made_.assets, hits, level_draws(valid_of(all_, made_.used)),
+                               std::move(wanted));
   }
 
   void add_levels() {

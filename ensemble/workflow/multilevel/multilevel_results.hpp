@@ -3,11 +3,13 @@
 /// each level brought and took.
 #pragma once
 
+#include "ensemble/assets/asset_levels.hpp"
 #include "ensemble/censoring/censoring_report.hpp"
 #include "ensemble/workflow/multilevel/estimates.hpp"
 #include "ensemble/workflow/multilevel/multilevel_run.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -61,13 +63,15 @@ struct MultilevelMade {
   std::vector<std::size_t> used;  ///< of parts; {0}: plain sampling
   std::vector<MultilevelHeadline> headlines;
   std::vector<LevelShare> levels;
-  std::vector<NamedMap> maps;        ///< empty where plain sampling was kept
-  std::size_t dear_draws = 0;        ///< of the dearest level, that maps are made of
-  double map_error = nan_d;          ///< as ensemble.target.map_error, of P(reached)
-  double map_plain_seconds = nan_d;  ///< CPU, of plain sampling for the same map_error
-  double seconds = 0;                ///< CPU of all members
-  std::int64_t failed = 0;           ///< members of any level
-  std::int64_t censored = 0;         ///< valid ones whose end was not seen
+  std::vector<NamedMap> maps;            ///< empty where plain sampling was kept
+  std::shared_ptr<const Assets> assets;  ///< null: the scene has none
+  LevelledRisk risk;                     ///< of them
+  std::size_t dear_draws = 0;            ///< of the dearest level, that maps are made of
+  double map_error = nan_d;              ///< as ensemble.target.map_error, of P(reached)
+  double map_plain_seconds = nan_d;      ///< CPU, of plain sampling for the same map_error
+  double seconds = 0;                    ///< CPU of all members
+  std::int64_t failed = 0;               ///< members of any level
+  std::int64_t censored = 0;             ///< valid ones whose end was not seen
   /// As plain ensembles: of used levels of which more members than ensemble.max_censored_fraction
   /// are cut off, a sentence each. Every door says it first.
   std::vector<std::string> cut_off;
@@ -82,8 +86,9 @@ struct MultilevelMade {
 /// \throws Cancelled
 MultilevelMade look_at_members(const MultilevelJob&, const MultilevelMembers&, CancelFlag);
 
-/// multilevel.json, hazard.nc and hazard/*.tif in the folder. With plain sampling the maps are
-/// those of the dearest level's ensemble. \throws IoError; Cancelled
+/// multilevel.json, hazard.nc and hazard/*.tif in the folder, with assets assets.csv and
+/// assets.gpkg. With plain sampling the maps are those of the dearest level's ensemble. \throws
+/// IoError; Cancelled
 void write_multilevel_files(const MultilevelJob&, const MultilevelMembers&, const MultilevelMade&,
                             CancelFlag);
 std::string multilevel_json_text(const MultilevelMade&);

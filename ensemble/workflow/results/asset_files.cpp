@@ -22,7 +22,10 @@ void write_asset_files(const OutputFolder& folder, const std::optional<AssetFind
       std::filesystem::remove(file);
     return;
   }
-  const FeatureTable table = risk_features(*found->assets, found->risk, maps.crs_wkt);
+  write_asset_table(folder, risk_features(*found->assets, found->risk, maps.crs_wkt));
+}
+
+void write_asset_table(const OutputFolder& folder, const FeatureTable& table) {
   write_text_atomic(folder.assets_csv(), to_csv(table));
   write_geopackage(folder.assets_gpkg(), table);
 }

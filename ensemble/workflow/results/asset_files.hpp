@@ -25,4 +25,6 @@ std::optional<AssetFindings> find_risk(const MemberParts&, const SceneInputs&,
 /// assets.csv and assets.gpkg; where there are no assets, earlier ones are removed. \throws IoError
 void write_asset_files(const OutputFolder&, const std::optional<AssetFindings>&, const Grid& maps);
 
+void write_asset_table(const OutputFolder&, const FeatureTable&);
+
 }  // namespace sturz::workflow
