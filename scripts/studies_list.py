@@ -80,7 +80,7 @@ MADE = {
                         (script("multilevel", "members", STURZ, CASES, OUT / "multilevel"),
                          script("multilevel", "repeats", BUILD / "tests/tools/multilevel_repeats", OUT / "multilevel"),
                          script("multilevel", "show", OUT / "multilevel", IMAGES / "multilevel.png")),
-                        (*DENSE, "engine/effects/columns", "ensemble/fidelity", "ensemble/workflow/multilevel/decision.cpp",
+                        (*DENSE, "engine/effects/columns", "ensemble/fidelity/multilevel", "ensemble/fidelity/valid_members.cpp", "ensemble/workflow/multilevel/decision.cpp",
                          "ensemble/workflow/multilevel/estimates.cpp", "tests/tools/multilevel_repeats.cpp", "tests/tools/stored_levels.hpp"), 130),
     "performance": Study("performance.md", (script("performance", BENCH, STURZ, OUT / "performance", IMAGES / "performance.png"),),
                          (*STATES, "engine/effects/columns", "ensemble/workflow/members", "tests/bench"), 11),
