@@ -28,8 +28,8 @@ struct MultilevelHeadline {
   /// the two spacings differ by is part of it. NaN: there is none.
   double model = nan_d, model_error = nan_d;  ///< and its standard error
   std::string model_of;                       ///< the level it is a difference to
-  double plain_seconds = nan_d;  ///< CPU, of plain sampling for the same error
-  std::int64_t left_out = 0;     ///< members of the dearest level whose end does not tell it
+  double plain_seconds = nan_d;               ///< CPU, of plain sampling for the same error
+  std::int64_t left_out = 0;  ///< members of the dearest level whose end does not tell it
 };
 
 /// What one level brought.

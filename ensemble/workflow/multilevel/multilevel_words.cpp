@@ -109,9 +109,9 @@ std::string gain_text(const MultilevelMade& made) {
   std::string text = fmt::format("{} of one core in all.", duration_text(made.seconds));
   const auto add = [&](const std::string& name, double plain) {
     if (std::isfinite(plain))
-      text += fmt::format(" The same error of {} by independent draws of {} alone: {} (1/{:.3g}).",
-                          name, made.levels.front().name, duration_text(plain),
-                          plain / made.seconds);
+      text +=
+          fmt::format(" The same error of {} by independent draws of {} alone: {} (1/{:.3g}).",
+                      name, made.levels.front().name, duration_text(plain), plain / made.seconds);
   };
   for (const MultilevelHeadline& h : made.headlines)
     if (std::find(headline_results().begin(), headline_results().end(), h.name) !=
