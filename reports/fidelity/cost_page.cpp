@@ -155,14 +155,14 @@ std::string table_of(const LadderAccuracy& ladder) {
   return html + "</tbody></table></div>";
 }
 
-std::string parts_of(const CostPageLadder& l, int planned_members) {
+std::string parts_of(const CostPageLadder& l, const std::string& planned) {
   std::string html = fmt::format(
-      "<h3>The mean of {} planned members at {}</h3><div class=\"batch-box\"><table class=\"batch "
+      "<h3>The mean of {} at {}</h3><div class=\"batch-box\"><table class=\"batch "
       "steps\">"
       "<thead><tr><th scope=\"col\">off by about</th><th scope=\"col\" class=\"n\">sampling</th>"
       "<th scope=\"col\" class=\"n\">resolution</th><th scope=\"col\" class=\"n\">model</th></tr>"
       "</thead><tbody>",
-      planned_members, spacing_text(l.ladder->spacings_m.back()));
+      html_escape(planned), spacing_text(l.ladder->spacings_m.back()));
   for (const CostPageParts& p : l.parts)
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"n\" data-label=\"sampling\">{}</td><td "
@@ -227,7 +227,7 @@ std::string ladders_html(const CostPage& page) {
         "every spacing.</p>",
         html_escape(words(l.ladder->formulation)), l.ladder->members.size(), l.ladder->n_asked);
     html += table_of(*l.ladder);
-    if (!l.parts.empty()) html += parts_of(l, page.planned_members);
+    if (!l.parts.empty()) html += parts_of(l, page.planned);
     html += checked_of(*l.ladder);
     html += "</section>\n";
   }

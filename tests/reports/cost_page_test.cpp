@@ -42,7 +42,7 @@ TEST(CostPage, ShowsErrorsChoiceAndParts) {
   const LadderAccuracy l = ladder();
   CostPage page;
   page.title = "Slope <A>";
-  page.planned_members = 512;
+  page.planned = "512 planned members";
   page.ladders.push_back({&l, {"Within 5 %: 4 m."}, {{"runout_m", 0.01, 0.02, nan_d}}});
   page.warnings = {"thin & flow"};
   const std::string html = make_cost_page(page);

@@ -97,8 +97,8 @@ void say_table(const LadderAccuracy& ladder, Console& console) {
 
 void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
   const double finest = study.ladders[i].spacings_m.back();
-  console.say(fmt::format("  the mean of {} planned members at {:g} m is off by about",
-                          study.planned_members, finest));
+  console.say(fmt::format("  the mean of {} at {:g} m is off by about",
+                          workflow::planned_text(study), finest));
   console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", "", "sampling", "resolution", "model"));
   for (const workflow::Certainty& c :
        workflow::certainty_at(study, i, finest, study.planned_members))

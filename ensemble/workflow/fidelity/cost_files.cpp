@@ -164,7 +164,7 @@ std::string page_of(const CostStudy& study, const CostQuestions& questions) {
   page.title = study.title.empty() ? study.folder.filename().string() : study.title;
   page.when = utc_now();
   page.program = build_text(this_build());
-  page.planned_members = study.planned_members;
+  page.planned = planned_text(study);
   page.wanted_error = questions.wanted_error;
   page.warnings = study.warnings;
   for (std::size_t i = 0; i < study.ladders.size(); ++i) {
@@ -210,6 +210,7 @@ std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, 
 std::string cost_json_text(const CostStudy& study, const CostQuestions& questions) {
   Json json{{"members_per_spacing", study.members},
             {"planned_members", study.planned_members},
+            {"planned_members_given", study.planned_given},
             {"wanted_error", questions.wanted_error},
             {"wanted", questions.wanted},
             {"ladders", Json::array()},

@@ -296,7 +296,6 @@ CostStudy compute_cost(const CostJob& job, Observer& observer, const std::atomic
   CostStudy study;
   study.folder = job.request.folder;
   study.parts = job.parts;
-  study.planned_members = job.planned_members;
   Found found{job.parts, {}};
   for (std::size_t i = 0; i < job.jobs.size(); ++i) {
     const EnsembleJob& part = job.jobs[i];
@@ -307,6 +306,8 @@ CostStudy compute_cost(const CostJob& job, Observer& observer, const std::atomic
     found.stores.emplace(job.parts[i].name,
                          members_of(part.folder, part.manifest, part.design, {}, cancel));
   }
+  study.planned_given = job.planned_members > 0;
+  study.planned_members = study.planned_given ? job.planned_members : study.members;
   study.warnings = warnings_of(job);
   const Scenario& scenario = job.jobs.front().scene.scenario;
   study.title = scenario.title;

@@ -113,7 +113,9 @@ void add_split(const CostStudy& study, const LadderAccuracy& ladder, const CostQ
   if (!std::isfinite(best.error)) return;
   std::string text = fmt::format(
       "Best for {} of one core{}: {}", duration_text(core_s),
-      questions.core_s > 0 ? "" : " (the planned members at the finest spacing)", split_text(best));
+      questions.core_s > 0 ? std::string()
+                           : fmt::format(" ({} at the finest spacing)", planned_text(study)),
+      split_text(best));
   const Split finest = split_at(ladder, core_s, ladder.spacings_m.back());
   if (std::isfinite(finest.error) && finest.error > 1.1 * best.error)
     text += "; against that, " + split_text(finest);
@@ -124,6 +126,13 @@ void add_split(const CostStudy& study, const LadderAccuracy& ladder, const CostQ
 
 std::string share_text(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "unknown";
+}
+
+std::string planned_text(const CostStudy& study) {
+  return study.planned_given
+             ? fmt::format("{} planned members", study.planned_members)
+             : fmt::format("as many members as the study has, {} (ensemble.members is not given),",
+                           study.planned_members);
 }
 
 std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,

@@ -44,6 +44,20 @@ TEST_F(Cost, TellsErrorsSecondsAndTheThreeParts) {
   EXPECT_EQ(study.at("variants").at(0).value("set", ""), "numerics.jitter=0.1");
 }
 
+TEST_F(Cost, ASceneWithoutANumberOfMembersTakesThoseOfTheStudy) {
+  write("scene.yaml", replaced(scene(), "members: 6, ", ""));
+  const Ended ended = cost({});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("as many members as the study has, 4 (ensemble.members is"));
+  EXPECT_THAT(ended.out, HasSubstr("Best for"));
+  const auto study = nlohmann::json::parse(read("out/cost.json"));
+  EXPECT_EQ(study.at("planned_members"), 4);
+  EXPECT_EQ(study.at("planned_members_given"), false);
+  const auto& ladder = study.at("ladders").at(0);
+  EXPECT_GT(ladder.at("core_s").get<double>(), 0);
+  EXPECT_TRUE(ladder.at("certainty_at_finest").at(0).at("sampling").is_number());
+}
+
 TEST_F(Cost, GoesOnWhereItStopped) {
   ASSERT_EQ(cost({}).exit_code, 0);
   const std::string first = read("out/cost.csv");
