@@ -199,8 +199,11 @@ std::string checked_of(const LadderAccuracy& ladder) {
         html_escape(std::isfinite(c.threshold_m)
                         ? fmt::format("map above {} m", shown_number(c.threshold_m))
                         : result_words(c.name)),
-        spacing_text(c.spacing_m), share(c.said), share(c.found), shown_number(c.factor(), 2),
-        c.is_met() ? "yes" : "no");
+        spacing_text(c.spacing_m), share(c.said), share(c.found),
+        c.is_told() ? shown_number(c.factor(), 2) : share(nan_d),
+        !c.is_told() ? share(nan_d)
+        : c.is_met() ? "yes"
+                     : "no");
   return html + "</tbody></table></div>";
 }
 

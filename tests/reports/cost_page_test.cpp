@@ -73,6 +73,10 @@ TEST(CostPage, ShowsWhatWasSaidBesideWhatWasFound) {
   const std::string html = make_cost_page(page);
   for (const char* words : {"Checked by members at 1", "3.4\u00A0%", "1.7</td>", ">yes<"})
     EXPECT_THAT(html, HasSubstr(words));
+  l.checked.front().found = nan_d;  // no member reaches it: no prediction was missed
+  const std::string untold = make_cost_page(page);
+  EXPECT_THAT(untold, Not(HasSubstr(">no<")));
+  EXPECT_THAT(untold, Not(HasSubstr("nan")));
 }
 
 TEST(ErrorChart, PutsPowersOfTenWhereTheyBelong) {

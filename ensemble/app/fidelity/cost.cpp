@@ -108,6 +108,10 @@ void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
   if (study.models.empty()) console.say("  ?: no other formulation was computed (--formulations)");
 }
 
+std::string told_share(const CheckedError& c, double share) {
+  return c.is_told() ? share_text(share) : "-";
+}
+
 void say_check(const LadderAccuracy& ladder, Console& console) {
   if (ladder.checked.empty()) return;
   console.say(fmt::format("  differences to {:g} m, which no estimate knew", ladder.held_out_m));
@@ -115,8 +119,9 @@ void say_check(const LadderAccuracy& ladder, Console& console) {
                           "factor", "mean: said", "found"));
   for (const CheckedError& c : ladder.checked)
     console.say(fmt::format("  {:<17}{:>9}{:>9}{:>9}{:>8}{:>12}{:>9}", workflow::name_of(c),
-                            fmt::format("{:.4g} m", c.spacing_m), share_text(c.said),
-                            share_text(c.found), fmt::format("{:.2f}", c.factor()),
+                            fmt::format("{:.4g} m", c.spacing_m), told_share(c, c.said),
+                            told_share(c, c.found),
+                            c.is_told() ? fmt::format("{:.2f}", c.factor()) : "-",
                             c.name == map_word ? "" : share_text(c.said_mean),
                             c.name == map_word ? "" : share_text(c.found_mean)));
 }

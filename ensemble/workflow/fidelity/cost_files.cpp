@@ -61,7 +61,7 @@ Json checked_json(const CheckedError& c) {
           {"said_mean", number(c.said_mean)},
           {"found_mean", number(c.found_mean)},
           {"noise", number(c.noise)},
-          {"met", c.is_met()}};
+          {"met", c.is_told() ? Json(c.is_met()) : Json()}};
 }
 
 Json split_json(const Split& s) {

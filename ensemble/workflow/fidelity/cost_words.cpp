@@ -159,9 +159,11 @@ double checked_spacing(const LadderAccuracy& ladder, const CostQuestions& questi
 
 std::string check_sentence(const LadderAccuracy& ladder, const CostQuestions& questions) {
   const double where = checked_spacing(ladder, questions);
-  std::int64_t met = 0, of = 0, all_met = 0;
+  std::int64_t met = 0, of = 0, all_met = 0, all = 0;
   for (const CheckedError& c : ladder.checked) {
+    if (!c.is_told()) continue;
     all_met += c.is_met();
+    ++all;
     if (c.spacing_m != where) continue;
     met += c.is_met();
     ++of;
@@ -169,7 +171,7 @@ std::string check_sentence(const LadderAccuracy& ladder, const CostQuestions& qu
   return fmt::format(
       "Checked by members at {:g} m that no estimate knew: at {:g} m {} of {} differences were "
       "predicted to a factor of two, at all spacings {} of {}.",
-      ladder.held_out_m, where, met, of, all_met, ladder.checked.size());
+      ladder.held_out_m, where, met, of, all_met, all);
 }
 
 std::string multilevel_sentence(const MultilevelForecast& f) {

@@ -98,6 +98,20 @@ TEST_F(Cost, IsCheckedByAFinerSpacing) {
   EXPECT_THAT(read("out/cost.html"), HasSubstr("Checked by members at"));
 }
 
+TEST_F(Cost, AThresholdThatNobodyReachesIsNoMissedPrediction) {
+  write("scene.yaml", replaced(scene(), "thickness_m: [0.5, 1]", "thickness_m: [0.5, 5000]"));
+  const Ended ended = cost({"--spacings", "2,1.5,1", "--check", "0.75"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, Not(HasSubstr("nan")));
+  const auto study = nlohmann::json::parse(read("out/cost.json"));
+  int told = 0, untold = 0;
+  for (const auto& row : study.at("ladders").at(0).at("checked"))
+    ++(row.at("met").is_null() ? untold : told);
+  EXPECT_EQ(untold, 3);
+  EXPECT_THAT(ended.out, HasSubstr("at all spacings"));
+  EXPECT_THAT(ended.out, HasSubstr(" of " + std::to_string(told) + ".\n"));
+}
+
 TEST_F(Cost, SaysWhatIsWrongBeforeItComputes) {
   const Ended coarse = cost({"--spacings", "2,1", "--check", "1"});
   EXPECT_EQ(coarse.exit_code, 1);
