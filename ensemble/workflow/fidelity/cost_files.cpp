@@ -198,10 +198,13 @@ std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, 
     c.result = r.name;
     c.sampling = r.spread / r.scale() / std::sqrt(members);
     c.resolution = r.mean_error(spacing_m);
-    for (const ModelDifference& model : study.models)
+    for (const ModelDifference& model : study.models) {
+      const std::string& mine = study.ladders[ladder].formulation;
+      if (model.from != mine && model.to != mine) continue;
       for (const Change& change : model.changes)
         if (change.name == r.name && !(std::abs(change.mean) / r.scale() <= c.model))
           c.model = std::abs(change.mean) / r.scale();
+    }
     all.push_back(std::move(c));
   }
   return all;

@@ -24,7 +24,8 @@ struct CostQuestions {
 struct Certainty {
   std::string result;
   double sampling = nan_d, resolution = nan_d;
-  double model = nan_d;  ///< largest difference to another formulation; NaN: only one was computed
+  double model =
+      nan_d;  ///< largest difference of this formulation to another; NaN: only one was computed
 };
 /// \param ladder index into study.ladders
 std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, double spacing_m,

@@ -68,7 +68,7 @@ struct CostStudy {
   std::vector<CostPart> parts;
   std::vector<LadderAccuracy> ladders;  ///< one per formulation
   std::vector<VariantCost> variants;
-  std::vector<ModelDifference> models;  ///< each formulation beside the first
+  std::vector<ModelDifference> models;  ///< each pair of formulations
   /// For run-out, area and centre of mass together, and for the map; without what under eight
   /// members tell.
   std::vector<MultilevelForecast> multilevel;
