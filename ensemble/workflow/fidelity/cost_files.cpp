@@ -65,11 +65,10 @@ Json checked_json(const CheckedError& c) {
 }
 
 Json split_json(const Split& s) {
-  return {{"spacing_m", number(s.spacing_m)},
-          {"members", number(s.members)},
-          {"error", number(s.error)},
-          {"resolution", number(s.resolution)},
-          {"sampling", number(s.sampling)}};
+  return {{"spacing_m", number(s.spacing_m)}, {"members", number(s.members)},
+          {"error", number(s.error)},         {"resolution", number(s.resolution)},
+          {"sampling", number(s.sampling)},   {"of", s.of},
+          {"coarsest_computed", s.coarsest},  {"finest_computed", s.finest}};
 }
 
 Json choice_json(const Choice& c) {
@@ -121,8 +120,9 @@ Json ladder_json(const CostStudy& study, std::size_t i, const CostQuestions& que
     json["maps"].push_back(map_json(map, ladder.spacings_m));
   json["cheapest"] = choice_json(choice);
   json["core_s"] = core_s;
-  json["best_split"] = split_json(best_split(ladder, core_s));
-  json["at_finest"] = split_json(split_at(ladder, core_s, ladder.spacings_m.back()));
+  json["best_split"] = split_json(best_split(ladder, core_s, questions.wanted));
+  json["at_finest"] =
+      split_json(split_at(ladder, core_s, ladder.spacings_m.back(), questions.wanted));
   json["certainty_at_finest"] =
       certainty_json(certainty_at(study, i, ladder.spacings_m.back(), study.planned_members));
   return json;

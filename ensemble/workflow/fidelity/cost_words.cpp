@@ -109,14 +109,16 @@ std::string split_text(const Split& s) {
 void add_split(const CostStudy& study, const LadderAccuracy& ladder, const CostQuestions& questions,
                std::vector<std::string>& lines) {
   const double core_s = core_seconds(study, ladder, questions);
-  const Split best = best_split(ladder, core_s);
+  const Split best = best_split(ladder, core_s, questions.wanted);
   if (!std::isfinite(best.error)) return;
   std::string text = fmt::format(
-      "Best for {} of one core{}: {}", duration_text(core_s),
+      "Best for {} of one core{}, over {}: {}", duration_text(core_s),
       questions.core_s > 0 ? std::string()
                            : fmt::format(" ({} at the finest spacing)", planned_text(study)),
-      split_text(best));
-  const Split finest = split_at(ladder, core_s, ladder.spacings_m.back());
+      plain(best.of), split_text(best));
+  if (best.coarsest) text += "; that is the coarsest computed, coarser may be better";
+  if (best.finest) text += "; that is the finest computed, finer may be better";
+  const Split finest = split_at(ladder, core_s, ladder.spacings_m.back(), questions.wanted);
   if (std::isfinite(finest.error) && finest.error > 1.1 * best.error)
     text += "; against that, " + split_text(finest);
   lines.push_back(text + ".");
