@@ -159,7 +159,8 @@ std::string parts_of(const CostPageLadder& l, const std::string& planned) {
   std::string html = fmt::format(
       "<h3>The mean of {} at {}</h3><div class=\"batch-box\"><table class=\"batch "
       "steps\">"
-      "<thead><tr><th scope=\"col\">off by about</th><th scope=\"col\" class=\"n\">sampling</th>"
+      "<thead><tr><th scope=\"col\">off by about</th><th scope=\"col\" class=\"n\">sampling, 90 "
+      "%</th>"
       "<th scope=\"col\" class=\"n\">resolution</th><th scope=\"col\" class=\"n\">model</th></tr>"
       "</thead><tbody>",
       html_escape(planned), spacing_text(l.ladder->spacings_m.back()));
@@ -279,7 +280,8 @@ const char* const reading_html =
     "estimates from the differences of the same members between spacings: a law of the spacing "
     "that all follow (Richardson's extrapolation) and what scatters about it, with the first order "
     "of a front as prior. They are root mean squares: one member of three is off by more. Sampling "
-    "is one standard error of the mean of independent members; resolution what that mean is off by "
+    "is the half width of the 90 % bounds of the mean of independent members; resolution the "
+    "expected size of what that mean is off by "
     "at "
     "the finest spacing; model how far another formulation lies away "
     "with the same values, which no member and no spacing removes. The same numbers and more stand "

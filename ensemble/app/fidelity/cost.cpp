@@ -99,10 +99,11 @@ void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
   const double finest = study.ladders[i].spacings_m.back();
   console.say(fmt::format("  the mean of {} at {:g} m is off by about",
                           workflow::planned_text(study), finest));
-  console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", "", "sampling", "resolution", "model"));
+  console.say(
+      fmt::format("  {:<17}{:>16}{:>12}{:>9}", "", "sampling (90 %)", "resolution", "model"));
   for (const workflow::Certainty& c :
        workflow::certainty_at(study, i, finest, study.planned_members))
-    console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", c.result, share_text(c.sampling),
+    console.say(fmt::format("  {:<17}{:>16}{:>12}{:>9}", c.result, share_text(c.sampling),
                             share_text(c.resolution),
                             std::isfinite(c.model) ? share_text(c.model) : "?"));
   if (study.models.empty()) console.say("  ?: no other formulation was computed (--formulations)");

@@ -15,6 +15,8 @@
 namespace sturz::workflow {
 namespace {
 
+constexpr double half_90 = 1.6448536269514722;  // standard errors of a normal mean
+
 Json errors_json(const ErrorCurve& curve, const std::vector<double>& spacings_m) {
   Json all = Json::array();
   for (const double d : spacings_m) all.push_back(number(curve.at(d)));
@@ -93,7 +95,7 @@ Json certainty_json(const std::vector<Certainty>& all) {
   Json list = Json::array();
   for (const Certainty& c : all)
     list.push_back({{"name", c.result},
-                    {"sampling", number(c.sampling)},
+                    {"sampling_90", number(c.sampling)},
                     {"resolution", number(c.resolution)},
                     {"model", number(c.model)}});
   return list;
@@ -196,7 +198,7 @@ std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, 
   for (const ResultAccuracy& r : study.ladders[ladder].results) {
     Certainty c;
     c.result = r.name;
-    c.sampling = r.spread / r.scale() / std::sqrt(members);
+    c.sampling = half_90 * r.spread / r.scale() / std::sqrt(members);
     c.resolution = r.mean_error(spacing_m);
     for (const ModelDifference& model : study.models) {
       const std::string& mine = study.ladders[ladder].formulation;

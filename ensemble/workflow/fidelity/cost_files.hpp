@@ -19,8 +19,8 @@ struct CostQuestions {
                       ///< at the finest spacing
 };
 
-/// The three numbers under a headline, relative to the result: half widths at one standard error,
-/// of the planned members at one spacing.
+/// The three numbers under a headline, relative to the result, of the planned members at one
+/// spacing: half width of the 90 % bounds by sampling, expected sizes of the others.
 struct Certainty {
   std::string result;
   double sampling = nan_d, resolution = nan_d;

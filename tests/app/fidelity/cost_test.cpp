@@ -55,7 +55,7 @@ TEST_F(Cost, ASceneWithoutANumberOfMembersTakesThoseOfTheStudy) {
   EXPECT_EQ(study.at("planned_members_given"), false);
   const auto& ladder = study.at("ladders").at(0);
   EXPECT_GT(ladder.at("core_s").get<double>(), 0);
-  EXPECT_TRUE(ladder.at("certainty_at_finest").at(0).at("sampling").is_number());
+  EXPECT_TRUE(ladder.at("certainty_at_finest").at(0).at("sampling_90").is_number());
 }
 
 TEST_F(Cost, GoesOnWhereItStopped) {

@@ -45,6 +45,7 @@ TEST(Certainty, OfThreeFormulationsLooksAtThePairsOfItsOwn) {
   CostStudy study;
   for (const char* name : {"a", "b", "c"}) study.ladders.push_back(ladder(name));
   study.models = {{"a", "b", {change(5)}}, {"a", "c", {change(-30)}}, {"b", "c", {change(12)}}};
+  EXPECT_NEAR(certainty_at(study, 0, 2, 64).front().sampling, 1.645 * 0.2 / 8, 1e-5);  // 90 %
   EXPECT_DOUBLE_EQ(certainty_at(study, 0, 2, 64).front().model, 0.30);
   EXPECT_DOUBLE_EQ(certainty_at(study, 1, 2, 64).front().model, 0.12);
   EXPECT_DOUBLE_EQ(certainty_at(study, 2, 2, 64).front().model, 0.30);
