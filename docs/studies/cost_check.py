@@ -59,7 +59,8 @@ def means_met(rows):
 
 
 def show(name, ladder, held_out):
-    where, rows = recommended(ladder), ladder["checked"]
+    where = recommended(ladder)
+    rows = [r for r in ladder["checked"] if r["said"] is not None and r["found"] is not None]  # a threshold that nothing reaches tells none
     here = [r for r in rows if r["spacing_m"] == where]
     means, of = means_met(here)
     known = min(r["members"] for r in ladder["results"])

@@ -18,9 +18,12 @@ struct CheckedError {
   double said = nan_d, found = nan_d, said_mean = nan_d, found_mean = nan_d;
   double noise = nan_d;  ///< of a difference of two members (of two maps) that should be the same
 
+  /// Both sizes are numbers: a map threshold that no member reaches has none.
+  bool is_told() const;
   /// The larger over the smaller.
   double factor() const;
-  /// Within a factor of two; where what was found is noise, what was said is no more than twice it.
+  /// Told, and within a factor of two; where what was found is noise, what was said is no more than
+  /// twice it.
   bool is_met() const;
 };
 

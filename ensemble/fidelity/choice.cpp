@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace sturz {
 namespace {
@@ -67,17 +68,20 @@ Choice cheapest_for(const LadderAccuracy& ladder, std::span<const std::string> w
   return choice;
 }
 
-Split split_at(const LadderAccuracy& ladder, double core_s, double spacing_m) {
+Split split_at(const LadderAccuracy& ladder, double core_s, double spacing_m,
+               std::span<const std::string> what) {
   Split split;
   const double members = core_s / ladder.seconds.at(spacing_m);
   if (!(members >= 2)) return split;
   double resolution = 0, sampling = 0;
   int n = 0;
   for (const ResultAccuracy& r : ladder.results) {
+    if (!what.empty() && !is_asked(what, r.name)) continue;
     const double error = r.mean_error(spacing_m);
     if (!std::isfinite(error) || !std::isfinite(r.spread)) continue;
     resolution += error * error;
     sampling += std::pow(r.spread / r.scale(), 2) / members;
+    split.of.push_back(r.name);
     ++n;
   }
   if (n == 0) return split;
@@ -89,11 +93,14 @@ Split split_at(const LadderAccuracy& ladder, double core_s, double spacing_m) {
   return split;
 }
 
-Split best_split(const LadderAccuracy& ladder, double core_s) {
+Split best_split(const LadderAccuracy& ladder, double core_s, std::span<const std::string> what) {
   Split best;
   for (int k = 0; k <= n_between; ++k) {
-    const Split split = split_at(ladder, core_s, spacing_number(ladder, k));
-    if (std::isfinite(split.error) && !(split.error >= best.error)) best = split;
+    Split split = split_at(ladder, core_s, spacing_number(ladder, k), what);
+    if (!std::isfinite(split.error) || split.error >= best.error) continue;
+    split.coarsest = k == 0;
+    split.finest = k == n_between;
+    best = std::move(split);
   }
   return best;
 }

@@ -7,6 +7,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sturz {
 
@@ -39,15 +40,20 @@ struct Split {
   double members = nan_d;
   double error = nan_d;  ///< root mean square over the results of both parts, relative
   double resolution = nan_d, sampling = nan_d;  ///< its parts
+  std::vector<std::string> of;                  ///< the results that it is over
+  /// The best of all lies at an end of what was computed: beyond it may be better.
+  bool coarsest = false, finest = false;
 };
 
 /// Least root mean square, over results with a scale, of the error of the mean at that spacing
 /// and the standard error of so many independent members (quasi-random designs do better).
 /// \param core_s computing time for all members together; at least two members fit, or the split is
 /// NaN
-Split best_split(const LadderAccuracy&, double core_s);
+/// \param what names of results; those that the ladder does not have are left out; empty: all
+Split best_split(const LadderAccuracy&, double core_s, std::span<const std::string> what = {});
 
 /// The same at a given spacing, for comparison.
-Split split_at(const LadderAccuracy&, double core_s, double spacing_m);
+Split split_at(const LadderAccuracy&, double core_s, double spacing_m,
+               std::span<const std::string> what = {});
 
 }  // namespace sturz

@@ -155,14 +155,15 @@ std::string table_of(const LadderAccuracy& ladder) {
   return html + "</tbody></table></div>";
 }
 
-std::string parts_of(const CostPageLadder& l, int planned_members) {
+std::string parts_of(const CostPageLadder& l, const std::string& planned) {
   std::string html = fmt::format(
-      "<h3>The mean of {} planned members at {}</h3><div class=\"batch-box\"><table class=\"batch "
+      "<h3>The mean of {} at {}</h3><div class=\"batch-box\"><table class=\"batch "
       "steps\">"
-      "<thead><tr><th scope=\"col\">off by about</th><th scope=\"col\" class=\"n\">sampling</th>"
+      "<thead><tr><th scope=\"col\">off by about</th><th scope=\"col\" class=\"n\">sampling, 90 "
+      "%</th>"
       "<th scope=\"col\" class=\"n\">resolution</th><th scope=\"col\" class=\"n\">model</th></tr>"
       "</thead><tbody>",
-      planned_members, spacing_text(l.ladder->spacings_m.back()));
+      html_escape(planned), spacing_text(l.ladder->spacings_m.back()));
   for (const CostPageParts& p : l.parts)
     html += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"n\" data-label=\"sampling\">{}</td><td "
@@ -199,8 +200,11 @@ std::string checked_of(const LadderAccuracy& ladder) {
         html_escape(std::isfinite(c.threshold_m)
                         ? fmt::format("map above {} m", shown_number(c.threshold_m))
                         : result_words(c.name)),
-        spacing_text(c.spacing_m), share(c.said), share(c.found), shown_number(c.factor(), 2),
-        c.is_met() ? "yes" : "no");
+        spacing_text(c.spacing_m), share(c.said), share(c.found),
+        c.is_told() ? shown_number(c.factor(), 2) : share(nan_d),
+        !c.is_told() ? share(nan_d)
+        : c.is_met() ? "yes"
+                     : "no");
   return html + "</tbody></table></div>";
 }
 
@@ -227,7 +231,7 @@ std::string ladders_html(const CostPage& page) {
         "every spacing.</p>",
         html_escape(words(l.ladder->formulation)), l.ladder->members.size(), l.ladder->n_asked);
     html += table_of(*l.ladder);
-    if (!l.parts.empty()) html += parts_of(l, page.planned_members);
+    if (!l.parts.empty()) html += parts_of(l, page.planned);
     html += checked_of(*l.ladder);
     html += "</section>\n";
   }
@@ -276,7 +280,8 @@ const char* const reading_html =
     "estimates from the differences of the same members between spacings: a law of the spacing "
     "that all follow (Richardson's extrapolation) and what scatters about it, with the first order "
     "of a front as prior. They are root mean squares: one member of three is off by more. Sampling "
-    "is one standard error of the mean of independent members; resolution what that mean is off by "
+    "is the half width of the 90 % bounds of the mean of independent members; resolution the "
+    "expected size of what that mean is off by "
     "at "
     "the finest spacing; model how far another formulation lies away "
     "with the same values, which no member and no spacing removes. The same numbers and more stand "

@@ -31,7 +31,7 @@ struct CostPageChange {
 
 struct CostPage {
   std::string title, when, program;
-  int planned_members = 0;
+  std::string planned;  ///< "512 planned members"
   double wanted_error = 0.05;
   std::vector<CostPageLadder> ladders;
   std::vector<std::string> multilevel;  ///< sentences; may be empty

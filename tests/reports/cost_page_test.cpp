@@ -42,7 +42,7 @@ TEST(CostPage, ShowsErrorsChoiceAndParts) {
   const LadderAccuracy l = ladder();
   CostPage page;
   page.title = "Slope <A>";
-  page.planned_members = 512;
+  page.planned = "512 planned members";
   page.ladders.push_back({&l, {"Within 5 %: 4 m."}, {{"runout_m", 0.01, 0.02, nan_d}}});
   page.warnings = {"thin & flow"};
   const std::string html = make_cost_page(page);
@@ -73,6 +73,10 @@ TEST(CostPage, ShowsWhatWasSaidBesideWhatWasFound) {
   const std::string html = make_cost_page(page);
   for (const char* words : {"Checked by members at 1", "3.4\u00A0%", "1.7</td>", ">yes<"})
     EXPECT_THAT(html, HasSubstr(words));
+  l.checked.front().found = nan_d;  // no member reaches it: no prediction was missed
+  const std::string untold = make_cost_page(page);
+  EXPECT_THAT(untold, Not(HasSubstr(">no<")));
+  EXPECT_THAT(untold, Not(HasSubstr("nan")));
 }
 
 TEST(ErrorChart, PutsPowersOfTenWhereTheyBelong) {

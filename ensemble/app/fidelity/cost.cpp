@@ -97,15 +97,20 @@ void say_table(const LadderAccuracy& ladder, Console& console) {
 
 void say_certainty(const CostStudy& study, std::size_t i, Console& console) {
   const double finest = study.ladders[i].spacings_m.back();
-  console.say(fmt::format("  the mean of {} planned members at {:g} m is off by about",
-                          study.planned_members, finest));
-  console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", "", "sampling", "resolution", "model"));
+  console.say(fmt::format("  the mean of {} at {:g} m is off by about",
+                          workflow::planned_text(study), finest));
+  console.say(
+      fmt::format("  {:<17}{:>16}{:>12}{:>9}", "", "sampling (90 %)", "resolution", "model"));
   for (const workflow::Certainty& c :
        workflow::certainty_at(study, i, finest, study.planned_members))
-    console.say(fmt::format("  {:<17}{:>10}{:>12}{:>9}", c.result, share_text(c.sampling),
+    console.say(fmt::format("  {:<17}{:>16}{:>12}{:>9}", c.result, share_text(c.sampling),
                             share_text(c.resolution),
                             std::isfinite(c.model) ? share_text(c.model) : "?"));
   if (study.models.empty()) console.say("  ?: no other formulation was computed (--formulations)");
+}
+
+std::string told_share(const CheckedError& c, double share) {
+  return c.is_told() ? share_text(share) : "-";
 }
 
 void say_check(const LadderAccuracy& ladder, Console& console) {
@@ -115,8 +120,9 @@ void say_check(const LadderAccuracy& ladder, Console& console) {
                           "factor", "mean: said", "found"));
   for (const CheckedError& c : ladder.checked)
     console.say(fmt::format("  {:<17}{:>9}{:>9}{:>9}{:>8}{:>12}{:>9}", workflow::name_of(c),
-                            fmt::format("{:.4g} m", c.spacing_m), share_text(c.said),
-                            share_text(c.found), fmt::format("{:.2f}", c.factor()),
+                            fmt::format("{:.4g} m", c.spacing_m), told_share(c, c.said),
+                            told_share(c, c.found),
+                            c.is_told() ? fmt::format("{:.2f}", c.factor()) : "-",
                             c.name == map_word ? "" : share_text(c.said_mean),
                             c.name == map_word ? "" : share_text(c.found_mean)));
 }

@@ -15,6 +15,8 @@
 namespace sturz::workflow {
 namespace {
 
+constexpr double half_90 = 1.6448536269514722;  // standard errors of a normal mean
+
 Json errors_json(const ErrorCurve& curve, const std::vector<double>& spacings_m) {
   Json all = Json::array();
   for (const double d : spacings_m) all.push_back(number(curve.at(d)));
@@ -61,15 +63,14 @@ Json checked_json(const CheckedError& c) {
           {"said_mean", number(c.said_mean)},
           {"found_mean", number(c.found_mean)},
           {"noise", number(c.noise)},
-          {"met", c.is_met()}};
+          {"met", c.is_told() ? Json(c.is_met()) : Json()}};
 }
 
 Json split_json(const Split& s) {
-  return {{"spacing_m", number(s.spacing_m)},
-          {"members", number(s.members)},
-          {"error", number(s.error)},
-          {"resolution", number(s.resolution)},
-          {"sampling", number(s.sampling)}};
+  return {{"spacing_m", number(s.spacing_m)}, {"members", number(s.members)},
+          {"error", number(s.error)},         {"resolution", number(s.resolution)},
+          {"sampling", number(s.sampling)},   {"of", s.of},
+          {"coarsest_computed", s.coarsest},  {"finest_computed", s.finest}};
 }
 
 Json choice_json(const Choice& c) {
@@ -94,7 +95,7 @@ Json certainty_json(const std::vector<Certainty>& all) {
   Json list = Json::array();
   for (const Certainty& c : all)
     list.push_back({{"name", c.result},
-                    {"sampling", number(c.sampling)},
+                    {"sampling_90", number(c.sampling)},
                     {"resolution", number(c.resolution)},
                     {"model", number(c.model)}});
   return list;
@@ -121,8 +122,9 @@ Json ladder_json(const CostStudy& study, std::size_t i, const CostQuestions& que
     json["maps"].push_back(map_json(map, ladder.spacings_m));
   json["cheapest"] = choice_json(choice);
   json["core_s"] = core_s;
-  json["best_split"] = split_json(best_split(ladder, core_s));
-  json["at_finest"] = split_json(split_at(ladder, core_s, ladder.spacings_m.back()));
+  json["best_split"] = split_json(best_split(ladder, core_s, questions.wanted));
+  json["at_finest"] =
+      split_json(split_at(ladder, core_s, ladder.spacings_m.back(), questions.wanted));
   json["certainty_at_finest"] =
       certainty_json(certainty_at(study, i, ladder.spacings_m.back(), study.planned_members));
   return json;
@@ -164,7 +166,7 @@ std::string page_of(const CostStudy& study, const CostQuestions& questions) {
   page.title = study.title.empty() ? study.folder.filename().string() : study.title;
   page.when = utc_now();
   page.program = build_text(this_build());
-  page.planned_members = study.planned_members;
+  page.planned = planned_text(study);
   page.wanted_error = questions.wanted_error;
   page.warnings = study.warnings;
   for (std::size_t i = 0; i < study.ladders.size(); ++i) {
@@ -196,12 +198,15 @@ std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, 
   for (const ResultAccuracy& r : study.ladders[ladder].results) {
     Certainty c;
     c.result = r.name;
-    c.sampling = r.spread / r.scale() / std::sqrt(members);
+    c.sampling = half_90 * r.spread / r.scale() / std::sqrt(members);
     c.resolution = r.mean_error(spacing_m);
-    for (const ModelDifference& model : study.models)
+    for (const ModelDifference& model : study.models) {
+      const std::string& mine = study.ladders[ladder].formulation;
+      if (model.from != mine && model.to != mine) continue;
       for (const Change& change : model.changes)
         if (change.name == r.name && !(std::abs(change.mean) / r.scale() <= c.model))
           c.model = std::abs(change.mean) / r.scale();
+    }
     all.push_back(std::move(c));
   }
   return all;
@@ -210,6 +215,7 @@ std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, 
 std::string cost_json_text(const CostStudy& study, const CostQuestions& questions) {
   Json json{{"members_per_spacing", study.members},
             {"planned_members", study.planned_members},
+            {"planned_members_given", study.planned_given},
             {"wanted_error", questions.wanted_error},
             {"wanted", questions.wanted},
             {"ladders", Json::array()},

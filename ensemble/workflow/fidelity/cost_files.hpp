@@ -19,12 +19,13 @@ struct CostQuestions {
                       ///< at the finest spacing
 };
 
-/// The three numbers under a headline, relative to the result: half widths at one standard error,
-/// of the planned members at one spacing.
+/// The three numbers under a headline, relative to the result, of the planned members at one
+/// spacing: half width of the 90 % bounds by sampling, expected sizes of the others.
 struct Certainty {
   std::string result;
   double sampling = nan_d, resolution = nan_d;
-  double model = nan_d;  ///< largest difference to another formulation; NaN: only one was computed
+  double model =
+      nan_d;  ///< largest difference of this formulation to another; NaN: only one was computed
 };
 /// \param ladder index into study.ladders
 std::vector<Certainty> certainty_at(const CostStudy& study, std::size_t ladder, double spacing_m,

@@ -216,10 +216,11 @@ void look_beside(CostStudy& study, const Found& found, const std::vector<std::st
   const auto finest = [&](const LadderAccuracy& ladder) -> const MemberParts& {
     return found.of(rungs_of(found.parts, ladder.formulation).back());
   };
-  for (std::size_t i = 1; i < study.ladders.size(); ++i)
-    study.models.push_back(
-        {study.ladders.front().formulation, study.ladders[i].formulation,
-         changes(finest(study.ladders.front()), finest(study.ladders[i]), results)});
+  for (std::size_t i = 0; i < study.ladders.size(); ++i)
+    for (std::size_t j = i + 1; j < study.ladders.size(); ++j)
+      study.models.push_back(
+          {study.ladders[i].formulation, study.ladders[j].formulation,
+           changes(finest(study.ladders[i]), finest(study.ladders[j]), results)});
 }
 
 /// All rungs, the dearest first; of more than eight the cheapest of each formulation stay.
@@ -296,7 +297,6 @@ CostStudy compute_cost(const CostJob& job, Observer& observer, const std::atomic
   CostStudy study;
   study.folder = job.request.folder;
   study.parts = job.parts;
-  study.planned_members = job.planned_members;
   Found found{job.parts, {}};
   for (std::size_t i = 0; i < job.jobs.size(); ++i) {
     const EnsembleJob& part = job.jobs[i];
@@ -307,6 +307,8 @@ CostStudy compute_cost(const CostJob& job, Observer& observer, const std::atomic
     found.stores.emplace(job.parts[i].name,
                          members_of(part.folder, part.manifest, part.design, {}, cancel));
   }
+  study.planned_given = job.planned_members > 0;
+  study.planned_members = study.planned_given ? job.planned_members : study.members;
   study.warnings = warnings_of(job);
   const Scenario& scenario = job.jobs.front().scene.scenario;
   study.title = scenario.title;

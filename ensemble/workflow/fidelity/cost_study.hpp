@@ -68,11 +68,13 @@ struct CostStudy {
   std::vector<CostPart> parts;
   std::vector<LadderAccuracy> ladders;  ///< one per formulation
   std::vector<VariantCost> variants;
-  std::vector<ModelDifference> models;  ///< each formulation beside the first
+  std::vector<ModelDifference> models;  ///< each pair of formulations
   /// For run-out, area and centre of mass together, and for the map; without what under eight
   /// members tell.
   std::vector<MultilevelForecast> multilevel;
-  int planned_members = 0;            ///< ensemble.members of the scenario
+  /// ensemble.members of the scenario; where it gives none, the members at each spacing.
+  int planned_members = 0;
+  bool planned_given = true;          ///< by the scenario
   int members = 0;                    ///< at each spacing
   std::vector<std::string> warnings;  ///< of the scenes, with the parts that they are of
 };
@@ -83,7 +85,7 @@ struct CostJob {
   CostRequest request;
   std::vector<CostPart> parts;
   std::vector<EnsembleJob> jobs;  ///< one per part
-  int planned_members = 0;
+  int planned_members = 0;        ///< ensemble.members; 0: not given
 };
 
 /// \throws SetupError also for spacings or formulations that the scene cannot have, naming them

@@ -112,12 +112,16 @@ std::string split_text(const Split& s) {
 void add_split(const CostStudy& study, const LadderAccuracy& ladder, const CostQuestions& questions,
                std::vector<std::string>& lines) {
   const double core_s = core_seconds(study, ladder, questions);
-  const Split best = best_split(ladder, core_s);
+  const Split best = best_split(ladder, core_s, questions.wanted);
   if (!std::isfinite(best.error)) return;
   std::string text = fmt::format(
-      "Best for {} of one core{}: {}", duration_text(core_s),
-      questions.core_s > 0 ? "" : " (the planned members at the finest spacing)", split_text(best));
-  const Split finest = split_at(ladder, core_s, ladder.spacings_m.back());
+      "Best for {} of one core{}, over {}: {}", duration_text(core_s),
+      questions.core_s > 0 ? std::string()
+                           : fmt::format(" ({} at the finest spacing)", planned_text(study)),
+      plain(best.of), split_text(best));
+  if (best.coarsest) text += "; that is the coarsest computed, coarser may be better";
+  if (best.finest) text += "; that is the finest computed, finer may be better";
+  const Split finest = split_at(ladder, core_s, ladder.spacings_m.back(), questions.wanted);
   if (std::isfinite(finest.error) && finest.error > 1.1 * best.error)
     text += "; against that, " + split_text(finest);
   lines.push_back(text + ".");
@@ -127,6 +131,13 @@ void add_split(const CostStudy& study, const LadderAccuracy& ladder, const CostQ
 
 std::string share_text(double share) {
   return std::isfinite(share) ? fmt::format("{:.1f} %", 100 * share) : "unknown";
+}
+
+std::string planned_text(const CostStudy& study) {
+  return study.planned_given
+             ? fmt::format("{} planned members", study.planned_members)
+             : fmt::format("as many members as the study has, {} (ensemble.members is not given),",
+                           study.planned_members);
 }
 
 std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,
@@ -153,9 +164,11 @@ double checked_spacing(const LadderAccuracy& ladder, const CostQuestions& questi
 
 std::string check_sentence(const LadderAccuracy& ladder, const CostQuestions& questions) {
   const double where = checked_spacing(ladder, questions);
-  std::int64_t met = 0, of = 0, all_met = 0;
+  std::int64_t met = 0, of = 0, all_met = 0, all = 0;
   for (const CheckedError& c : ladder.checked) {
+    if (!c.is_told()) continue;
     all_met += c.is_met();
+    ++all;
     if (c.spacing_m != where) continue;
     met += c.is_met();
     ++of;
@@ -163,7 +176,7 @@ std::string check_sentence(const LadderAccuracy& ladder, const CostQuestions& qu
   return fmt::format(
       "Checked by members at {:g} m that no estimate knew: at {:g} m {} of {} differences were "
       "predicted to a factor of two, at all spacings {} of {}.",
-      ladder.held_out_m, where, met, of, all_met, ladder.checked.size());
+      ladder.held_out_m, where, met, of, all_met, all);
 }
 
 std::string multilevel_sentence(const MultilevelForecast& f) {

@@ -12,6 +12,9 @@ namespace sturz::workflow {
 /// "4.2 %", or "unknown".
 std::string share_text(double share);
 
+/// "512 planned members", or that the study's own number stands for one that was not given.
+std::string planned_text(const CostStudy&);
+
 /// Of one formulation: what is not told and why, the cheapest spacing for the wanted error, the
 /// best split of the computing time. \param i index into study.ladders
 std::vector<std::string> ladder_sentences(const CostStudy& study, std::size_t i,

@@ -44,6 +44,20 @@ TEST_F(Cost, TellsErrorsSecondsAndTheThreeParts) {
   EXPECT_EQ(study.at("variants").at(0).value("set", ""), "numerics.jitter=0.1");
 }
 
+TEST_F(Cost, ASceneWithoutANumberOfMembersTakesThoseOfTheStudy) {
+  write("scene.yaml", replaced(scene(), "members: 6, ", ""));
+  const Ended ended = cost({});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, HasSubstr("as many members as the study has, 4 (ensemble.members is"));
+  EXPECT_THAT(ended.out, HasSubstr("Best for"));
+  const auto study = nlohmann::json::parse(read("out/cost.json"));
+  EXPECT_EQ(study.at("planned_members"), 4);
+  EXPECT_EQ(study.at("planned_members_given"), false);
+  const auto& ladder = study.at("ladders").at(0);
+  EXPECT_GT(ladder.at("core_s").get<double>(), 0);
+  EXPECT_TRUE(ladder.at("certainty_at_finest").at(0).at("sampling_90").is_number());
+}
+
 TEST_F(Cost, GoesOnWhereItStopped) {
   ASSERT_EQ(cost({}).exit_code, 0);
   const std::string first = read("out/cost.csv");
@@ -82,6 +96,20 @@ TEST_F(Cost, IsCheckedByAFinerSpacing) {
   EXPECT_EQ(ladder.at("spacings_m").size(), 3U);
   EXPECT_GE(ladder.at("checked").size(), 3U);
   EXPECT_THAT(read("out/cost.html"), HasSubstr("Checked by members at"));
+}
+
+TEST_F(Cost, AThresholdThatNobodyReachesIsNoMissedPrediction) {
+  write("scene.yaml", replaced(scene(), "thickness_m: [0.5, 1]", "thickness_m: [0.5, 5000]"));
+  const Ended ended = cost({"--spacings", "2,1.5,1", "--check", "0.75"});
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_THAT(ended.out, Not(HasSubstr("nan")));
+  const auto study = nlohmann::json::parse(read("out/cost.json"));
+  int told = 0, untold = 0;
+  for (const auto& row : study.at("ladders").at(0).at("checked"))
+    ++(row.at("met").is_null() ? untold : told);
+  EXPECT_EQ(untold, 3);
+  EXPECT_THAT(ended.out, HasSubstr("at all spacings"));
+  EXPECT_THAT(ended.out, HasSubstr(" of " + std::to_string(told) + ".\n"));
 }
 
 TEST_F(Cost, SaysWhatIsWrongBeforeItComputes) {

@@ -145,6 +145,9 @@ TEST(ACheckedError, IsMetByAFactorOfTwoAndInTheNoiseByNoise) {
   EXPECT_TRUE(c.is_met());
   c.noise = 0.0095;
   EXPECT_FALSE(c.is_met());
+  EXPECT_TRUE(c.is_told());
+  c.found = nan_d;  // no member reaches the threshold: neither met nor missed
+  EXPECT_FALSE(c.is_told());
 }
 
 }  // namespace
