@@ -294,7 +294,9 @@ TEST_F(Multilevel, TellsWhatAssetsExpect) {
   const std::string plain = read(level + "/assets.csv");
   const auto n = std::to_string(made.levels.front().valid);
   EXPECT_THAT(plain, HasSubstr("\nfield,inside," + n + "," + n + ",0,0,1,"));
-  EXPECT_THAT(read("out/assets.csv"), HasSubstr("\nfield,inside," + n + "," + n + ",0,0,1,"));
+  // Only draws that the cheaper level has, too: here it may have fewer.
+  const auto both = std::to_string(made.dear_draws);
+  EXPECT_THAT(read("out/assets.csv"), HasSubstr("\nfield,inside," + both + "," + both + ",0,0,1,"));
 }
 
 TEST_F(Multilevel, SaysThatItsPlanIsDamaged) {
