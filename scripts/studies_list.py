@@ -62,7 +62,7 @@ MADE = {
                                     script("error_against_seconds", "show", OUT / "ladder/figures.json",
                                            STUDIES / "error_against_seconds_earlier.json", IMAGES / "error_against_seconds.png")), DENSE, 4),
     "cost_check": Study("error_against_seconds.md", (script("cost_check", STURZ, CASES, DATA, OUT / "cost_check"),),
-                        (*WET, "engine/effects/dense", "engine/effects/isolated", "ensemble/fidelity/*", "ensemble/workflow/fidelity"), 40),
+                        (*WET, "ensemble/fidelity/*", "ensemble/workflow/fidelity"), 6),
     "beside_the_paper": Study("beside_the_paper.md", (script("beside_the_paper", STURZ, OUT / "paper"),),
                               (*STATES, "engine/effects/columns"), 2),
     "paper": Study("paper.md", (script("paper", STURZ, CASES, OUT / "paper_wet"),),
