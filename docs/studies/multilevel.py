@@ -181,10 +181,10 @@ def show(out, picture):
         print(list(LEVELS)[c["level"]], {k: round(v, 3) for k, v in c.items() if k != "level"})
     show_cubes(out)
     if picture:
-        draw(head, found, picture)
+        draw(head, found, cubes(out), picture)
 
 
-def draw(head, found, picture):
+def draw(head, found, spread, picture):
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -203,7 +203,9 @@ def draw(head, found, picture):
         seconds, values = next(iter(all_rows.values()))
         variance = values[name][2] * seconds
         x = [10, 10000]
-        axis.plot(x, [math.sqrt(variance / s) for s in x], "k-", label="full stress 6 m alone")
+        axis.plot(x, [math.sqrt(variance / s) for s in x], "k-", label="full stress 6 m, independent draws")
+        square = spread[name][0]
+        axis.plot([OF_CUBE * head["cpu_s"][0]], [math.sqrt(square) if square > 0 else math.nan], "k*", markersize=11, label="full stress 6 m, Latin hypercubes")
         curve = [x[0] * (x[1] / x[0]) ** (k / 30) for k in range(31)]
         for c in head["cheap"]:
             bias = abs(c["map_rms" if name == "map" else name])
