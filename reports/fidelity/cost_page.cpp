@@ -281,9 +281,8 @@ const char* const reading_html =
     "that all follow (Richardson's extrapolation) and what scatters about it, with the first order "
     "of a front as prior. They are root mean squares: one member of three is off by more. Sampling "
     "is the half width of the 90 % bounds of the mean of independent members; resolution the "
-    "expected size of what that mean is off by "
-    "at "
-    "the finest spacing; model how far another formulation lies away "
+    "expected size of what that mean is off by at the finest spacing; model how far another "
+    "formulation lies away "
     "with the same values, which no member and no spacing removes. The same numbers and more stand "
     "in cost.json and cost.csv.</p></section>\n";
 

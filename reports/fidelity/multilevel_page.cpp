@@ -186,9 +186,10 @@ const char* const reading_html =
     "are those of the scene itself. Sampling is what more members would remove (90 % bounds); "
     "resolution what finer particles would, estimated from the levels of the same formulation (of "
     "two spacings alone it is mostly the first order that is assumed); model how far another "
-    "formulation lies away with the same values, which no "
-    "member "
-    "and no spacing removes. All numbers stand in multilevel.json, all maps with their bounds in "
+    "formulation lies away with the same values, each at its finest spacing here: no member "
+    "removes "
+    "it, and finer spacings only a part. All numbers stand in multilevel.json, all maps with their "
+    "bounds in "
     "hazard.nc.</p></section>\n";
 
 }  // namespace

@@ -198,7 +198,7 @@ TEST(MultilevelWords, NameTheLevelThatTheModelsNumberIsADifferenceTo) {
 }
 
 TEST_F(Multilevel, SaysWhatIsWrongBeforeItComputes) {
-  const auto refusal = [&](const std::string& set, std::vector<std::string> without = {}) {
+  const auto refusal = [&](const std::string& set, const std::vector<std::string>& without = {}) {
     workflow::EnsembleRequest r = asked("out");
     for (const std::string& key : without)
       std::erase_if(r.scene.overrides,
