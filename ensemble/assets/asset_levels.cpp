@@ -98,14 +98,15 @@ class DrawsAtAssets {
   std::array<std::vector<const AssetHit*>, most_levels> hits_;  // [level][place]; null: none
 };
 
-std::string cut_off_text(const AssetRisk& r) {
+std::string cut_off_text(const AssetRisk& r, bool has_damage) {
   std::string text;
+  const char* damage = has_damage ? ", damage, loss" : "";
   if (r.not_known > 0)
-    text = fmt::format("{} of the dearest level cut off before they hit: probabilities at least",
-                       r.not_known);
+    text = fmt::format("{} of the dearest level cut off before they hit: probabilities{} at least",
+                       r.not_known, damage);
   if (r.hit_cut_off > 0)
-    text += fmt::format("{}{} cut off after they hit: exceedances at least",
-                        text.empty() ? "" : "; ", r.hit_cut_off);
+    text += fmt::format("{}{} cut off after they hit: exceedances{} at least",
+                        text.empty() ? "" : "; ", r.hit_cut_off, damage);
   return text;
 }
 
@@ -123,7 +124,7 @@ AssetRisk risk_of(const Assets& assets, const Asset& asset, const DrawsAtAssets&
       draws.share_above(draws.values([](const AssetHit&) { return 1.0; }), 0.5);
   r.probability = hit.share;
   r.bounds_90 = {hit.bounds_90.low, hit.bounds_90.high};
-  r.cut_off = cut_off_text(r);
+  r.cut_off = cut_off_text(r, asset.curve.has_value());
   if (!asset.curve || std::isnan(r.probability)) return r;
   const DamageCurve& curve = assets.curves[*asset.curve];
   const MultilevelMean damage =
@@ -132,6 +133,7 @@ AssetRisk risk_of(const Assets& assets, const Asset& asset, const DrawsAtAssets&
       }),
                         n_levels)
           .mean;
+  // Not cut to the probability of a hit, which is an estimate too: losses add up to their total.
   r.damage = {std::clamp(damage.mean, 0.0, 1.0), damage.standard_error};
   if (!std::isnan(asset.value))
     r.loss = {asset.value * r.damage.mean, asset.value * r.damage.standard_error};

@@ -124,7 +124,7 @@ std::string assets_html(const MultilevelPage& page) {
     std::vector<std::string> cells;
     for (const auto& s : asset.shares)
       cells.push_back(std::isfinite(s.value)
-                          ? fmt::format("{}{} ({} \u2013 {})", asset.cut_off ? "\u2265 " : "",
+                          ? fmt::format("{}{} ({} \u2013 {})", s.at_least ? "\u2265 " : "",
                                         percent_text(s.value), percent_text(s.low),
                                         percent_text(s.high))
                           : "not known");

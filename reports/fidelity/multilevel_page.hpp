@@ -32,10 +32,10 @@ struct MultilevelPageLevel {
 struct MultilevelPageAsset {
   struct Share {
     double value = nan_d, low = nan_d, high = nan_d;
+    bool at_least = false;  ///< a lower bound, because members were cut off before it was known
   };
   std::string name;
   std::vector<Share> shares;  ///< that it is hit, and of each of the page's `exceedances`
-  bool cut_off = false;       ///< lower bounds, because members were cut off
 };
 
 struct MultilevelPage {

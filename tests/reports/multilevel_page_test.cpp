@@ -87,14 +87,16 @@ TEST(MultilevelPage, HasATableOfAssets) {
   page.title = "Slope";
   EXPECT_THAT(make_multilevel_page(page), Not(HasSubstr("<section id=\"assets\">")));
   page.exceedances = {"pressure > 30 kPa"};
-  page.assets = {{"bridge <1>", {{0.4, 0.21, 0.6}, {0.1, 0, 0.3}}, false},
-                 {"hut", {{0.2, 0.1, 0.5}, {0.05, 0, 0.3}}, true},
-                 {"away", {{nan_d, nan_d, nan_d}, {nan_d, nan_d, nan_d}}, false}};
+  page.assets = {{"bridge <1>", {{0.4, 0.21, 0.6}, {0.1, 0, 0.3, true}}},
+                 {"hut", {{0.2, 0.1, 0.5, true}, {0.05, 0, 0.3, true}}},
+                 {"away", {{nan_d, nan_d, nan_d}, {nan_d, nan_d, nan_d}}}};
   const std::string html = make_multilevel_page(page);
   EXPECT_THAT(html, HasSubstr("pressure &gt; 30 kPa"));
   EXPECT_THAT(html, HasSubstr("bridge &lt;1&gt;"));
   EXPECT_THAT(html, HasSubstr("40\u00A0% (21\u00A0% \u2013 60\u00A0%)"));
   EXPECT_THAT(html, HasSubstr("\u2265 20\u00A0%"));
+  EXPECT_THAT(html, HasSubstr("\u2265 10\u00A0%"));
+  EXPECT_THAT(html, Not(HasSubstr("\u2265 40\u00A0%")));
   EXPECT_THAT(html, HasSubstr("not known"));
 }
 

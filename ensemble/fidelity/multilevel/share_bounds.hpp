@@ -24,8 +24,9 @@ struct Surprises {
 /// that surprise, and the remainder would scatter by some d / n more than those few draws show that
 /// happened to have no such one. How much more is the third moment of the remainder over its second
 /// (1 - 2 p for draws that are counted), with one surprise beside those that were seen. Plain
-/// counts give Wilson's interval; where no draw surprises, the bounds are width^2 / (n + width^2)
-/// apart, and never less than unseen_share() from 0 and 1.
+/// counts give the end of Wilson's interval that lies nearer to a half; bounds are never nearer to
+/// 0 and 1 than unseen_share(). In the middle, where 1 - 2 p is small, they rest on the standard
+/// error: a branch that neither a dear draw nor the cheaper levels show does not widen them.
 /// \param degrees of freedom of the standard error
 Interval share_bounds(double share, double standard_error, double degrees, const Surprises&);
 

@@ -130,6 +130,10 @@ std::string untold_note(const MultilevelMade& made) {
       made.dear_draws, made.levels.front().name, 100 * unseen_share(made.dear_draws));
 }
 
+/// Where its upper bound is not told, a probability is written as 0.
+const char* const zero_note =
+    "; 0 where it is below 0.5 % and no upper bound is told, which is no promise";
+
 /// What a map says of members of which mass left or still moved, as plain maps say it.
 std::string cut_note(Statistic statistic, std::int64_t n_censored) {
   if (n_censored == 0) return {};
@@ -160,6 +164,7 @@ void add_layers(LayerStack& stack, const NamedMap& map, const MultilevelMade& ma
     const bool upper = kind.statistic == Statistic::upper_bound;
     const std::string comment = bounds + rule_of(made) + ", within 0 and 1" + monotone +
                                 (upper ? untold_note(made) : "") +
+                                (kind.statistic == Statistic::probability ? zero_note : "") +
                                 cut_note(kind.statistic, n_censored);
     const LayerMeaning meaning{quantity, kind.statistic};
     Layer layer = meaning.is_bound()
@@ -212,10 +217,12 @@ void add_assets(MultilevelPage& page, const MultilevelMade& made) {
     page.exceedances.push_back(exceedance_text(e));
   for (std::size_t a = 0; a < made.assets->list.size(); ++a) {
     const AssetRisk& r = made.risk.table.rows[a];
-    MultilevelPageAsset asset{made.assets->list[a].name, {}, r.not_known + r.hit_cut_off > 0};
-    asset.shares.push_back({r.probability, r.bounds_90.lower, r.bounds_90.upper});
+    MultilevelPageAsset asset{made.assets->list[a].name, {}};
+    // Who was cut off after it hit did hit; how hard in the end is open.
+    asset.shares.push_back({r.probability, r.bounds_90.lower, r.bounds_90.upper, r.not_known > 0});
     for (const AssetExceedance& e : made.risk.exceedances)
-      asset.shares.push_back({e.of[a].share, e.of[a].bounds_90.low, e.of[a].bounds_90.high});
+      asset.shares.push_back({e.of[a].share, e.of[a].bounds_90.low, e.of[a].bounds_90.high,
+                              r.not_known + r.hit_cut_off > 0});
     page.assets.push_back(std::move(asset));
   }
 }

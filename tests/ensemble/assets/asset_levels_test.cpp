@@ -166,7 +166,7 @@ TEST(AssetsOverLevels, CountCutOffMembersInTheUpperEnd) {
   EXPECT_EQ(a.bounds_90.lower, b.bounds_90.lower);
   EXPECT_GT(b.bounds_90.upper, a.bounds_90.upper);
   EXPECT_GT(after.exceedances[0].of[0].bounds_90.high, before.exceedances[0].of[0].bounds_90.high);
-  EXPECT_THAT(b.cut_off, HasSubstr("cut off before they hit"));
+  EXPECT_THAT(b.cut_off, HasSubstr("cut off before they hit: probabilities, damage, loss at"));
 }
 
 TEST(AssetsOverLevels, OfOneLevelAreThoseOfPlainEnsembles) {
