@@ -186,7 +186,8 @@ def main(program, data, out, members="200"):
     houses(out, sets)
     years(out, sets)
     dam(program, out)
-    layer = ogr.Open(str(out / "large" / "assets.gpkg")).GetLayer(0)
+    data_set = ogr.Open(str(out / "large" / "assets.gpkg"))  # lives as long as its layer is read
+    layer = data_set.GetLayer(0)
     print(f"\nassets.gpkg: {layer.GetFeatureCount()} features, {layer.GetLayerDefn().GetFieldCount()} fields, {layer.GetSpatialRef().GetName()}")
 
 
