@@ -77,7 +77,7 @@ def write_page(name, study, printed):
         studies_made.write_whole(STUDIES / study.page.removeprefix(WHOLE), printed[-1])
     elif study.page.startswith(BESIDE):
         parts = [f"# What {name} printed\n{machine()}"]
-        parts += [f"\n    {in_words(command)}\n\n{text.strip()}" for command, text in zip(study.commands, printed)]
+        parts += ["\n    {}\n\n{}".format(in_words(command), text.strip().replace(f"{ROOT}/", "")) for command, text in zip(study.commands, printed)]
         (STUDIES / "printed").mkdir(exist_ok=True)
         studies_made.write_whole(STUDIES / f"printed/{name}.md", "\n".join(parts) + "\n")
         print(f"{name}: carry the figures of docs/studies/printed/{name}.md over to its page")
