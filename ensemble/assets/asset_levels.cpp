@@ -55,22 +55,18 @@ class DrawsAtAssets {
     return out;
   }
 
-  /// P(value > threshold); the upper bound holds it whatever those that were cut off would do.
-  ShareEstimate share_above(std::vector<LevelDraw> draws, double threshold) const {
+  /// P(value > threshold). Each draw of the dearest level that was cut off below it may still have
+  /// exceeded it: the upper bound lies higher by their share.
+  ShareEstimate share_above(const std::vector<LevelDraw>& draws, double threshold) const {
     ShareEstimate share = multilevel_share_above(draws, levels_.size(), threshold);
-    double most = threshold + 1;
-    for (const LevelDraw& draw : draws)
-      if (draw.from == 0) most = std::max(most, draw.values[0]);
-    bool open = false;
+    double dear = 0, open = 0;
     for (std::size_t k = 0; k < draws.size(); ++k) {
-      if (!is_open(k) || draws[k].values[0] > threshold) continue;
-      draws[k].values[0] = most;
-      open = true;
+      if (draws[k].from > 0) continue;
+      dear += 1;
+      if (is_open(k) && !(draws[k].values[0] > threshold)) open += 1;
     }
-    if (open)
-      share.bounds_90.high =
-          std::max(share.bounds_90.high,
-                   multilevel_share_above(draws, levels_.size(), threshold).bounds_90.high);
+    if (open > 0 && std::isfinite(share.share))
+      share.bounds_90.high = std::min(1.0, share.bounds_90.high + open / dear);
     return share;
   }
 
